@@ -7,19 +7,25 @@
 //! it; behind them an element is what [`element`](crate::model::element) says, a few contributions that
 //! mechanics knows.
 
+mod actuator;
 mod bushing;
 pub(crate) mod constraint;
 mod damper;
 mod dissipation;
+mod drag;
 mod elastic;
 mod force;
 mod gravity;
 mod potential;
 mod rolling;
+mod rope;
 mod sliding;
 mod spring;
+mod stop;
 mod torque;
 mod torsion_spring;
+mod transmission;
+mod wheel;
 
 use lagrangian_symbolic::{Dag, Rational};
 
@@ -39,11 +45,17 @@ const ROWS: &[Row] = &[
     gravity::ROW,
     damper::ROW,
     bushing::ROW,
+    stop::ROW,
     potential::ROW,
     dissipation::ROW,
     force::ROW,
     torque::ROW,
+    actuator::ROW,
+    drag::ROW,
     constraint::ROW,
+    transmission::ROW,
+    rope::ROW,
+    wheel::ROW,
     sliding::ROW,
     rolling::ROW,
 ];

@@ -115,6 +115,16 @@ pub struct Model<'d> {
     pub sections: Vec<(SectionKind, Span)>,
 }
 
+impl<'d> Model<'d> {
+    /// How a frame or a body is turned.
+    pub fn rotation(&self, place: Place) -> Rotation<'d> {
+        match place {
+            Place::Frame(pose) => Rotation::Frame(pose),
+            Place::Body(body) => self.bodies[body].rotation,
+        }
+    }
+}
+
 impl Model<'_> {
     /// Where a section begins, for what is to be said about all of it.
     pub fn section(&self, kind: SectionKind) -> Option<Span> {
@@ -342,7 +352,7 @@ pub enum Inertia<'d> {
 }
 
 /// How a body is turned.
-#[derive(Clone)]
+#[derive(Clone, Copy)]
 pub enum Rotation<'d> {
     /// The spec does not say; fine for a particle.
     Unspecified,

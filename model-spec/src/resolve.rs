@@ -13,6 +13,7 @@
 //! | [`work`] | in which order |
 //! | [`expression`] | the value and the unit of an expression |
 //! | [`frames`] | frames and points |
+//! | [`motion`] | angular velocities of frames, velocities of points fixed to them |
 //! | [`fields`] | the fields of records |
 //! | [`items`] | parameters, coordinates, bodies, circles, … |
 //! | [`outlines`] | the shapes of bodies |
@@ -43,6 +44,7 @@ mod items;
 mod keep;
 mod layers;
 mod methods;
+pub(crate) mod motion;
 mod names;
 mod outlines;
 mod outside;

@@ -673,6 +673,12 @@ impl Builder<'_> {
             };
             self.machine.forces.push(force);
         }
+        if self.random.chance(30)
+            && let Stretch::Points(from, to, _) = self.stretch(kind)
+        {
+            let size = self.strength();
+            self.machine.forces.push(Force::Between(from, to, size));
+        }
         let turning: Vec<usize> = (0..self.machine.bodies.len())
             .filter(|k| {
                 let body = &self.machine.bodies[*k];

@@ -123,6 +123,8 @@ pub struct Bushing {
 #[derive(Clone, Debug)]
 pub enum Force {
     At(Vector, Vector),
+    /// Of an actuator, which drives two points apart.
+    Between(Vector, Vector, Expr),
     On(usize, Expr),
 }
 
@@ -261,7 +263,7 @@ impl Machine {
         self.potentials.iter_mut().for_each(&mut *f);
         self.dissipations.iter_mut().for_each(&mut *f);
         for force in &mut self.forces {
-            if let Force::On(_, value) = force {
+            if let Force::On(_, value) | Force::Between(_, _, value) = force {
                 f(value);
             }
         }
@@ -300,9 +302,9 @@ impl Machine {
             }
         }
         for force in &mut self.forces {
-            if let Force::At(point, force) = force {
-                f(point);
-                f(force);
+            if let Force::At(first, second) | Force::Between(first, second, _) = force {
+                f(first);
+                f(second);
             }
         }
         for guide in &mut self.sliding {

@@ -29,7 +29,7 @@ pub struct Rewritten {
 type Rewriting = fn(&mut Rewritten, &mut Random) -> bool;
 
 /// All of them. The first stands first wherever it takes part: it builds the frames anew.
-pub const REWRITINGS: [(&str, Rewriting); 25] = [
+pub const REWRITINGS: [(&str, Rewriting); 26] = [
     ("loop cut elsewhere", cut_elsewhere),
     ("coordinates in place of frames", formulas_for_frames),
     ("frames from the ground", frames_from_ground),
@@ -43,6 +43,7 @@ pub const REWRITINGS: [(&str, Rewriting); 25] = [
     ("torsion springs otherwise", torsions_otherwise),
     ("dampers as dissipations", dampers_as_dissipations),
     ("bushings as their energies", bushings_as_energies),
+    ("actuators as forces", actuators_as_forces),
     ("weights as potentials", weights_as_potentials),
     ("weights as forces", weights_as_forces),
     ("ground turned", ground_turned),
@@ -560,21 +561,42 @@ fn springs_as_forces(r: &mut Rewritten, _: &mut Random) -> bool {
         let Stretch::Points(a, b, _) = &one.stretch else {
             continue;
         };
-        let line = b.clone().less(a.clone());
         let pull = mul(one.factor.clone(), stretch_expr(&one.stretch));
-        let over = quotient(pull, norm(line.clone()));
-        for (point, sign) in [(a, 1.0), (b, -1.0)] {
-            let parts = (0..n).map(|axis| {
-                let axis = (0..n).map(|i| num(if i == axis { 1.0 } else { 0.0 }));
-                let along = dot(line.clone(), Vector::Free(axis.collect(), PURE));
-                mul(num(sign), mul(over.clone(), along))
-            });
-            let force = Vector::Free(parts.collect(), NEWTON);
-            r.machine.forces.push(Force::At(point.clone(), force));
-        }
+        r.machine.forces.extend(pulling([a, b], pull, n));
         r.energies[1] = false;
     }
     !between.is_empty()
+}
+
+/// What pulls two points together, as a force on each.
+fn pulling([a, b]: [&Vector; 2], pull: Expr, n: usize) -> [Force; 2] {
+    let line = b.clone().less(a.clone());
+    let over = quotient(pull, norm(line.clone()));
+    [(a, 1.0), (b, -1.0)].map(|(point, sign)| {
+        let parts = (0..n).map(|axis| {
+            let axis = (0..n).map(|i| num(if i == axis { 1.0 } else { 0.0 }));
+            let along = dot(line.clone(), Vector::Free(axis.collect(), PURE));
+            mul(num(sign), mul(over.clone(), along))
+        });
+        let force = Vector::Free(parts.collect(), NEWTON);
+        Force::At(point.clone(), force)
+    })
+}
+
+fn actuators_as_forces(r: &mut Rewritten, _: &mut Random) -> bool {
+    let n = r.machine.dimension();
+    let before = std::mem::take(&mut r.machine.forces);
+    let mut some = false;
+    for force in before {
+        let Force::Between(a, b, value) = force else {
+            r.machine.forces.push(force);
+            continue;
+        };
+        some = true;
+        let both = pulling([&a, &b], neg(value), n);
+        r.machine.forces.extend(both);
+    }
+    some
 }
 
 fn torsions_otherwise(r: &mut Rewritten, random: &mut Random) -> bool {

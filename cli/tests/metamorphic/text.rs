@@ -244,6 +244,12 @@ pub fn items(machine: &Machine) -> Vec<Item> {
     }
     for (k, force) in machine.forces.iter().enumerate() {
         let text = match force {
+            Force::Between(from, to, value) => {
+                let (from, to, value) = (p.vector(from), p.vector(to), p.expr(value));
+                let text = format!("p{k} {{ from: {from}, to: {to}, force: one_N*{value} }}");
+                item("actuators", format!("p{k}"), text);
+                continue;
+            }
             Force::At(point, force) => {
                 format!("at: {}, force: {}", p.vector(point), p.vector(force))
             }

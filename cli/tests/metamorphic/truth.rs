@@ -357,14 +357,18 @@ impl<'m, S: Scalar> World<'m, S> {
         match stretch {
             Stretch::Number(e) => self.expr(e),
             Stretch::Points(a, b, length) => {
-                let line = minus(&self.vector(b), &self.vector(a));
-                let distance = product(&line, &line).sqrt();
+                let distance = self.distance(a, b);
                 match length {
                     Some(length) => distance.sub(&self.expr(length)),
                     None => distance,
                 }
             }
         }
+    }
+
+    fn distance(&self, a: &Vector, b: &Vector) -> Jet<S> {
+        let line = minus(&self.vector(b), &self.vector(a));
+        product(&line, &line).sqrt()
     }
 
     /// How a bushing is deformed: where the origin of one frame is along the axes of the other, and how far
@@ -699,6 +703,10 @@ impl<'m, S: Scalar> World<'m, S> {
                 Force::At(point, force) => {
                     let lever = self.by_coordinate(i, |world| world.vector(point));
                     sum = sum.add(&product(&self.vector(force), &lever));
+                }
+                Force::Between(a, b, value) => {
+                    let slope = self.by_coordinate(i, |world| vec![world.distance(a, b)]);
+                    sum = sum.add(&self.expr(value).mul(&slope[0]));
                 }
                 Force::On(k, value) if *k == i => sum = sum.add(&self.expr(value)),
                 Force::On(..) => {}

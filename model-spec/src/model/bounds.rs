@@ -46,6 +46,8 @@ pub enum BoundKind<'d> {
     Stiffness,
     /// A damping coefficient, which may be negative where that is meant.
     Damping,
+    /// A factor of a drag, which is not negative.
+    Drag,
 }
 
 impl BoundKind<'_> {
@@ -98,6 +100,11 @@ impl BoundKind<'_> {
                 value < 0.0,
                 Code::NegativeCoefficient,
                 "a spring of negative stiffness pushes away",
+            ),
+            BoundKind::Drag => (
+                value < 0.0,
+                Code::NotPositive,
+                "a drag holds back: its coefficient, area and density are not negative",
             ),
             BoundKind::Damping => (
                 value < 0.0,

@@ -70,7 +70,12 @@ pub fn body_axes<'d>(model: &Model<'d>, body: &Body<'d>) -> Option<Vec<Vec<Expr<
 
 /// The angle of a body in the plane.
 pub fn planar_angle<'d>(model: &Model<'d>, body: &Body<'d>) -> Option<Expr<'d>> {
-    match body.rotation {
+    planar_turn(model, body.rotation)
+}
+
+/// The angle of whatever is turned so, in the plane.
+pub fn planar_turn<'d>(model: &Model<'d>, rotation: Rotation<'d>) -> Option<Expr<'d>> {
+    match rotation {
         Rotation::Unspecified => None,
         Rotation::Angle(angle) => Some(angle),
         Rotation::Frame(pose) => Some(model.poses[pose.index()].angle),

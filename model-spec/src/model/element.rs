@@ -85,10 +85,20 @@ pub enum Load<'d> {
         /// The generalized force.
         value: Expr<'d>,
     },
-    /// A torque on a body.
+    /// A force along a length, or a torque about an angle: its work is the force times the change of what
+    /// it acts along.
+    Along {
+        /// What grows where the force is positive, of positions and time.
+        measure: Expr<'d>,
+        /// The force.
+        force: Expr<'d>,
+        /// Whether it is an angle and not a length.
+        torsional: bool,
+    },
+    /// A torque on a body or a frame.
     Torque {
-        /// The index of the body, which has an angle or a frame.
-        body: usize,
+        /// What it acts on; a body has an angle or a frame.
+        on: Place,
         /// One component in the plane, three in ground axes in space.
         torque: Vec<Expr<'d>>,
     },
@@ -289,6 +299,7 @@ impl<'d> Contribution<'d> {
             },
             Contribution::Load(Load::Point { at, force }) => at.iter_mut().chain(force).collect(),
             Contribution::Load(Load::Coordinate { value, .. }) => vec![value],
+            Contribution::Load(Load::Along { measure, force, .. }) => vec![measure, force],
             Contribution::Load(Load::Torque { torque, .. }) => torque.iter_mut().collect(),
             Contribution::Gravity(gravity) => gravity.iter_mut().collect(),
             Contribution::Constraint(constraint) => vec![&mut constraint.expression],

@@ -893,7 +893,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// The total time derivative: q ↦ q̇, q̇ ↦ q̈, t ↦ 1.
-    fn rate(&mut self, expr: Expr<'d>, span: Span) -> Option<Expr<'d>> {
+    pub fn rate(&mut self, expr: Expr<'d>, span: Span) -> Option<Expr<'d>> {
         if self.tangent.is_none() {
             self.tangent = Some(Tangent::new(self.dag, &self.rates(span)?));
         }

@@ -3,11 +3,13 @@
 use lagrangian_symbolic::Expr;
 
 use super::Resolver;
+use super::motion::to_point;
 use super::names::{Content, Namespace, declared_unit, suggestion, with_help};
 use super::value::{Limit, MemberId, Scope, Value, limits};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::identity;
 use crate::model::bounds::BoundKind;
-use crate::model::{Place, Surface, Touching, circles};
+use crate::model::{Place, Rotation, Surface, Touching, circles};
 use crate::source::Span;
 use crate::syntax::{self, Equation, Expression, ExpressionKind, Quantity, Record, SectionKind};
 use crate::unit::Unit;
@@ -218,6 +220,58 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             self.push(diagnostic.help("give it an `angle` or a `frame`"));
         }
         Some(body)
+    }
+
+    /// A frame or a body that is known to turn.
+    pub fn turning_place(&mut self, member: MemberId, on: &'a Expression) -> Option<Place> {
+        let place = self.place(member, on)?;
+        let Place::Body(_) = place else {
+            return Some(place);
+        };
+        let body = self.turning_body(member, on)?;
+        let has_frame = self.record(body)?.field("frame").is_some();
+        match has_frame {
+            true => self.frame_of_body(body, on.span).map(Place::Frame),
+            false => Some(place),
+        }
+    }
+
+    /// The angle by which one place is turned against another, in the plane, with what both have in common left
+    /// out.
+    pub fn angle_between(&mut self, from: Place, to: Place) -> Option<Expr<'d>> {
+        let [from, to] = [from, to].map(|place| self.angle_of_place(place));
+        to_point(&[from?], &[to?]).pop()
+    }
+
+    /// The angle of a frame or of a body that has one, in the plane.
+    pub fn angle_of_place(&mut self, place: Place) -> Option<Expr<'d>> {
+        match place {
+            Place::Frame(pose) => Some(self.pose(pose).angle),
+            Place::Body(ordinal) => {
+                let bodies = self.members_of(SectionKind::Bodies);
+                let body = *bodies.get(ordinal)?;
+                match self.rotation(body, self.record(body)?)? {
+                    Rotation::Angle(angle) => Some(angle),
+                    Rotation::Frame(pose) => Some(self.pose(pose).angle),
+                    Rotation::Unspecified => None,
+                }
+            }
+        }
+    }
+
+    /// A vector of length 1 along another.
+    pub fn direction(&mut self, along: &[Expr<'d>], span: Span) -> Option<Vec<Expr<'d>>> {
+        let square = self.dag.sum(along.iter().map(|c| c.square()));
+        if identity::is_zero(square) == Some(true) {
+            let message = "this vector has no length, and so no direction";
+            self.error(Code::DivisionByZero, span, message);
+            return None;
+        }
+        if identity::equal(square, self.dag.one()) == Some(true) {
+            return Some(along.to_vec());
+        }
+        let length = self.distance(along);
+        Some(along.iter().map(|&c| c / length).collect())
     }
 
     /// A frame or a body: what something slides on, or a circle is fixed to.

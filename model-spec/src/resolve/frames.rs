@@ -17,7 +17,19 @@ use crate::syntax::{Chain, Expression, ExpressionKind, Link, Reference, SectionK
 use crate::unit::Unit;
 
 /// What frames can do, and what points they have.
-const FRAME_MEMBERS: [&str; 5] = ["origin", "point", "vector", "shift", "turn"];
+const FRAME_MEMBERS: [&str; 8] = [
+    "origin",
+    "point",
+    "vector",
+    "shift",
+    "turn",
+    "with_origin",
+    "spin",
+    "velocity",
+];
+
+/// What can be asked of a body that is turned by an angle and has no frame.
+const BODY_MEMBERS: [&str; 3] = ["at", "spin", "velocity"];
 
 /// The most points that a help line lists.
 const LISTED: usize = 8;
@@ -123,7 +135,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// The vector with these components along the axes of a frame, in ground axes.
-    fn vector_of(&self, frame: PoseId, components: &[Expr<'d>]) -> Vec<Expr<'d>> {
+    pub(super) fn vector_of(&self, frame: PoseId, components: &[Expr<'d>]) -> Vec<Expr<'d>> {
         let axes = &self.pose(frame).axes;
         let along = |i: usize| {
             let terms = axes.iter().zip(components);
@@ -270,19 +282,23 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             self.unknown_member(link, chain, &["at"], true);
             return Value::Unknown;
         }
+        if BODY_MEMBERS.contains(&word) && !self.has_frame(body) {
+            return self.motion_of_body(body, link, chain.root.span, scope);
+        }
         match self.frame_of_body(body, chain.root.span) {
             Some(pose) => self.frame_member(pose, link, chain, scope),
             None => Value::Unknown,
         }
     }
 
+    fn has_frame(&self, body: MemberId) -> bool {
+        let record = self.record(body);
+        record.is_some_and(|record| record.field("frame").is_some())
+    }
+
     /// The frame of a body that has one.
     pub fn frame_of_body(&mut self, body: MemberId, span: Span) -> Option<PoseId> {
-        let has_frame = match self.declaration(body).content {
-            Content::Record(record) => record.field("frame").is_some(),
-            _ => false,
-        };
-        if !has_frame {
+        if !self.has_frame(body) {
             let name = self.name(body);
             let message = format!("the body `{name}` has no frame");
             let diagnostic = Diagnostic::new(Code::NoFrame, span, message);
@@ -335,6 +351,14 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 Some((axis, angle)) => Value::Frame(self.turned(frame, axis, angle)),
                 None => Value::Unknown,
             },
+            "with_origin" => match self.point_of_link(link, Self::placing(scope)) {
+                Some(point) => {
+                    let by = self.seen_from(frame, &point);
+                    Value::Frame(self.shifted(frame, by))
+                }
+                None => Value::Unknown,
+            },
+            "spin" | "velocity" => self.motion_of_frame(frame, link, scope),
             _ => {
                 self.unknown_member(link, chain, &FRAME_MEMBERS, false);
                 Value::Unknown
@@ -342,7 +366,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    fn no_arguments(&mut self, link: &'a Link) {
+    pub(super) fn no_arguments(&mut self, link: &'a Link) {
         if link.arguments.is_some() {
             let message = format!("`.{}` is written without brackets", link.name.text);
             self.error(Code::WrongArguments, link.span, message);
@@ -449,13 +473,14 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some((axis, angle.expr))
     }
 
-    fn axis(&mut self, expression: &'a Expression) -> Option<usize> {
+    /// `x`, `y` or `z`: an axis of a frame, by its number.
+    pub fn axis(&mut self, expression: &'a Expression) -> Option<usize> {
         if let ExpressionKind::Name(Reference { base, index: None }) = &expression.kind
             && let Some(axis) = ["x", "y", "z"].iter().position(|name| *name == base.text)
         {
             return Some(axis);
         }
-        let message = "the axis of a turn is `x`, `y` or `z`, one of the frame itself";
+        let message = "an axis is `x`, `y` or `z` here, one of the frame itself";
         self.error(Code::WrongKind, expression.span, message);
         None
     }

@@ -447,7 +447,11 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(Inertia::Tensor(entries?.try_into().ok()?))
     }
 
-    fn rotation(&mut self, member: MemberId, record: &'a Record) -> Option<Rotation<'d>> {
+    pub(super) fn rotation(
+        &mut self,
+        member: MemberId,
+        record: &'a Record,
+    ) -> Option<Rotation<'d>> {
         if record.field("frame").is_some() {
             self.conflict(record, "angle", "frame");
             if self.members[member].frame_state != State::Done {

@@ -753,6 +753,12 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
                 let on = self.relaxed.model.coordinates[*coordinate].q;
                 acting(on, by_place, &what);
             }
+            Contribution::Load(Load::Along {
+                measure, torsional, ..
+            }) => match torsional {
+                true => acting(*measure, by_place, &what),
+                false => look(&|| self.stretch(*measure, &what, *span)),
+            },
             // A torque acts on a body that is known to turn; the rest acts on bodies by itself.
             Contribution::Load(Load::Torque { .. })
             | Contribution::Gravity(_)

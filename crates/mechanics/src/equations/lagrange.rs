@@ -16,9 +16,9 @@ use super::energy;
 use super::guide::{guide, relative};
 use super::kinematics::{self, Variables, gradient};
 use super::symmetric::Symmetric;
-use lagrangian_spec::model::circles::planar_angle;
+use lagrangian_spec::model::circles::planar_turn;
 use lagrangian_spec::model::element::Load;
-use lagrangian_spec::model::{Model, Rotation, Space};
+use lagrangian_spec::model::{Model, Place, Rotation, Space};
 
 /// The literal Lagrange equations of a machine. Slow to derive and long; never shipped.
 pub struct Oracle<'d> {
@@ -206,7 +206,7 @@ fn mass_matrix<'d>(momenta: &[Expr<'d>], v: &[Symbol]) -> Symmetric<Expr<'d>> {
 }
 
 /// Applied generalized forces, eq. (E6): `Qᵢ = −∂V/∂qᵢ − ∂D/∂vᵢ + Fᵢ`, where `F` is the virtual
-/// work of forces and torques: `Fᵢ = Σ F·∂x/∂qᵢ + Σ M·∂ω/∂vᵢ`.
+/// work of forces and torques: `Fᵢ = Σ F·∂x/∂qᵢ + Σ F ∂s/∂qᵢ + Σ M·∂ω/∂vᵢ`.
 fn applied<'d>(
     model: &Model<'d>,
     x: &Variables<'d>,
@@ -223,7 +223,8 @@ fn applied<'d>(
                 }
                 Load::Coordinate { coordinate, value } if *coordinate == i => terms.push(*value),
                 Load::Coordinate { .. } => {}
-                Load::Torque { body, torque } => terms.extend(power(model, *body, torque, rate)),
+                Load::Along { measure, force, .. } => terms.push(*force * rate.of(*measure)),
+                Load::Torque { on, torque } => terms.extend(power(model, *on, torque, rate)),
             }
         }
         model.dag.sum(terms)
@@ -231,20 +232,19 @@ fn applied<'d>(
     (0..x.q.len()).map(force).collect()
 }
 
-/// The power of a torque on a body that turns as the rate says, as terms of a sum.
+/// The power of a torque on what turns as the rate says, as terms of a sum.
 fn power<'d>(
     model: &Model<'d>,
-    body: usize,
+    on: Place,
     torque: &[Expr<'d>],
     rate: &mut Tangent<'d>,
 ) -> Vec<Expr<'d>> {
-    let body = &model.bodies[body];
-    match (model.space, &body.rotation) {
-        (Space::Plane, _) => {
-            let angle = planar_angle(model, body).into_iter();
+    match (model.space, model.rotation(on)) {
+        (Space::Plane, rotation) => {
+            let angle = planar_turn(model, rotation).into_iter();
             angle.map(|angle| torque[0] * rate.of(angle)).collect()
         }
-        (Space::Space, &Rotation::Frame(pose)) => {
+        (Space::Space, Rotation::Frame(pose)) => {
             // The torque along the body's axes, against the rate of turning about them.
             let turning = kinematics::angular_velocity_of_axes(model, pose, rate);
             let axes = model.poses[pose.index()].axes.iter();

@@ -394,15 +394,15 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         let here = |e: Expr<'d>| x(e).value.value.value;
         // How w moves something: q has −w before τε.
         let moved = |e: Expr<'d>| -x(e).value.derivative.derivative;
-        let of_torque = |body: &Body<'d>, torque: &[Expr<'d>]| {
+        let of_torque = |on: Place, torque: &[Expr<'d>]| {
             let mut work = R::ZERO;
-            match (model.space, &body.rotation) {
-                (Space::Plane, _) => {
-                    if let Some(angle) = angle(model, body) {
+            match (model.space, model.rotation(on)) {
+                (Space::Plane, rotation) => {
+                    if let Some(angle) = turned_by(model, rotation) {
                         work = here(torque[0]) * moved(angle);
                     }
                 }
-                (Space::Space, &Rotation::Frame(pose)) => {
+                (Space::Space, Rotation::Frame(pose)) => {
                     // The turn is ½ Σ e × δe, along the ground's axes.
                     for e in &model.poses[pose.index()].axes {
                         for (k, &torque) in torque.iter().enumerate() {
@@ -425,7 +425,8 @@ impl<'m, 'd> Lagrange<'m, 'd> {
             &Load::Coordinate { coordinate, value } => {
                 here(value) * moved(model.coordinates[coordinate].q)
             }
-            Load::Torque { body, torque } => of_torque(&model.bodies[*body], torque),
+            &Load::Along { measure, force, .. } => here(force) * moved(measure),
+            Load::Torque { on, torque } => of_torque(*on, torque),
         };
         sum(model.loads().map(of_load))
     }
@@ -703,9 +704,10 @@ fn geometry<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
             Load::Coordinate { coordinate, value } => {
                 roots.extend([model.coordinates[*coordinate].q, *value]);
             }
-            Load::Torque { body: on, torque } => {
+            Load::Along { measure, force, .. } => roots.extend([*measure, *force]),
+            Load::Torque { on, torque } => {
                 roots.extend(torque);
-                body(*on, &mut roots);
+                place(*on, &mut roots);
             }
         }
     }
@@ -763,7 +765,11 @@ fn geometry<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
 
 /// The angle of a body in the plane.
 fn angle<'d>(model: &Model<'d>, body: &Body<'d>) -> Option<Expr<'d>> {
-    match body.rotation {
+    turned_by(model, body.rotation)
+}
+
+fn turned_by<'d>(model: &Model<'d>, rotation: Rotation<'d>) -> Option<Expr<'d>> {
+    match rotation {
         Rotation::Unspecified => None,
         Rotation::Angle(angle) => Some(angle),
         Rotation::Frame(pose) => Some(model.poses[pose.index()].angle),

@@ -36,9 +36,9 @@ use super::kinematics::{
     self, Chains, Motion, Turning, Twist, Variables, Vector, add, apply_tensor, cross, vector,
 };
 use super::symmetric::Symmetric;
-use lagrangian_spec::model::circles::planar_angle;
+use lagrangian_spec::model::circles::{planar_angle, planar_turn};
 use lagrangian_spec::model::element::{Energy, Load};
-use lagrangian_spec::model::{Body, Inertia, Model, PoseId, Rotation, Space};
+use lagrangian_spec::model::{Body, Inertia, Model, Place, PoseId, Rotation, Space};
 
 /// What carries a machine's inertia, in the form that is cheapest to differentiate.
 pub(super) struct Projection<'a, 'd> {
@@ -96,8 +96,8 @@ impl<'a, 'd> Projection<'a, 'd> {
             .iter()
             .filter_map(|body| body.tensor.map(|(_, pose)| pose));
         let twisted = model.loads().filter_map(|load| match load {
-            Load::Torque { body, .. } => frame_of(&model.bodies[*body]),
-            Load::Point { .. } | Load::Coordinate { .. } => None,
+            Load::Torque { on, .. } => frame_of(model.rotation(*on)),
+            Load::Point { .. } | Load::Coordinate { .. } | Load::Along { .. } => None,
         });
         let moving = bodies
             .iter()
@@ -253,7 +253,7 @@ impl<'a, 'd> Projection<'a, 'd> {
         }
     }
 
-    /// Adds `Σ F·∂x/∂qᵢ + Σ M·∂ω/∂vᵢ + Fᵢ`: the virtual work of applied forces and torques.
+    /// Adds `Σ F·∂x/∂qᵢ + Σ F ∂s/∂qᵢ + Σ M·∂ω/∂vᵢ + Fᵢ`: the virtual work of applied forces and torques.
     pub fn add_forces(&self, loads: &mut Loads<'d>) {
         self.add_loads(self.model.loads(), loads);
     }
@@ -273,8 +273,9 @@ impl<'a, 'd> Projection<'a, 'd> {
                 Load::Coordinate { coordinate, value } => {
                     loads.on_coordinates.push((*coordinate, *value));
                 }
-                Load::Torque { body, torque } => {
-                    self.add_torque(*body, torque, &mut twists, loads);
+                Load::Along { measure, force, .. } => loads.on_positions.push((*measure, *force)),
+                Load::Torque { on, torque } => {
+                    self.add_torque(*on, torque, &mut twists, loads);
                 }
             }
         }
@@ -283,15 +284,15 @@ impl<'a, 'd> Projection<'a, 'd> {
     /// Adds `M·∂ω/∂vᵢ` of a torque. `twists` are how all frames in space move, once it has been needed.
     fn add_torque(
         &self,
-        body: usize,
+        on: Place,
         torque: &[Expr<'d>],
         twists: &mut Option<Vec<Twist<'d>>>,
         loads: &mut Loads<'d>,
     ) {
-        let body = &self.model.bodies[body];
+        let rotation = self.model.rotation(on);
         match self.model.space {
             Space::Plane => {
-                let angle = planar_angle(self.model, body);
+                let angle = planar_turn(self.model, rotation);
                 loads
                     .on_positions
                     .extend(angle.map(|angle| (angle, torque[0])));
@@ -299,7 +300,7 @@ impl<'a, 'd> Projection<'a, 'd> {
             Space::Space => {
                 let twists =
                     twists.get_or_insert_with(|| self.twists(&mut self.x.coasting(self.model)));
-                if let Some(pose) = frame_of(body) {
+                if let Some(pose) = frame_of(rotation) {
                     let turning = twists[pose.index()].angular;
                     let along = kinematics::along_axes(self.model, pose, torque);
                     loads.on_rates.extend(turning.into_iter().zip(along));
@@ -650,7 +651,7 @@ fn carrier<'d>(model: &Model<'d>, body: &Body<'d>) -> Carrier<'d> {
             }));
             None
         }
-        Inertia::Tensor(tensor) => frame_of(body).map(|pose| (tensor, pose)),
+        Inertia::Tensor(tensor) => frame_of(body.rotation).map(|pose| (tensor, pose)),
     };
     let centre = centre.map(|local| (body.mass, local.pose, vector(&local.point)));
     Carrier {
@@ -701,8 +702,8 @@ fn gather<'d>(
     )
 }
 
-fn frame_of(body: &Body<'_>) -> Option<PoseId> {
-    match body.rotation {
+fn frame_of(rotation: Rotation<'_>) -> Option<PoseId> {
+    match rotation {
         Rotation::Frame(pose) => Some(pose),
         Rotation::Angle(_) | Rotation::Unspecified => None,
     }

@@ -87,15 +87,15 @@ pub(super) fn residual<'d>(model: &Model<'d>) -> Result<Residual<'d>, NoSeries> 
                 on_positions.extend(components.map(|(&at, &force)| (at, -force)));
             }
             Load::Coordinate { coordinate, value } => direct[*coordinate].push(-*value),
-            Load::Torque { body, torque } => {
-                let body = &model.bodies[*body];
-                match (model.space, &body.rotation) {
-                    (Space::Plane, _) => {
-                        let angle = planar_angle(model, body);
+            Load::Along { measure, force, .. } => on_positions.push((*measure, -*force)),
+            Load::Torque { on, torque } => {
+                match (model.space, model.rotation(*on)) {
+                    (Space::Plane, rotation) => {
+                        let angle = planar_angle(model, rotation);
                         on_positions.extend(angle.map(|angle| (angle, -torque[0])));
                     }
                     // The turn is ½ Σ e × δe, along the ground's axes.
-                    (Space::Space, &Rotation::Frame(pose)) => {
+                    (Space::Space, Rotation::Frame(pose)) => {
                         for e in &model.poses[pose.index()].axes {
                             for (k, &component) in torque.iter().enumerate() {
                                 let (next, last) = ((k + 1) % 3, (k + 2) % 3);
@@ -144,7 +144,7 @@ fn turning<'d>(
 ) {
     match (&body.inertia, &body.rotation) {
         (&Inertia::Planar(inertia), _) => {
-            if let Some(angle) = planar_angle(model, body) {
+            if let Some(angle) = planar_angle(model, body.rotation) {
                 loads.push((angle, inertia * rates.second(angle)));
             }
         }
@@ -172,8 +172,8 @@ fn turning<'d>(
     }
 }
 
-fn planar_angle<'d>(model: &Model<'d>, body: &Body<'d>) -> Option<Expr<'d>> {
-    match body.rotation {
+fn planar_angle<'d>(model: &Model<'d>, rotation: Rotation<'d>) -> Option<Expr<'d>> {
+    match rotation {
         Rotation::Unspecified => None,
         Rotation::Angle(angle) => Some(angle),
         Rotation::Frame(pose) => Some(model.poses[pose.index()].angle),

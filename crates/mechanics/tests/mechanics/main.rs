@@ -10,6 +10,7 @@ mod growth;
 mod harness;
 mod oracle;
 mod paper;
+mod parts;
 mod published;
 mod random_machines;
 mod refusals;

@@ -1,0 +1,231 @@
+//! Transmissions: gears and belts, by which one turn is another times a ratio.
+//!
+//! ```text
+//! φ₁ − φ_c = i (φ₂ − φ_c) + φ₀
+//! ```
+//!
+//! with φ_c the turn of what carries the wheels, where it moves. Of gears with z₁ and z₂ teeth `i` is
+//! −z₂/z₁, and a ring with its teeth inside has a negative number of them (DIN 3960); of a belt over
+//! pulleys of radii r₁ and r₂ it is r₂/r₁, negative where the belt is crossed. The multiplier is the torque on
+//! the first wheel.
+
+use lagrangian_symbolic::Expr;
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::model::element::{Constraint, Contribution};
+use crate::model::{Space, stage};
+use crate::resolve::Resolver;
+use crate::resolve::element::{Meaning, Resolved, Row};
+use crate::resolve::value::{Limit, MemberId, Scalar, Scope, Value, is_linear, limit};
+use crate::source::Span;
+use crate::syntax::{Expression, ExpressionKind, Form, Record, Section};
+use crate::unit::Unit;
+
+pub(super) const ROW: Row = Row {
+    section: &SECTION,
+    meaning: Meaning::Items(resolve),
+};
+
+const SECTION: Section = Section {
+    word: "transmissions",
+    item: "a transmission",
+    noun: "transmission",
+    form: Form::Records(&["turns", "ratio", "teeth", "belt", "carrier", "offset"]),
+    help: "a transmission is `name { turns: (first, second), teeth: (z1, z2) }`, or with `belt: (r1, r2)` or \
+           `ratio: …`, and where needed `carrier` and `offset`",
+};
+
+static TURN: Limit = limit(
+    stage::VELOCITY,
+    "a turn",
+    "only coordinates, velocities, parameters and `t` can stand here",
+);
+
+static RATIO: Limit = limit(
+    stage::PARAMETER,
+    "a ratio",
+    "a ratio that changes is an equation between rates under `constraints`",
+);
+
+/// How many teeth, or which radius.
+const SIZES: [(&str, Unit, &str); 2] = [
+    ("teeth", Unit::ONE, "a number of teeth has no unit"),
+    ("belt", Unit::METRE, "the radius of a pulley is in m"),
+];
+
+fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<Resolved<'d>> {
+    let record = resolver.record(member)?;
+    let turns = resolver.field(member, record, "turns");
+    let pair = turns.and_then(|turns| pair(resolver, turns, "two turns"));
+    let pair = pair.and_then(|pair| {
+        let [first, second] = pair.map(|turn| turn_of(resolver, member, turn));
+        Some([first?, second?])
+    });
+    let carrier = match record.get("carrier") {
+        None => Some(None),
+        Some(carrier) => turn_of(resolver, member, carrier).map(Some),
+    };
+    let ([first, second], carrier) = (pair?, carrier?);
+    let unit = first.unit.unwrap_or(Unit::ONE);
+    let of_second = second.unit.unwrap_or(Unit::ONE);
+    let span = turns?.span;
+    let ratio = ratio(resolver, member, record, [unit, of_second])?;
+    let (mut first, mut second) = (first.expr, second.expr);
+    if let Some(carrier) = carrier {
+        let field = record.get("carrier")?;
+        let why = "wheels and what carries them turn in one unit";
+        resolver.demand(
+            Some(unit),
+            carrier.unit.unwrap_or(Unit::ONE),
+            field.span,
+            why,
+        );
+        resolver.demand(
+            Some(of_second),
+            carrier.unit.unwrap_or(Unit::ONE),
+            field.span,
+            why,
+        );
+        (first, second) = (first - carrier.expr, second - carrier.expr);
+    }
+    let mut expression = first - ratio * second;
+    let is_of_rates = expression.stage() == stage::VELOCITY;
+    if let Some(offset) = record.field("offset") {
+        if is_of_rates {
+            let message = "rates have no offset";
+            let diagnostic = Diagnostic::new(Code::ConflictingFields, offset.name.span, message);
+            resolver.push(diagnostic.help("leave it out, or give angles"));
+            return None;
+        }
+        let scope = resolver.scope(member, &RATIO);
+        let why = "an offset is in the unit of the first turn";
+        let offset = resolver.scalar_in(&offset.value, unit, why, scope)?;
+        expression = expression - offset.expr;
+    }
+    check(resolver, expression, span)?;
+    Some(Resolved::of([Contribution::Constraint(Constraint {
+        name: resolver.name(member),
+        expression,
+        unit,
+        span: resolver.span(member),
+    })]))
+}
+
+/// What is joined moves, and rates stand in it linearly.
+fn check<'d>(resolver: &mut Resolver<'_, 'd, '_>, joined: Expr<'d>, span: Span) -> Option<()> {
+    if joined.stage() < stage::POSITION {
+        resolver.error(Code::NoCoordinates, span, "this constrains no coordinate");
+        return None;
+    }
+    if joined.stage() == stage::VELOCITY && !is_linear(joined) {
+        let message = "this is not linear in the velocities";
+        let diagnostic = Diagnostic::new(Code::NotLinear, span, message);
+        resolver
+            .push(diagnostic.help("a rate of turning is `dot(frame.spin, axis)`, or `der(angle)`"));
+        return None;
+    }
+    Some(())
+}
+
+/// Two expressions in brackets.
+fn pair<'a>(
+    resolver: &mut Resolver<'a, '_, '_>,
+    said: &'a Expression,
+    what: &str,
+) -> Option<[&'a Expression; 2]> {
+    match &said.kind {
+        ExpressionKind::Error => None,
+        ExpressionKind::Tuple(parts) if parts.len() == 2 => Some([&parts[0], &parts[1]]),
+        _ => {
+            let message = format!("{what} are expected here, `(first, second)`");
+            resolver.error(Code::WrongDimension, said.span, message);
+            None
+        }
+    }
+}
+
+/// How far a wheel is turned: the angle of a frame or a body in the plane, or any expression.
+fn turn_of<'a, 'd>(
+    resolver: &mut Resolver<'a, 'd, '_>,
+    member: MemberId,
+    said: &'a Expression,
+) -> Option<Scalar<'d>> {
+    let scope: Scope<'a> = resolver.scope(member, &TURN);
+    let value = match &said.kind {
+        ExpressionKind::Name(_) | ExpressionKind::Chain(_) => resolver.value(said, scope),
+        _ => return resolver.scalar(said, scope),
+    };
+    match value {
+        Value::Unknown => None,
+        Value::Scalar(scalar) => Some(scalar),
+        Value::Frame(_) | Value::Body(_) if resolver.space == Space::Plane => {
+            let place = resolver.turning_place(member, said)?;
+            Some(Scalar {
+                expr: resolver.angle_of_place(place)?,
+                unit: Some(Unit::RADIAN),
+                number: None,
+            })
+        }
+        Value::Frame(_) | Value::Body(_) => {
+            let message = "in space a frame is not turned by one angle";
+            let diagnostic = Diagnostic::new(Code::WrongSpace, said.span, message);
+            let help = "give the angle itself, or the rate about an axis: `dot(wheel.spin, axis)`";
+            resolver.push(diagnostic.help(help));
+            None
+        }
+        other => {
+            resolver.wrong_kind("a number", &other, said);
+            None
+        }
+    }
+}
+
+/// The ratio, as it is said: by itself, by teeth or by radii.
+fn ratio<'a, 'd>(
+    resolver: &mut Resolver<'a, 'd, '_>,
+    member: MemberId,
+    record: &'a Record,
+    [first, second]: [Unit; 2],
+) -> Option<Expr<'d>> {
+    let scope = resolver.scope(member, &RATIO);
+    if let Some(ratio) = record.get("ratio") {
+        resolver.conflict(record, "teeth", "ratio");
+        resolver.conflict(record, "belt", "ratio");
+        let why = "a ratio is the unit of the first turn over that of the second";
+        let scalar = resolver.scalar_in(ratio, first.over(second), why, scope)?;
+        if scalar.expr.is_zero() {
+            let message = "a ratio of 0 transmits nothing";
+            resolver.error(Code::OutsideDomain, ratio.span, message);
+            return None;
+        }
+        return Some(scalar.expr);
+    }
+    if record.get("teeth").is_some() {
+        resolver.conflict(record, "belt", "teeth");
+    }
+    let found = SIZES
+        .iter()
+        .find_map(|size| Some((size, record.get(size.0)?)));
+    let Some((&(field, unit, why), said)) = found else {
+        let base = resolver.base_name(member);
+        let message =
+            format!("a transmission needs `teeth`, `belt` or `ratio`, and `{base}` has none");
+        resolver.missing_field(member, message);
+        return None;
+    };
+    let why_angles = "wheels turn by angles, in one unit";
+    resolver.demand(Some(second), first, record.get("turns")?.span, why_angles);
+    let [z1, z2] = pair(resolver, said, "two of them")?.map(|part| {
+        let scalar = resolver.scalar_in(part, unit, why, scope)?;
+        if scalar.expr.is_zero() {
+            resolver.error(Code::DivisionByZero, part.span, "no wheel has a size of 0");
+            return None;
+        }
+        Some(scalar.expr)
+    });
+    let ratio = z2? / z1?;
+    Some(match field {
+        "teeth" => -ratio,
+        _ => ratio,
+    })
+}
