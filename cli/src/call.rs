@@ -1,5 +1,8 @@
 //! The command line: what can be asked, and with which options.
 
+mod orbit;
+mod runs;
+
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -9,6 +12,9 @@ use lagrangian_spec::resolve::value_in;
 use lagrangian_spec::source::Sources;
 use lagrangian_spec::token::normalized;
 use lagrangian_symbolic::Rational;
+
+pub use orbit::{Orbit, Sensitivities};
+pub use runs::{Compare, Direction, Interpolation, Part, Peaks, Runs, Section, Spectrum, Windows};
 
 /// Machines written down as specs: their equations, their numbers, their motion.
 #[derive(Debug, Parser)]
@@ -42,6 +48,18 @@ pub enum Command {
     Modes(Modes),
     /// Make the linear model about an equilibrium, a steady motion or any state: A, B, C, D; poles, zeros, frequency response.
     Linearize(Box<Linearize>),
+    /// Find a periodic motion: its period, its monodromy matrix, Floquet's multipliers, whether it attracts.
+    Orbit(Box<Orbit>),
+    /// Integrate how a motion changes with parameters, inputs and starts.
+    Sensitivities(Box<Sensitivities>),
+    /// Tell how far two runs are apart, tables or specs.
+    Compare(Box<Compare>),
+    /// Tell which frequencies are in a run.
+    Spectrum(Box<Spectrum>),
+    /// Find the maxima and minima of a run, with period and decrement.
+    Peaks(Box<Peaks>),
+    /// Look at a run once a period, or where something passes a value: a Poincaré section.
+    Section(Box<Section>),
     /// Find the fastest motion from rest at one place to another, under control forces that do no work.
     Brachistochrone(Brachistochrone),
     /// Write the spec of a robot from its file of URDF.
@@ -59,7 +77,13 @@ impl Command {
             Command::Evaluate(call) => &call.spec,
             Command::Simulate(call) => &call.spec,
             Command::Sweep(call) => &call.spec,
+            Command::Orbit(call) => &call.spec,
+            Command::Sensitivities(call) => &call.spec,
             Command::Map(_) | Command::Import(_) => return None,
+            Command::Compare(_)
+            | Command::Spectrum(_)
+            | Command::Peaks(_)
+            | Command::Section(_) => return None,
             Command::Modes(call) => &call.spec,
             Command::Linearize(call) => &call.spec,
             Command::Brachistochrone(call) => &call.spec,
@@ -70,8 +94,22 @@ impl Command {
     pub fn json(&self) -> bool {
         match self {
             Command::Import(call) => call.json,
-            _ => self.spec().is_some_and(|spec| spec.json),
+            _ => match self.runs() {
+                Some(runs) => runs.json,
+                None => self.spec().is_some_and(|spec| spec.json),
+            },
         }
+    }
+
+    /// How specs are run that stand where tables may.
+    fn runs(&self) -> Option<&Runs> {
+        Some(match self {
+            Command::Compare(call) => &call.runs,
+            Command::Spectrum(call) => &call.part.runs,
+            Command::Peaks(call) => &call.part.runs,
+            Command::Section(call) => &call.part.runs,
+            _ => return None,
+        })
     }
 
     /// Every name that the call gives a value, with the option that does it.
@@ -101,6 +139,23 @@ impl Command {
                 add("--start", &call.start.coordinates);
                 add("--rate", &call.start.rates);
             }
+            Command::Orbit(call) => {
+                add("--advance", &call.advance);
+                add("--set", &call.start.parameters);
+                add("--start", &call.start.coordinates);
+                add("--rate", &call.start.rates);
+            }
+            Command::Sensitivities(call) => {
+                add("--set", &call.start.parameters);
+                add("--start", &call.start.coordinates);
+                add("--rate", &call.start.rates);
+            }
+            Command::Compare(call) => {
+                add("--set-second", &call.second_parameters);
+                add("--start-second", &call.second_coordinates);
+                add("--rate-second", &call.second_rates);
+            }
+            Command::Spectrum(_) | Command::Peaks(_) | Command::Section(_) => {}
             Command::Brachistochrone(call) => {
                 add("--set", &call.parameters);
                 add("--from", &call.from);
@@ -118,6 +173,17 @@ impl Command {
             add("--event", &call.events);
             add("--until-event", &call.ends);
             add("--reduce", &call.reductions);
+        }
+        if let Some(runs) = self.runs() {
+            let mut add = |option: &'static str, list: &'a [Assignment]| {
+                named.extend(list.iter().map(|set| (option, set.name.as_str())));
+            };
+            add("--set", &runs.start.parameters);
+            add("--start", &runs.start.coordinates);
+            add("--rate", &runs.start.rates);
+            add("--input", &runs.inputs);
+            let constants = runs.constants.iter();
+            named.extend(constants.map(|(name, _)| ("--const", name.as_str())));
         }
         let constants = self.spec().into_iter().flat_map(|spec| &spec.constants);
         named.extend(constants.map(|(name, _)| ("--const", name.as_str())));
@@ -964,6 +1030,15 @@ fn interval(text: &str) -> Result<f64, String> {
     match interval > 0.0 {
         true => Ok(interval),
         false => Err("an interval is greater than 0".into()),
+    }
+}
+
+/// Reads a number that is greater than 0.
+fn positive(text: &str) -> Result<f64, String> {
+    let value = number(text)?;
+    match value > 0.0 {
+        true => Ok(value),
+        false => Err("expected a number greater than 0".into()),
     }
 }
 

@@ -10,9 +10,11 @@ mod brachistochrone;
 mod call;
 mod check;
 mod collisions;
+mod compare;
 mod contacts;
 mod derive;
 mod diagnostics;
+mod drawing;
 mod evaluate;
 mod exit;
 mod failure;
@@ -26,13 +28,19 @@ mod linearize;
 mod map;
 mod modes;
 mod numbers;
+mod orbit;
 mod output;
+mod peaks;
 mod plot;
 mod progress;
 mod reading;
 mod recording;
 pub mod report;
+mod runs;
+mod section;
+mod sensitivities;
 mod simulate;
+mod spectrum;
 mod sweep;
 mod table;
 
@@ -100,6 +108,12 @@ fn status(call: &Call, json: bool) -> u8 {
         Command::Map(call) => map::run(call),
         Command::Modes(call) => modes::run(call),
         Command::Linearize(call) => linearize::run(call),
+        Command::Orbit(call) => orbit::run(call),
+        Command::Sensitivities(call) => sensitivities::run(call),
+        Command::Compare(call) => compare::run(call),
+        Command::Spectrum(call) => spectrum::run(call),
+        Command::Peaks(call) => peaks::run(call),
+        Command::Section(call) => section::run(call),
         Command::Brachistochrone(call) => brachistochrone::run(call),
         Command::Import(call) => import::run(call),
     });

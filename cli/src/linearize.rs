@@ -1,11 +1,11 @@
 //! `lagrangian linearize`: the linear model of a machine, and what engineers ask of it.
 
 mod along;
-mod arrays;
+pub mod arrays;
 mod files;
 mod frequencies;
-mod mat;
-mod npz;
+pub mod mat;
+pub mod npz;
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;

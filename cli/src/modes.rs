@@ -14,6 +14,7 @@ use lagrangian_linear::spectrum::{Mode, Modes, damping};
 use lagrangian_linear::steady::{self, Options};
 use lagrangian_linear::{Complex, model};
 use lagrangian_mechanics::Compiled;
+use lagrangian_spec::model::Model;
 use lagrangian_symbolic::Dag;
 use serde_json::{Map, Value, json};
 
@@ -153,8 +154,18 @@ pub fn compiled<'d, 'a>(
     files: impl IntoIterator<Item = &'a Destination>,
     what: &str,
 ) -> Result<Compiled<'d>, Failure> {
-    let mut reading = Reading::open(spec)?;
-    let model = reading.model(dag);
+    compiled_with(Reading::open(spec)?, dag, files, what, |_| Ok(()))
+}
+
+/// The same of a spec that was opened, whose model is changed before it is derived.
+pub fn compiled_with<'d, 'a>(
+    mut reading: Reading,
+    dag: &'d Dag,
+    files: impl IntoIterator<Item = &'a Destination>,
+    what: &str,
+    change: impl FnOnce(&mut Model<'d>) -> Result<(), Failure>,
+) -> Result<Compiled<'d>, Failure> {
+    let mut model = reading.model(dag);
     reading.keep_from(files)?;
     if model
         .as_ref()
@@ -172,6 +183,9 @@ pub fn compiled<'d, 'a>(
         return Err(Failure::Run(format!(
             "what collides has no linearization: a machine with `contacts` has no {what}; say it without them"
         )));
+    }
+    if let Some(model) = &mut model {
+        change(model)?;
     }
     let compiled = model.and_then(|model| Compiled::new(model, &mut reading.report));
     match compiled {

@@ -16,7 +16,7 @@ use crate::{host, progress};
 
 pub use destination::{Destination, keep_apart, keep_document_apart};
 pub use ending::{
-    Endings, LIBRARY, MACHINE, MODEL, PAGE, RUST, SVG, TABLE, UNIT, ending_is_one_of,
+    Endings, LIBRARY, MACHINE, MODEL, ORBIT, PAGE, RUST, SVG, TABLE, UNIT, ending_is_one_of,
 };
 
 /// What went wrong first with standard output.

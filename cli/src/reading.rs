@@ -26,8 +26,8 @@ pub struct Reading {
     name: String,
     text: String,
     constants: Vec<(String, Rational)>,
-    /// Formulas of the call beside those of the spec: the option that has each, its text and the unit that it is to have.
-    formulas: Vec<(String, String, String)>,
+    /// Formulas of the call beside those of the spec: the option that has each, its text and the unit that it is to have, if any.
+    formulas: Vec<(String, String, Option<String>)>,
     /// The texts that messages point into.
     pub sources: Sources,
     /// What is wrong.
@@ -102,7 +102,7 @@ impl Reading {
             name: said,
             said,
             text,
-            unit: Some(unit),
+            unit: unit.as_deref(),
         });
         let asked: Vec<Formula<'_>> = asked.collect();
         let spec = lagrangian_spec::parse(sources, name, text, report);
@@ -133,10 +133,17 @@ impl Reading {
             if let (Some(formula), Some(input)) = (law.formula(), input) {
                 let said = format!("--input {name}");
                 self.formulas
-                    .push((said, formula.to_owned(), input.unit_text.clone()));
+                    .push((said, formula.to_owned(), Some(input.unit_text.clone())));
             }
         }
         Ok(laws)
+    }
+
+    /// Puts a formula of the call beside those of the spec, as an output behind all others. `said` is the option that has it, with a
+    /// space, which keeps it out of tables.
+    pub fn ask(&mut self, said: &str, formula: &str, unit: Option<&str>) {
+        self.formulas
+            .push((said.to_owned(), formula.to_owned(), unit.map(str::to_owned)));
     }
 
     /// How many formulas of the call are among the outputs, behind those of the spec.

@@ -14,6 +14,7 @@ from ._linear import Linear, Mode, Modes
 from ._machine import Evaluation, Machine, load, loads
 from ._named import Named, State
 from ._native import __version__, set_engine, set_threads
+from ._orbit import Orbit
 from ._sensitive import Sensitivities
 from ._signals import Sampled, Table
 from ._simulate import Energy, Event, Report, Run
@@ -58,6 +59,7 @@ __all__ = [
     "Modes",
     "Named",
     "Normal",
+    "Orbit",
     "Program",
     "Published",
     "Report",

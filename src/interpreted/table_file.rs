@@ -167,8 +167,33 @@ impl TableFile {
     /// # Errors
     /// Which column there is not, which unit is another one, and which cell is no number or, of times, no later one.
     pub fn column(&self, name: &str, unit: &str) -> Result<(Vec<f64>, Vec<f64>), TableFileError> {
-        let (t, seconds) = self.find("t", "s")?;
-        let (place, factor) = self.find(name, unit)?;
+        let times = self.find("t", "s")?;
+        self.read(times, (name, self.find(name, unit)?), false)
+    }
+
+    /// What the columns behind that of times are called, each with the unit that its header has.
+    pub fn columns(&self) -> Vec<(String, Option<String>)> {
+        let all = self.header.iter().map(split);
+        all.filter(|(name, _)| name != "t").collect()
+    }
+
+    /// Times in seconds, from the column `t`, and the numbers of a column as they stand, in the unit of its header if it has one. An
+    /// empty cell, or `NaN`, is NaN: nothing was measured there.
+    ///
+    /// # Errors
+    /// As [`column`](Self::column), but for empty cells.
+    pub fn column_with_gaps(&self, name: &str) -> Result<(Vec<f64>, Vec<f64>), TableFileError> {
+        let times = self.find("t", "s")?;
+        self.read(times, (name, (self.place(name)?, 1.0)), true)
+    }
+
+    /// Times, and the numbers of a column at a place, each with what it is multiplied by.
+    fn read(
+        &self,
+        (t, seconds): (usize, f64),
+        (name, (place, factor)): (&str, (usize, f64)),
+        may_have_gaps: bool,
+    ) -> Result<(Vec<f64>, Vec<f64>), TableFileError> {
         let (mut times, mut values) = (Vec::new(), Vec::new());
         for row in &self.rows {
             let beyond = row.iter().skip(self.header.len());
@@ -185,7 +210,11 @@ impl TableFile {
                 return Err(self.wrong(at, "this time is not later than the one before it"));
             }
             times.push(time);
-            values.push(factor * self.number(row, place, name)?);
+            let is_gap = |cell: &Cell| ["", "NaN", "nan"].contains(&cell.text.trim());
+            values.push(match may_have_gaps && row.get(place).is_none_or(is_gap) {
+                true => f64::NAN,
+                false => factor * self.number(row, place, name)?,
+            });
         }
         match times.is_empty() {
             true => Err(self.wrong(None, "it has no rows below its header")),
@@ -195,20 +224,25 @@ impl TableFile {
 
     /// The place of a column, and what its numbers are to be multiplied by.
     fn find(&self, name: &str, unit: &str) -> Result<(usize, f64), TableFileError> {
-        let split = |cell: &Cell| {
-            let text = cell.text.trim();
-            match text
-                .strip_suffix(']')
-                .and_then(|text| text.rsplit_once(" ["))
-            {
-                Some((name, unit)) => (name.trim_end().to_string(), Some(unit.trim().to_string())),
-                None => (text.to_string(), None),
+        let place = self.place(name)?;
+        match split(&self.header[place]).1.as_deref() {
+            Some(own) if own != unit => {
+                let factor = factor(own, unit).map_err(|why| {
+                    let at = self.header.get(place).map(|cell| cell.place);
+                    self.wrong(at, format!("the unit `{own}` of `{name}`: {why}"))
+                })?;
+                Ok((place, factor))
             }
-        };
-        let columns: Vec<(String, Option<String>)> = self.header.iter().map(split).collect();
-        let mut found = (0..columns.len()).filter(|place| columns[*place].0 == name);
+            _ => Ok((place, 1.0)),
+        }
+    }
+
+    /// The place of a column.
+    fn place(&self, name: &str) -> Result<usize, TableFileError> {
+        let columns: Vec<String> = self.header.iter().map(|cell| split(cell).0).collect();
+        let mut found = (0..columns.len()).filter(|place| columns[*place] == name);
         let Some(place) = found.next() else {
-            let names = || columns.iter().map(|(name, _)| name.as_str());
+            let names = || columns.iter().map(String::as_str);
             let help = match nearest(name, names()) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => {
@@ -224,16 +258,7 @@ impl TableFile {
             let at = self.header.get(other).map(|cell| cell.place);
             return Err(self.wrong(at, format!("a second column is named `{name}`")));
         }
-        match columns[place].1.as_deref() {
-            Some(own) if own != unit => {
-                let factor = factor(own, unit).map_err(|why| {
-                    let at = self.header.get(place).map(|cell| cell.place);
-                    self.wrong(at, format!("the unit `{own}` of `{name}`: {why}"))
-                })?;
-                Ok((place, factor))
-            }
-            _ => Ok((place, 1.0)),
-        }
+        Ok(place)
     }
 
     fn number(&self, row: &[Cell], place: usize, name: &str) -> Result<f64, TableFileError> {
@@ -269,6 +294,18 @@ impl TableFile {
             place,
             message: message.into(),
         }
+    }
+}
+
+/// Name and unit of a header, `torque [N*m]`.
+fn split(cell: &Cell) -> (String, Option<String>) {
+    let text = cell.text.trim();
+    match text
+        .strip_suffix(']')
+        .and_then(|text| text.rsplit_once(" ["))
+    {
+        Some((name, unit)) => (name.trim_end().to_string(), Some(unit.trim().to_string())),
+        None => (text.to_string(), None),
     }
 }
 

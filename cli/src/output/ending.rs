@@ -17,6 +17,13 @@ pub const TABLE: Endings = &["csv"];
 /// A linear model.
 pub const MODEL: Endings = &["json", "npz", "mat", "csv"];
 
+/// A periodic orbit: its numbers, or its motion as a table.
+#[cfg(feature = "parquet")]
+pub const ORBIT: Endings = &["json", "npz", "mat", "csv", "parquet"];
+/// A periodic orbit, in a build without Parquet.
+#[cfg(not(feature = "parquet"))]
+pub const ORBIT: Endings = &["json", "npz", "mat", "csv"];
+
 /// A spec.
 pub const MACHINE: Endings = &["machine"];
 

@@ -14,7 +14,9 @@ mod library;
 mod linearize;
 mod map;
 mod modes;
+mod orbit;
 mod report;
+mod runs;
 mod scripts;
 mod signals;
 #[path = "../support/mod.rs"]

@@ -2,10 +2,12 @@
 //!
 //! [`steady::motion`] finds an equilibrium or a steady motion and the modes about it; [`model`] makes matrices A, B, C, D of it, or of
 //! any other state; [`poles`], [`zeros`] and [`response`] are what is asked of these. Derivatives are exact: everything is
-//! evaluated over dual numbers of 32 digits, never over differences of finite steps.
+//! evaluated over dual numbers of 32 digits, never over differences of finite steps. [`orbit`] finds periodic motions and their
+//! multipliers, by integration of the variational equations.
 
 pub mod model;
 pub mod motion;
+pub mod orbit;
 pub mod poles;
 mod precise;
 mod rank;

@@ -175,6 +175,29 @@ fn formula(text: &str) -> Result<Written, String> {
     }
 }
 
+/// A table in a file, comma-separated text or Parquet by its ending.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn table_file(path: &Path) -> Result<TableFile, String> {
+    let shown = path.display().to_string();
+    let is_parquet = path
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("parquet"));
+    let unread = |error: std::io::Error| format!("cannot read {shown}: {error}");
+    let file = match is_parquet {
+        true => {
+            let cells = table::cells(path).map_err(unread)?;
+            TableFile::from_cells(&shown, cells)
+        }
+        false => {
+            let bytes = std::fs::read(path).map_err(unread)?;
+            TableFile::from_bytes(&shown, &bytes)
+        }
+    };
+    file.map_err(|wrong| wrong.to_string())
+}
+
 impl Written {
     /// The file that it reads.
     pub fn file(&self) -> Option<&Path> {
@@ -207,22 +230,9 @@ impl Written {
                 beyond,
             } => {
                 let shown = path.display().to_string();
-                let is_parquet = path
-                    .extension()
-                    .is_some_and(|ending| ending.eq_ignore_ascii_case("parquet"));
-                let unread = |error: std::io::Error| format!("cannot read {shown}: {error}");
-                let file = match is_parquet {
-                    true => {
-                        let cells = table::cells(path).map_err(unread)?;
-                        TableFile::from_cells(&shown, cells)
-                    }
-                    false => {
-                        let bytes = std::fs::read(path).map_err(unread)?;
-                        TableFile::from_bytes(&shown, &bytes)
-                    }
-                };
+                let file = table_file(path)?;
                 let column = column.as_deref().unwrap_or(input);
-                let read = file.and_then(|file| file.column(column, unit));
+                let read = file.column(column, unit);
                 let (times, values) = read.map_err(|wrong| wrong.to_string())?;
                 let law = Law::Table {
                     times,

@@ -1,0 +1,100 @@
+//! Drawings of curves and points over any quantity, in the style of all others.
+
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, axes, font, range, short, svg_of};
+use crate::recording::thin;
+
+/// Width of the names beside a pane, how many fit, and to how many points a curve is thinned.
+const LEGEND: u32 = 150 * UNIT;
+const NAMES: usize = 11;
+const POINTS: usize = 1500;
+
+/// A rectangle with axes of its own.
+pub struct Pane {
+    /// What is along the axes, with units.
+    pub along: [String; 2],
+    /// What is drawn.
+    pub curves: Vec<Curve>,
+    /// Whether curves are points that nothing joins.
+    pub are_points: bool,
+}
+
+/// A curve, or some points.
+pub struct Curve {
+    pub name: String,
+    pub points: Vec<(f64, f64)>,
+}
+
+/// Panes from top to bottom, as SVG text.
+///
+/// # Errors
+/// What the drawing library says.
+pub fn svg(title: &str, panes: &[Pane]) -> Result<String, String> {
+    let height = 48 * UNIT + PANEL * panes.len().max(1) as u32;
+    svg_of(height, |backend| {
+        let sheet = backend.into_drawing_area();
+        sheet.fill(&WHITE)?;
+        let sheet = sheet.margin(8 * UNIT, 0, 0, 0).titled(title, font(18))?;
+        let areas = sheet.split_evenly((panes.len().max(1), 1));
+        for (area, pane) in areas.iter().zip(panes) {
+            draw(area, pane)?;
+        }
+        sheet.present()?;
+        Ok(())
+    })
+}
+
+fn draw(area: &DrawingArea<SVGBackend<'_>, plotters::coord::Shift>, pane: &Pane) -> Drawing<()> {
+    let points = || pane.curves.iter().flat_map(|curve| curve.points.iter());
+    let across = range(points().map(|(x, _)| *x));
+    let upwards = range(points().map(|(_, y)| *y));
+    let (area, beside) = area.split_horizontally(WIDTH - LEGEND);
+    let [width, height] = [&across, &upwards].map(|range| range.end - range.start);
+    // Ticks are multiples of a step, and rounding makes 7e-18 of the one at zero.
+    let label = |x: &f64, span: f64| short(if x.abs() < 1e-9 * span { 0.0 } else { *x });
+    let mut chart = ChartBuilder::on(&area)
+        .margin(6 * UNIT)
+        .margin_right(2 * UNIT)
+        .x_label_area_size(34 * UNIT)
+        .y_label_area_size(72 * UNIT)
+        .build_cartesian_2d(across, upwards)?;
+    axes!(chart)
+        .x_desc(pane.along[0].as_str())
+        .y_desc(pane.along[1].as_str())
+        .y_labels(5)
+        .x_label_formatter(&|x| label(x, width))
+        .y_label_formatter(&|y| label(y, height))
+        .draw()?;
+    let colours = COLOURS.iter().cycle();
+    for (curve, colour) in pane.curves.iter().zip(colours.clone()) {
+        let finite = curve.points.iter().copied();
+        let finite = finite.filter(|(x, y)| x.is_finite() && y.is_finite());
+        match pane.are_points {
+            true => {
+                let dots = finite.map(|point| Circle::new(point, UNIT, colour.filled()));
+                chart.draw_series(dots)?;
+            }
+            false => {
+                let (x, y): (Vec<f64>, Vec<f64>) = finite.unzip();
+                let style = colour.stroke_width(UNIT + UNIT / 4);
+                chart.draw_series(LineSeries::new(thin(&x, &y, POINTS), style))?;
+            }
+        }
+    }
+    let place = |row: usize| (row as i32 * 17 + 16) * UNIT as i32;
+    for (row, (curve, colour)) in pane.curves.iter().zip(colours).take(NAMES).enumerate() {
+        let (left, y) = (4 * UNIT as i32, place(row));
+        let line = [(left, y), (left + 16 * UNIT as i32, y)];
+        beside.draw(&PathElement::new(line, colour.stroke_width(2 * UNIT)))?;
+        let middle = font(12).pos(Pos::new(HPos::Left, VPos::Center));
+        let text = Text::new(curve.name.clone(), (left + 22 * UNIT as i32, y), middle);
+        beside.draw(&text)?;
+    }
+    if pane.curves.len() > NAMES {
+        let more = format!("and {} more", pane.curves.len() - NAMES);
+        beside.draw(&Text::new(more, (4 * UNIT as i32, place(NAMES)), font(12)))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,646 @@
+//! `lagrangian orbit`: periodic motions, their multipliers, and what becomes of them along a parameter.
+
+use std::fmt::Write as _;
+
+use lagrangian::interpreted::{InterpretedMachine, Named};
+use lagrangian::{Machine, Simulation, State, System};
+use lagrangian_linear::DMatrix;
+use lagrangian_linear::orbit::{
+    self, Multiplier, NoOrbit, Orbit, Period, Sought, Stability, Trace,
+};
+use lagrangian_mechanics::Compiled;
+use lagrangian_spec::model::{Variable, stage};
+use lagrangian_symbolic::Dag;
+use serde_json::{Value, json};
+
+use crate::call;
+use crate::drawing::{self, Curve, Pane};
+use crate::evaluate::set_start;
+use crate::failure::Failure;
+use crate::linearize::arrays::{Array, Content};
+use crate::linearize::{mat, npz};
+use crate::modes::{self, number};
+use crate::numbers::{by_name, shortest};
+use crate::output::{self, Destination, ORBIT, SVG, TABLE, keep_apart};
+use crate::reading::{self, Reading};
+use crate::recording::Recording;
+use crate::runs::{self, header};
+use crate::{inputs, plot, progress, simulate, table};
+
+/// How often a period is recorded.
+const SAMPLES: f64 = 400.0;
+
+/// A machine, and where its period is.
+struct Ready<'d> {
+    compiled: Compiled<'d>,
+    machine: InterpretedMachine,
+    /// The formula of the period, and the output that it is.
+    period: Option<(String, usize)>,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// If the spec or the call is at fault, or there is no orbit near the start.
+pub fn run(call: &call::Orbit) -> Result<(), Failure> {
+    let endings = if call.along.is_some() { TABLE } else { ORBIT };
+    let files = [
+        Destination::of("--out", call.out.as_ref(), endings)?,
+        Destination::of("--plot", call.plot.as_ref(), SVG)?,
+    ];
+    let all: Vec<&Destination> = files.iter().flatten().collect();
+    output::keep_document_apart(all.iter().copied(), call.spec.json)?;
+    keep_apart(all.iter().copied(), &[(&call.spec.path, "the spec")])?;
+    let dag = Dag::new();
+    let ready = ready(call, &dag, &all)?;
+    let sought = sought(call, &ready)?;
+    progress::now("looking for the orbit");
+    if let Some(vary) = &call.along {
+        return along(call, &ready, &sought, vary, &files);
+    }
+    let orbit = orbit::find(&ready.machine, &sought).map_err(|none| said(&none, call))?;
+    if let Some(file) = &files[0] {
+        match file.ending() {
+            "npz" => {
+                file.write(|to| to.write_all(&npz::bytes(&arrays(&ready.machine, &orbit))?))?
+            }
+            "mat" => file.write(|to| to.write_all(&mat::bytes(&arrays(&ready.machine, &orbit))))?,
+            "json" => file.write_text(&format!("{:#}\n", as_json(&ready.machine, &orbit)))?,
+            _ => table::write(&motion(&ready.machine, &orbit, call)?, file)?,
+        }
+    }
+    if let Some(file) = &files[1] {
+        let recording = motion(&ready.machine, &orbit, call)?;
+        file.write_text(&plot::svg(ready.machine.name(), &recording).map_err(Failure::Run)?)?;
+    }
+    match call.spec.json {
+        true => output::line(format_args!("{:#}", as_json(&ready.machine, &orbit))),
+        false => output::text(&text(&orbit)),
+    }
+    Ok(())
+}
+
+/// Why there is none, with the options that help.
+fn said(none: &NoOrbit, call: &call::Orbit) -> Failure {
+    let help = match none {
+        NoOrbit::Driven(_) if call.near.is_some() => {
+            "; --near is for machines that nothing drives, --period gives one"
+        }
+        NoOrbit::Driven(_) => "; --period gives it, as in --period 2*pi/omega",
+        NoOrbit::NoReturn => " (--near)",
+        NoOrbit::Lost(..) => " (--start, --rate, --settle)",
+        NoOrbit::Rest => " (--start, --keep)",
+        NoOrbit::OtherPlace(_) => "; --advance is to be whole turns of what the machine depends on",
+        _ => "",
+    };
+    Failure::Run(format!("{none}{help}"))
+}
+
+/// The machine of a call, derived with the derivatives that variational equations take.
+fn ready<'d>(
+    call: &call::Orbit,
+    dag: &'d Dag,
+    files: &[&Destination],
+) -> Result<Ready<'d>, Failure> {
+    let mut reading = Reading::open(&call.spec)?;
+    if let Some(period) = &call.period {
+        reading.ask("--period TIME", period, Some("s"));
+    }
+    let compiled = modes::compiled_with(
+        reading,
+        dag,
+        files.iter().copied(),
+        "periodic orbit",
+        |model| {
+            if let Some(period) = &call.period
+                && let Some(output) = model.outputs.last()
+                && output.value.stage() > stage::PARAMETER
+            {
+                return Err(Failure::Call(format!(
+                    "--period {period}: a period is made of numbers and parameters"
+                )));
+            }
+            differentiate(
+                &mut model.derivatives,
+                Variable::of_state(model.coordinates.len()),
+            );
+            Ok(())
+        },
+    );
+    let compiled = compiled.map_err(inputs::told)?;
+    let machine = reading::machine(&compiled, &call.start)?;
+    machine.check_parameters().map_err(|missing| {
+        Failure::Run(format!(
+            "{missing}; set them with --set {}=…",
+            missing.names.join("=… --set ")
+        ))
+    })?;
+    reading::check_kept(&machine.start(), &call.keep)?;
+    if let Some(constraint) = machine.prepare().constraints().next() {
+        return Err(Failure::Run(format!(
+            "the start of a machine with constraints moves along them, and so it has no variational equations here (`{}`): say the \
+             machine in coordinates that are independent",
+            constraint.name
+        )));
+    }
+    let period = call
+        .period
+        .clone()
+        .map(|formula| (formula, compiled.model.outputs.len() - 1));
+    Ok(Ready {
+        compiled,
+        machine,
+        period,
+    })
+}
+
+/// Adds variables by which accelerations are differentiated, in the order of declarations.
+pub fn differentiate(
+    derivatives: &mut Vec<Variable>,
+    variables: impl IntoIterator<Item = Variable>,
+) {
+    derivatives.extend(variables);
+    derivatives.sort_unstable();
+    derivatives.dedup();
+}
+
+/// Where the call says to look.
+fn sought(call: &call::Orbit, ready: &Ready<'_>) -> Result<Sought, Failure> {
+    let machine = &ready.machine;
+    let mut start = machine.start();
+    set_start(&mut start, &call.start)?;
+    let period = match (&ready.period, call.near) {
+        (Some((formula, output)), _) => Period::Given(runs::period_of(
+            machine, &start, *output, "--period", formula,
+        )?),
+        (None, Some(near)) => Period::Near(near),
+        (None, None) => Period::Sought,
+    };
+    let n = start.q.values.len();
+    let mut advance = start.q.clone();
+    advance.values.fill(0.0);
+    for set in &call.advance {
+        let unit = advance.unit(&set.name).unwrap_or("1").to_owned();
+        reading::assign(&mut advance, set, "--advance", &unit)?;
+    }
+    let mut kept = vec![false; 2 * n];
+    for name in reading::kept_names(&call.keep).unwrap_or_default() {
+        let rate = name
+            .strip_prefix("der(")
+            .and_then(|rate| rate.strip_suffix(')'));
+        let shift = if rate.is_some() { n } else { 0 };
+        for place in places(&start.q, rate.unwrap_or(name)) {
+            kept[shift + place] = true;
+        }
+    }
+    let mut sought = Sought {
+        period,
+        kept,
+        advance: advance.values,
+        tolerance: call.tolerance,
+        ..Sought::near(start, period)
+    };
+    if let Some(settle) = call.settle {
+        let t = match period {
+            Period::Given(period) => (settle / period).ceil() * period,
+            _ => settle,
+        };
+        settled(machine, &mut sought, t)?;
+    }
+    Ok(sought)
+}
+
+/// Lets the start run for a time, and takes the end as start, at the time of the start: the same place of a period.
+fn settled(machine: &InterpretedMachine, sought: &mut Sought, time: f64) -> Result<(), Failure> {
+    let start = sought.start.clone();
+    let t = start.t;
+    let run = Simulation::new(machine)
+        .tolerance(sought.tolerance.max(1e-10))
+        .until(t + time)
+        .forget_steps()
+        .run(start)
+        .map_err(Failure::run)?;
+    sought.start = State {
+        t,
+        ..run.end().clone()
+    };
+    // What has gone on has come to the same place.
+    Ok(())
+}
+
+/// Which of some numbers a name means: one, or a family.
+pub fn places(numbers: &Named, name: &str) -> Vec<usize> {
+    let mut probe = numbers.clone();
+    probe.values.fill(0.0);
+    match probe.set(name, 1.0) {
+        Ok(()) => (0..probe.values.len())
+            .filter(|k| probe.values[*k] != 0.0)
+            .collect(),
+        Err(_) => Vec::new(),
+    }
+}
+
+/// One period of the motion.
+fn motion(
+    machine: &InterpretedMachine,
+    orbit: &Orbit,
+    call: &call::Orbit,
+) -> Result<Recording, Failure> {
+    let start = orbit.start.clone();
+    let signals = lagrangian::interpreted::Signals::new(machine, []).map_err(Failure::run)?;
+    let run = signals
+        .drive(Simulation::new(machine), machine)
+        .tolerance(call.tolerance)
+        .until(start.t + orbit.period)
+        .every(orbit.period / SAMPLES)
+        .energy_balance(true)
+        .forget_steps()
+        .run(start)
+        .map_err(Failure::run)?;
+    Ok(simulate::record(&run))
+}
+
+/// Names of coordinates, then of rates.
+fn states(machine: &InterpretedMachine) -> Vec<String> {
+    let system = machine.prepare();
+    let names: Vec<String> = system.coordinates().map(|q| q.name.to_owned()).collect();
+    let rates = names.iter().map(|name| format!("der({name})"));
+    names.iter().cloned().chain(rates).collect()
+}
+
+fn arrays(machine: &InterpretedMachine, orbit: &Orbit) -> Vec<Array> {
+    let vector = |name, values: Vec<f64>| Array {
+        name,
+        content: Content::Vector(values),
+    };
+    let of = |part: fn(&Multiplier) -> f64| orbit.multipliers.iter().map(part).collect();
+    vec![
+        vector("period", vec![orbit.period]),
+        vector("t", vec![orbit.start.t]),
+        vector("q", orbit.start.q.values.clone()),
+        vector("v", orbit.start.v.values.clone()),
+        Array {
+            name: "monodromy",
+            content: Content::Matrix(orbit.monodromy.clone()),
+        },
+        vector("multipliers_re", of(|one| one.value.re)),
+        vector("multipliers_im", of(|one| one.value.im)),
+        vector("multipliers_error", of(|one| one.error)),
+        Array {
+            name: "states",
+            content: Content::Text(states(machine)),
+        },
+    ]
+}
+
+fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
+    matrix
+        .row_iter()
+        .map(|row| row.iter().copied().collect())
+        .collect()
+}
+
+fn multiplier_json(one: &Multiplier) -> Value {
+    json!({
+        "re": one.value.re,
+        "im": one.value.im,
+        "modulus": one.value.norm(),
+        "error": one.error,
+        "trivial": one.is_trivial,
+    })
+}
+
+fn as_json(machine: &InterpretedMachine, orbit: &Orbit) -> Value {
+    let multipliers: Vec<Value> = orbit.multipliers.iter().map(multiplier_json).collect();
+    json!({
+        "period": orbit.period,
+        "at": {"t": orbit.start.t, "q": by_name(&orbit.start.q), "v": by_name(&orbit.start.v)},
+        "autonomous": orbit.is_autonomous,
+        "states": states(machine),
+        "monodromy": rows(&orbit.monodromy),
+        "multipliers": multipliers,
+        "stability": orbit.stability().name(),
+        "family": orbit.family,
+        "residual": orbit.residual,
+        "rounds": orbit.rounds,
+    })
+}
+
+fn verdict(orbit: &Orbit) -> &'static str {
+    match orbit.stability() {
+        Stability::Attracting => "stable: what is beside it comes back to it",
+        Stability::Unstable => "unstable: what is beside it goes away",
+        Stability::Undecided => {
+            "undecided: of what is beside it some neither comes back nor goes away, as far as multipliers tell"
+        }
+    }
+}
+
+fn text(orbit: &Orbit) -> String {
+    let drive = match orbit.is_autonomous {
+        true => "nothing drives the machine",
+        false => "the machine is driven",
+    };
+    let mut text = format!("period {} s; {drive}\n", number(orbit.period));
+    text.push_str("a start of the orbit:\n");
+    let start = &orbit.start;
+    let width = start
+        .q
+        .iter()
+        .map(|(name, _)| name.chars().count())
+        .max()
+        .unwrap_or(0);
+    for ((name, q), v) in start.q.iter().zip(&start.v.values) {
+        let unit = match start.q.unit(name) {
+            None | Some("1") => String::new(),
+            Some(unit) => format!(" {unit}"),
+        };
+        // Writing to a String cannot fail.
+        let _ = writeln!(
+            text,
+            "  {name:width$} = {}{unit}, der({name}) = {}{unit}/s",
+            shortest(q),
+            shortest(*v)
+        );
+    }
+    let rounds = match orbit.rounds {
+        1 => "1 round".to_owned(),
+        rounds => format!("{rounds} rounds"),
+    };
+    let _ = writeln!(
+        text,
+        "it closes up to {:.1e}, after {rounds}",
+        orbit.residual
+    );
+    match orbit.family {
+        0 => {}
+        1 => text.push_str(
+            "it is one of a family, as of many energies: that which is nearest to the start; --keep, --start or --period choose another\n",
+        ),
+        family => {
+            let _ = writeln!(
+                text,
+                "it is one of a family of {family} numbers: that which is nearest to the start; --keep, --start or --period choose another"
+            );
+        }
+    }
+    text.push_str("Floquet multipliers:\n");
+    for one in orbit.multipliers.iter().filter(|one| one.value.im >= 0.0) {
+        let (re, im) = (number(one.value.re), number(one.value.im));
+        let value = match (one.value.im != 0.0, one.is_trivial) {
+            (_, true) => "1 along the motion".to_owned(),
+            (true, _) => format!("{re} ± {im}i, modulus {}", number(one.value.norm())),
+            (false, _) => re,
+        };
+        let _ = writeln!(text, "  {value}, known up to {:.1e}", one.error);
+    }
+    let _ = writeln!(text, "{}", verdict(orbit));
+    text
+}
+
+/// Follows the orbit, and writes and tells what is found.
+fn along(
+    call: &call::Orbit,
+    ready: &Ready<'_>,
+    sought: &Sought,
+    vary: &call::Vary,
+    files: &[Option<Destination>; 2],
+) -> Result<(), Failure> {
+    let machine = &ready.machine;
+    let unit = machine.unit(&vary.name).map(str::to_owned).ok_or_else(|| {
+        let mut probe = machine.clone();
+        match probe.set(&vary.name, 1.0) {
+            Err(unknown) => match reading::name_error("parameter or input", &unknown) {
+                Failure::Call(said) => Failure::Call(format!("--along {}: {said}", vary.name)),
+                other => other,
+            },
+            Ok(()) => Failure::Call(format!("--along {}: it has no unit", vary.name)),
+        }
+    })?;
+    let end = |set: &call::Assignment| set.value("--along", &unit).map_err(Failure::Call);
+    let (from, to) = (end(&vary.ends[0])?, end(&vary.ends[1])?);
+    if from == to {
+        return Err(Failure::Call(format!(
+            "--along {}: from {from} to {to} there is nothing to vary",
+            vary.name
+        )));
+    }
+    let last = vary.count - 1;
+    let values: Vec<f64> = (0..vary.count)
+        .map(|k| {
+            if k == last {
+                to
+            } else {
+                from + (to - from) * (k as f64 / last as f64)
+            }
+        })
+        .collect();
+    let make = |value: f64| -> Result<(InterpretedMachine, Option<f64>), Stop> {
+        let mut machine = machine.clone();
+        machine
+            .set(&vary.name, value)
+            .map_err(|wrong| Stop::Said(Failure::run(wrong)))?;
+        let said = ready
+            .compiled
+            .model
+            .refused_values(machine.parameter_values());
+        crate::diagnostics::refused(&said).map_err(|said| Stop::Said(Failure::Call(said)))?;
+        let period = match &ready.period {
+            None => None,
+            Some((formula, output)) => {
+                let start = machine.start();
+                let period = runs::period_of(&machine, &start, *output, "--period", formula);
+                Some(period.map_err(Stop::Said)?)
+            }
+        };
+        Ok((machine, period))
+    };
+    let trace = orbit::follow(make, sought, &values).map_err(|stop| match stop {
+        Stop::Said(failure) => failure,
+        Stop::None(none) => said(&none, call),
+    })?;
+    let label = header(&vary.name, Some(&unit));
+    if let Some(file) = &files[0] {
+        let columns = columns(machine, &trace, &label);
+        let columns: Vec<(String, &[f64])> = columns
+            .iter()
+            .map(|(name, values)| (name.clone(), values.as_slice()))
+            .collect();
+        table::write_columns(&columns, file)?;
+    }
+    if let Some(file) = &files[1] {
+        let drawn = drawing::svg(machine.name(), &panes(&trace, &label));
+        file.write_text(&drawn.map_err(Failure::Run)?)?;
+    }
+    match call.spec.json {
+        true => {
+            let points = trace.points.iter().map(|point| match &point.orbit {
+                Ok(orbit) => {
+                    let mut document = as_json(machine, orbit);
+                    document["value"] = json!(point.value);
+                    document
+                }
+                Err(none) => json!({"value": point.value, "error": none.to_string()}),
+            });
+            let changes = trace.changes.iter().map(|changed| {
+                json!({
+                    "between": changed.between,
+                    "change": changed.change.name(),
+                    "multiplier": {"re": changed.multiplier.re, "im": changed.multiplier.im},
+                })
+            });
+            let document = json!({
+                "along": {"name": vary.name, "unit": unit},
+                "points": points.collect::<Vec<Value>>(),
+                "changes": changes.collect::<Vec<Value>>(),
+            });
+            output::line(format_args!("{document:#}"));
+        }
+        false => output::text(&text_of_trace(&trace, &vary.name, &unit)),
+    }
+    Ok(())
+}
+
+/// Why a range is given up.
+enum Stop {
+    Said(Failure),
+    None(NoOrbit),
+}
+
+impl From<NoOrbit> for Stop {
+    fn from(none: NoOrbit) -> Stop {
+        Stop::None(none)
+    }
+}
+
+/// A row for each multiplier of each orbit.
+fn columns(machine: &InterpretedMachine, trace: &Trace, label: &str) -> Vec<(String, Vec<f64>)> {
+    let found: Vec<(f64, &Orbit, &Multiplier)> = trace
+        .points
+        .iter()
+        .filter_map(|point| point.orbit.as_ref().ok().map(|orbit| (point.value, orbit)))
+        .flat_map(|(value, orbit)| orbit.multipliers.iter().map(move |one| (value, orbit, one)))
+        .collect();
+    let column = |name: &str, of: &dyn Fn(&(f64, &Orbit, &Multiplier)) -> f64| {
+        (name.to_owned(), found.iter().map(of).collect())
+    };
+    let mut columns = vec![
+        column(label, &|row| row.0),
+        column("period [s]", &|row| row.1.period),
+        column("re", &|row| row.2.value.re),
+        column("im", &|row| row.2.value.im),
+        column("modulus", &|row| row.2.value.norm()),
+        column("error", &|row| row.2.error),
+        column("trivial", &|row| f64::from(u8::from(row.2.is_trivial))),
+    ];
+    let system = machine.prepare();
+    for (k, coordinate) in system.coordinates().enumerate() {
+        let name = header(coordinate.name, Some(coordinate.unit));
+        columns.push(column(&name, &|row| row.1.start.q.values[k]));
+    }
+    for (k, coordinate) in system.coordinates().enumerate() {
+        let unit = match coordinate.unit {
+            "1" => "1/s".to_owned(),
+            unit => format!("{unit}/s"),
+        };
+        let name = header(&format!("der({})", coordinate.name), Some(&unit));
+        columns.push(column(&name, &|row| row.1.start.v.values[k]));
+    }
+    columns
+}
+
+/// The period and the moduli of the multipliers.
+fn panes(trace: &Trace, label: &str) -> Vec<Pane> {
+    let found: Vec<(f64, &Orbit)> = trace
+        .points
+        .iter()
+        .filter_map(|point| point.orbit.as_ref().ok().map(|orbit| (point.value, orbit)))
+        .collect();
+    let most = found
+        .iter()
+        .map(|(_, orbit)| orbit.multipliers.len())
+        .max()
+        .unwrap_or(0);
+    // Multipliers stand in the order of their moduli.
+    let moduli = (0..most).map(|k| Curve {
+        name: format!("multiplier {}", k + 1),
+        points: found
+            .iter()
+            .filter_map(|(value, orbit)| {
+                let mut own: Vec<f64> = orbit
+                    .multipliers
+                    .iter()
+                    .map(|one| one.value.norm())
+                    .collect();
+                own.sort_by(|a, b| b.total_cmp(a));
+                own.get(k).map(|modulus| (*value, *modulus))
+            })
+            .collect(),
+    });
+    let periods = found.iter().map(|(value, orbit)| (*value, orbit.period));
+    vec![
+        Pane {
+            along: [label.to_owned(), "modulus".to_owned()],
+            curves: moduli.collect(),
+            are_points: false,
+        },
+        Pane {
+            along: [label.to_owned(), "period [s]".to_owned()],
+            curves: vec![Curve {
+                name: "period".to_owned(),
+                points: periods.collect(),
+            }],
+            are_points: false,
+        },
+    ]
+}
+
+fn text_of_trace(trace: &Trace, name: &str, unit: &str) -> String {
+    let unit = if unit == "1" {
+        String::new()
+    } else {
+        format!(" {unit}")
+    };
+    let found = trace
+        .points
+        .iter()
+        .filter(|point| point.orbit.is_ok())
+        .count();
+    let mut text = format!(
+        "{found} orbits at {} values of {name}\n",
+        trace.points.len()
+    );
+    let mut before: Option<&'static str> = None;
+    for point in &trace.points {
+        let now = point
+            .orbit
+            .as_ref()
+            .map_or("lost", |orbit| orbit.stability().name());
+        if before.replace(now) != Some(now) {
+            let why = point.orbit.as_ref().err().map(|none| format!(": {none}"));
+            // Writing to a String cannot fail.
+            let _ = writeln!(
+                text,
+                "  from {name} = {}{unit} on: {now}{}",
+                number(point.value),
+                why.unwrap_or_default()
+            );
+        }
+    }
+    for changed in &trace.changes {
+        let [from, to] = changed.between;
+        let (re, im) = (number(changed.multiplier.re), changed.multiplier.im);
+        let value = match im == 0.0 {
+            true => re,
+            false => format!("{re} ± {}i", number(im.abs())),
+        };
+        let _ = writeln!(
+            text,
+            "  {} between {name} = {}{unit} and {}{unit}: a multiplier of {value}",
+            changed.change.name(),
+            shortest(from),
+            shortest(to)
+        );
+    }
+    text
+}

@@ -1,0 +1,193 @@
+//! `lagrangian peaks`: maxima and minima of a run, with the period and the decrement of what swings.
+
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+
+use lagrangian_analysis::extremes::{Extreme, extremes};
+use serde_json::{Value, json};
+
+use crate::call;
+use crate::failure::Failure;
+use crate::modes::number;
+use crate::output::{self, Destination, TABLE};
+use crate::runs::{self, Quantity};
+use crate::table;
+
+/// How many extremes are printed.
+const SHOWN: usize = 10;
+
+/// A quantity with its extremes.
+struct Found<'a> {
+    quantity: &'a Quantity,
+    extremes: Vec<Extreme>,
+}
+
+impl Found<'_> {
+    /// The mean time from a maximum to the next, and from a minimum to the next.
+    fn period(&self) -> Option<f64> {
+        let count = self.extremes.len();
+        match self.extremes.as_slice() {
+            // As many maxima as minima more than the first: whole periods.
+            [first, .., last] if count > 2 => {
+                let last = if count % 2 == 1 {
+                    last
+                } else {
+                    &self.extremes[count - 2]
+                };
+                let halves = (count - 1) / 2 * 2;
+                Some(2.0 * (last.t - first.t) / halves as f64)
+            }
+            _ => None,
+        }
+    }
+
+    /// The logarithm of the quotient of two swings that are a period apart, in the mean of all: a swing goes from an extreme to
+    /// the next, so that it does not matter about what the quantity swings.
+    fn decrement(&self) -> Option<f64> {
+        let swings = self.extremes.windows(2);
+        let swings: Vec<f64> = swings
+            .map(|pair| (pair[1].value - pair[0].value).abs())
+            .collect();
+        match swings.as_slice() {
+            [first, .., last] if *first > 0.0 && *last > 0.0 => {
+                Some(2.0 * (first / last).ln() / (swings.len() - 1) as f64)
+            }
+            _ => None,
+        }
+    }
+
+    /// The damping ratio of a linear oscillation with that decrement.
+    fn damping(&self) -> Option<f64> {
+        self.decrement()
+            .map(|decrement| decrement / decrement.hypot(TAU))
+    }
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// If the spec, the table, the call or the run is at fault.
+pub fn run(call: &call::Peaks) -> Result<(), Failure> {
+    let file = Destination::of("--out", call.out.as_ref(), TABLE)?;
+    output::keep_document_apart(&file, call.part.runs.json)?;
+    let all: Vec<&Destination> = file.iter().collect();
+    let columns = runs::one(&call.part, &all)?;
+    let chosen = columns.chosen(&call.part.of, &call.part.run)?;
+    let found: Vec<Found> = chosen
+        .into_iter()
+        .map(|quantity| {
+            let rates = columns.rates(&quantity.name);
+            let curve = columns.curve(quantity, rates.as_deref(), call::Interpolation::Cubic);
+            // Extremes that differ by less than rounding are none.
+            let largest = quantity
+                .values
+                .iter()
+                .fold(0.0_f64, |most, x| most.max(x.abs()));
+            let ripple = call.ripple.unwrap_or(64.0 * f64::EPSILON * largest);
+            Found {
+                extremes: extremes(&curve, rates.as_deref(), ripple),
+                quantity,
+            }
+        })
+        .collect();
+    if let Some(file) = &file {
+        write(&found, file)?;
+    }
+    match call.part.runs.json {
+        true => {
+            let quantities: Vec<Value> = found.iter().map(as_json).collect();
+            output::line(format_args!("{:#}", json!({ "quantities": quantities })));
+        }
+        false => output::text(&text(&found)),
+    }
+    Ok(())
+}
+
+/// A row for each extreme: of which quantity by its number, when, its value, and 1 for a maximum, −1 for a minimum.
+fn write(found: &[Found], file: &Destination) -> Result<(), Failure> {
+    let rows: Vec<(usize, &Extreme)> = found
+        .iter()
+        .enumerate()
+        .flat_map(|(k, one)| one.extremes.iter().map(move |extreme| (k + 1, extreme)))
+        .collect();
+    let column = |of: &dyn Fn(&(usize, &Extreme)) -> f64| rows.iter().map(of).collect::<Vec<f64>>();
+    let side = |is_maximum| if is_maximum { 1.0 } else { -1.0 };
+    let columns = [
+        ("quantity", column(&|row| row.0 as f64)),
+        ("t [s]", column(&|row| row.1.t)),
+        ("value", column(&|row| row.1.value)),
+        ("maximum", column(&|row| side(row.1.is_maximum))),
+    ];
+    let columns: Vec<(String, &[f64])> = columns
+        .iter()
+        .map(|(name, values)| ((*name).to_owned(), values.as_slice()))
+        .collect();
+    table::write_columns(&columns, file)
+}
+
+fn text(found: &[Found]) -> String {
+    let mut text = String::new();
+    for one in found {
+        let unit = one.quantity.unit.as_deref().filter(|unit| *unit != "1");
+        let unit = unit.map_or_else(String::new, |unit| format!(" {unit}"));
+        let maxima = one
+            .extremes
+            .iter()
+            .filter(|extreme| extreme.is_maximum)
+            .count();
+        // Writing to a String cannot fail.
+        let _ = write!(
+            text,
+            "{}: {maxima} maxima, {} minima",
+            one.quantity.name,
+            one.extremes.len() - maxima
+        );
+        if let Some(period) = one.period() {
+            let _ = write!(text, "; period {} s", number(period));
+        }
+        if let (Some(decrement), Some(damping)) = (one.decrement(), one.damping()) {
+            let (decrement, damping) = (number(decrement), number(damping));
+            let _ = write!(
+                text,
+                ", logarithmic decrement {decrement}, damping ratio {damping}"
+            );
+        }
+        text.push('\n');
+        for extreme in one.extremes.iter().take(SHOWN) {
+            let what = if extreme.is_maximum {
+                "maximum"
+            } else {
+                "minimum"
+            };
+            let (value, t) = (number(extreme.value), number(extreme.t));
+            let _ = writeln!(text, "  {what} {value}{unit} at t = {t} s");
+        }
+        if one.extremes.len() > SHOWN {
+            let _ = writeln!(
+                text,
+                "  and {} more, with --json or --out",
+                one.extremes.len() - SHOWN
+            );
+        }
+    }
+    text
+}
+
+fn as_json(one: &Found) -> Value {
+    let extremes = one.extremes.iter().map(|extreme| {
+        let kind = if extreme.is_maximum {
+            "maximum"
+        } else {
+            "minimum"
+        };
+        json!({"t": extreme.t, "value": extreme.value, "kind": kind})
+    });
+    json!({
+        "name": one.quantity.name,
+        "unit": one.quantity.unit,
+        "period": one.period(),
+        "decrement": one.decrement(),
+        "damping": one.damping(),
+        "extremes": extremes.collect::<Vec<Value>>(),
+    })
+}

@@ -1,0 +1,494 @@
+//! Runs that are there as tables, and those that are made of specs in their place.
+
+use std::path::{Path, PathBuf};
+
+use lagrangian::interpreted::{InterpretedMachine, TableFile};
+use lagrangian::methods::{Method, TAYLOR};
+use lagrangian::{Crossing, Machine, Simulation, State, System};
+use lagrangian_analysis::Curve;
+use lagrangian_analysis::curve::Between;
+use lagrangian_spec::diagnostic::{Report, nearest};
+use lagrangian_spec::model::stage;
+use lagrangian_spec::resolve::value_in;
+use lagrangian_spec::source::Sources;
+use lagrangian_sweep::{signals, verdict};
+use lagrangian_symbolic::Dag;
+
+use crate::call::{self, Assignment};
+use crate::evaluate::set_start;
+use crate::failure::Failure;
+use crate::output::{Destination, MACHINE, TABLE, ending_is_one_of, keep_apart};
+use crate::reading::{self, Reading};
+use crate::recording::{Kind, Recording, Run};
+use crate::{inputs, simulate};
+
+/// How often a run is recorded where the call does not say.
+const SAMPLES: f64 = 1000.0;
+
+/// How many steps a run takes at most where the call does not say.
+const STEPS: usize = 10_000_000;
+
+/// The tolerance of a run where the call does not say.
+const TOLERANCE: f64 = 1e-9;
+
+/// A column of a run.
+#[derive(Clone, Debug)]
+pub struct Quantity {
+    /// Its name.
+    pub name: String,
+    /// Its unit, where it is known.
+    pub unit: Option<String>,
+    /// Its values.
+    pub values: Vec<f64>,
+    /// What it is, of a run of a spec.
+    pub kind: Option<Kind>,
+}
+
+impl Quantity {
+    /// `theta [rad]`.
+    pub fn header(&self) -> String {
+        header(&self.name, self.unit.as_deref())
+    }
+}
+
+/// `theta [rad]`.
+pub fn header(name: &str, unit: Option<&str>) -> String {
+    match unit {
+        None | Some("1") => name.to_owned(),
+        Some(unit) => format!("{name} [{unit}]"),
+    }
+}
+
+/// A run, column by column.
+#[derive(Clone, Debug)]
+pub struct Columns {
+    /// The instants, in s, which increase.
+    pub times: Vec<f64>,
+    /// The columns; all as long as `times`.
+    pub columns: Vec<Quantity>,
+    /// Whether it was made of a spec.
+    pub is_spec: bool,
+}
+
+impl Columns {
+    fn of(recording: Recording) -> Columns {
+        let columns = recording.columns.into_iter().map(|column| Quantity {
+            name: column.name,
+            unit: Some(column.unit),
+            values: column.values,
+            kind: Some(column.kind),
+        });
+        Columns {
+            times: recording.times,
+            columns: columns.collect(),
+            is_spec: true,
+        }
+    }
+
+    fn of_table(file: &TableFile) -> Result<Columns, Failure> {
+        let (mut times, mut columns) = (Vec::new(), Vec::new());
+        for (name, unit) in file.columns() {
+            let read = file.column_with_gaps(&name);
+            let (own, values) = read.map_err(|wrong| Failure::Call(wrong.to_string()))?;
+            times = own;
+            columns.push(Quantity {
+                name,
+                unit,
+                values,
+                kind: None,
+            });
+        }
+        Ok(Columns {
+            times,
+            columns,
+            is_spec: false,
+        })
+    }
+
+    /// The column of this name.
+    pub fn get(&self, name: &str) -> Option<&Quantity> {
+        self.columns.iter().find(|column| column.name == name)
+    }
+
+    /// The rates of a column, in its unit per second; none where there is no such column, or its unit is another.
+    pub fn rates(&self, name: &str) -> Option<Vec<f64>> {
+        let own = self.get(name)?;
+        let rate = self.get(&format!("der({name})"))?;
+        let wanted = own.unit.as_ref().map(|unit| format!("({unit})/s"));
+        let factor = match (&rate.unit, &wanted) {
+            (Some(rate), Some(wanted)) => factor(rate, wanted)?,
+            _ => 1.0,
+        };
+        Some(rate.values.iter().map(|x| x * factor).collect())
+    }
+
+    /// The columns that are asked for; where none is, the coordinates: of a table the columns that have one of rates, or all where none
+    /// has.
+    ///
+    /// # Errors
+    /// If there is no such column.
+    pub fn chosen(&self, lists: &[String], run: &Path) -> Result<Vec<&Quantity>, Failure> {
+        let wanted = call::names_of(lists).map_err(Failure::Call)?;
+        if wanted.is_empty() {
+            let has_rates = |column: &&Quantity| match column.kind {
+                Some(kind) => kind == Kind::Coordinate,
+                None => self.get(&format!("der({})", column.name)).is_some(),
+            };
+            let moving: Vec<&Quantity> = self.columns.iter().filter(has_rates).collect();
+            return Ok(match moving.is_empty() {
+                true => self.columns.iter().collect(),
+                false => moving,
+            });
+        }
+        let mut chosen = Vec::new();
+        for name in &wanted {
+            let member = format!("{name}[");
+            let own = self.columns.iter();
+            let own = own.filter(|column| column.name == *name || column.name.starts_with(&member));
+            let before = chosen.len();
+            chosen.extend(own);
+            if chosen.len() == before {
+                return Err(unknown(name, self, run));
+            }
+        }
+        Ok(chosen)
+    }
+
+    /// What lies at a time or behind it.
+    pub fn after(mut self, t: Option<f64>) -> Columns {
+        if let Some(t) = t {
+            let first = self.times.partition_point(|row| *row < t);
+            self.times.drain(..first);
+            for column in &mut self.columns {
+                column.values.drain(..first);
+            }
+        }
+        self
+    }
+
+    /// A column as a function of time, with its rates where there are any.
+    pub fn curve<'a>(
+        &'a self,
+        column: &'a Quantity,
+        rates: Option<&'a [f64]>,
+        between: call::Interpolation,
+    ) -> Curve<'a> {
+        let between = match between {
+            call::Interpolation::Cubic => Between::Hermite,
+            call::Interpolation::Linear => Between::Linear,
+        };
+        Curve::new(&self.times, &column.values, rates, between)
+    }
+}
+
+/// There is no such column.
+pub fn unknown(name: &str, columns: &Columns, run: &Path) -> Failure {
+    let names = || columns.columns.iter().map(|column| column.name.as_str());
+    let help = match nearest(name, names()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("there are: {}", names().collect::<Vec<_>>().join(", ")),
+    };
+    Failure::Call(format!(
+        "--of {name}: {} has no quantity named `{name}`; {help}",
+        run.display()
+    ))
+}
+
+/// How many of a unit another one is; none where they do not measure the same.
+pub fn factor(of: &str, unit: &str) -> Option<f64> {
+    if of == unit {
+        return Some(1.0);
+    }
+    let (mut sources, mut report) = (Sources::new(), Report::new());
+    // A bare number would count as one of the other unit.
+    let text = format!("1*({of})*s/s");
+    let factor = value_in(&text, unit, &mut sources, &mut report);
+    factor.filter(|factor| factor.is_finite() && *factor != 0.0)
+}
+
+/// Whether a path is a spec, and not a table.
+///
+/// # Errors
+/// If it is neither.
+pub fn is_spec(path: &Path) -> Result<bool, Failure> {
+    match (
+        ending_is_one_of(path, MACHINE),
+        ending_is_one_of(path, TABLE),
+    ) {
+        (true, _) => Ok(true),
+        (_, true) => Ok(false),
+        _ => Err(Failure::Call(format!(
+            "{}: a run is a table, `.csv` or `.parquet`, or a spec, `.machine`",
+            path.display()
+        ))),
+    }
+}
+
+/// Refuses options that say how a spec is run where there is none.
+///
+/// # Errors
+/// Which of them.
+pub fn refuse_without_spec(runs: &call::Runs) -> Result<(), Failure> {
+    let given = [
+        ("--const", !runs.constants.is_empty()),
+        ("--until", runs.until.is_some()),
+        ("--every", runs.every.is_some()),
+        ("--tolerance", runs.tolerance.is_some()),
+        ("--method", runs.method.is_some()),
+        ("--max-steps", runs.max_steps.is_some()),
+        ("--input", !runs.inputs.is_empty()),
+        ("--set", !runs.start.parameters.is_empty()),
+        ("--start", !runs.start.coordinates.is_empty()),
+        ("--rate", !runs.start.rates.is_empty()),
+        ("--keep", !runs.keep.names.is_empty()),
+    ];
+    match given.iter().find(|(_, is_given)| *is_given) {
+        Some((option, _)) => Err(Failure::Call(format!(
+            "{option} says how a spec is run, and there is none: a table is taken as it is"
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// Reads a table.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn table(path: &Path) -> Result<Columns, Failure> {
+    let file = signals::table_file(path).map_err(Failure::Call)?;
+    Columns::of_table(&file)
+}
+
+/// At which instants a run is looked at.
+pub enum Looks<'a> {
+    /// Evenly.
+    Even,
+    /// At these, as far as they lie within the run.
+    At(&'a [f64]),
+    /// Where a formula passes 0.
+    Crossing(&'a str, call::Direction),
+    /// Once in a period, a formula of parameters, in s.
+    Period(&'a str),
+}
+
+/// How a spec is run.
+pub struct Options<'a> {
+    pub path: &'a PathBuf,
+    pub runs: &'a call::Runs,
+    pub start: call::Start,
+    pub tolerance: Option<f64>,
+    pub method: Option<&'a str>,
+    pub until: f64,
+}
+
+impl<'a> Options<'a> {
+    /// As a call says of all specs.
+    ///
+    /// # Errors
+    /// If it does not say how long.
+    pub fn of(path: &'a PathBuf, runs: &'a call::Runs, end: Option<f64>) -> Result<Self, Failure> {
+        let until = runs.until.or(end).ok_or_else(|| {
+            let path = path.display();
+            Failure::Call(format!(
+                "{path} is a spec: --until says for how long it is run"
+            ))
+        })?;
+        Ok(Options {
+            path,
+            runs,
+            start: call::Start {
+                parameters: runs.start.parameters.clone(),
+                coordinates: runs.start.coordinates.clone(),
+                rates: runs.start.rates.clone(),
+                running: runs.start.running,
+            },
+            tolerance: runs.tolerance,
+            method: runs.method.as_deref(),
+            until,
+        })
+    }
+}
+
+/// Assignments with others in place of those of the same names.
+pub fn replaced(list: &mut Vec<Assignment>, others: &[Assignment]) {
+    list.retain(|own| others.iter().all(|other| other.name != own.name));
+    list.extend(others.iter().cloned());
+}
+
+/// Runs a spec.
+///
+/// # Errors
+/// If the spec, the call or the run is at fault.
+pub fn spec(
+    options: &Options<'_>,
+    looks: &Looks<'_>,
+    files: &[&Destination],
+) -> Result<Columns, Failure> {
+    let runs = options.runs;
+    let method = simulate::method(options.method.unwrap_or(<&Method>::default().tableau.name))?;
+    if std::ptr::eq(method, &TAYLOR) {
+        return Err(Failure::Call(
+            "--method taylor: `simulate --out` writes a table of such a run, which is taken here"
+                .into(),
+        ));
+    }
+    let written = inputs::written(&runs.inputs)?;
+    let read: Vec<_> = inputs::files(&written).collect();
+    keep_apart(files.iter().copied(), &read)?;
+    let spec = call::Spec {
+        path: options.path.clone(),
+        constants: runs.constants.clone(),
+        json: runs.json,
+    };
+    let dag = Dag::new();
+    let mut reading = Reading::open(&spec)?;
+    let laws = reading.drive(&spec, &written)?;
+    let driving = reading.formulas();
+    match looks {
+        Looks::Crossing(formula, _) => reading.ask("--crossing FORMULA", formula, None),
+        Looks::Period(formula) => reading.ask("--every-period TIME", formula, Some("s")),
+        Looks::Even | Looks::At(_) => {}
+    }
+    let formulas = reading.formulas();
+    let compiled = reading.compile_beside(&dag, files.iter().copied());
+    let compiled = compiled.map_err(inputs::told)?;
+    let machine = reading::machine(&compiled, &options.start)?;
+    machine.check_parameters().map_err(|missing| {
+        Failure::Run(format!(
+            "{missing}; set them with --set {}=…",
+            missing.names.join("=… --set ")
+        ))
+    })?;
+    let own = compiled.model.outputs.len() - formulas;
+    let mut numbers = own..;
+    let signals = signals::signals(&laws, &machine, || numbers.next().unwrap_or(own));
+    let signals = signals.map_err(Failure::Call)?;
+    let asked = own + driving;
+    let mut start = machine.start();
+    set_start(&mut start, &options.start)?;
+    reading::check_kept(&start, &runs.keep)?;
+    let mut simulation = signals
+        .drive(Simulation::new(&machine), &machine)
+        .tolerance(options.tolerance.unwrap_or(TOLERANCE))
+        .method(method)
+        .until(options.until)
+        .max_steps(runs.max_steps.unwrap_or(STEPS))
+        .energy_balance(true);
+    simulation = reading::keep(simulation, &runs.keep);
+    let interval = runs.every.unwrap_or(options.until / SAMPLES);
+    match looks {
+        Looks::Even => simulation = simulation.every(interval).forget_steps(),
+        Looks::At(_) => {}
+        Looks::Crossing(formula, direction) => {
+            let value = &compiled.model.outputs[asked].value;
+            if value.stage() == stage::ACCELERATION {
+                return Err(Failure::Call(format!(
+                    "--crossing {formula}: it depends on accelerations, which may jump"
+                )));
+            }
+            let crossing = match direction {
+                call::Direction::Up => Crossing::Rising,
+                call::Direction::Down => Crossing::Falling,
+                call::Direction::Both => Crossing::Any,
+            };
+            simulation = simulation.event_on("crossing", crossing, move |seen| {
+                seen.outputs.values.get(asked).copied().unwrap_or(f64::NAN)
+            });
+        }
+        Looks::Period(_) => {}
+    }
+    let period = match looks {
+        Looks::Period(formula) => {
+            let stage = compiled.model.outputs[asked].value.stage();
+            if stage > stage::PARAMETER {
+                return Err(Failure::Call(format!(
+                    "--every-period {formula}: a period is made of numbers and parameters"
+                )));
+            }
+            Some(period_of(
+                &machine,
+                &start,
+                asked,
+                "--every-period",
+                formula,
+            )?)
+        }
+        _ => None,
+    };
+    let ran = simulation
+        .run(start)
+        .map_err(|error| Failure::Run(verdict::said(&error)))?;
+    if let Some(objection) = verdict::objection(&ran) {
+        return Err(Failure::Run(objection));
+    }
+    let at = |times: Vec<f64>| -> Result<Recording, Failure> {
+        let states = ran.at_each(times).map_err(Failure::run)?;
+        Ok(Recording::of(&ran, &states))
+    };
+    let end = ran.end().t;
+    let recording = match (looks, period) {
+        (Looks::Even, _) => simulate::record(&ran),
+        (Looks::At(times), _) => {
+            let within = times.iter().copied().filter(|t| (0.0..=end).contains(t));
+            at(within.collect())?
+        }
+        (Looks::Crossing(..), _) => crossings(&ran),
+        (Looks::Period(_), period) => {
+            let period = period.unwrap_or(f64::INFINITY);
+            let count = (end / period * (1.0 + 1e-12)).floor() as usize;
+            let times = (0..=count).map(|k| (k as f64 * period).min(end));
+            at(times.collect())?
+        }
+    };
+    Ok(Columns::of(recording))
+}
+
+/// The states at the events of a run that the call asked for.
+fn crossings(run: &Run) -> Recording {
+    let events = run.events().iter().filter(|event| event.name == "crossing");
+    let states: Vec<State<_>> = events.map(|event| event.state.clone()).collect();
+    Recording::of(run, &states)
+}
+
+/// The value of a formula of parameters that is the output of this number: a period.
+///
+/// # Errors
+/// If it is no time that may be one.
+pub fn period_of(
+    machine: &InterpretedMachine,
+    start: &State<lagrangian::interpreted::Named>,
+    output: usize,
+    option: &str,
+    formula: &str,
+) -> Result<f64, Failure> {
+    let system = machine.prepare();
+    let inputs = system.default_inputs().values;
+    let (q, v) = (&start.q.values, &start.v.values);
+    let period = system.output(output, start.t, q, v, &[], &inputs);
+    match period > 0.0 && period.is_finite() {
+        true => Ok(period),
+        false => Err(Failure::Call(format!(
+            "{option} {formula}: {period} s is no period; expected a time greater than 0"
+        ))),
+    }
+}
+
+/// One run of a call, a table or a spec.
+///
+/// # Errors
+/// If the spec, the table, the call or the run is at fault.
+pub fn one(part: &call::Part, files: &[&Destination]) -> Result<Columns, Failure> {
+    keep_apart(files.iter().copied(), &[(part.run.as_path(), "the run")])?;
+    let columns = match is_spec(&part.run)? {
+        false => {
+            refuse_without_spec(&part.runs)?;
+            table(&part.run)?
+        }
+        true => spec(
+            &Options::of(&part.run, &part.runs, None)?,
+            &Looks::Even,
+            files,
+        )?,
+    };
+    Ok(columns.after(part.after))
+}

@@ -1,0 +1,576 @@
+//! `lagrangian sensitivities`: how a motion changes with parameters, inputs and starts.
+
+use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
+use lagrangian::methods::TAYLOR;
+use lagrangian::{Machine, Sensitive, Simulation, State, System, Varied};
+use lagrangian_program::{Arguments, Interpreter, Role};
+use lagrangian_scalar::Dual;
+use lagrangian_spec::diagnostic::nearest;
+use lagrangian_spec::model::Variable;
+use lagrangian_sweep::verdict;
+use lagrangian_symbolic::Dag;
+use serde_json::{Value, json};
+
+use crate::call;
+use crate::drawing::{self, Curve, Pane};
+use crate::evaluate::set_start;
+use crate::failure::Failure;
+use crate::modes::{self, number};
+use crate::orbit::{differentiate, places};
+use crate::output::{self, Destination, SVG, TABLE, keep_apart};
+use crate::reading::{self, Reading};
+use crate::runs::header;
+use crate::{progress, simulate, table};
+
+/// How often a run is recorded where the call does not say.
+const SAMPLES: f64 = 1000.0;
+
+/// What a motion is differentiated by.
+enum By {
+    /// A parameter, by its number.
+    Parameter(usize),
+    /// An input.
+    Input(usize),
+    /// The start of a coordinate.
+    Start(usize),
+    /// The start of its rate.
+    StartRate(usize),
+}
+
+/// The same, with its name and unit.
+struct Variation {
+    by: By,
+    name: String,
+    unit: String,
+}
+
+/// What is differentiated.
+enum Of {
+    Coordinate(usize),
+    Rate(usize),
+    Output(usize),
+}
+
+/// The same, with its name and unit.
+struct Observed {
+    of: Of,
+    name: String,
+    unit: String,
+}
+
+/// A column of results.
+struct Column {
+    name: String,
+    unit: String,
+    values: Vec<f64>,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// If the spec, the call or the run is at fault.
+pub fn run(call: &call::Sensitivities) -> Result<(), Failure> {
+    let files = [
+        Destination::of("--out", call.out.as_ref(), TABLE)?,
+        Destination::of("--plot", call.plot.as_ref(), SVG)?,
+    ];
+    let all: Vec<&Destination> = files.iter().flatten().collect();
+    output::keep_document_apart(all.iter().copied(), call.spec.json)?;
+    keep_apart(all.iter().copied(), &[(&call.spec.path, "the spec")])?;
+    let dag = Dag::new();
+    let reading = Reading::open(&call.spec)?;
+    let wanted = call::names_of(&call.by).map_err(Failure::Call)?;
+    let compiled = modes::compiled_with(reading, &dag, all, "sensitivities", |model| {
+        let n = model.coordinates.len();
+        differentiate(&mut model.derivatives, Variable::of_state(n));
+        let is_asked = |name: &str| {
+            let base = name.split('[').next().unwrap_or(name);
+            wanted.iter().any(|wanted| wanted == name || wanted == base)
+        };
+        let parameters = model.parameters.iter().enumerate();
+        let parameters = parameters.filter(|(_, own)| is_asked(&own.name.to_string()));
+        let parameters: Vec<Variable> = parameters.map(|(k, _)| Variable::Parameter(k)).collect();
+        let inputs = model.inputs.iter().enumerate();
+        let inputs = inputs.filter(|(_, own)| is_asked(&own.name.to_string()));
+        let inputs: Vec<Variable> = inputs.map(|(k, _)| Variable::Input(k)).collect();
+        differentiate(&mut model.derivatives, parameters.into_iter().chain(inputs));
+        Ok(())
+    })?;
+    let machine = reading::machine(&compiled, &call.start)?;
+    machine.check_parameters().map_err(|missing| {
+        Failure::Run(format!(
+            "{missing}; set them with --set {}=…",
+            missing.names.join("=… --set ")
+        ))
+    })?;
+    let mut start = machine.start();
+    set_start(&mut start, &call.start)?;
+    let variations = variations(&machine, &start, &wanted)?;
+    let observed = observed(&machine, &start, &call.of)?;
+    let (times, columns) = made(call, &machine, &start, &variations, &observed)?;
+    if let Some(file) = &files[0] {
+        let columns = columns.iter().map(|column| {
+            (
+                header(&column.name, Some(&column.unit)),
+                column.values.as_slice(),
+            )
+        });
+        let time = ("t [s]".to_owned(), times.as_slice());
+        table::write_columns(
+            &std::iter::once(time).chain(columns).collect::<Vec<_>>(),
+            file,
+        )?;
+    }
+    if let Some(file) = &files[1] {
+        let panes: Vec<Pane> = columns
+            .iter()
+            .skip(observed.len())
+            .map(|column| Pane {
+                along: ["t [s]".to_owned(), header("derivative", Some(&column.unit))],
+                curves: vec![Curve {
+                    name: column.name.clone(),
+                    points: times
+                        .iter()
+                        .copied()
+                        .zip(column.values.iter().copied())
+                        .collect(),
+                }],
+                are_points: false,
+            })
+            .collect();
+        file.write_text(&drawing::svg(machine.name(), &panes).map_err(Failure::Run)?)?;
+    }
+    match call.spec.json {
+        true => output::line(format_args!(
+            "{:#}",
+            as_json(&times, &columns, observed.len())
+        )),
+        false => output::text(&text(&times, &columns)),
+    }
+    Ok(())
+}
+
+/// What `--by` names.
+fn variations(
+    machine: &InterpretedMachine,
+    start: &State<Named>,
+    wanted: &[String],
+) -> Result<Vec<Variation>, Failure> {
+    let program = machine.program();
+    let slots = |slots: &[lagrangian_program::Slot]| -> Vec<(String, String)> {
+        let slots = slots.iter();
+        slots
+            .map(|slot| (slot.name.to_string(), slot.label()))
+            .collect()
+    };
+    let (parameters, inputs) = (slots(&program.parameters), slots(&program.inputs));
+    let coordinates: Vec<(String, String)> = {
+        let system = machine.prepare();
+        let coordinates = system.coordinates();
+        coordinates
+            .map(|q| (q.name.to_owned(), q.unit.to_owned()))
+            .collect()
+    };
+    let mut all = Vec::new();
+    for name in wanted {
+        let before = all.len();
+        let inner = |function: &str| {
+            let inner = name.strip_prefix(function)?.strip_prefix('(')?;
+            Some(inner.strip_suffix(')')?.trim())
+        };
+        let member = format!("{name}[");
+        let is_meant = |own: &str| own == name || own.starts_with(&member);
+        if let Some(coordinate) = inner("start") {
+            all.extend(places(&start.q, coordinate).into_iter().map(|k| Variation {
+                by: By::Start(k),
+                name: format!("start({})", coordinates[k].0),
+                unit: coordinates[k].1.clone(),
+            }));
+        } else if let Some(coordinate) = inner("rate") {
+            all.extend(places(&start.q, coordinate).into_iter().map(|k| Variation {
+                by: By::StartRate(k),
+                name: format!("rate({})", coordinates[k].0),
+                unit: rate_unit(&coordinates[k].1),
+            }));
+        } else {
+            let own = |list: &[(String, String)], by: fn(usize) -> By| -> Vec<Variation> {
+                let list = list
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, (own, _))| is_meant(own));
+                list.map(|(k, (name, unit))| Variation {
+                    by: by(k),
+                    name: name.clone(),
+                    unit: unit.clone(),
+                })
+                .collect()
+            };
+            all.extend(own(&parameters, By::Parameter));
+            all.extend(own(&inputs, By::Input));
+        }
+        if all.len() == before {
+            let known: Vec<String> = parameters
+                .iter()
+                .chain(&inputs)
+                .map(|(name, _)| name.clone())
+                .chain(
+                    coordinates
+                        .iter()
+                        .flat_map(|(name, _)| [format!("start({name})"), format!("rate({name})")]),
+                )
+                .collect();
+            let help = match nearest(name, known.iter().map(String::as_str)) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("there are: {}", known.join(", ")),
+            };
+            return Err(Failure::Call(format!(
+                "--by {name}: no parameter, input or start of that name; {help}"
+            )));
+        }
+    }
+    Ok(all)
+}
+
+/// What `--of` names.
+fn observed(
+    machine: &InterpretedMachine,
+    start: &State<Named>,
+    lists: &[String],
+) -> Result<Vec<Observed>, Failure> {
+    let system = machine.prepare();
+    let coordinates: Vec<(String, String)> = system
+        .coordinates()
+        .map(|q| (q.name.to_owned(), q.unit.to_owned()))
+        .collect();
+    let outputs: Vec<(String, String)> = machine
+        .program()
+        .outputs
+        .iter()
+        .map(|slot| (slot.name.to_string(), slot.label()))
+        .collect();
+    let coordinate = |k: usize| Observed {
+        of: Of::Coordinate(k),
+        name: coordinates[k].0.clone(),
+        unit: coordinates[k].1.clone(),
+    };
+    let rate = |k: usize| Observed {
+        of: Of::Rate(k),
+        name: format!("der({})", coordinates[k].0),
+        unit: rate_unit(&coordinates[k].1),
+    };
+    let output = |k: usize| Observed {
+        of: Of::Output(k),
+        name: outputs[k].0.clone(),
+        unit: outputs[k].1.clone(),
+    };
+    let wanted = call::names_of(lists).map_err(Failure::Call)?;
+    if wanted.is_empty() {
+        return Ok(match outputs.is_empty() {
+            true => (0..coordinates.len()).map(coordinate).collect(),
+            false => (0..outputs.len()).map(output).collect(),
+        });
+    }
+    let mut all = Vec::new();
+    for name in &wanted {
+        let before = all.len();
+        let member = format!("{name}[");
+        let own = (0..outputs.len()).filter(|k| {
+            let own = &outputs[*k].0;
+            own == name || own.starts_with(&member)
+        });
+        all.extend(own.map(output));
+        if all.len() == before {
+            match name
+                .strip_prefix("der(")
+                .and_then(|inner| inner.strip_suffix(')'))
+            {
+                Some(inner) => all.extend(places(&start.q, inner.trim()).into_iter().map(rate)),
+                None => all.extend(places(&start.q, name).into_iter().map(coordinate)),
+            }
+        }
+        if all.len() == before {
+            let known: Vec<String> = outputs
+                .iter()
+                .map(|(name, _)| name.clone())
+                .chain(
+                    coordinates
+                        .iter()
+                        .flat_map(|(name, _)| [name.clone(), format!("der({name})")]),
+                )
+                .collect();
+            let help = match nearest(name, known.iter().map(String::as_str)) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("there are: {}", known.join(", ")),
+            };
+            return Err(Failure::Call(format!(
+                "--of {name}: no coordinate, rate or output of that name; {help}"
+            )));
+        }
+    }
+    Ok(all)
+}
+
+/// The unit of the rate of what is measured in a unit.
+fn rate_unit(unit: &str) -> String {
+    match unit {
+        "1" => "1/s".to_owned(),
+        unit => format!("{unit}/s"),
+    }
+}
+
+/// One unit per another.
+fn per(unit: &str, other: &str) -> String {
+    let is_simple = |unit: &str| !unit.contains(['*', '/', ' ']);
+    match (unit, other) {
+        (unit, "1") => unit.to_owned(),
+        (unit, other) if is_simple(other) => format!("{unit}/{other}"),
+        (unit, other) => format!("{unit}/({other})"),
+    }
+}
+
+/// The run with its derivatives: instants, then values, then derivatives of each by each.
+fn made(
+    call: &call::Sensitivities,
+    machine: &InterpretedMachine,
+    start: &State<Named>,
+    variations: &[Variation],
+    observed: &[Observed],
+) -> Result<(Vec<f64>, Vec<Column>), Failure> {
+    let method = simulate::method(&call.method)?;
+    if std::ptr::eq(method, &TAYLOR) {
+        return Err(Failure::Call(
+            "--method taylor: derivatives of a motion have no series".into(),
+        ));
+    }
+    let coordinates: Vec<String> = machine
+        .prepare()
+        .coordinates()
+        .map(|q| q.name.to_owned())
+        .collect();
+    let mut sensitive = Sensitive::new(machine);
+    for variation in variations {
+        sensitive = match variation.by {
+            By::Parameter(_) | By::Input(_) => sensitive.by(&variation.name),
+            By::Start(k) => sensitive.by_start(&coordinates[k]),
+            By::StartRate(k) => sensitive.by_start_rate(&coordinates[k]),
+        }
+        .map_err(Failure::run)?;
+    }
+    let mut from = sensitive.start_from(start.clone());
+    // A start that the spec computes from a parameter changes with it, where the call does not say another.
+    for (k, variation) in variations.iter().enumerate() {
+        if let By::Parameter(index) = variation.by {
+            let (q, v) = start_by(machine, index);
+            let mut is_set = vec![false; 2 * coordinates.len()];
+            for (list, shift) in [
+                (&call.start.coordinates, 0),
+                (&call.start.rates, coordinates.len()),
+            ] {
+                for set in list {
+                    for place in places(&start.q, &set.name) {
+                        is_set[shift + place] = true;
+                    }
+                }
+            }
+            for (j, (q, v)) in q.into_iter().zip(v).enumerate() {
+                if !is_set[j] {
+                    from.q.by[k].values[j] = q;
+                }
+                if !is_set[coordinates.len() + j] {
+                    from.v.by[k].values[j] = v;
+                }
+            }
+        }
+    }
+    let interval = call.every.unwrap_or(call.until.abs() / SAMPLES);
+    progress::run(call.until);
+    let mut simulation = Simulation::new(&sensitive)
+        .tolerance(call.tolerance)
+        .method(method)
+        .until(call.until)
+        .max_steps(call.max_steps)
+        .forget_steps();
+    if call.until != 0.0 {
+        simulation = simulation.every(interval);
+    }
+    let run = simulation
+        .run(from)
+        .map_err(|error| Failure::Run(verdict::said(&error)))?;
+    let states = match run.samples() {
+        [] => std::slice::from_ref(run.start()),
+        states => states,
+    };
+    let mut columns: Vec<Column> = observed
+        .iter()
+        .map(|observed| Column {
+            name: observed.name.clone(),
+            unit: observed.unit.clone(),
+            values: Vec::with_capacity(states.len()),
+        })
+        .collect();
+    for observed in observed {
+        for variation in variations {
+            columns.push(Column {
+                name: format!("{} by {}", observed.name, variation.name),
+                unit: per(&observed.unit, &variation.unit),
+                values: Vec::with_capacity(states.len()),
+            });
+        }
+    }
+    let system = machine.prepare();
+    let mut interpreters: Vec<Interpreter<Dual<f64>>> = variations
+        .iter()
+        .map(|variation| interpreter(machine, variation))
+        .collect();
+    for state in states {
+        let rows = row(&system, &mut interpreters, variations, observed, state);
+        for (column, value) in columns.iter_mut().zip(rows) {
+            column.values.push(value);
+        }
+    }
+    Ok((states.iter().map(|state| state.t).collect(), columns))
+}
+
+/// What a parameter does to the start of the spec.
+fn start_by(machine: &InterpretedMachine, index: usize) -> (Vec<f64>, Vec<f64>) {
+    let parameters = duals(machine.parameter_values(), Some(index));
+    let n = machine.program().dimension();
+    let (mut q, mut v) = (vec![Dual::constant(0.0); n], vec![Dual::constant(0.0); n]);
+    Interpreter::new(machine.program(), &parameters).start(&mut q, &mut v);
+    let slopes = |list: Vec<Dual<f64>>| list.iter().map(|x| x.derivative).collect();
+    (slopes(q), slopes(v))
+}
+
+fn duals(values: &[f64], varied: Option<usize>) -> Vec<Dual<f64>> {
+    let mut duals: Vec<Dual<f64>> = values.iter().copied().map(Dual::constant).collect();
+    if let Some(varied) = varied.and_then(|varied| duals.get_mut(varied)) {
+        varied.derivative = 1.0;
+    }
+    duals
+}
+
+/// The program over numbers with a derivative by what is varied.
+fn interpreter(machine: &InterpretedMachine, variation: &Variation) -> Interpreter<Dual<f64>> {
+    let varied = match variation.by {
+        By::Parameter(index) => Some(index),
+        _ => None,
+    };
+    Interpreter::new(
+        machine.program(),
+        &duals(machine.parameter_values(), varied),
+    )
+}
+
+/// Values at a state, then derivatives of each by each.
+fn row(
+    system: &InterpretedSystem,
+    interpreters: &mut [Interpreter<Dual<f64>>],
+    variations: &[Variation],
+    observed: &[Observed],
+    state: &State<Varied<Named>>,
+) -> Vec<f64> {
+    let (q, v) = (&state.q.value.values, &state.v.value.values);
+    let inputs = system.default_inputs();
+    let n = q.len();
+    let mut a = vec![f64::NAN; n];
+    if system
+        .accelerations(state.t, q, v, &inputs, &mut a)
+        .is_err()
+    {
+        a.fill(f64::NAN);
+    }
+    let mut values: Vec<f64> = observed
+        .iter()
+        .map(|observed| match observed.of {
+            Of::Coordinate(k) => q[k],
+            Of::Rate(k) => v[k],
+            Of::Output(k) => system.output(k, state.t, q, v, &a, &inputs.values),
+        })
+        .collect();
+    let needs_outputs = observed
+        .iter()
+        .any(|observed| matches!(observed.of, Of::Output(_)));
+    let mut slopes: Vec<Vec<f64>> = Vec::with_capacity(variations.len());
+    for (k, variation) in variations.iter().enumerate() {
+        let along = |list: &[f64], by: &[f64]| -> Vec<Dual<f64>> {
+            let pairs = list.iter().zip(by);
+            pairs
+                .map(|(value, derivative)| Dual {
+                    value: *value,
+                    derivative: *derivative,
+                })
+                .collect()
+        };
+        let (by_q, by_v) = (&state.q.by[k].values, &state.v.by[k].values);
+        let (q, v) = (along(q, by_q), along(v, by_v));
+        let varied = match variation.by {
+            By::Input(index) => Some(index),
+            _ => None,
+        };
+        let u = duals(&inputs.values, varied);
+        let mut a = vec![Dual::constant(f64::NAN); n];
+        let interpreter = &mut interpreters[k];
+        let arguments = |a| Arguments {
+            t: Dual::constant(state.t),
+            q: &q,
+            v: &v,
+            u: &u,
+            a,
+        };
+        if needs_outputs {
+            let _ = interpreter.call(Role::Accelerations, arguments(&[]), &mut a);
+        }
+        let slope = |observed: &Observed| match observed.of {
+            Of::Coordinate(j) => by_q[j],
+            Of::Rate(j) => by_v[j],
+            Of::Output(j) => {
+                let mut result = [Dual::constant(f64::NAN)];
+                match interpreter.call(Role::Output(j), arguments(&a), &mut result) {
+                    Ok(()) => result[0].derivative,
+                    Err(_) => f64::NAN,
+                }
+            }
+        };
+        slopes.push(observed.iter().map(slope).collect());
+    }
+    for k in 0..observed.len() {
+        values.extend(slopes.iter().map(|by| by[k]));
+    }
+    values
+}
+
+fn text(times: &[f64], columns: &[Column]) -> String {
+    let end = times.last().copied().unwrap_or(0.0);
+    let mut text = format!("at t = {} s\n", number(end));
+    let width = columns
+        .iter()
+        .map(|column| column.name.chars().count())
+        .max()
+        .unwrap_or(0);
+    for column in columns {
+        let value = column.values.last().copied().unwrap_or(f64::NAN);
+        let unit = if column.unit == "1" {
+            String::new()
+        } else {
+            format!(" {}", column.unit)
+        };
+        text.push_str(&format!(
+            "  {:width$}  {}{unit}\n",
+            column.name,
+            number(value)
+        ));
+    }
+    text
+}
+
+fn as_json(times: &[f64], columns: &[Column], own: usize) -> Value {
+    let list = |columns: &[Column]| -> Vec<Value> {
+        let columns = columns.iter();
+        columns
+            .map(
+                |column| json!({"name": column.name, "unit": column.unit, "values": column.values}),
+            )
+            .collect()
+    };
+    json!({"t": times, "values": list(&columns[..own]), "derivatives": list(&columns[own..])})
+}

@@ -1,0 +1,238 @@
+//! `lagrangian spectrum`: which frequencies are in a run.
+
+use std::fmt::Write as _;
+
+use lagrangian_analysis::spectrum::{LEAST, Line, Spectrum, Window};
+use serde_json::{Value, json};
+
+use crate::call;
+use crate::drawing::{self, Curve, Pane};
+use crate::failure::Failure;
+use crate::modes::number;
+use crate::output::{self, Destination, SVG, TABLE};
+use crate::runs::{self, Columns, Quantity, header};
+use crate::table;
+
+/// A quantity, and what is in it.
+struct Found<'a> {
+    quantity: &'a Quantity,
+    spectrum: Spectrum,
+    lines: Vec<Line>,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// If the spec, the table, the call or the run is at fault.
+pub fn run(call: &call::Spectrum) -> Result<(), Failure> {
+    let files = [
+        Destination::of("--out", call.out.as_ref(), TABLE)?,
+        Destination::of("--plot", call.plot.as_ref(), SVG)?,
+    ];
+    let all: Vec<&Destination> = files.iter().flatten().collect();
+    output::keep_document_apart(all.iter().copied(), call.part.runs.json)?;
+    let columns = runs::one(&call.part, &all)?;
+    let chosen = columns.chosen(&call.part.of, &call.part.run)?;
+    let samples = Samples::of(&columns)?;
+    let window = match call.window {
+        call::Windows::Hann => Window::Hann,
+        call::Windows::None => Window::None,
+        call::Windows::BlackmanHarris => Window::BlackmanHarris,
+    };
+    let mut found = Vec::new();
+    for quantity in chosen {
+        let values = samples.values(&columns, quantity);
+        let spectrum = Spectrum::new(&values, samples.step, window).ok_or_else(|| {
+            Failure::Run(format!(
+                "`{}` has instants without a value, and so no spectrum; --after looks at what lies behind them",
+                quantity.name
+            ))
+        })?;
+        found.push(Found {
+            lines: spectrum.lines(call.lines, call.least),
+            quantity,
+            spectrum,
+        });
+    }
+    let frequencies: &[f64] = found.first().map_or(&[], |one| &one.spectrum.frequencies);
+    if let Some(file) = &files[0] {
+        let columns = found
+            .iter()
+            .map(|one| (one.quantity.header(), one.spectrum.amplitudes.as_slice()));
+        let first = ("frequency [Hz]".to_owned(), frequencies);
+        table::write_columns(
+            &std::iter::once(first).chain(columns).collect::<Vec<_>>(),
+            file,
+        )?;
+    }
+    if let Some(file) = &files[1] {
+        let title = call
+            .part
+            .run
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy();
+        let svg = drawing::svg(&title, &panes(&found, frequencies));
+        file.write_text(&svg.map_err(Failure::Run)?)?;
+    }
+    let resolution = found
+        .first()
+        .map_or(f64::NAN, |one| one.spectrum.resolution);
+    match call.part.runs.json {
+        true => {
+            let result = json!({
+                "samples": samples.count,
+                "step": samples.step,
+                "resampled": samples.is_resampled,
+                "resolution": resolution,
+                "window": window.name(),
+                "quantities": found.iter().map(as_json).collect::<Vec<Value>>(),
+            });
+            output::line(format_args!("{result:#}"));
+        }
+        false => output::text(&text(&samples, resolution, window, &found)),
+    }
+    Ok(())
+}
+
+/// The samples of a run.
+struct Samples {
+    from: f64,
+    step: f64,
+    count: usize,
+    /// Whether rows are not evenly spaced, so that values stand between them.
+    is_resampled: bool,
+}
+
+impl Samples {
+    fn of(columns: &Columns) -> Result<Samples, Failure> {
+        let times = &columns.times;
+        let too_few = || {
+            Failure::Run(format!(
+                "a spectrum takes {LEAST} instants at least, and there are {}",
+                times.len()
+            ))
+        };
+        let [first, second, .., last] = times.as_slice() else {
+            return Err(too_few());
+        };
+        let step = second - first;
+        // Times are rounded, too.
+        let rounding = 1e-9 * step + 4.0 * f64::EPSILON * last.abs().max(first.abs());
+        let is_even = |pair: &[f64]| (pair[1] - pair[0] - step).abs() <= rounding;
+        let even = times.windows(2).take_while(|pair| is_even(pair)).count() + 1;
+        // An end that does not fall on a sample is none of them.
+        let samples = match even + 1 >= times.len() {
+            true => Samples {
+                from: *first,
+                step: (times[even - 1] - first) / (even - 1) as f64,
+                count: even,
+                is_resampled: false,
+            },
+            false => Samples {
+                from: *first,
+                step: (last - first) / (times.len() - 1) as f64,
+                count: times.len(),
+                is_resampled: true,
+            },
+        };
+        match samples.count < LEAST {
+            true => Err(too_few()),
+            false => Ok(samples),
+        }
+    }
+
+    fn values(&self, columns: &Columns, quantity: &Quantity) -> Vec<f64> {
+        if !self.is_resampled {
+            return quantity.values[..self.count].to_vec();
+        }
+        let rates = columns.rates(&quantity.name);
+        let curve = columns.curve(quantity, rates.as_deref(), call::Interpolation::Cubic);
+        let last = columns.times[columns.times.len() - 1];
+        let times = (0..self.count).map(|k| (self.from + k as f64 * self.step).min(last));
+        times.map(|t| curve.at(t)).collect()
+    }
+}
+
+fn text(samples: &Samples, resolution: f64, window: Window, found: &[Found]) -> String {
+    let mut text = format!(
+        "{} samples, {} s apart, window {}; frequencies are {} Hz apart, up to {} Hz\n",
+        samples.count,
+        number(samples.step),
+        window.name(),
+        number(resolution),
+        number(0.5 / samples.step)
+    );
+    if samples.is_resampled {
+        text.push_str("the rows are not evenly spaced: samples are those of cubics between them\n");
+    }
+    for one in found {
+        let unit = one.quantity.unit.as_deref().filter(|unit| *unit != "1");
+        let unit = unit.map_or_else(String::new, |unit| format!(" {unit}"));
+        // Writing to a String cannot fail.
+        let _ = writeln!(
+            text,
+            "{}: mean {}{unit}",
+            one.quantity.name,
+            number(one.spectrum.mean)
+        );
+        if one.lines.is_empty() {
+            text.push_str("  no lines\n");
+        }
+        for line in &one.lines {
+            let _ = writeln!(
+                text,
+                "  {} Hz: amplitude {}{unit}",
+                number(line.frequency),
+                number(line.amplitude)
+            );
+        }
+    }
+    text
+}
+
+fn as_json(one: &Found) -> Value {
+    let lines = one.lines.iter().map(|line| {
+        json!({"frequency": line.frequency, "amplitude": line.amplitude, "phase": line.phase})
+    });
+    json!({
+        "name": one.quantity.name,
+        "unit": one.quantity.unit,
+        "mean": one.spectrum.mean,
+        "lines": lines.collect::<Vec<Value>>(),
+    })
+}
+
+/// A pane for each unit, up to the frequencies behind which there is nothing to see.
+fn panes(found: &[Found], frequencies: &[f64]) -> Vec<Pane> {
+    let mut panes: Vec<(Option<&str>, Pane)> = Vec::new();
+    let greatest = |one: &Found| one.spectrum.amplitudes.iter().copied().fold(0.0, f64::max);
+    let last = found.iter().map(|one| {
+        let least = 1e-3 * greatest(one);
+        one.spectrum
+            .amplitudes
+            .iter()
+            .rposition(|x| *x > least)
+            .unwrap_or(0)
+    });
+    let shown = (last.max().unwrap_or(0) + 5).min(frequencies.len());
+    for one in found {
+        let unit = one.quantity.unit.as_deref();
+        let place = panes.iter().position(|(other, _)| *other == unit);
+        let place = place.unwrap_or_else(|| {
+            let pane = Pane {
+                along: ["frequency [Hz]".to_owned(), header("amplitude", unit)],
+                curves: Vec::new(),
+                are_points: false,
+            };
+            panes.push((unit, pane));
+            panes.len() - 1
+        });
+        let points = frequencies.iter().zip(&one.spectrum.amplitudes).take(shown);
+        panes[place].1.curves.push(Curve {
+            name: one.quantity.name.clone(),
+            points: points.map(|(x, y)| (*x, *y)).collect(),
+        });
+    }
+    panes.into_iter().map(|(_, pane)| pane).collect()
+}

@@ -1,0 +1,474 @@
+//! `lagrangian orbit` against periods and multipliers in closed form and to 30 digits; `orbit/by_mpmath.py` makes the latter.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::support::{Scratch, lagrangian};
+use serde_json::Value;
+
+fn orbit(arguments: &[&str]) -> Value {
+    let output = lagrangian(&[&["orbit"], arguments, &["--json"]].concat());
+    let text = String::from_utf8(output.stdout).expect("text");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{text}{errors}");
+    serde_json::from_str(&text).expect("JSON")
+}
+
+/// What is said of a call that fails, and its exit status.
+fn refused(arguments: &[&str]) -> (i32, String) {
+    let output = lagrangian(&[&["orbit"], arguments].concat());
+    let said = String::from_utf8(output.stderr).expect("text");
+    (output.status.code().expect("no signal"), said)
+}
+
+fn number(value: &Value) -> f64 {
+    value
+        .as_f64()
+        .unwrap_or_else(|| panic!("no number: {value}"))
+}
+
+/// Multipliers, each with its error and whether it is trivial.
+fn multipliers(found: &Value) -> Vec<(f64, f64, f64, bool)> {
+    let all = found["multipliers"].as_array().expect("a list").iter();
+    all.map(|one| {
+        let trivial = one["trivial"].as_bool().expect("a truth");
+        (
+            number(&one["re"]),
+            number(&one["im"]),
+            number(&one["error"]),
+            trivial,
+        )
+    })
+    .collect()
+}
+
+/// The tolerance of steps is 1e-11. A period takes some hundred steps, each of which may err by that, and multipliers of size μ grow
+/// with errors as the motion does: 1e-8 of the largest is ten times what that makes.
+const CLOSE: f64 = 1e-8;
+
+fn assert_multipliers(found: &Value, exact: &[(f64, f64)]) {
+    let all = multipliers(found);
+    assert_eq!(all.len(), exact.len(), "{found:#}");
+    let largest = exact
+        .iter()
+        .fold(1.0_f64, |most, (re, im)| most.max(re.hypot(*im)));
+    for ((re, im, error, _), (exact_re, exact_im)) in all.iter().zip(exact) {
+        let off = (re - exact_re).hypot(im - exact_im);
+        assert!(
+            off <= CLOSE * largest,
+            "{re} + {im}i, not {exact_re} + {exact_im}i: {off:e}"
+        );
+        // What the command says of its own error holds.
+        assert!(off <= error + 1e-14, "{off:e}, said to be below {error:e}");
+    }
+}
+
+#[test]
+fn kapitzas_pendulum_upright_has_the_multipliers_of_mathieus_equation() {
+    // Shaken with twice what holds it up, with too little, and with so much that it swings with half the frequency.
+    for (a, omega, exact, stability) in [
+        (
+            "0.1",
+            "88",
+            [
+                (0.926_172_254_050_953_1, 0.377_100_723_714_734_8),
+                (0.926_172_254_050_953_1, -0.377_100_723_714_734_8),
+            ],
+            "undecided",
+        ),
+        (
+            "0.1",
+            "30",
+            [
+                (1.629_408_829_591_548_4, 0.0),
+                (0.613_719_517_065_999_2, 0.0),
+            ],
+            "unstable",
+        ),
+        (
+            "0.5",
+            "88",
+            [
+                (-2.378_748_545_901_471_8, 0.0),
+                (-0.420_389_116_673_545_27, 0.0),
+            ],
+            "unstable",
+        ),
+    ] {
+        let (a, omega) = (format!("a={a}"), format!("omega={omega}"));
+        let found = orbit(&[
+            "machines/kapitza_pendulum.machine",
+            "--set",
+            &a,
+            "--set",
+            &omega,
+            "--start",
+            "theta=0",
+            "--period",
+            "2*pi/omega",
+        ]);
+        assert_multipliers(&found, &exact);
+        assert_eq!(found["stability"], stability);
+        assert_eq!(found["autonomous"], false);
+        assert_eq!(number(&found["at"]["q"]["theta"]), 0.0);
+        // The machine keeps phase volume: the product of all multipliers is 1.
+        let m: Vec<f64> = (found["monodromy"].as_array().unwrap().iter())
+            .flat_map(|row| row.as_array().unwrap().iter().map(number))
+            .collect();
+        assert!((m[0] * m[3] - m[1] * m[2] - 1.0).abs() < CLOSE * 10.0);
+    }
+}
+
+#[test]
+fn upright_is_found_from_beside_it() {
+    let found = orbit(&[
+        "machines/kapitza_pendulum.machine",
+        "--start",
+        "theta=0.05",
+        "--period",
+        "2*pi/omega",
+    ]);
+    assert!(number(&found["at"]["q"]["theta"]).abs() < 1e-9, "{found:#}");
+}
+
+#[test]
+fn upright_doubles_its_period_where_mathieus_equation_does() {
+    let found = orbit(&[
+        "machines/kapitza_pendulum.machine",
+        "--start",
+        "theta=0",
+        "--period",
+        "2*pi/omega",
+        "--along",
+        "a=0.42..0.5:5",
+    ]);
+    let changes = found["changes"].as_array().expect("a list");
+    assert_eq!(changes.len(), 1, "{changes:?}");
+    assert_eq!(changes[0]["change"], "period doubling");
+    // b₁(2a/l) = −4g/(l ω²) there.
+    let exact = 0.456_149_688_466_770_1;
+    let between = changes[0]["between"].as_array().expect("a list");
+    let (low, high) = (number(&between[0]), number(&between[1]));
+    // 20 halvings of 0.02; and a multiplier is outside as soon as it is so by its error, which goes with the root of the distance.
+    assert!(low - 1e-6 <= exact && exact <= high + 1e-6, "{low} {high}");
+}
+
+const SWING: &str = "machine Swing in plane {
+    parameters { l: m = 1, g: m/s^2 = 9.81 }
+    coordinates { theta: rad = 2 }
+    bodies { bob { mass: 1, at: l*(sin(theta), -cos(theta)) } }
+    gravity (0, -g);
+}";
+
+#[test]
+fn a_pendulums_period_is_an_elliptic_integral() {
+    let spec = Scratch::new("swing.machine", SWING);
+    for (start, exact) in [
+        ("theta=2", 2.665_870_942_834_925),
+        ("theta=0.5", 2.037_867_915_158_168_8),
+    ] {
+        let found = orbit(&[spec.path(), "--start", start, "--keep", "theta,der(theta)"]);
+        assert!(
+            (number(&found["period"]) / exact - 1.0).abs() < CLOSE,
+            "{found:#}"
+        );
+        assert_eq!(found["family"], 1);
+        assert_eq!(found["stability"], "undecided");
+        // Both multipliers are 1, since energy is conserved; that across the motion is known as well as M.
+        assert_multipliers(&found, &[(1.0, 0.0), (1.0, 0.0)]);
+        assert_eq!(multipliers(&found).iter().filter(|one| one.3).count(), 1);
+    }
+    // The other way about: the amplitude that has a period.
+    let found = orbit(&[
+        spec.path(),
+        "--start",
+        "theta=1.8",
+        "--period",
+        "2.665870942834925",
+    ]);
+    let q = number(&found["at"]["q"]["theta"]);
+    let v = number(&found["at"]["v"]["theta"]);
+    // ½ v² − g cos q is −g cos 2.
+    let energy = 0.5 * v * v - 9.81 * q.cos();
+    assert!((energy + 9.81 * 2.0_f64.cos()).abs() < 1e-6, "{found:#}");
+}
+
+#[test]
+fn units_and_coordinates_do_not_matter() {
+    // The same pendulum in another angle, of half the size, and with its length in mm.
+    let spec = Scratch::new("swing.machine", SWING);
+    let other = Scratch::new(
+        "other.machine",
+        "machine Other in plane {
+            parameters { l: mm = 1000, g: m/s^2 = 9.81 }
+            coordinates { half: rad = 0.9 }
+            bodies { bob { mass: 3, at: l*(sin(2*half), -cos(2*half)) } }
+            gravity (0, -g);
+        }",
+    );
+    let one = orbit(&[
+        spec.path(),
+        "--start",
+        "theta=1.8",
+        "--rate",
+        "theta=0.3",
+        "--period",
+        "2.6",
+    ]);
+    let two = orbit(&[other.path(), "--rate", "half=0.15", "--period", "2.6"]);
+    // A family of orbits: which of them is taken, and where it starts, is measured by inertia.
+    for part in ["q", "v"] {
+        let (one, two) = (
+            number(&one["at"][part]["theta"]),
+            number(&two["at"][part]["half"]),
+        );
+        assert!((one - 2.0 * two).abs() < 1e-6, "{part}: {one} {two}");
+    }
+}
+
+/// A limit cycle in closed form: x = cos t, on which the energy neither grows nor dies.
+const CIRCLE: &str = "machine Circle in plane {
+    parameters { d: N*s/m = 1, size: m = 1, speed: m/s = 1 }
+    coordinates { x: m = 1.5 }
+    bodies { ball { mass: 1, at: (x, 0) } }
+    springs { back { stiffness: 1, stretch: x } }
+    forces { feed { on: x, value: d*(1 - (x/size)^2 - (der(x)/speed)^2)*der(x) } }
+}";
+
+#[test]
+fn a_limit_cycle_in_closed_form() {
+    let spec = Scratch::new("circle.machine", CIRCLE);
+    // The divergence 1 − x² − 3 v² is −2 sin² t on it, with the integral −2π over a period.
+    for more in [&["--near", "6"][..], &[], &["--settle", "20"]] {
+        let found = orbit(&[&[spec.path()], more].concat());
+        assert!(
+            (number(&found["period"]) / TAU - 1.0).abs() < CLOSE,
+            "{found:#}"
+        );
+        assert_multipliers(&found, &[(1.0, 0.0), ((-TAU).exp(), 0.0)]);
+        assert_eq!(found["stability"], "stable");
+        assert_eq!(found["family"], 0);
+        let (q, v) = (
+            number(&found["at"]["q"]["x"]),
+            number(&found["at"]["v"]["x"]),
+        );
+        assert!((q.hypot(v) - 1.0).abs() < CLOSE);
+    }
+}
+
+#[test]
+fn van_der_pols_cycle_has_its_period_to_ten_digits() {
+    let spec = Scratch::new(
+        "vdp.machine",
+        "machine VanDerPol in plane {
+            parameters { mu: N*s/m = 1, size: m = 1 }
+            coordinates { x: m = 2 }
+            bodies { ball { mass: 1, at: (x, 0) } }
+            springs { back { stiffness: 1, stretch: x } }
+            forces { feed { on: x, value: mu*(1 - (x/size)^2)*der(x) } }
+        }",
+    );
+    let found = orbit(&[spec.path()]);
+    assert!(
+        (number(&found["period"]) / 6.663_286_859_323_13 - 1.0).abs() < 1e-10,
+        "{found:#}"
+    );
+    assert_multipliers(&found, &[(1.0, 0.0), (8.596_950_636_038_052e-4, 0.0)]);
+    // The orbit is that of the greatest x, 2.0086198608748431, where it is at rest there.
+    let kept = orbit(&[spec.path(), "--keep", "der(x)"]);
+    assert!(
+        (number(&kept["at"]["q"]["x"]) - 2.008_619_860_874_843).abs() < CLOSE,
+        "{kept:#}"
+    );
+    assert_eq!(number(&kept["at"]["v"]["x"]), 0.0);
+}
+
+#[test]
+fn a_driven_oscillator_answers_as_its_frequency_response_says() {
+    // x″ + 2 δ x′ + ω₀² x = F cos Ω t: amplitude F/|ω₀² − Ω² + 2iδΩ|, multipliers e^{(−δ ± iω) T}.
+    let spec = Scratch::new(
+        "driven.machine",
+        "machine Driven in plane {
+            parameters { k: N/m = 4, d: N*s/m = 0.4, f: N = 3, Omega: rad/s = 1.5 }
+            coordinates { x: m = 0.1 }
+            bodies { ball { mass: 1, at: (x, 0) } }
+            springs { back { stiffness: k, stretch: x } }
+            dampers { oil { damping: d, stretch: x } }
+            forces { drive { on: x, value: f*cos(Omega*t) } }
+        }",
+    );
+    let found = orbit(&[spec.path(), "--period", "2*pi/Omega"]);
+    let (delta, drive) = (0.2, 1.5_f64);
+    let (re, im) = (4.0 - drive * drive, 2.0 * delta * drive);
+    let size = 3.0 / re.hypot(im);
+    let phase = im.atan2(re);
+    let (q, v) = (
+        number(&found["at"]["q"]["x"]),
+        number(&found["at"]["v"]["x"]),
+    );
+    assert!((q - size * phase.cos()).abs() < CLOSE, "{found:#}");
+    assert!((v - drive * size * phase.sin()).abs() < CLOSE);
+    let (period, omega) = (TAU / drive, (4.0 - delta * delta).sqrt());
+    let modulus = (-delta * period).exp();
+    let angle = (omega * period).rem_euclid(TAU);
+    let angle = if angle > PI { TAU - angle } else { angle };
+    let (re, im) = (modulus * angle.cos(), modulus * angle.sin());
+    assert_multipliers(&found, &[(re, im), (re, -im)]);
+    assert_eq!(found["stability"], "stable");
+    // A linear machine: one round, and what it takes to see that there is nothing left.
+    assert!(found["rounds"].as_u64().expect("a count") <= 2);
+}
+
+#[test]
+fn a_wheel_that_turns_has_an_orbit_up_to_whole_turns() {
+    // An unbalanced wheel turns by itself: φ goes on by 2π, with ½ J φ′² + m g e sin φ constant.
+    let spec = Scratch::new(
+        "wheel.machine",
+        "machine Wheel in plane {
+            parameters { m: kg = 1, e: m = 0.1, g: m/s^2 = 9.81 }
+            coordinates { phi: rad = 0 }
+            bodies { weight { mass: m, at: e*(cos(phi), sin(phi)) } }
+            gravity (0, -g);
+        }",
+    );
+    let keep = [
+        "--rate",
+        "phi=20",
+        "--keep",
+        "phi,der(phi)",
+        "--near",
+        "0.3",
+    ];
+    let found = orbit(&[&[spec.path(), "--advance", "phi=2*pi"], &keep[..]].concat());
+    // T = ∫ dφ/√(ω² − 2 (g/e) sin φ), a smooth periodic integrand: the trapezoidal rule has all digits with 64 places.
+    let places = 64;
+    let sum: f64 = (0..places)
+        .map(|k| TAU * f64::from(k) / f64::from(places))
+        .map(|phi| 1.0 / (400.0 - 2.0 * 98.1 * phi.sin()).sqrt())
+        .sum();
+    let exact = sum * TAU / f64::from(places);
+    assert!(
+        (number(&found["period"]) / exact - 1.0).abs() < CLOSE,
+        "{found:#}"
+    );
+    let (status, said) = refused(&[&[spec.path(), "--advance", "phi=3"], &keep[..]].concat());
+    assert_eq!(status, 1);
+    assert!(
+        said.contains("whole turns") && said.contains("`phi`"),
+        "{said}"
+    );
+}
+
+#[test]
+fn what_cannot_be_is_said_with_what_helps() {
+    let spec = Scratch::new("swing.machine", SWING);
+    let kapitza = "machines/kapitza_pendulum.machine";
+    for (arguments, status, words) in [
+        (
+            &[kapitza][..],
+            1,
+            &["change with time", "--period", "omega = 0"][..],
+        ),
+        (
+            &[kapitza, "--near", "0.07"],
+            1,
+            &["change with time", "--period"],
+        ),
+        (
+            &[kapitza, "--period", "0.05"],
+            1,
+            &["not with the period 0.05 s", "`theta`"],
+        ),
+        (&[kapitza, "--period", "theta"], 2, &["--period"]),
+        (
+            &[kapitza, "--period", "-1*s"],
+            2,
+            &["--period", "greater than 0"],
+        ),
+        (
+            &[
+                kapitza,
+                "--period",
+                "2*pi/omega",
+                "--along",
+                "omga=80..90:3",
+            ],
+            2,
+            &["--along", "omega"],
+        ),
+        (&[spec.path(), "--start", "theta=0"], 1, &["at rest"]),
+        (&[spec.path(), "--advance", "phi=1"], 2, &["phi"]),
+        (&["machines/four_bar.machine"], 1, &["constraints"]),
+        (&["machines/stick_slip.machine"], 1, &["sliding"]),
+        (
+            &[spec.path(), "--out", "orbit.txt"],
+            2,
+            &["--out", "`.json`"],
+        ),
+    ] {
+        let (found, said) = refused(arguments);
+        assert_eq!(found, status, "{arguments:?}: {said}");
+        for word in words {
+            assert!(said.contains(word), "{arguments:?}: {said}");
+        }
+    }
+}
+
+#[test]
+fn a_force_that_jumps_is_refused() {
+    // With sign(v) in the force, runs differ by more than the variational equations know.
+    let spec = Scratch::new(
+        "bang.machine",
+        "machine Bang in plane {
+            parameters { f: N = 0.2, d: N*s/m = 0.1, v: m/s = 0.3 }
+            coordinates { x: m = 1 }
+            bodies { ball { mass: 1, at: (x, 0) } }
+            springs { back { stiffness: 1, stretch: x } }
+            dampers { oil { damping: d, stretch: x } }
+            forces { feed { on: x, value: f*sign(der(x) + v) } }
+        }",
+    );
+    let (status, said) = refused(&[
+        spec.path(),
+        "--near",
+        "6.3",
+        "--start",
+        "x=3",
+        "--settle",
+        "200",
+    ]);
+    assert_eq!(status, 1, "{said}");
+    assert!(
+        said.contains("jumps") || said.contains("no orbit"),
+        "{said}"
+    );
+}
+
+#[test]
+fn files_hold_what_is_printed() {
+    let spec = Scratch::new("circle.machine", CIRCLE);
+    let out = spec.0.with_file_name("orbit.json");
+    let printed = orbit(&[spec.path(), "--out", out.to_str().unwrap()]);
+    let text = std::fs::read_to_string(&out).unwrap();
+    let written: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(written, printed);
+    let table = spec.0.with_file_name("orbit.csv");
+    let plot = spec.0.with_file_name("orbit.svg");
+    orbit(&[
+        spec.path(),
+        "--out",
+        table.to_str().unwrap(),
+        "--plot",
+        plot.to_str().unwrap(),
+    ]);
+    let text = std::fs::read_to_string(&table).unwrap();
+    let rows: Vec<Vec<f64>> = text
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
+        .collect();
+    // One period: it ends where it began.
+    let (first, last) = (&rows[0], &rows[rows.len() - 1]);
+    assert!((last[0] - number(&printed["period"])).abs() < 1e-9);
+    assert!((first[1] - last[1]).abs() < CLOSE && (first[2] - last[2]).abs() < CLOSE);
+    assert!(std::fs::read_to_string(&plot).unwrap().contains("</svg>"));
+}

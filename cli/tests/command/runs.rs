@@ -1,0 +1,483 @@
+//! `lagrangian compare`, `spectrum`, `peaks`, `section` and `sensitivities` against closed forms.
+
+use std::f64::consts::{PI, TAU};
+use std::fmt::Write as _;
+
+use crate::support::{Scratch, lagrangian};
+use serde_json::Value;
+
+/// Runs a command that must succeed, for its JSON.
+fn answer(arguments: &[&str]) -> Value {
+    let output = lagrangian(&[arguments, &["--json"]].concat());
+    let text = String::from_utf8(output.stdout).expect("text");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{arguments:?}: {text}{errors}");
+    serde_json::from_str(&text).expect("JSON")
+}
+
+/// What is said of a call that fails, and its exit status.
+fn refused(arguments: &[&str]) -> (i32, String) {
+    let output = lagrangian(arguments);
+    let said = String::from_utf8(output.stderr).expect("text");
+    (output.status.code().expect("no signal"), said)
+}
+
+fn number(value: &Value) -> f64 {
+    value
+        .as_f64()
+        .unwrap_or_else(|| panic!("no number: {value}"))
+}
+
+fn list(value: &Value) -> Vec<f64> {
+    value
+        .as_array()
+        .unwrap_or_else(|| panic!("no list: {value}"))
+        .iter()
+        .map(number)
+        .collect()
+}
+
+/// The quantity of this name.
+fn quantity<'a>(found: &'a Value, name: &str) -> &'a Value {
+    let all = found["quantities"].as_array().expect("a list");
+    let own = all.iter().find(|one| one["name"] == name);
+    own.unwrap_or_else(|| panic!("no {name}: {found:#}"))
+}
+
+/// A damped oscillator: x = e^{−δt} (cos ωt + δ/ω sin ωt) from 1 m at rest, with δ = d/2 and ω² = k − δ².
+const OSCILLATOR: &str = "machine Oscillator in plane {
+    parameters { k: N/m = 39.47841760435743, d: N*s/m = 0.2 }
+    coordinates { x: m = 1 }
+    bodies { ball { mass: 1, at: (x, 0) } }
+    springs { back { stiffness: k, stretch: x } }
+    dampers { oil { damping: d, stretch: x } }
+    outputs { force: N = k*x }
+}";
+
+const STIFFNESS: f64 = 39.478_417_604_357_43;
+
+fn oscillation(t: f64, d: f64, k: f64) -> f64 {
+    let delta = d / 2.0;
+    let omega = (k - delta * delta).sqrt();
+    (-delta * t).exp() * ((omega * t).cos() + delta / omega * (omega * t).sin())
+}
+
+/// A table of some columns.
+fn table(name: &str, header: &str, rows: impl Iterator<Item = Vec<f64>>) -> Scratch {
+    let mut text = format!("{header}\n");
+    for row in rows {
+        let cells: Vec<String> = row.iter().map(|x| format!("{x:?}")).collect();
+        let _ = writeln!(text, "{}", cells.join(","));
+    }
+    Scratch::new(name, &text)
+}
+
+#[test]
+fn a_spec_is_as_far_from_a_table_as_the_closed_form_says() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    // In other units, and not evenly spaced.
+    let rows = (0..=400).map(|k| {
+        let t = 5.0 * (f64::from(k) / 400.0).powf(1.3);
+        vec![1e3 * t, 1e3 * (oscillation(t, 0.2, STIFFNESS) + 1e-3 * t)]
+    });
+    let data = table("data.csv", "t [ms],x [mm]", rows);
+    let found = answer(&["compare", data.path(), spec.path(), "--tolerance", "1e-11"]);
+    let x = quantity(&found, "x");
+    // The spec is looked at at the rows of the table, so that nothing stands between rows. The tolerance is 1e-11 a step.
+    assert_eq!(x["unit"], "mm");
+    assert!((number(&x["largest"]) - 5.0).abs() < 1e-6, "{x:#}");
+    assert!((number(&x["at"]) - 5.0).abs() < 1e-12);
+    // ∫ (1e-3 t)² dt over 5 s is 25e-6/3 · 5: the root of its mean 5e-3/√3; the trapezoidal rule errs by h²/6 of it.
+    assert!(
+        (number(&x["rms"]) - 5.0 / 3.0_f64.sqrt()).abs() < 1e-4,
+        "{x:#}"
+    );
+    assert!(x["between_rows"][0].is_null() && x["between_rows"][1].is_null());
+    let status = |within: &str| {
+        refused(&[
+            "compare",
+            data.path(),
+            spec.path(),
+            "--tolerance",
+            "1e-11",
+            "--within",
+            within,
+        ])
+        .0
+    };
+    // The range of x is 1.79 or so.
+    let share = number(&x["relative"]);
+    assert_eq!(status(&format!("{}", 1.01 * share)), 0);
+    assert_eq!(status(&format!("{}", 0.99 * share)), 1);
+}
+
+#[test]
+fn tables_at_other_instants_are_compared_by_cubics_with_rates() {
+    let rows = |count: i32, amplitude: f64| {
+        (0..=count).map(move |k| {
+            let t = TAU * f64::from(k) / f64::from(count);
+            vec![
+                t,
+                t.sin() + amplitude * (3.0 * t).sin(),
+                t.cos() + 3.0 * amplitude * (3.0 * t).cos(),
+            ]
+        })
+    };
+    let one = table("one.csv", "t [s],x [m],der(x) [m/s]", rows(200, 0.0));
+    let two = table("two.csv", "t [s],x [m],der(x) [m/s]", rows(170, 1e-3));
+    let found = answer(&["compare", one.path(), two.path(), "--of", "x"]);
+    let x = quantity(&found, "x");
+    // h⁴/384 times the fourth derivative, which is 1 + 81e-3 here.
+    let between = (TAU / 170.0).powi(4) / 384.0 * 1.1;
+    let step = TAU / 200.0;
+    assert!(
+        (number(&x["largest"]) - 1e-3).abs() < 1e-3 * (3.0 * step).powi(2) / 2.0 + 2.0 * between
+    );
+    assert!((number(&x["rms"]) - 1e-3 / 2.0_f64.sqrt()).abs() < 1e-6);
+    for k in [0, 1] {
+        let said = number(&x["between_rows"][k]["error"]);
+        assert!(
+            said < 2.0 * between && said > 0.1 * between,
+            "{said:e} {between:e}"
+        );
+        assert_eq!(x["between_rows"][k]["interpolation"], "cubic with rates");
+    }
+    // A run does not differ from itself, in whichever order.
+    let same = answer(&["compare", one.path(), one.path(), "--within", "1e-15"]);
+    assert_eq!(number(&quantity(&same, "x")["largest"]), 0.0);
+    assert_eq!(same["beyond"].as_array().map(Vec::len), Some(0));
+}
+
+#[test]
+fn two_specs_are_compared_with_what_sets_the_second_apart() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let out = spec.0.with_file_name("apart.csv");
+    let plot = spec.0.with_file_name("apart.svg");
+    let found = answer(&[
+        "compare",
+        spec.path(),
+        spec.path(),
+        "--until",
+        "2",
+        "--every",
+        "0.01",
+        "--tolerance",
+        "1e-11",
+        "--set-second",
+        "d=0.3",
+        "--out",
+        out.to_str().unwrap(),
+        "--plot",
+        plot.to_str().unwrap(),
+    ]);
+    let off = |k: i32| {
+        let t = 0.01 * f64::from(k);
+        oscillation(t, 0.3, STIFFNESS) - oscillation(t, 0.2, STIFFNESS)
+    };
+    let largest = (0..=200).map(|k| off(k).abs()).fold(0.0, f64::max);
+    assert!((number(&quantity(&found, "x")["largest"]) - largest).abs() < 1e-8);
+    let text = std::fs::read_to_string(&out).unwrap();
+    let mut lines = text.lines();
+    assert!(lines.next().unwrap().starts_with("t [s],x [m]"));
+    for (k, line) in lines.enumerate() {
+        let x: f64 = line.split(',').nth(1).unwrap().parse().unwrap();
+        assert!((x - off(k as i32)).abs() < 1e-8, "{line}");
+    }
+    assert!(std::fs::read_to_string(&plot).unwrap().contains("</svg>"));
+}
+
+#[test]
+fn spectra_have_the_frequencies_and_amplitudes_of_sines() {
+    let wave = |t: f64| 0.5 + 2.0 * (TAU * 3.21 * t).cos() + 0.01 * (TAU * 7.8 * t + 1.0).cos();
+    let even = table(
+        "even.csv",
+        "t [s],x [mm]",
+        (0..1000)
+            .map(|k| 0.01 * f64::from(k))
+            .map(|t| vec![t, wave(t)]),
+    );
+    let found = answer(&["spectrum", even.path()]);
+    let lines = quantity(&found, "x")["lines"].as_array().unwrap().clone();
+    assert_eq!(lines.len(), 2, "{found:#}");
+    // Two lines 46 frequencies apart: what one window makes of the other falls off with the cube of that.
+    for (line, (frequency, amplitude)) in lines.iter().zip([(3.21, 2.0), (7.8, 0.01)]) {
+        assert!(
+            (number(&line["frequency"]) - frequency).abs() < 1e-6,
+            "{line}"
+        );
+        assert!(
+            (number(&line["amplitude"]) / amplitude - 1.0).abs() < 1e-4,
+            "{line}"
+        );
+    }
+    assert_eq!(found["resampled"], false);
+    // Not evenly spaced, cubics stand between rows.
+    let rows = (0..4000).map(|k| {
+        let k = f64::from(k);
+        let t = 0.0025 * (k + 0.3 * (0.1 * k).sin());
+        vec![t, wave(t)]
+    });
+    let uneven = table("uneven.csv", "t [s],x [mm]", rows);
+    let found = answer(&[
+        "spectrum",
+        uneven.path(),
+        "--of",
+        "x",
+        "--window",
+        "blackman-harris",
+    ]);
+    assert_eq!(found["resampled"], true);
+    let line = &quantity(&found, "x")["lines"][0];
+    assert!((number(&line["frequency"]) - 3.21).abs() < 1e-4, "{line}");
+    assert!((number(&line["amplitude"]) - 2.0).abs() < 1e-3, "{line}");
+}
+
+#[test]
+fn a_damped_oscillation_has_its_period_and_decrement() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let found = answer(&[
+        "peaks",
+        spec.path(),
+        "--until",
+        "8",
+        "--tolerance",
+        "1e-11",
+        "--every",
+        "0.002",
+    ]);
+    let x = quantity(&found, "x");
+    let (delta, period) = (0.1, TAU / (STIFFNESS - 0.01_f64).sqrt());
+    // Extremes are those of cubics between rows: h³/100 or so for their times, and h⁴/384 ω⁴ for their values.
+    assert!((number(&x["period"]) - period).abs() < 1e-7, "{x:#}");
+    assert!((number(&x["decrement"]) - delta * period).abs() < 1e-7);
+    let damping = delta / STIFFNESS.sqrt();
+    assert!((number(&x["damping"]) - damping).abs() < 1e-7);
+    for (k, extreme) in x["extremes"].as_array().unwrap().iter().enumerate() {
+        let t = 0.5 * period * (k + 1) as f64;
+        let sign = if k % 2 == 0 { -1.0 } else { 1.0 };
+        assert!((number(&extreme["t"]) - t).abs() < 1e-7);
+        assert!((number(&extreme["value"]) - sign * (-delta * t).exp()).abs() < 1e-8);
+    }
+}
+
+#[test]
+fn sections_are_where_the_closed_form_has_them() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let run = ["--until", "5", "--tolerance", "1e-12"];
+    let omega = (STIFFNESS - 0.01_f64).sqrt();
+    // x = 0 where tan ωt = −ω/δ; downwards first.
+    let first = (PI - (omega / 0.1).atan()) / omega;
+    let found = answer(
+        &[
+            &[
+                "section",
+                spec.path(),
+                "--crossing",
+                "x",
+                "--direction",
+                "down",
+            ],
+            &run[..],
+        ]
+        .concat(),
+    );
+    let times = list(&found["t"]);
+    assert!(times.len() >= 4, "{times:?}");
+    for (k, t) in times.iter().enumerate() {
+        assert!((t - first - k as f64 * TAU / omega).abs() < 1e-9, "{t}");
+    }
+    // The same of a table, as exact as cubics are, and with a value.
+    let rows = (0..=2500)
+        .map(|k| 0.002 * f64::from(k))
+        .map(|t| vec![t, oscillation(t, 0.2, STIFFNESS)]);
+    let data = table("data.csv", "t [s],x [m]", rows);
+    let found = answer(&[
+        "section",
+        data.path(),
+        "--crossing",
+        "x=0*mm",
+        "--direction",
+        "down",
+    ]);
+    for (one, other) in list(&found["t"]).iter().zip(&times) {
+        assert!((one - other).abs() < 1e-7, "{one} {other}");
+    }
+    // Once a period of what drives: x at multiples of the period.
+    let period = answer(
+        &[
+            &[
+                "section",
+                spec.path(),
+                "--every-period",
+                "2*pi*sqrt(1*kg/k)",
+            ],
+            &run[..],
+        ]
+        .concat(),
+    );
+    let values = list(&quantity(&period, "x")["values"]);
+    for (k, x) in values.iter().enumerate() {
+        let t = k as f64 * TAU / STIFFNESS.sqrt();
+        assert!((x - oscillation(t, 0.2, STIFFNESS)).abs() < 1e-9);
+    }
+    assert_eq!(values.len(), 6);
+}
+
+#[test]
+fn sensitivities_are_the_derivatives_of_the_closed_form() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let found = answer(&[
+        "sensitivities",
+        spec.path(),
+        "--by",
+        "k,d,start(x),rate(x)",
+        "--of",
+        "x,der(x),force",
+        "--until",
+        "2",
+        "--every",
+        "0.5",
+        "--tolerance",
+        "1e-12",
+    ]);
+    let times = list(&found["t"]);
+    let column = |name: &str| {
+        let all = found["derivatives"].as_array().unwrap();
+        let own = all.iter().find(|one| one["name"] == name);
+        list(&own.unwrap_or_else(|| panic!("no {name}: {found:#}"))["values"])
+    };
+    // Central differences of the closed form: their own error is h²/6 times the third derivative, and 1e-16/h.
+    let h = 1e-5;
+    for (k, &t) in times.iter().enumerate() {
+        let by_d =
+            (oscillation(t, 0.2 + h, STIFFNESS) - oscillation(t, 0.2 - h, STIFFNESS)) / (2.0 * h);
+        let by_k =
+            (oscillation(t, 0.2, STIFFNESS + h) - oscillation(t, 0.2, STIFFNESS - h)) / (2.0 * h);
+        assert!((column("x by d")[k] - by_d).abs() < 1e-9, "{t}");
+        assert!((column("x by k")[k] - by_k).abs() < 1e-9, "{t}");
+        // The machine is linear: by its start it is the motion from 1 m.
+        let x = oscillation(t, 0.2, STIFFNESS);
+        assert!((column("x by start(x)")[k] - x).abs() < 1e-9);
+        // The output k x depends on k itself, too.
+        assert!(
+            (column("force by k")[k] - (x + STIFFNESS * by_k)).abs() < 1e-7,
+            "{t}"
+        );
+        assert!((column("force by d")[k] - STIFFNESS * by_d).abs() < 1e-7);
+    }
+    let unit = |name: &str| {
+        let all = found["derivatives"].as_array().unwrap();
+        all.iter().find(|one| one["name"] == name).unwrap()["unit"]
+            .as_str()
+            .unwrap()
+            .to_owned()
+    };
+    assert_eq!(unit("x by k"), "m/(N/m)");
+    assert_eq!(unit("x by start(x)"), "m/m");
+}
+
+#[test]
+fn a_start_that_follows_a_parameter_is_differentiated_too() {
+    // x = A cos ωt with A the parameter: ∂x/∂A = cos ωt; a start that the call sets does not follow it.
+    let spec = Scratch::new(
+        "start.machine",
+        "machine Follows in plane {
+            parameters { A: m = 0.3 }
+            coordinates { x: m = A }
+            bodies { ball { mass: 1, at: (x, 0) } }
+            springs { back { stiffness: 1, stretch: x } }
+        }",
+    );
+    let run = [
+        "--by",
+        "A",
+        "--until",
+        "1",
+        "--every",
+        "1",
+        "--tolerance",
+        "1e-12",
+    ];
+    let end = |more: &[&str]| {
+        let found = answer(&[&["sensitivities", spec.path()], &run[..], more].concat());
+        let values = list(&found["derivatives"][0]["values"]);
+        values[values.len() - 1]
+    };
+    assert!((end(&[]) - 1.0_f64.cos()).abs() < 1e-10);
+    assert_eq!(end(&["--start", "x=0.5"]), 0.0);
+}
+
+#[test]
+fn what_cannot_be_is_said() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let data = Scratch::new("data.csv", "t,x [m]\n0,1\n1,\n2,3\n3,4\n4,5\n");
+    let other = Scratch::new("other.csv", "t,x [N]\n0,1\n1,2\n");
+    let later = Scratch::new("later.csv", "t,x\n7,1\n8,2\n");
+    let (spec, data, other, later) = (spec.path(), data.path(), other.path(), later.path());
+    for (arguments, status, words) in [
+        (&["compare", spec, spec][..], 2, &["--until"][..]),
+        (&["compare", data, other], 1, &["`x`", "m", "N"]),
+        (&["compare", data, later], 1, &["no time in common"]),
+        (&["compare", data, data, "--of", "y"], 2, &["--of y", "x"]),
+        (
+            &["compare", data, data, "--set", "k=1"],
+            2,
+            &["--set", "table"],
+        ),
+        (
+            &["compare", spec, data, "--set-second", "k=1"],
+            2,
+            &["--set-second", "table"],
+        ),
+        (&["compare", data, "run.txt"], 2, &["run.txt", ".machine"]),
+        (&["compare", data, data, "--out", data], 2, &["overwrite"]),
+        (&["spectrum", data], 1, &["`x`", "without a value"]),
+        (&["spectrum", other], 1, &["4 instants"]),
+        (&["section", data], 2, &["--every-period", "--crossing"]),
+        (
+            &["section", spec, "--until", "1", "--crossing", "y"],
+            2,
+            &["--crossing", "y"],
+        ),
+        (
+            &["section", spec, "--until", "1", "--every-period", "x"],
+            2,
+            &["--every-period"],
+        ),
+        (
+            &["sensitivities", spec, "--until", "1", "--by", "m"],
+            2,
+            &["--by m", "start(x)"],
+        ),
+        (
+            &[
+                "sensitivities",
+                "machines/four_bar.machine",
+                "--until",
+                "1",
+                "--by",
+                "m1",
+            ],
+            1,
+            &["constraint"],
+        ),
+        (
+            &[
+                "sensitivities",
+                "machines/stick_slip.machine",
+                "--until",
+                "1",
+                "--by",
+                "m",
+            ],
+            1,
+            &["sliding"],
+        ),
+    ] {
+        let (found, said) = refused(arguments);
+        assert_eq!(found, status, "{arguments:?}: {said}");
+        for word in words {
+            assert!(said.contains(word), "{arguments:?}: {said}");
+        }
+    }
+}

@@ -1,0 +1,329 @@
+//! Values between the rows of a table.
+
+/// How values between rows are found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Between {
+    /// The cubic with the values and the rates of both rows: its error is h⁴/384 times the fourth derivative.
+    Hermite,
+    /// The cubic through the two rows before and the two behind, at an end through the four rows there: where there are no rates. Its
+    /// error is 3h⁴/128 times the fourth derivative, in an interval at an end h⁴/24 times it.
+    Cubic,
+    /// Straight lines.
+    Linear,
+}
+
+impl Between {
+    /// In words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Between::Hermite => "cubic with rates",
+            Between::Cubic => "cubic",
+            Between::Linear => "linear",
+        }
+    }
+
+    /// By how much an error of interpolation becomes smaller where rows are twice as dense, of a smooth curve.
+    fn gain(self) -> f64 {
+        match self {
+            Between::Hermite | Between::Cubic => 16.0,
+            Between::Linear => 4.0,
+        }
+    }
+}
+
+/// A column of a table as a function of time.
+#[derive(Clone, Debug)]
+pub struct Curve<'a> {
+    times: &'a [f64],
+    values: &'a [f64],
+    rates: Option<&'a [f64]>,
+    between: Between,
+}
+
+impl<'a> Curve<'a> {
+    /// A column, with that of its rates where there is one. All are equally long.
+    ///
+    /// With [`Between::Hermite`] and no rates it is [`Between::Cubic`].
+    pub fn new(
+        times: &'a [f64],
+        values: &'a [f64],
+        rates: Option<&'a [f64]>,
+        between: Between,
+    ) -> Curve<'a> {
+        let between = match (between, rates) {
+            (Between::Hermite, None) => Between::Cubic,
+            (between, _) => between,
+        };
+        Curve {
+            times,
+            values,
+            rates,
+            between,
+        }
+    }
+
+    /// How values between rows are found.
+    pub fn between(&self) -> Between {
+        self.between
+    }
+
+    /// The times of the rows.
+    pub fn times(&self) -> &'a [f64] {
+        self.times
+    }
+
+    /// The values of the rows.
+    pub fn values(&self) -> &'a [f64] {
+        self.values
+    }
+
+    /// The value at a time; NaN beyond the rows, and beside a row without a value.
+    pub fn at(&self, t: f64) -> f64 {
+        let after = self.times.partition_point(|row| *row < t);
+        match self.times.get(after) {
+            Some(row) if *row == t => self.values[after],
+            Some(_) if after > 0 => self.within(after - 1, after, t, 1),
+            _ => f64::NAN,
+        }
+    }
+
+    /// The value between two rows, which are `stride` rows apart; so are further ones that are needed.
+    fn within(&self, left: usize, right: usize, t: f64, stride: usize) -> f64 {
+        let (t0, t1) = (self.times[left], self.times[right]);
+        let (x0, x1) = (self.values[left], self.values[right]);
+        let h = t1 - t0;
+        let s = (t - t0) / h;
+        match (self.between, self.rates) {
+            (Between::Hermite, Some(rates)) => {
+                hermite(s, [x0, x1], [h * rates[left], h * rates[right]])
+            }
+            (Between::Linear, _) => x0 + s * (x1 - x0),
+            _ => {
+                // The four rows about it, or those at the end.
+                let before = left.checked_sub(stride);
+                let behind = Some(right + stride).filter(|row| *row < self.times.len());
+                let rows = match (before, behind) {
+                    (Some(before), Some(behind)) => vec![before, left, right, behind],
+                    (None, Some(behind)) => {
+                        let further = Some(behind + stride).filter(|row| *row < self.times.len());
+                        [left, right, behind].into_iter().chain(further).collect()
+                    }
+                    (Some(before), None) => {
+                        let further = before.checked_sub(stride);
+                        further.into_iter().chain([before, left, right]).collect()
+                    }
+                    (None, None) => vec![left, right],
+                };
+                lagrange(self.times, self.values, &rows, t)
+            }
+        }
+    }
+
+    /// What interpolation may make of values between rows: the largest difference between a row and what its neighbours alone say of
+    /// it, over the factor that a smooth curve gains where rows are twice as dense. 0 where there are fewer than three rows.
+    pub fn interpolation_error(&self) -> f64 {
+        let inner = 1..self.times.len().saturating_sub(1);
+        let off = inner.map(|row| {
+            let found = match self.between {
+                // Rows that are two apart, and none that is nearer.
+                Between::Cubic => self.without(row),
+                _ => self.within(row - 1, row + 1, self.times[row], 2),
+            };
+            (found - self.values[row]).abs() / self.between.gain()
+        });
+        off.fold(0.0, f64::max)
+    }
+
+    /// What the rows at odd distances from a row say of it.
+    fn without(&self, row: usize) -> f64 {
+        let last = self.times.len() - 1;
+        let away = [-1, 1, -3, 3, -5, 5].map(|k: isize| row.checked_add_signed(k));
+        let rows = away.into_iter().flatten().filter(|k| *k <= last);
+        let rows: Vec<usize> = rows.take(4).collect();
+        lagrange(self.times, self.values, &rows, self.times[row])
+    }
+
+    /// Instants at which the curve goes through a level, each with whether it rises there. A curve that is on the level without
+    /// passing it does not count; one that rests on it does where it leaves on the other side.
+    pub fn crossings(&self, level: f64) -> Vec<(f64, bool)> {
+        let mut found = Vec::new();
+        // The last row that was off the level.
+        let mut before: Option<(usize, f64)> = None;
+        for (row, x) in self.values.iter().map(|x| x - level).enumerate() {
+            if x.is_nan() {
+                before = None;
+            } else if x != 0.0 {
+                if let Some((last, side)) = before.filter(|(_, side)| *side != x.signum()) {
+                    let t = match row - last {
+                        1 => self.root(last, row, level, side),
+                        // On the level at rows in between: it is left at the last of them.
+                        _ => self.times[row - 1],
+                    };
+                    found.push((t, side < 0.0));
+                }
+                before = Some((row, x.signum()));
+            }
+        }
+        found
+    }
+
+    /// Where between two rows the curve goes through a level, by halving: 60 times leave nothing of an interval.
+    fn root(&self, left: usize, right: usize, level: f64, side: f64) -> f64 {
+        let (mut low, mut high) = (self.times[left], self.times[right]);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if !(low < middle && middle < high) {
+                break;
+            }
+            match (self.at(middle) - level) * side > 0.0 {
+                true => low = middle,
+                false => high = middle,
+            }
+        }
+        0.5 * (low + high)
+    }
+}
+
+/// The cubic with values x and slopes d at s = 0 and s = 1.
+pub(crate) fn hermite(s: f64, [x0, x1]: [f64; 2], [d0, d1]: [f64; 2]) -> f64 {
+    let r = 1.0 - s;
+    // Both ends are met without rounding.
+    r * r * (x0 * (1.0 + 2.0 * s) + s * d0) + s * s * (x1 * (1.0 + 2.0 * r) - r * d1)
+}
+
+/// The polynomial through some rows.
+fn lagrange(times: &[f64], values: &[f64], rows: &[usize], t: f64) -> f64 {
+    let term = |&i: &usize| {
+        let factors = rows.iter().filter(|j| **j != i);
+        let weight: f64 = factors
+            .map(|&j| (t - times[j]) / (times[i] - times[j]))
+            .product();
+        weight * values[i]
+    };
+    rows.iter().map(term).sum()
+}
+
+/// The instants of two tables where both are, in order: instants closer together than the share 1e-9 of the distance of rows are one.
+pub fn common_times(one: &[f64], other: &[f64]) -> Vec<f64> {
+    let (Some(from), Some(to)) = (
+        one.first().zip(other.first()).map(|(a, b)| a.max(*b)),
+        one.last().zip(other.last()).map(|(a, b)| a.min(*b)),
+    ) else {
+        return Vec::new();
+    };
+    let within = |times: &[f64]| -> Vec<f64> {
+        let inside = times.iter().copied();
+        inside.filter(|t| (from..=to).contains(t)).collect()
+    };
+    let (mut all, others) = (within(one), within(other));
+    let spacing = |times: &[f64]| {
+        let count = times.len().max(2) - 1;
+        (to - from) / count as f64
+    };
+    let same = 1e-9 * spacing(&all).min(spacing(&others));
+    let own = all.clone();
+    let is_new = |t: &f64| {
+        let place = own.partition_point(|row| row < t);
+        let near = [place.checked_sub(1), Some(place)];
+        let mut near = near.into_iter().flatten().filter_map(|k| own.get(k));
+        near.all(|row| (row - t).abs() > same)
+    };
+    all.extend(others.into_iter().filter(is_new));
+    all.sort_by(f64::total_cmp);
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sine(count: usize, step: f64) -> [Vec<f64>; 3] {
+        let times: Vec<f64> = (0..count).map(|k| k as f64 * step).collect();
+        let values = times.iter().map(|t| t.sin()).collect();
+        let rates = times.iter().map(|t| t.cos()).collect();
+        [times, values, rates]
+    }
+
+    #[test]
+    fn errors_between_rows_are_those_of_the_remainders() {
+        let h = 0.1;
+        let [times, values, rates] = sine(64, h);
+        // Remainders of interpolation of sin, whose derivatives are at most 1.
+        for (between, bound) in [
+            (Between::Hermite, h.powi(4) / 384.0),
+            (Between::Cubic, h.powi(4) / 24.0),
+            (Between::Linear, h.powi(2) / 8.0),
+        ] {
+            let curve = Curve::new(&times, &values, Some(&rates), between);
+            let off = (0..6300).map(|k| {
+                let t = 1e-3 * f64::from(k);
+                (curve.at(t) - t.sin()).abs()
+            });
+            let off = off.fold(0.0, f64::max);
+            assert!(off <= bound * (1.0 + 1e-9), "{between:?}: {off} {bound}");
+            assert!(off >= 0.2 * bound, "{between:?}: {off} {bound}");
+            // What the curve says of its own error is it, up to the factor between the middle of an interval and its ends.
+            let said = curve.interpolation_error();
+            assert!(
+                (0.2..5.0).contains(&(said / off)),
+                "{between:?}: {said} {off}"
+            );
+        }
+    }
+
+    #[test]
+    fn rows_are_met_and_nothing_is_known_beyond_them() {
+        let [times, values, rates] = sine(9, 0.3);
+        for between in [Between::Hermite, Between::Cubic, Between::Linear] {
+            let curve = Curve::new(&times, &values, Some(&rates), between);
+            for (t, x) in times.iter().zip(&values) {
+                assert_eq!(curve.at(*t), *x);
+            }
+            assert!(curve.at(-1e-9).is_nan() && curve.at(2.41).is_nan());
+        }
+        let curve = Curve::new(&times, &values, None, Between::Hermite);
+        assert_eq!(curve.between(), Between::Cubic);
+    }
+
+    #[test]
+    fn a_cubic_is_met_by_cubics_from_any_four_rows() {
+        let times = [0.0, 0.5, 0.75, 2.0, 3.0];
+        let cubic = |t: f64| 1.0 - 2.0 * t + 0.5 * t * t * t;
+        let values = times.map(cubic);
+        let rates = times.map(|t| -2.0 + 1.5 * t * t);
+        for rates in [None, Some(&rates[..])] {
+            let curve = Curve::new(&times, &values, rates, Between::Hermite);
+            for t in [0.1, 0.6, 1.3, 2.9] {
+                // A dozen operations on numbers up to 10.
+                assert!((curve.at(t) - cubic(t)).abs() < 12.0 * 10.0 * f64::EPSILON);
+            }
+        }
+    }
+
+    #[test]
+    fn crossings_are_where_a_sine_is_zero() {
+        let [times, values, rates] = sine(200, 0.1);
+        let curve = Curve::new(&times, &values, Some(&rates), Between::Hermite);
+        let found = curve.crossings(0.0);
+        // sin starts on the level and does not pass it there.
+        assert_eq!(found.len(), 6);
+        for (k, (t, rises)) in found.iter().enumerate() {
+            let exact = std::f64::consts::PI * (k + 1) as f64;
+            assert!((t - exact).abs() < 0.1_f64.powi(4) / 384.0);
+            assert_eq!(*rises, k % 2 == 1);
+        }
+        // On the level at rows, and off again on the same side or on the other.
+        let touching = Curve::new(&[0.0, 1.0, 2.0], &[1.0, 0.0, 1.0], None, Between::Linear);
+        assert_eq!(touching.crossings(0.0), []);
+        let times = [0.0, 1.0, 2.0, 3.0];
+        let resting = Curve::new(&times, &[1.0, 0.0, 0.0, -1.0], None, Between::Linear);
+        assert_eq!(resting.crossings(0.0), [(2.0, false)]);
+    }
+
+    #[test]
+    fn instants_of_both_are_common() {
+        let found = common_times(&[0.0, 1.0, 2.0, 3.0], &[0.5, 1.0 + 1e-13, 2.5]);
+        assert_eq!(found, [0.5, 1.0, 2.0, 2.5]);
+        assert_eq!(common_times(&[0.0, 1.0], &[2.0, 3.0]), []);
+    }
+}

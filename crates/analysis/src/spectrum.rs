@@ -1,0 +1,379 @@
+//! Which frequencies are in a curve.
+
+use std::f64::consts::{PI, TAU};
+
+use num_complex::Complex;
+
+use crate::transform::transform;
+
+/// By what values are multiplied before they are transformed, so that a frequency that does not fit a whole number of times into the
+/// time is not smeared over all others. Sums of cosines, periodic in the number of samples.
+///
+/// F. J. Harris, *On the use of windows for harmonic analysis with the discrete Fourier transform*, Proc. IEEE 66 (1978) 51–83.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Window {
+    /// Nothing: the narrowest lines, and side lobes of a fifth of them.
+    None,
+    /// Hann's: lines two frequencies wide to each side, side lobes of 1/37 that fall off with the cube of the distance.
+    Hann,
+    /// Blackman's and Harris's of four terms: lines four frequencies wide to each side, side lobes of 1/40 000.
+    BlackmanHarris,
+}
+
+impl Window {
+    /// All of them.
+    pub const ALL: [Window; 3] = [Window::Hann, Window::None, Window::BlackmanHarris];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Window::None => "none",
+            Window::Hann => "hann",
+            Window::BlackmanHarris => "blackman-harris",
+        }
+    }
+
+    /// The coefficients a of `Σ (−1)ʲ aⱼ cos(2πjn/N)`.
+    fn terms(self) -> &'static [f64] {
+        match self {
+            Window::None => &[1.0],
+            Window::Hann => &[0.5, 0.5],
+            Window::BlackmanHarris => &[0.35875, 0.48829, 0.14128, 0.01168],
+        }
+    }
+
+    /// The weight of a sample.
+    fn weight(self, n: usize, count: usize) -> f64 {
+        let angle = TAU * n as f64 / count as f64;
+        let terms = self.terms().iter().enumerate();
+        terms
+            .map(|(j, a)| if j % 2 == 0 { *a } else { -a } * (j as f64 * angle).cos())
+            .sum()
+    }
+
+    /// The transform of `e^{2πi x n/N}` under the window at frequency 0, over that at x = 0: how a line x frequencies away is seen.
+    fn seen(self, x: f64, count: usize) -> Complex<f64> {
+        let terms = self.terms();
+        let mut sum = terms[0] * dirichlet(x, count);
+        for (j, a) in terms.iter().enumerate().skip(1) {
+            let sign = if j % 2 == 0 { 0.5 } else { -0.5 };
+            let j = j as f64;
+            sum += (dirichlet(x - j, count) + dirichlet(x + j, count)) * (sign * a);
+        }
+        sum / terms[0]
+    }
+}
+
+/// `1/N Σ e^{2πi x n/N}` over n from 0 to N − 1.
+fn dirichlet(x: f64, count: usize) -> Complex<f64> {
+    let count = count as f64;
+    let below = (PI * x / count).sin();
+    match below == 0.0 {
+        true => Complex::new(1.0, 0.0),
+        false => {
+            // The sine of π x from its distance to a whole number: it is 0 where x is one.
+            let whole = x.round();
+            let sine = (PI * (x - whole)).sin() * if whole % 2.0 == 0.0 { 1.0 } else { -1.0 };
+            Complex::from_polar(sine / (count * below), PI * x * (count - 1.0) / count)
+        }
+    }
+}
+
+/// The amplitudes of a curve at the frequencies k/(N h).
+#[derive(Clone, Debug)]
+pub struct Spectrum {
+    /// Frequencies, in Hz, from 0 to half of the rate of samples.
+    pub frequencies: Vec<f64>,
+    /// Amplitudes in the unit of the curve: a sine of amplitude A on one of the frequencies has A there. The mean is taken away
+    /// before, and stands in `mean`.
+    pub amplitudes: Vec<f64>,
+    /// The mean of the samples.
+    pub mean: f64,
+    /// The distance of two frequencies, in Hz: one over the time that all samples take.
+    pub resolution: f64,
+    /// The transform, over N/2 times the mean weight.
+    transform: Vec<Complex<f64>>,
+    window: Window,
+    count: usize,
+}
+
+/// A frequency that a curve has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// Its frequency, in Hz, between those of the spectrum.
+    pub frequency: f64,
+    /// Its amplitude, in the unit of the curve.
+    pub amplitude: f64,
+    /// Its phase φ in `A cos(2π f (t − t₀) + φ)`, in rad, with t₀ the first sample.
+    pub phase: f64,
+}
+
+/// A line that is less than this much of what the spectrum has at its place belongs to the foot of a greater one.
+const OWN: f64 = 0.5;
+
+/// How often all lines are found anew with the others taken away.
+const ROUNDS: usize = 8;
+
+/// The fewest samples of a spectrum.
+pub const LEAST: usize = 4;
+
+impl Spectrum {
+    /// The spectrum of samples that are `step` seconds apart. None of fewer than [`LEAST`] samples, or where one is not finite.
+    pub fn new(values: &[f64], step: f64, window: Window) -> Option<Spectrum> {
+        let count = values.len();
+        if count < LEAST || values.iter().any(|x| !x.is_finite()) {
+            return None;
+        }
+        let mean = values.iter().sum::<f64>() / count as f64;
+        let weighted: Vec<f64> = values
+            .iter()
+            .enumerate()
+            .map(|(n, x)| (x - mean) * window.weight(n, count))
+            .collect();
+        let mut transform = transform(&weighted);
+        let scale = 2.0 / (count as f64 * window.terms()[0]);
+        for x in &mut transform {
+            *x *= scale;
+        }
+        let resolution = 1.0 / (count as f64 * step);
+        let is_edge = |k: usize| k == 0 || 2 * k == count;
+        Some(Spectrum {
+            frequencies: (0..transform.len())
+                .map(|k| k as f64 * resolution)
+                .collect(),
+            // At 0 and at half of the rate of samples both images are one.
+            amplitudes: transform
+                .iter()
+                .enumerate()
+                .map(|(k, x)| x.norm() * if is_edge(k) { 0.5 } else { 1.0 })
+                .collect(),
+            mean,
+            resolution,
+            transform,
+            window,
+            count,
+        })
+    }
+
+    /// The greatest lines, by amplitude, `most` of them at most, and none below the share `least` of the greatest.
+    ///
+    /// A line is a place where the amplitudes are greatest among their neighbours, and stays so when greater lines are taken away
+    /// with everything that the window makes of them. Its frequency and its amplitude are those of the sine that looks
+    /// so under the window, which is exact for sines that are apart by more than the width of a line.
+    pub fn lines(&self, most: usize, least: f64) -> Vec<Line> {
+        let mut tops: Vec<usize> = (1..self.amplitudes.len())
+            .filter(|&k| {
+                let [below, here, above] =
+                    [k - 1, k, k + 1].map(|k| self.amplitudes.get(k).copied().unwrap_or(0.0));
+                here > below && here >= above
+            })
+            .collect();
+        tops.sort_by(|a, b| self.amplitudes[*b].total_cmp(&self.amplitudes[*a]));
+        let Some(greatest) = tops.first().map(|k| self.amplitudes[*k]) else {
+            return Vec::new();
+        };
+        let mut found: Vec<(usize, Wave)> = Vec::new();
+        let mut left = self.transform.clone();
+        // The mean of samples of a sine that is cut off is not that of the sine, and has a foot of its own.
+        let mut still = Wave {
+            place: 0.0,
+            amplitude: Complex::new(0.0, 0.0),
+        };
+        for top in tops {
+            if found.len() == most || self.amplitudes[top] < least * greatest {
+                break;
+            }
+            if left[top].norm() < OWN * self.amplitudes[top] || self.amplitudes[top] == 0.0 {
+                continue;
+            }
+            let wave = self.wave(&left, top);
+            self.add(&mut left, wave, -1.0);
+            found.push((top, wave));
+            // What was found under the feet of others is found anew without them.
+            for _ in 0..ROUNDS {
+                self.add(&mut left, still, 1.0);
+                // Both images are one there.
+                still.amplitude = Complex::new(0.5 * left[0].re, 0.0);
+                self.add(&mut left, still, -1.0);
+                for k in 0..found.len() {
+                    let (top, before) = found[k];
+                    // The wave alone, and not its image, whose foot stands here too.
+                    self.add_one(&mut left, before.place, before.amplitude);
+                    let wave = self.wave(&left, top);
+                    self.add_one(&mut left, -before.place, before.amplitude.conj());
+                    self.add(&mut left, wave, -1.0);
+                    found[k].1 = wave;
+                }
+            }
+        }
+        let mut lines: Vec<Line> = found
+            .into_iter()
+            .map(|(_, wave)| Line {
+                frequency: wave.place * self.resolution,
+                amplitude: wave.amplitude.norm(),
+                phase: wave.amplitude.arg(),
+            })
+            .collect();
+        lines.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+        lines
+    }
+
+    /// The wave that looks like a transform at a frequency and its greater neighbour.
+    fn wave(&self, transform: &[Complex<f64>], top: usize) -> Wave {
+        let size = |k: usize| transform.get(k).map_or(0.0, |x| x.norm());
+        let (below, above) = (size(top - 1), size(top + 1));
+        // The line lies towards the greater neighbour.
+        let side = if above >= below { 1.0 } else { -1.0 };
+        let ratio = above.max(below) / size(top);
+        // How large the neighbour is beside the top grows with the distance of the line, from 0 to 1.
+        let seen = |x: f64| self.window.seen(x, self.count).norm();
+        let at_rest = seen(1.0);
+        let shift = match ratio <= at_rest {
+            true => 0.0,
+            false => {
+                let (mut low, mut high) = (0.0, 1.0);
+                for _ in 0..60 {
+                    let middle = 0.5 * (low + high);
+                    match seen(1.0 - middle) < ratio * seen(middle) {
+                        true => low = middle,
+                        false => high = middle,
+                    }
+                }
+                0.5 * (low + high)
+            }
+        };
+        let place = top as f64 + side * shift;
+        let amplitude = transform[top] / self.window.seen(place - top as f64, self.count);
+        Wave { place, amplitude }
+    }
+
+    /// Adds what the window makes of a wave, and of its image at the negative frequency.
+    fn add(&self, transform: &mut [Complex<f64>], wave: Wave, factor: f64) {
+        self.add_one(transform, wave.place, wave.amplitude * factor);
+        self.add_one(transform, -wave.place, wave.amplitude.conj() * factor);
+    }
+
+    /// Adds what the window makes of one of these.
+    fn add_one(&self, transform: &mut [Complex<f64>], place: f64, amplitude: Complex<f64>) {
+        for (k, x) in transform.iter_mut().enumerate() {
+            *x += amplitude * self.window.seen(place - k as f64, self.count);
+        }
+    }
+}
+
+/// `Re(A e^{2πi x n/N})` of sample n.
+#[derive(Clone, Copy, Debug)]
+struct Wave {
+    place: f64,
+    amplitude: Complex<f64>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn samples(waves: &[(f64, f64, f64)], count: usize, step: f64) -> Vec<f64> {
+        let value = |t: f64| -> f64 {
+            let waves = waves.iter();
+            waves
+                .map(|(f, a, phase)| a * (TAU * f * t + phase).cos())
+                .sum()
+        };
+        (0..count).map(|n| value(n as f64 * step)).collect()
+    }
+
+    #[test]
+    fn the_transform_is_the_sum_that_defines_it() {
+        // Of an even and an odd number, against the sum itself.
+        for count in [32, 27] {
+            let values: Vec<f64> = (0..count).map(|n| ((n * n) % 17) as f64 - 3.0).collect();
+            for window in Window::ALL {
+                let spectrum = Spectrum::new(&values, 0.1, window).unwrap();
+                let mean = values.iter().sum::<f64>() / count as f64;
+                let total: f64 = (0..count).map(|n| window.weight(n, count)).sum();
+                for (k, amplitude) in spectrum.amplitudes.iter().enumerate() {
+                    let (mut re, mut im) = (0.0, 0.0);
+                    for (n, x) in values.iter().enumerate() {
+                        let angle = TAU * ((k * n) % count) as f64 / count as f64;
+                        re += (x - mean) * window.weight(n, count) * angle.cos();
+                        im += (x - mean) * window.weight(n, count) * angle.sin();
+                    }
+                    let both = if k == 0 || 2 * k == count { 1.0 } else { 2.0 };
+                    let sum = both * f64::hypot(re, im) / total;
+                    // `count` terms of size 20, over a mean weight of a third.
+                    let bound = 20.0 * 3.0 * 8.0 * count as f64 * f64::EPSILON;
+                    assert!(
+                        (amplitude - sum).abs() < bound,
+                        "{window:?} {k}: {amplitude} {sum}"
+                    );
+                }
+                assert!((spectrum.resolution - 1.0 / (0.1 * count as f64)).abs() < 1e-15);
+            }
+        }
+    }
+
+    #[test]
+    fn a_sine_between_frequencies_has_its_frequency_and_its_amplitude() {
+        for window in Window::ALL {
+            for f in [3.0, 3.1, 3.37, 3.5, 3.99] {
+                let values = samples(&[(f, 2.0, 0.7)], 512, 1.0 / 64.0);
+                let spectrum = Spectrum::new(&values, 1.0 / 64.0, window).unwrap();
+                let lines = spectrum.lines(5, 1e-3);
+                assert_eq!(lines.len(), 1, "{window:?} {f}: {lines:?}");
+                // Each round leaves of an error what the foot of the image or of the mean, 24 frequencies away at least, is of a
+                // line: 1/(24 π) without a window. 8 rounds leave 1e-15, on top of the rounding of a transform.
+                let bound = 1e-11;
+                let line = lines[0];
+                assert!(
+                    (line.frequency - f).abs() < bound,
+                    "{window:?} {f}: {line:?}"
+                );
+                assert!(
+                    (line.amplitude - 2.0).abs() < 4.0 * bound,
+                    "{window:?} {f}: {line:?}"
+                );
+                assert!(
+                    (line.phase - 0.7).abs() < 8.0 * bound,
+                    "{window:?} {f}: {line:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn small_lines_are_told_from_the_feet_of_great_ones() {
+        // The second is below the side lobes that the first has without a window, the third a thousandth of it.
+        let waves = [(5.23, 1.0, 0.0), (9.41, 0.02, 1.0), (14.77, 0.001, 2.0)];
+        let values = samples(&waves, 1024, 1.0 / 64.0);
+        let spectrum = Spectrum::new(&values, 1.0 / 64.0, Window::Hann).unwrap();
+        let lines = spectrum.lines(8, 3e-4);
+        assert_eq!(lines.len(), 3, "{lines:?}");
+        for (line, (f, a, _)) in lines.iter().zip(waves) {
+            assert!((line.frequency - f).abs() < 1e-3, "{line:?}");
+            assert!((line.amplitude - a).abs() < 1e-2 * a, "{line:?}");
+        }
+    }
+
+    #[test]
+    fn a_damped_oscillation_is_one_line() {
+        // x = e^{−δt} cos ωt has |X| = ½/√(δ² + (Ω − ω)²) about ω: one maximum, and no ripples beside it.
+        let step = 1.0 / 64.0;
+        let values: Vec<f64> = (0..2048)
+            .map(|n| n as f64 * step)
+            .map(|t| (-0.5 * t).exp() * (TAU * 4.0 * t).cos())
+            .collect();
+        let spectrum = Spectrum::new(&values, step, Window::Hann).unwrap();
+        let lines = spectrum.lines(8, 0.05);
+        assert_eq!(lines.len(), 1, "{lines:?}");
+        assert!((lines[0].frequency - 4.0).abs() < spectrum.resolution);
+    }
+
+    #[test]
+    fn what_has_no_spectrum_is_told() {
+        assert!(Spectrum::new(&[1.0, 2.0, 3.0], 1.0, Window::Hann).is_none());
+        assert!(Spectrum::new(&[1.0, f64::NAN, 3.0, 4.0], 1.0, Window::Hann).is_none());
+        let still = Spectrum::new(&[2.0; 8], 1.0, Window::Hann).unwrap();
+        assert_eq!(still.lines(4, 0.1), []);
+        assert_eq!(still.mean, 2.0);
+    }
+}

@@ -1,0 +1,961 @@
+//! Periodic motions: a start from which the machine comes back to where it was, and what becomes of motions beside it.
+//!
+//! With Φ(x) the state that a motion from x has a period T later, and Φ_T its rate there, the start of a periodic motion obeys
+//! `Φ(x) − x − d = 0`, where d is what coordinates go on by in a period: nothing, or whole turns. Newton's method solves it:
+//!
+//! ```text
+//! (M − 1) δx + Φ_T δT = −(Φ(x) − x − d),   M = ∂Φ/∂x                                  (E55)
+//! ```
+//!
+//! M, the monodromy matrix, comes from the variational equations, which are integrated with the motion. Its eigenvalues are Floquet's
+//! multipliers: what is beside the motion is multiplied by them in each period (E. A. Coddington, N. Levinson, *Theory of Ordinary
+//! Differential Equations*, 1955, chapter 3, section 5, and chapter 13, section 2).
+//!
+//! Where the equations do not change with time, every state of the orbit is a start, and a machine that conserves energy has an orbit
+//! for every energy. (E55) then has many solutions, and that is taken which moves the start the least, measured by
+//! inertia, `δqᵀ M δq (2π/T)² + δvᵀ M δv`: so neither units nor the choice of coordinates matter. What is kept of a start does not
+//! move at all.
+
+use std::f64::consts::TAU;
+use std::fmt;
+
+use lagrangian::interpreted::{InterpretedMachine, Named};
+use lagrangian::{Crossing, Machine, Sensitive, Simulation, State, System};
+use nalgebra::{Complex, DMatrix, DVector};
+
+use crate::poles::poles;
+use crate::search::{MOST_STEPS, Wanted};
+use crate::steady;
+
+/// Which period an orbit is to have.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Period {
+    /// This one, in s: that of what drives the machine, a multiple of it, or of a family of orbits the one that has it.
+    Given(f64),
+    /// One near this, in s; of a machine whose equations do not change with time.
+    Near(f64),
+    /// That after which the motion from the start comes nearest to it; of a machine whose equations do not change with time.
+    Sought,
+}
+
+/// Where an orbit is sought.
+#[derive(Clone, Debug)]
+pub struct Sought {
+    /// The state to begin with.
+    pub start: State<Named>,
+    /// Its period.
+    pub period: Period,
+    /// Which numbers of the start stay as they are: coordinates, then rates.
+    pub kept: Vec<bool>,
+    /// What coordinates go on by in a period.
+    pub advance: Vec<f64>,
+    /// Of the integration, relative and absolute.
+    pub tolerance: f64,
+}
+
+impl Sought {
+    /// An orbit near a start that comes back to it, by which nothing is kept.
+    pub fn near(start: State<Named>, period: Period) -> Sought {
+        let n = start.q.values.len();
+        Sought {
+            start,
+            period,
+            kept: vec![false; 2 * n],
+            advance: vec![0.0; n],
+            tolerance: 1e-11,
+        }
+    }
+}
+
+/// What a period does to what is beside a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Multiplier {
+    /// By what it is multiplied.
+    pub value: Complex<f64>,
+    /// The value is known up to this.
+    pub error: f64,
+    /// Whether it is 1 because the same motion a little later is a motion, too.
+    pub is_trivial: bool,
+}
+
+impl Multiplier {
+    /// Whether it is greater than 1, less, or neither as far as it is known; the trivial one aside.
+    fn side(&self) -> Side {
+        match self.value.norm() - 1.0 {
+            _ if self.is_trivial => Side::Neither,
+            off if off > self.error => Side::Grows,
+            off if off < -self.error => Side::Dies,
+            _ => Side::Neither,
+        }
+    }
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Side {
+    Grows,
+    Dies,
+    Neither,
+}
+
+/// What becomes of motions beside an orbit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stability {
+    /// All come back to it.
+    Attracting,
+    /// Some go away, faster than any power of time.
+    Unstable,
+    /// As far as multipliers are known some neither come back nor go away, and none goes away: what they do is not decided by (E55).
+    Undecided,
+}
+
+impl Stability {
+    /// In one word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Stability::Attracting => "stable",
+            Stability::Unstable => "unstable",
+            Stability::Undecided => "undecided",
+        }
+    }
+}
+
+/// A periodic motion.
+#[derive(Clone, Debug)]
+pub struct Orbit {
+    /// Its start.
+    pub start: State<Named>,
+    /// Its period, in s.
+    pub period: f64,
+    /// M, of coordinates, then rates.
+    pub monodromy: DMatrix<f64>,
+    /// What integration may have made of each number of M.
+    pub bounds: DMatrix<f64>,
+    /// The multipliers: the greatest first, of a conjugate pair that above the axis.
+    pub multipliers: Vec<Multiplier>,
+    /// The largest number of `Φ(x) − x − d`, each over `max(1, |x|)`.
+    pub residual: f64,
+    /// By how many further numbers an orbit near this one may be chosen, its phase aside.
+    pub family: usize,
+    /// Whether the equations do not change with time.
+    pub is_autonomous: bool,
+    /// How often (E55) was solved.
+    pub rounds: usize,
+}
+
+impl Orbit {
+    /// What becomes of motions beside it.
+    pub fn stability(&self) -> Stability {
+        let own = || self.multipliers.iter().filter(|one| !one.is_trivial);
+        match () {
+            () if own().any(|one| one.side() == Side::Grows) => Stability::Unstable,
+            () if own().all(|one| one.side() == Side::Dies) => Stability::Attracting,
+            () => Stability::Undecided,
+        }
+    }
+}
+
+/// Why there is no orbit.
+#[derive(Clone, Debug)]
+pub enum NoOrbit {
+    /// The machine has what has no variational equations; what that is.
+    Refused(String),
+    /// Its equations change with time, and no period was given; the parameters each of which stops that by being 0.
+    Driven(Vec<String>),
+    /// They change with time, and not with this period: of this coordinate the acceleration is another one a period later.
+    OtherPeriod(String, f64),
+    /// They are not the same where coordinates have gone on by what they are to: the acceleration of this coordinate is another.
+    OtherPlace(String),
+    /// The period is not greater than 0 or not finite.
+    NoPeriod(f64),
+    /// The motion from the start does not come back near it.
+    NoReturn,
+    /// The start stays where it is, and so has no period of its own.
+    Rest,
+    /// A run ended early; why.
+    Run(String),
+    /// The search stopped at a start that comes back only up to this, relative to `max(1, |x|)`, after so many rounds.
+    Lost(f64, usize),
+    /// The variational equations do not say how runs differ, as where forces jump (`sign`): what they say for a change of the start,
+    /// and what runs do, over its size.
+    Jump(f64, f64),
+    /// Eigenvalues cannot be found.
+    Eigenvalues,
+}
+
+impl fmt::Display for NoOrbit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NoOrbit::Refused(why) => write!(f, "{why}"),
+            NoOrbit::Driven(names) => {
+                write!(f, "the equations change with time: a period is to be given, that of the drive or a multiple of it")?;
+                match names.as_slice() {
+                    [] => Ok(()),
+                    names => write!(f, "; they do not with {} = 0", names.join(" = 0, or ")),
+                }
+            }
+            NoOrbit::OtherPeriod(name, period) => write!(
+                f,
+                "the equations change with time, and not with the period {period} s: a period later the acceleration of `{name}` is \
+                 another one"
+            ),
+            NoOrbit::OtherPlace(name) => write!(
+                f,
+                "a machine that has gone on so far is another one: the acceleration of `{name}` differs there"
+            ),
+            NoOrbit::NoPeriod(period) => {
+                write!(f, "{period} s is no period: it is to be greater than 0")
+            }
+            NoOrbit::NoReturn => f.write_str(
+                "the motion from the start does not come back near it; start nearer to the orbit, or give about how long its period is",
+            ),
+            NoOrbit::Rest => f.write_str(
+                "the search came to a state at rest, an equilibrium, which has no period of its own; start further away from it, or \
+                 keep a number of the start",
+            ),
+            NoOrbit::Run(why) => f.write_str(why),
+            NoOrbit::Lost(residual, rounds) => write!(
+                f,
+                "no orbit is found near the start: after {rounds} rounds the motion comes back up to {residual:.1e} only; start nearer \
+                 to it, or let the motion settle first if the orbit attracts"
+            ),
+            NoOrbit::Jump(said, found) => write!(
+                f,
+                "the variational equations do not say how runs differ ({said:.3e} in place of {found:.3e}), as where a force jumps; \
+                 make it smooth"
+            ),
+            NoOrbit::Eigenvalues => f.write_str("the multipliers cannot be found"),
+        }
+    }
+}
+
+impl std::error::Error for NoOrbit {}
+
+/// How often (E55) is solved at most.
+const MOST_ROUNDS: usize = 60;
+
+/// How often a step is halved that leads away.
+const MOST_HALVINGS: usize = 12;
+
+/// Singular values below this share of the largest belong to changes of the start that lead to orbits again.
+const NOTHING: f64 = 1e-7;
+
+/// An orbit closes up to so many tolerances of the integration: errors of a step, some hundred times.
+const CLOSED: f64 = 1e3;
+
+/// Steps of a run that is to come back.
+const STEPS_OF_RETURN: usize = 20_000;
+
+/// How often it may pass the start.
+const RETURNS: usize = 24;
+
+/// What a period does to a state.
+struct Passage {
+    /// The state behind it.
+    x: DVector<f64>,
+    /// M.
+    monodromy: DMatrix<f64>,
+    /// The rate of the state there.
+    rate: DVector<f64>,
+}
+
+struct Search<'a> {
+    machine: &'a InterpretedMachine,
+    sought: &'a Sought,
+    n: usize,
+    /// d, with nothing for rates.
+    advance: DVector<f64>,
+}
+
+/// An orbit near a start.
+///
+/// # Errors
+/// Why there is none.
+pub fn find(machine: &InterpretedMachine, sought: &Sought) -> Result<Orbit, NoOrbit> {
+    let system = machine.prepare();
+    for (count, what) in [
+        (
+            system.constraints().len(),
+            "constraints, whose start would have to move along them, so that it has no variational equations",
+        ),
+        (
+            system.contacts().len(),
+            "friction that sticks, which has no variational equations",
+        ),
+        (
+            system.unilateral_contacts().len(),
+            "contacts, which have no variational equations where they open and close",
+        ),
+    ] {
+        if count > 0 {
+            return Err(NoOrbit::Refused(format!("the machine has {what}")));
+        }
+    }
+    let n = sought.start.q.values.len();
+    if n == 0 {
+        return Err(NoOrbit::Rest);
+    }
+    let mut advance = DVector::zeros(2 * n);
+    for (to, from) in advance.iter_mut().zip(&sought.advance) {
+        *to = *from;
+    }
+    let search = Search {
+        machine,
+        sought,
+        n,
+        advance,
+    };
+    search.run()
+}
+
+impl Search<'_> {
+    fn run(&self) -> Result<Orbit, NoOrbit> {
+        let drive = self.drives();
+        let is_autonomous = drive.is_ok();
+        let x = self.state();
+        let (mut period, is_free) = match (self.sought.period, drive) {
+            (Period::Given(period), _) => (period, false),
+            (Period::Near(period), Ok(())) => (period, true),
+            (Period::Sought, Ok(())) => (self.first_return(&x)?, true),
+            (_, Err(names)) => return Err(NoOrbit::Driven(names)),
+        };
+        if !(period > 0.0 && period.is_finite()) {
+            return Err(NoOrbit::NoPeriod(period));
+        }
+        self.check_invariance(&x, period, is_autonomous)?;
+        let (x, rounds) = self.newton(x, &mut period, is_free, is_autonomous)?;
+        let tolerance = self.sought.tolerance;
+        let passage = self.passage(&x, period, tolerance)?;
+        self.check_differences(&x, period, &passage)?;
+        // What ten times the tolerance changes is ten times what the tolerance leaves, or more.
+        let coarse = self.passage(&x, period, (10.0 * tolerance).min(1e-4))?;
+        let size = passage.monodromy.amax();
+        let bounds = (&passage.monodromy - coarse.monodromy).map(|x| x.abs().max(tolerance * size));
+        let (multipliers, family) =
+            self.multipliers(&x, period, (&passage, &bounds), (is_autonomous, is_free))?;
+        Ok(Orbit {
+            residual: self.share(&self.gap(&x, &passage.x), &x),
+            start: self.named(&x),
+            period,
+            monodromy: passage.monodromy,
+            bounds,
+            multipliers,
+            family,
+            is_autonomous,
+            rounds,
+        })
+    }
+
+    /// Whether the equations change with time, and what stops that.
+    fn drives(&self) -> Result<(), Vec<String>> {
+        let v = &self.sought.start.v.values;
+        let wanted = Wanted {
+            steady: vec![true; self.n],
+            solved: vec![false; self.n],
+            rates: v.clone(),
+            steps: MOST_STEPS,
+        };
+        steady::drives(self.machine, &self.sought.start.q.values, &wanted)
+    }
+
+    fn state(&self) -> DVector<f64> {
+        let start = &self.sought.start;
+        DVector::from_iterator(
+            2 * self.n,
+            start.q.values.iter().chain(&start.v.values).copied(),
+        )
+    }
+
+    fn named(&self, x: &DVector<f64>) -> State<Named> {
+        let mut state = self.sought.start.clone();
+        state.q.values.copy_from_slice(&x.as_slice()[..self.n]);
+        state.v.values.copy_from_slice(&x.as_slice()[self.n..]);
+        state
+    }
+
+    /// `Φ(x) − x − d`.
+    fn gap(&self, x: &DVector<f64>, there: &DVector<f64>) -> DVector<f64> {
+        there - x - &self.advance
+    }
+
+    /// The largest number, each over `max(1, |x|)`.
+    fn share(&self, gap: &DVector<f64>, x: &DVector<f64>) -> f64 {
+        let shares = gap.iter().zip(x.iter());
+        shares.fold(0.0, |most, (gap, x)| most.max(gap.abs() / x.abs().max(1.0)))
+    }
+
+    /// The rate of a state: rates and accelerations.
+    fn rate(&self, t: f64, x: &DVector<f64>) -> Option<DVector<f64>> {
+        let system = self.machine.prepare();
+        let (q, v) = (
+            x.as_slice()[..self.n].to_vec(),
+            x.as_slice()[self.n..].to_vec(),
+        );
+        let mut a = vec![0.0; self.n];
+        let inputs = system.default_inputs();
+        system.accelerations(t, &q, &v, &inputs, &mut a).ok()?;
+        let all = v.iter().chain(&a).copied();
+        let rate = DVector::from_iterator(2 * self.n, all);
+        rate.iter().all(|x| x.is_finite()).then_some(rate)
+    }
+
+    /// The state a period later, without derivatives.
+    fn end(&self, x: &DVector<f64>, period: f64, tolerance: f64) -> Result<DVector<f64>, NoOrbit> {
+        let start = self.named(x);
+        let run = Simulation::new(self.machine)
+            .tolerance(tolerance)
+            .until(start.t + period)
+            .forget_steps()
+            .run(start);
+        let run = run.map_err(|error| NoOrbit::Run(error.to_string()))?;
+        let end = run.end();
+        let all = end.q.values.iter().chain(&end.v.values).copied();
+        Ok(DVector::from_iterator(2 * self.n, all))
+    }
+
+    /// The state a period later, with derivatives.
+    fn passage(&self, x: &DVector<f64>, period: f64, tolerance: f64) -> Result<Passage, NoOrbit> {
+        let failed = |error: lagrangian::Error| NoOrbit::Run(error.to_string());
+        let sensitive = Sensitive::new(self.machine).by_state().map_err(failed)?;
+        let start = sensitive.start_from(self.named(x));
+        let t = start.t + period;
+        let run = Simulation::new(&sensitive)
+            .tolerance(tolerance)
+            .until(t)
+            .forget_steps()
+            .run(start)
+            .map_err(failed)?;
+        let (q, v) = (&run.end().q, &run.end().v);
+        let n = self.n;
+        let there = q.value.values.iter().chain(&v.value.values).copied();
+        let there = DVector::from_iterator(2 * n, there);
+        let monodromy = DMatrix::from_fn(2 * n, 2 * n, |i, j| match i < n {
+            true => q.by[j].values[i],
+            false => v.by[j].values[i - n],
+        });
+        let none = || NoOrbit::Run(format!("there are no accelerations at t = {t} s"));
+        Ok(Passage {
+            rate: self.rate(t, &there).ok_or_else(none)?,
+            x: there,
+            monodromy,
+        })
+    }
+
+    /// S with `|S δx|² = δqᵀ M δq (2π/T)² + δvᵀ M δv`; where there is no positive mass matrix, by the sizes of coordinates.
+    fn scale(&self, x: &DVector<f64>, period: f64) -> DMatrix<f64> {
+        let (n, omega) = (self.n, TAU / period);
+        let system = self.machine.prepare();
+        let mut mass = vec![0.0; n * n];
+        let q = x.as_slice()[..n].to_vec();
+        system.mass_matrix(self.sought.start.t, &q, &mut mass);
+        let mass = DMatrix::from_row_slice(n, n, &mass);
+        let factor = mass.cholesky().map(|cholesky| cholesky.l().transpose());
+        let factor = factor.filter(|factor| factor.iter().all(|x| x.is_finite()));
+        let factor = factor.unwrap_or_else(|| DMatrix::identity(n, n));
+        let mut scale = DMatrix::zeros(2 * n, 2 * n);
+        scale.view_mut((0, 0), (n, n)).copy_from(&(&factor * omega));
+        scale.view_mut((n, n), (n, n)).copy_from(&factor);
+        scale
+    }
+
+    /// The period after which the motion from a start comes nearest to it, passing it in the direction in which it left.
+    fn first_return(&self, x: &DVector<f64>) -> Result<f64, NoOrbit> {
+        let start = self.named(x);
+        let rate = self.rate(start.t, x).ok_or(NoOrbit::NoReturn)?;
+        // About how long a radian takes: states are weighed with it, which decides nothing.
+        let (n, size) = (self.n, |part: &[f64]| {
+            DVector::from_column_slice(part).norm()
+        });
+        let speeds = [&rate.as_slice()[..n], &rate.as_slice()[n..]].map(size);
+        let omega = match (speeds[0] > 0.0, speeds[1] > 0.0) {
+            (_, false) if speeds[0] == 0.0 => return Err(NoOrbit::Rest),
+            (true, true) => speeds[1] / speeds[0],
+            _ => 1.0,
+        };
+        let scale = self.scale(x, TAU / omega);
+        let place = x + &self.advance;
+        let normal = scale.transpose() * (&scale * &rate);
+        let distance = {
+            let (normal, place) = (normal.clone(), place.clone());
+            move |state: &State<Named>| -> f64 {
+                let all = state.q.values.iter().chain(&state.v.values);
+                let terms = all.zip(normal.iter().zip(place.iter()));
+                terms.map(|(x, (normal, place))| normal * (x - place)).sum()
+            }
+        };
+        let t = start.t;
+        let (run, _) = Simulation::new(self.machine)
+            .tolerance(self.sought.tolerance.max(1e-9))
+            .max_steps(STEPS_OF_RETURN)
+            .until(t + 1e9)
+            .forget_steps()
+            .until_nth_event(RETURNS, "return", Crossing::Rising, distance)
+            .run_as_far_as_possible(start)
+            .map_err(|error| NoOrbit::Run(error.to_string()))?;
+        let gaps: Vec<(f64, f64)> = run
+            .events()
+            .iter()
+            .map(|event| {
+                let all = event.state.q.values.iter().chain(&event.state.v.values);
+                let there = DVector::from_iterator(2 * n, all.copied());
+                ((&scale * (there - &place)).norm(), event.state.t - t)
+            })
+            .collect();
+        let least = gaps
+            .iter()
+            .map(|(gap, _)| *gap)
+            .fold(f64::INFINITY, f64::min);
+        // Of those that are about as near the first.
+        let first = gaps.iter().find(|(gap, _)| *gap <= 1.5 * least);
+        first.map(|(_, period)| *period).ok_or(NoOrbit::NoReturn)
+    }
+
+    /// Whether the equations are the same a period later, and where coordinates have gone on.
+    fn check_invariance(
+        &self,
+        x: &DVector<f64>,
+        period: f64,
+        is_autonomous: bool,
+    ) -> Result<(), NoOrbit> {
+        let system = self.machine.prepare();
+        let name = |k: usize| {
+            let coordinate = system.coordinates().nth(k);
+            coordinate.map_or_else(|| "?".to_owned(), |coordinate| coordinate.name.to_owned())
+        };
+        let t = self.sought.start.t;
+        // States beside the start, which have nothing in common with it, and times within the period.
+        for (k, part) in [0.0, 0.13, 0.31, 0.57, 0.83].into_iter().enumerate() {
+            let mut state = x.clone();
+            for (j, x) in state.iter_mut().enumerate() {
+                let shift = ((3 + 7 * j + 13 * k) * 29 % 97) as f64 / 97.0 - 0.5;
+                *x += 0.4 * shift * x.abs().max(1.0);
+            }
+            let t = t + part * period;
+            let Some(here) = self.rate(t, &state) else {
+                continue;
+            };
+            let differs = |there: &DVector<f64>| {
+                let size = here.rows(self.n, self.n).amax();
+                let off = |k: &usize| (there[self.n + k] - here[self.n + k]).abs();
+                // A period that is rounded, or a turn, moves a phase by its rounding; forces may grow with it.
+                (0..self.n).find(|k| off(k) > 1e-6 * size)
+            };
+            if !is_autonomous
+                && let Some(k) = self.rate(t + period, &state).as_ref().and_then(differs)
+            {
+                return Err(NoOrbit::OtherPeriod(name(k), period));
+            }
+            if self.advance.amax() > 0.0 {
+                let there = self.rate(t, &(&state + &self.advance));
+                if let Some(k) = there.as_ref().and_then(differs) {
+                    return Err(NoOrbit::OtherPlace(name(k)));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Newton's method, with steps that are halved where they lead away. The start, and how often (E55) was solved.
+    fn newton(
+        &self,
+        mut x: DVector<f64>,
+        period: &mut f64,
+        is_free: bool,
+        is_autonomous: bool,
+    ) -> Result<(DVector<f64>, usize), NoOrbit> {
+        let tolerance = self.sought.tolerance;
+        let mut passage = self.passage(&x, *period, tolerance)?;
+        let mut rounds = 0;
+        loop {
+            let gap = self.gap(&x, &passage.x);
+            let scale = self.scale(&x, *period);
+            let off = (&scale * &gap).norm();
+            if self.share(&gap, &x) <= tolerance {
+                break;
+            }
+            let better = (rounds < MOST_ROUNDS).then(|| {
+                let (dx, dt) = self.step(&scale, &passage, &gap, is_free)?;
+                let mut part = 1.0;
+                for _ in 0..MOST_HALVINGS {
+                    let (next, length) = (&x + &dx * part, *period + dt * part);
+                    // A period that vanishes is none, and one that is doubled has left what was sought.
+                    if length > 0.5 * *period && length < 2.0 * *period {
+                        let there = self.passage(&next, length, tolerance);
+                        if let Ok(there) = there {
+                            let off_there = (&scale * self.gap(&next, &there.x)).norm();
+                            if off_there < (1.0 - 0.1 * part) * off {
+                                return Some((next, length, there));
+                            }
+                        }
+                    }
+                    part *= 0.5;
+                }
+                None
+            });
+            match better.flatten() {
+                Some((next, length, there)) => {
+                    (x, *period, passage) = (next, length, there);
+                    rounds += 1;
+                }
+                None if self.share(&gap, &x) <= CLOSED * tolerance => break,
+                None => return Err(NoOrbit::Lost(self.share(&gap, &x), rounds)),
+            }
+        }
+        // A state at rest comes back after any time.
+        let scale = self.scale(&x, *period);
+        let moves = (&scale * &passage.rate).norm() * *period;
+        let size = (&scale * x.map(|x| x.abs().max(1.0))).norm();
+        match is_autonomous && self.advance.amax() == 0.0 && moves <= 1e-6 * size {
+            true => Err(NoOrbit::Rest),
+            false => Ok((x, rounds)),
+        }
+    }
+
+    /// The least change of the start that solves (E55) as far as it can be solved, and that of the period.
+    fn step(
+        &self,
+        scale: &DMatrix<f64>,
+        passage: &Passage,
+        gap: &DVector<f64>,
+        is_free: bool,
+    ) -> Option<(DVector<f64>, f64)> {
+        let size = 2 * self.n;
+        let free: Vec<usize> = (0..size).filter(|k| !self.sought.kept[*k]).collect();
+        let columns = DMatrix::from_fn(size, free.len(), |i, j| f64::from(i == free[j]));
+        let metric = columns.transpose() * scale.transpose() * scale * &columns;
+        let factor = metric.cholesky()?.l().transpose();
+        let back = factor.clone().try_inverse()?;
+        let change = &passage.monodromy - DMatrix::identity(size, size);
+        let mut matrix = scale * change * &columns * &back;
+        let mut right = -(scale * gap);
+        let rate = scale * &passage.rate;
+        let along = (is_free && rate.norm() > 0.0).then(|| &rate / rate.norm());
+        if free.is_empty() {
+            // All of the start is kept: the period is all that is left.
+            let dt = along.map_or(0.0, |along| along.dot(&right) / rate.norm());
+            return Some((DVector::zeros(size), dt));
+        }
+        let (full, whole) = (matrix.clone(), right.clone());
+        if let Some(along) = &along {
+            // Whatever the period takes care of.
+            matrix -= along * (along.transpose() * &full);
+            right -= along * along.dot(&whole);
+        }
+        let svd = matrix.svd(true, true);
+        let least = NOTHING * svd.singular_values.max();
+        let z = svd.solve(&right, least).ok()?;
+        let dt = along.map_or(0.0, |along| along.dot(&(whole - full * &z)) / rate.norm());
+        let dx = columns * back * z;
+        (dx.iter().all(|x| x.is_finite()) && dt.is_finite()).then_some((dx, dt))
+    }
+
+    /// Whether runs differ as the variational equations say, along a direction without any pattern.
+    fn check_differences(
+        &self,
+        x: &DVector<f64>,
+        period: f64,
+        passage: &Passage,
+    ) -> Result<(), NoOrbit> {
+        let tolerance = self.sought.tolerance;
+        let direction = DVector::from_fn(2 * self.n, |j, _| {
+            (((3 + 7 * j) * 29 % 97) as f64 / 97.0 - 0.4) * x[j].abs().max(1.0)
+        });
+        let direction = &direction / direction.norm();
+        let difference = |h: f64| -> Result<DVector<f64>, NoOrbit> {
+            let [plus, minus] = [h, -h].map(|h| self.end(&(x + &direction * h), period, tolerance));
+            Ok((plus? - minus?) / (2.0 * h))
+        };
+        let [coarse, fine] = [2e-5, 1e-5].map(difference);
+        let (coarse, fine) = (coarse?, fine?);
+        let said = &passage.monodromy * &direction;
+        let off = (&said - &fine).amax();
+        // The error of the finer difference is a third of what the two differ by, where it goes with the square of the change; and
+        // that of the ends of runs, over the change.
+        let size = passage.monodromy.amax().max(1.0);
+        let known = 4.0 * (&coarse - &fine).amax() + CLOSED * tolerance * size / 1e-5;
+        let significant = 1e-3 * size;
+        match off > known.max(significant) {
+            true => Err(NoOrbit::Jump(said.amax(), fine.amax())),
+            false => Ok(()),
+        }
+    }
+
+    /// Multipliers, and by how many numbers orbits near this one differ.
+    ///
+    /// Where the equations do not change with time the rate of the state is an eigenvector of 1. The others are those of what remains
+    /// across it: taken from the whole matrix, where 1 may be there twice with one eigenvector, they would be known to the root of
+    /// its error only.
+    fn multipliers(
+        &self,
+        x: &DVector<f64>,
+        period: f64,
+        (passage, bounds): (&Passage, &DMatrix<f64>),
+        (is_autonomous, is_free): (bool, bool),
+    ) -> Result<(Vec<Multiplier>, usize), NoOrbit> {
+        let size = 2 * self.n;
+        let scale = self.scale(x, period);
+        let back = scale.clone().try_inverse().ok_or(NoOrbit::Eigenvalues)?;
+        let scaled = &scale * &passage.monodromy * &back;
+        let scaled_bounds = scale.abs() * bounds * back.abs();
+        let rate = &scale * &passage.rate;
+        let has_phase = is_autonomous && rate.norm() > 0.0;
+        let mut multipliers = Vec::new();
+        let across = match has_phase {
+            false => DMatrix::identity(size, size),
+            true => {
+                let along = &rate / rate.norm();
+                let off = (&scaled * &along - &along).norm();
+                multipliers.push(Multiplier {
+                    value: Complex::new(1.0, 0.0),
+                    error: off,
+                    is_trivial: true,
+                });
+                // The first column of Q is the direction of the rate.
+                let mut all = DMatrix::identity(size, size);
+                let pivot = along.icamax();
+                all.swap_columns(0, pivot);
+                all.set_column(0, &along);
+                all.qr().q().columns(1, size - 1).into_owned()
+            }
+        };
+        let rest = across.transpose() * &scaled * &across;
+        let rest_bounds = across.abs().transpose() * &scaled_bounds * across.abs();
+        let found = poles(&rest, &rest_bounds).ok_or(NoOrbit::Eigenvalues)?;
+        let mut found: Vec<Multiplier> = found
+            .into_iter()
+            .map(|pole| Multiplier {
+                value: pole.lambda,
+                error: pole.error,
+                is_trivial: false,
+            })
+            .collect();
+        found.sort_by(|a, b| {
+            let key = |one: &Multiplier| (one.value.norm(), one.value.im);
+            let ((a1, a2), (b1, b2)) = (key(a), key(b));
+            // Both of a pair have one modulus, to the bit.
+            b1.total_cmp(&a1).then(b2.total_cmp(&a2))
+        });
+        // Changes of the start that (E55) leaves open beside that along the motion: with the period free all that it may take care of.
+        let mut matrix = &scaled - DMatrix::identity(size, size);
+        if is_free && rate.norm() > 0.0 {
+            let along = &rate / rate.norm();
+            matrix -= &along * (along.transpose() * &matrix);
+        }
+        let values = matrix.svd(false, false).singular_values;
+        let least = (NOTHING * values.max()).max(scaled_bounds.norm());
+        let open = values.iter().filter(|x| **x <= least).count();
+        let own = open.saturating_sub(usize::from(has_phase));
+        multipliers.extend(found);
+        Ok((multipliers, own))
+    }
+}
+
+/// An orbit at a value of what is varied.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// The value.
+    pub value: f64,
+    /// The orbit there.
+    pub orbit: Result<Orbit, NoOrbit>,
+}
+
+/// What happens to an orbit where multipliers go through the unit circle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Change {
+    /// One goes through 1: the orbit turns back, or another one branches off, or meets it.
+    Fold,
+    /// One goes through −1: an orbit of twice the period branches off.
+    Doubling,
+    /// A pair goes through the circle elsewhere: a torus branches off.
+    Torus,
+}
+
+impl Change {
+    /// In words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Change::Fold => "fold or branching",
+            Change::Doubling => "period doubling",
+            Change::Torus => "torus",
+        }
+    }
+}
+
+/// Where the number of multipliers outside the unit circle changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Changed {
+    /// Between these two values of what is varied, which halving has brought together.
+    pub between: [f64; 2],
+    /// What happens.
+    pub change: Change,
+    /// The multiplier outside that is nearest to the circle.
+    pub multiplier: Complex<f64>,
+}
+
+/// Orbits along a range.
+#[derive(Clone, Debug)]
+pub struct Trace {
+    /// An orbit for each value, or why there is none.
+    pub points: Vec<Point>,
+    /// What happens on the way.
+    pub changes: Vec<Changed>,
+}
+
+/// How often a step from one value to the next is halved where no orbit is found.
+const MOST_BETWEEN: u32 = 6;
+
+/// How often an interval is halved in which the number of multipliers outside the circle changes.
+const HALVINGS: usize = 20;
+
+/// Follows an orbit along values of something. `make` gives the machine at a value, and the period that is given there, if one is.
+/// Each search begins where a straight line through the two orbits before leads to, or at the last orbit.
+///
+/// # Errors
+/// Why there is no orbit at the first value.
+pub fn follow<E>(
+    make: impl Fn(f64) -> Result<(InterpretedMachine, Option<f64>), E>,
+    sought: &Sought,
+    values: &[f64],
+) -> Result<Trace, E>
+where
+    E: From<NoOrbit>,
+{
+    let solve = |value: f64, from: &Sought| -> Result<Result<Orbit, NoOrbit>, E> {
+        let (machine, period) = make(value)?;
+        let mut from = from.clone();
+        if let Some(period) = period {
+            from.period = Period::Given(period);
+        }
+        Ok(find(&machine, &from))
+    };
+    // Where to look at a value: beside the last orbits.
+    let beside = |known: &[(f64, Orbit)], value: f64| -> Sought {
+        let mut from = sought.clone();
+        let Some((at, last)) = known.last() else {
+            return from;
+        };
+        from.start = last.start.clone();
+        let mut period = last.period;
+        if let [.., (before, older), _] = known
+            && before != at
+        {
+            let share = (value - at) / (at - before);
+            let ahead = |to: &mut Vec<f64>, older: &[f64]| {
+                for (x, older) in to.iter_mut().zip(older) {
+                    *x += share * (*x - older);
+                }
+            };
+            ahead(&mut from.start.q.values, &older.start.q.values);
+            ahead(&mut from.start.v.values, &older.start.v.values);
+            let ahead = period + share * (period - older.period);
+            period = if ahead > 0.5 * period { ahead } else { period };
+        }
+        from.period = match from.period {
+            Period::Given(given) => Period::Given(given),
+            _ => Period::Near(period),
+        };
+        from
+    };
+    let mut known: Vec<(f64, Orbit)> = Vec::new();
+    let (mut points, mut changes) = (Vec::new(), Vec::new());
+    for (k, &value) in values.iter().enumerate() {
+        let mut found = solve(value, &beside(&known, value))?;
+        if let (Err(_), Some((at, _))) = (&found, known.last()) {
+            // In shorter steps, from the last orbit on.
+            let (mut at, mut step) = (*at, 0.5 * (value - *at));
+            let mut halved = 1;
+            let mut way = known.clone();
+            while halved <= MOST_BETWEEN {
+                let next = if ((value - at) / step) < 1.5 {
+                    value
+                } else {
+                    at + step
+                };
+                match solve(next, &beside(&way, next))? {
+                    Ok(orbit) if next == value => {
+                        found = Ok(orbit);
+                        break;
+                    }
+                    Ok(orbit) => {
+                        way.push((next, orbit));
+                        at = next;
+                    }
+                    Err(_) => {
+                        step *= 0.5;
+                        halved += 1;
+                    }
+                }
+            }
+        }
+        if let (Err(none), 0) = (&found, k) {
+            return Err(none.clone().into());
+        }
+        if let Ok(orbit) = &found {
+            if let Some((before, older)) = known.last()
+                && older.outside() != orbit.outside()
+            {
+                let ends = [(*before, older.clone()), (value, orbit.clone())];
+                changes.push(located(&solve, sought, ends)?);
+            }
+            known.push((value, orbit.clone()));
+            if known.len() > 2 {
+                known.remove(0);
+            }
+        }
+        points.push(Point {
+            value,
+            orbit: found,
+        });
+    }
+    Ok(Trace { points, changes })
+}
+
+impl Orbit {
+    /// How many multipliers are outside the unit circle.
+    fn outside(&self) -> usize {
+        let own = self.multipliers.iter();
+        own.filter(|one| one.side() == Side::Grows).count()
+    }
+}
+
+/// Where between two orbits the number of multipliers outside the circle changes.
+fn located<E>(
+    solve: &impl Fn(f64, &Sought) -> Result<Result<Orbit, NoOrbit>, E>,
+    sought: &Sought,
+    [mut low, mut high]: [(f64, Orbit); 2],
+) -> Result<Changed, E> {
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low.0 + high.0);
+        let mut from = sought.clone();
+        from.start = low.1.start.clone();
+        if !matches!(from.period, Period::Given(_)) {
+            from.period = Period::Near(0.5 * (low.1.period + high.1.period));
+        }
+        let Ok(orbit) = solve(middle, &from)? else {
+            break;
+        };
+        match orbit.outside() == low.1.outside() {
+            true => low = (middle, orbit),
+            false => high = (middle, orbit),
+        }
+    }
+    let outer = match low.1.outside() > high.1.outside() {
+        true => &low.1,
+        false => &high.1,
+    };
+    let outside = outer
+        .multipliers
+        .iter()
+        .filter(|one| one.side() == Side::Grows);
+    let nearest = outside.min_by(|a, b| a.value.norm().total_cmp(&b.value.norm()));
+    let multiplier = nearest.map_or(Complex::new(1.0, 0.0), |one| one.value);
+    let change = match multiplier.im.abs() <= 1e-6 {
+        true if multiplier.re > 0.0 => Change::Fold,
+        true => Change::Doubling,
+        false => Change::Torus,
+    };
+    Ok(Changed {
+        between: [low.0, high.0],
+        change,
+        multiplier,
+    })
+}

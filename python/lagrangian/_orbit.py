@@ -1,0 +1,101 @@
+"""Periodic motions, as ``lagrangian orbit`` finds them."""
+
+from __future__ import annotations
+
+from typing import Any, Iterable, List, Mapping, Optional, Union
+
+import numpy as np
+
+from ._command import _places, answer, settings
+from ._named import Named, State
+
+
+class Orbit:
+    """A periodic motion of a machine with n coordinates."""
+
+    period: float
+    """In s."""
+    start: State
+    """A state of the orbit."""
+    monodromy: np.ndarray
+    """How the state a period later changes with the state, coordinates, then rates, (2n, 2n)."""
+    multipliers: np.ndarray
+    """Floquet's multipliers, complex (2n,): that of the motion itself first, where there is one, then the greatest."""
+    errors: np.ndarray
+    """Each multiplier is known up to this, (2n,)."""
+    trivial: np.ndarray
+    """Whether a multiplier is 1 because the same motion a little later is a motion, too, (2n,)."""
+    stability: str
+    """``"stable"``, ``"unstable"``, or ``"undecided"`` where no multiplier is outside the unit circle and some are on it."""
+    autonomous: bool
+    """Whether nothing drives the machine."""
+    family: int
+    """By how many numbers orbits near this one differ, as by their energy; their phase aside."""
+    residual: float
+    """The largest number by which the motion does not close, over ``max(1, abs(x))``."""
+
+    def __init__(self, machine: Any, document: Mapping[str, Any]) -> None:
+        names = tuple(machine.coordinates)
+        at, found = document["at"], document["multipliers"]
+
+        def named(what: str) -> Named:
+            return Named([at[what][name] for name in names], names)
+
+        self.period = float(document["period"])
+        self.start = State(float(at["t"]), named("q"), named("v"))
+        self.monodromy = np.array(document["monodromy"], dtype=float)
+        self.multipliers = np.array([complex(one["re"], one["im"]) for one in found])
+        self.errors = np.array([one["error"] for one in found], dtype=float)
+        self.trivial = np.array([one["trivial"] for one in found], dtype=bool)
+        for array in (self.monodromy, self.multipliers, self.errors, self.trivial):
+            array.flags.writeable = False
+        self.stability = str(document["stability"])
+        self.autonomous = bool(document["autonomous"])
+        self.family = int(document["family"])
+        self.residual = float(document["residual"])
+        self._machine = machine
+
+    def simulate(self, periods: float = 1.0, **options: Any) -> Any:
+        """The motion for so many periods, as ``simulate``."""
+        until = self.start.t + periods * self.period
+        return self._machine.simulate(until, start=self.start, **options)
+
+    def __repr__(self) -> str:
+        return f"<Orbit of {self._machine.name}: {self.period:.6g} s, {self.stability}>"
+
+
+def orbit(
+    self: Any,
+    *,
+    period: Optional[Union[float, str]] = None,
+    near: Optional[float] = None,
+    start: Any = None,
+    rate: Any = None,
+    keep: Iterable[str] = (),
+    advance: Optional[Mapping[str, Union[float, str]]] = None,
+    settle: Optional[float] = None,
+    tolerance: float = 1e-11,
+) -> Orbit:
+    """The periodic motion near a start.
+
+    ``period`` in s, or a formula of parameters, ``"2*pi/omega"``, is that of what drives the machine or a multiple of it; of a machine
+    that nothing drives it may be left out, or ``near`` says about how long it is. ``start`` and ``rate`` are mappings from
+    coordinates to numbers or arrays (n,). ``keep`` names what of the start stays, ``"theta"`` or ``"der(theta)"``; ``advance`` by what
+    coordinates go on in a period; ``settle`` for how many seconds the motion runs before.
+    """
+    options: List[str] = [*settings(self), *_places(self, "--start", start), *_places(self, "--rate", rate)]
+    if isinstance(start, State) and rate is None:
+        options += _places(self, "--rate", start.v)
+    if period is not None:
+        options.append(f"--period={period if isinstance(period, str) else repr(float(period))}")
+    if near is not None:
+        options.append(f"--near={float(near)!r}")
+    kept = [keep] if isinstance(keep, str) else list(keep)
+    if kept:
+        options.append(f"--keep={','.join(kept)}")
+    for name, value in (advance or {}).items():
+        options.append(f"--advance={name}={value if isinstance(value, str) else repr(float(value))}")
+    if settle is not None:
+        options.append(f"--settle={float(settle)!r}")
+    options.append(f"--tolerance={float(tolerance)!r}")
+    return Orbit(self, answer(self, "orbit", options))
