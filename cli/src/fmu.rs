@@ -5,6 +5,7 @@
 
 mod archive;
 mod compile;
+mod dependencies;
 mod description;
 mod tables;
 mod units;
@@ -15,8 +16,8 @@ use std::path::Path;
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Machine, System};
-use lagrangian_emit as emit;
-use lagrangian_mechanics::Compiled;
+use lagrangian_emit::c::uniform::{self, Derivatives};
+use lagrangian_mechanics::{Compiled, Unproved};
 use lagrangian_program::Program;
 use lagrangian_spec::diagnostic::nearest;
 use lagrangian_symbolic::Dag;
@@ -108,6 +109,8 @@ struct Unit<'a> {
     /// What the library and the archive are called, as an identifier of C.
     identifier: String,
     variables: Variables,
+    /// Whether there are derivatives in a direction, and backwards.
+    has_derivatives: bool,
     /// Another machine, another token.
     token: String,
 }
@@ -143,7 +146,8 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
         None => variables,
         Some(call::Names(names)) => variables.with_outputs(names, unknown_output)?,
     };
-    let text = machine_text(&compiled, call);
+    let derivatives = derivatives(&compiled)?;
+    let text = machine_text(&compiled, derivatives.as_ref(), call);
     let mut unit = Unit {
         version,
         kinds: &call.kind,
@@ -154,6 +158,7 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
         tolerance: call.tolerance,
         identifier: identifier(&call.out),
         variables,
+        has_derivatives: derivatives.is_some(),
         token: String::new(),
     };
     let tables = tables::text(&unit);
@@ -250,12 +255,6 @@ fn check_sections(program: &Program) -> Result<(), Failure> {
             "whether `{}` of `contacts` is closed is a state of the run and no number of a unit",
             contact.name
         )
-    } else if let Some(constraint) = program.constraints.first() {
-        format!(
-            "`{}` is a constraint, on which a unit does not hold its states; write the machine with as many coordinates as it \
-             has degrees of freedom",
-            constraint.name
-        )
     } else {
         return Ok(());
     };
@@ -312,14 +311,38 @@ fn unknown_output(name: &str, known: &[&str]) -> Failure {
     ))
 }
 
+/// Derivatives, proved; `None` for a machine that is too large for them.
+fn derivatives(compiled: &Compiled<'_>) -> Result<Option<Derivatives>, Failure> {
+    let Compiled { program, model, .. } = compiled;
+    if !uniform::may_have_derivatives(program) {
+        return Ok(None);
+    }
+    progress::now("proving derivatives");
+    let told =
+        |unproved: Unproved| Failure::run(format!("there is no unit of this machine: {unproved}"));
+    Ok(Some(Derivatives {
+        tangent: program.tangent(model).map_err(told)?,
+        adjoint: program.adjoint(model).map_err(told)?,
+    }))
+}
+
 /// The machine's own file.
-fn machine_text(compiled: &Compiled<'_>, call: &call::Fmu) -> String {
+fn machine_text(
+    compiled: &Compiled<'_>,
+    derivatives: Option<&Derivatives>,
+    call: &call::Fmu,
+) -> String {
     let file = call.spec.path.file_name().unwrap_or_default();
     let origin = format!(
         "@generated from {} by `lagrangian fmu`.",
         file.to_string_lossy()
     );
-    emit::c::uniform::file(&compiled.program, &[origin], &compiled.formulas())
+    uniform::file(
+        &compiled.program,
+        derivatives,
+        &[origin],
+        &compiled.formulas(),
+    )
 }
 
 /// Every file of C, by name.

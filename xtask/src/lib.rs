@@ -192,6 +192,8 @@ fn quantities() -> String {
             (_, Needs::Contacts) => "with guided contacts",
             (_, Needs::Unilateral) => "with unilateral contacts",
             (Role::Derivatives, _) => "with `derivatives`",
+            (Role::Adjoint, _) => "in functional mock-up units",
+            (Role::Gradient(_), _) => "one for each output, in functional mock-up units",
             (Role::Output(_), _) => "one for each output",
             (Role::Assumption(_), _) => "one for each assumption",
             (_, Needs::Request) => "with `stages`",

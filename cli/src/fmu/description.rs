@@ -1,8 +1,8 @@
 //! `modelDescription.xml`, in both versions, and `buildDescription.xml`.
 
-use lagrangian_emit::c::uniform;
 use lagrangian_units::Unit as PhysicalUnit;
 
+use super::dependencies::Dependencies;
 use super::units::Units;
 use super::variables::{Kind, Variable};
 use super::xml::Document;
@@ -90,7 +90,7 @@ pub fn text(unit: &Unit<'_>) -> String {
 }
 
 fn of_kind(document: &mut Document, unit: &Unit<'_>, kind: UnitKind) {
-    let derivatives = match uniform::has_derivatives(unit.program) {
+    let derivatives = match unit.has_derivatives {
         true => "true",
         false => "false",
     };
@@ -119,8 +119,13 @@ fn of_kind(document: &mut Document, unit: &Unit<'_>, kind: UnitKind) {
         (Version::Two, UnitKind::CoSimulation) if !unit.program.inputs.is_empty() => "true",
         _ => "",
     };
+    let needs_steps = match (unit.version, kind) {
+        (Version::Three, UnitKind::ModelExchange) if !unit.program.constraints.is_empty() => "true",
+        _ => "",
+    };
     let attributes = [
         ("modelIdentifier", unit.identifier.as_str()),
+        ("needsCompletedIntegratorStep", needs_steps),
         (get, "true"),
         (serialize, "true"),
         (provides, derivatives),
@@ -210,6 +215,12 @@ fn row(unit: &Unit<'_>, variable: &Variable, units: &mut Units) -> Row {
             let slot = &program.outputs[i];
             calculated(units.of_slot(slot), words(&slot.docs))
         }
+        Kind::Multiplier(i) => {
+            let constraint = &program.constraints[i];
+            let unit = &constraint.multiplier_unit;
+            let docs = format!("Lagrange's multiplier of {}, in {unit}", constraint.name);
+            calculated(String::new(), docs)
+        }
         Kind::KineticEnergy => calculated(units.of(PhysicalUnit::JOULE), "Kinetic energy".into()),
         Kind::PotentialEnergy => {
             calculated(units.of(PhysicalUnit::JOULE), "Potential energy".into())
@@ -267,8 +278,8 @@ fn of_two(document: &mut Document, reference: usize, variable: &Variable, row: &
     document.close();
 }
 
-/// Which variables are outputs, derivatives of states, unknown at the start, and indicators of events. What each depends on is
-/// left out, which means on everything.
+/// Which variables are outputs, derivatives of states, unknown at the start, and indicators of events; and what each depends
+/// on.
 fn structure(document: &mut Document, unit: &Unit<'_>) {
     let outputs: Vec<usize> = unit.variables.outputs().map(|(k, _)| k).collect();
     let of = |is_wanted| unit.variables.of(is_wanted).map(|(k, _)| k);
@@ -286,6 +297,7 @@ fn structure(document: &mut Document, unit: &Unit<'_>) {
     unknown.sort_unstable();
     unknown.dedup();
     let facts: Vec<usize> = of(|kind| matches!(kind, Kind::Fact(_))).collect();
+    let dependencies = Dependencies::new(unit);
     document.open("ModelStructure", &[]);
     match unit.version {
         Version::Three => {
@@ -296,7 +308,17 @@ fn structure(document: &mut Document, unit: &Unit<'_>) {
                 ("EventIndicator", &facts),
             ] {
                 for reference in references {
-                    document.leaf(name, &[("valueReference", &reference.to_string())]);
+                    let of = dependencies.of(*reference, name == "InitialUnknown");
+                    let on = joined(of.iter().map(|(k, _)| k.to_string()));
+                    let kinds = joined(of.iter().map(|(_, kind)| (*kind).to_owned()));
+                    document.element_with_empty(
+                        name,
+                        &[
+                            ("valueReference", &reference.to_string()),
+                            ("dependencies", &on),
+                            ("dependenciesKind", &kinds),
+                        ],
+                    );
                 }
             }
         }
@@ -311,13 +333,27 @@ fn structure(document: &mut Document, unit: &Unit<'_>) {
                 }
                 document.open(name, &[]);
                 for reference in references {
-                    document.leaf("Unknown", &[("index", &(reference + 1).to_string())]);
+                    let of = dependencies.of(*reference, name == "InitialUnknowns");
+                    let on = joined(of.iter().map(|(k, _)| (k + 1).to_string()));
+                    let kinds = joined(of.iter().map(|(_, kind)| (*kind).to_owned()));
+                    document.element_with_empty(
+                        "Unknown",
+                        &[
+                            ("index", &(reference + 1).to_string()),
+                            ("dependencies", &on),
+                            ("dependenciesKind", &kinds),
+                        ],
+                    );
                 }
                 document.close();
             }
         }
     }
     document.close();
+}
+
+fn joined(words: impl Iterator<Item = String>) -> String {
+    words.collect::<Vec<_>>().join(" ")
 }
 
 /// How an importer of 3.0 compiles the sources.

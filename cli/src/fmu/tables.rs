@@ -2,6 +2,9 @@
 
 use std::fmt::Write as _;
 
+use lagrangian_program::Program;
+use lagrangian_units::rate_name;
+
 use super::Unit;
 use crate::call::UnitKind;
 
@@ -46,6 +49,12 @@ pub fn text(unit: &Unit<'_>) -> String {
         "0",
     );
     list(&mut text, "unsigned char", "FACT_IS_STRICT", strict, "0");
+    text.push_str("\n/* Which start values stay where the start does not obey the constraints, and which constraints are of positions. */\n");
+    let kept = kept(program).into_iter().map(|x| u8::from(x).to_string());
+    list(&mut text, "unsigned char", "IS_KEPT", kept, "0");
+    let holonomic = program.constraints.iter();
+    let holonomic = holonomic.map(|constraint| u8::from(constraint.holonomic).to_string());
+    list(&mut text, "unsigned char", "IS_HOLONOMIC", holonomic, "0");
     let has = |kind| u8::from(unit.kinds.contains(&kind));
     let _ = write!(
         text,
@@ -55,6 +64,16 @@ pub fn text(unit: &Unit<'_>) -> String {
         unit.tolerance
     ); // writing to a String cannot fail
     text
+}
+
+/// For each state whether the spec keeps its start.
+fn kept(program: &Program) -> Vec<bool> {
+    let coordinates = program.coordinates.iter();
+    let names = coordinates.map(|slot| slot.name.to_string());
+    let names: Vec<String> = names.collect();
+    let rates = names.iter().map(|name| rate_name(name, ""));
+    let all: Vec<String> = names.iter().cloned().chain(rates).collect();
+    all.iter().map(|name| program.kept.contains(name)).collect()
 }
 
 fn numbers(text: &mut String, name: &str, values: &[f64]) {

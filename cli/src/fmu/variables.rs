@@ -16,6 +16,7 @@ pub enum Kind {
     Parameter(usize),
     Input(usize),
     Output(usize),
+    Multiplier(usize),
     KineticEnergy,
     PotentialEnergy,
     Fact(usize),
@@ -68,6 +69,11 @@ impl Variables {
         ));
         all.extend(each(&names(&program.inputs), Kind::Input, str::to_owned));
         all.extend(each(&names(&program.outputs), Kind::Output, str::to_owned));
+        let constraints = program.constraints.iter().enumerate();
+        all.extend(constraints.map(|(i, constraint)| {
+            let name = constraint.name.replace(['\'', '\\', '"'], "");
+            (Kind::Multiplier(i), format!("'multiplier({name})'"))
+        }));
         all.push((Kind::KineticEnergy, "energy.kinetic".to_owned()));
         all.push((Kind::PotentialEnergy, "energy.potential".to_owned()));
         let facts = program.assumptions.iter().enumerate();

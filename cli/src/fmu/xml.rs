@@ -31,6 +31,11 @@ impl Document {
         self.element(name, attributes, "/>");
     }
 
+    /// An element without content, whose attributes stand there even where they say nothing.
+    pub fn element_with_empty(&mut self, name: &str, attributes: Attributes<'_>) {
+        self.write(name, attributes.iter(), "/>");
+    }
+
     /// Closes the element that was opened last.
     pub fn close(&mut self) {
         if let Some(name) = self.open.pop() {
@@ -48,9 +53,19 @@ impl Document {
     }
 
     fn element(&mut self, name: &str, attributes: Attributes<'_>, end: &str) {
+        let told = attributes.iter().filter(|(_, value)| !value.is_empty());
+        self.write(name, told, end);
+    }
+
+    fn write<'a>(
+        &mut self,
+        name: &str,
+        attributes: impl Iterator<Item = &'a (&'a str, &'a str)>,
+        end: &str,
+    ) {
         self.text.push_str(&"  ".repeat(self.open.len()));
         let _ = write!(self.text, "<{name}"); // writing to a String cannot fail
-        for (key, value) in attributes.iter().filter(|(_, value)| !value.is_empty()) {
+        for (key, value) in attributes {
             let _ = write!(self.text, " {key}=\"{}\"", escaped(value));
         }
         self.text.push_str(end);

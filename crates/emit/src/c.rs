@@ -92,12 +92,47 @@ pub fn file(program: &Proved, origin: &[String], formulas: &BTreeMap<Role, Vec<S
     let emitter = Emitter::new(program);
     let mut writer = Writer::default();
     emitter.head(&mut writer, origin);
+    sum_error(&mut writer, &[emitter.program]);
     emitter.types(&mut writer);
+    sign(&mut writer, &[emitter.program]);
     emitter.prepare(&mut writer);
     for function in [&program.start].into_iter().chain(&program.functions) {
         emitter.function(&mut writer, function, formulas.get(&function.role));
     }
     writer.finish()
+}
+
+/// Whether any of the programs has such an operation.
+fn have(programs: &[&Program], is_such: fn(&Op) -> bool) -> bool {
+    let functions = programs.iter().flat_map(|program| program.all_functions());
+    functions.flat_map(|function| &function.code).any(is_such)
+}
+
+/// What rounding takes from a sum, where programs ask for it.
+fn sum_error(writer: &mut Writer, programs: &[&Program]) {
+    if !have(programs, |op| matches!(op, Op::SumError(..))) {
+        return;
+    }
+    writer.gap();
+    writer.line("/* What rounding took from a + b. */");
+    writer.open("static double sum_error(double a, double b) {");
+    writer.line("const double sum = a + b, b_kept = sum - a;");
+    writer.line("return (a - (sum - b_kept)) + (b - b_kept);");
+    writer.close("}");
+}
+
+/// The sign of a number, where programs ask for it.
+fn sign(writer: &mut Writer, programs: &[&Program]) {
+    if !have(programs, |op| {
+        matches!(op, Op::Unary(symbolic::Function::Sign, _))
+    }) {
+        return;
+    }
+    writer.gap();
+    writer.line("/* -1, 0 or 1. */");
+    writer.open("static inline double sign(double x) {");
+    writer.line("return (x > 0.0) - (x < 0.0);");
+    writer.close("}");
 }
 
 struct Emitter<'a> {
@@ -188,18 +223,6 @@ impl<'a> Emitter<'a> {
         writer.line("#if !defined(__GNUC__) || defined(__clang__)");
         writer.line("#pragma STDC FP_CONTRACT OFF");
         writer.line("#endif");
-        let is_sum_error = |op: &Op| matches!(op, Op::SumError(..));
-        if program
-            .all_functions()
-            .any(|f| f.code.iter().any(is_sum_error))
-        {
-            writer.gap();
-            writer.line("/* What rounding took from a + b. */");
-            writer.open("static double sum_error(double a, double b) {");
-            writer.line("const double sum = a + b, b_kept = sum - a;");
-            writer.line("return (a - (sum - b_kept)) + (b - b_kept);");
-            writer.close("}");
-        }
     }
 
     fn types(&self, writer: &mut Writer) {
@@ -225,17 +248,6 @@ impl<'a> Emitter<'a> {
             writer.line("int singular;");
         }
         writer.close(&format!("}} {}_prepared;", self.prefix));
-        if program.all_functions().any(|f| {
-            f.code
-                .iter()
-                .any(|op| matches!(op, Op::Unary(symbolic::Function::Sign, _)))
-        }) {
-            writer.gap();
-            writer.line("/* -1, 0 or 1. */");
-            writer.open("static inline double sign(double x) {");
-            writer.line("return (x > 0.0) - (x < 0.0);");
-            writer.close("}");
-        }
     }
 
     fn structure(&self, writer: &mut Writer, name: &str, docs: &str, slots: &[Slot]) {

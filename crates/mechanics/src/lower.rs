@@ -20,10 +20,10 @@ use lagrangian_program::graph::{Graph, Id, Scaled};
 use lagrangian_program::net::Net;
 use lagrangian_program::quantity::Sizes;
 use lagrangian_program::rounding::States;
-use lagrangian_program::schedule::{Code, schedule};
+use lagrangian_program::schedule::{Code, LARGEST_FACTORED, prepared, schedule};
 use lagrangian_program::solve::{self, Elimination, Pivot, Solution, System};
 use lagrangian_program::{
-    Constraint, Default, Fact, Function, Guard, Op, Program, Role, Shape, Slot, Source, Unilateral,
+    Constraint, Default, Fact, Function, Guard, Program, Role, Shape, Slot, Source, Unilateral,
 };
 use lagrangian_spec::model::{Model, Name, Stages, Variable, stage};
 use lagrangian_spec::unit::Unit;
@@ -427,6 +427,8 @@ fn quantity<'d>(model: &Model<'d>, equations: &Equations<'d>, role: Role) -> Opt
         | Role::Multipliers
         | Role::Friction
         | Role::Derivatives
+        | Role::Adjoint
+        | Role::Gradient(_)
         | Role::AtTime
         | Role::AtPosition
         | Role::AccelerationsAt => return None,
@@ -650,21 +652,8 @@ impl Planned {
 
     fn net(&self, graph: &mut Graph, cut: bool) -> Net {
         let guarded = self.pivots.iter().flat_map(|p| [p.pivot, p.scale]);
-        let roots: Vec<(Id, bool)> = self
-            .results
-            .iter()
-            .copied()
-            .chain(guarded)
-            .map(|x| match cut && x.negative && x.factor != Id::ONE {
-                // A sign is prepared with the value that it belongs to.
-                true => {
-                    let x = graph.with_signed_factor(x);
-                    (graph.unsigned(x), false)
-                }
-                false => (graph.unsigned(x), x.negative),
-            })
-            .collect();
-        Net::new(graph, &roots, cut)
+        let values: Vec<Scaled> = self.results.iter().copied().chain(guarded).collect();
+        Net::of_values(graph, &values, cut)
     }
 
     /// The function of a net; with the graph, what is known once the parameters are is prepared.
@@ -881,9 +870,6 @@ fn is_mostly_formulas(model: &Model<'_>, machine: &Unprojected<'_>) -> bool {
     let pairs = coordinates * (coordinates + 1) / 2;
     reachable(model.dag, &roots).len() > FORMULAS[0] + FORMULAS[1] * pairs
 }
-
-/// The most operands in a function for which a second way is tried: beyond it, each takes a second.
-const LARGEST_FACTORED: usize = 200_000;
 
 /// The most multiplications of an elimination that is written down: every one is an instruction, and
 /// takes 2 kB until it is one. 115 coordinates that all depend on each other take as many.
@@ -1144,46 +1130,14 @@ fn prepare(
     model: &Model<'_>,
     constraints: usize,
 ) -> (Function, Vec<String>, Vec<Function>) {
-    let mut ids: Vec<Id> = drafts
-        .iter()
-        .flat_map(|draft| draft.prepared.iter().copied())
-        .collect();
-    ids.sort_unstable();
-    ids.dedup();
-    let index_of: FxHashMap<Id, u32> = ids
-        .iter()
-        .zip(0..)
-        .map(|(&id, index)| (id, index))
-        .collect();
     let mut pivots = Vec::new();
     let rows = model.coordinates.len() + constraints;
-    let functions = drafts
-        .into_iter()
-        .map(|draft| {
-            pivots.extend(draft.known_pivots);
-            let (mut function, prepared) = (draft.function, draft.prepared);
-            for op in &mut function.code {
-                if let Op::Read(Source::Prepared(index)) = op {
-                    *index = index_of[&prepared[*index as usize]];
-                }
-            }
-            function
-        })
-        .collect();
-    let formulas = ids
-        .iter()
-        .map(|&factor| {
-            formula(
-                graph,
-                Scaled {
-                    negative: false,
-                    factor,
-                    core: Id::ONE,
-                },
-                &|source| name_of(model, source),
-            )
-        })
-        .collect();
+    let functions = drafts.into_iter().map(|draft| {
+        pivots.extend(draft.known_pivots);
+        (draft.function, draft.prepared)
+    });
+    let functions = functions.collect();
+    let (ids, formulas, functions) = prepared(graph, functions, &|source| name_of(model, source));
     let planned = Planned {
         role: Role::Prepare,
         shape: Shape::Vector(ids.len()),

@@ -31,6 +31,7 @@
 //! Points and states are the same in every run: the same text has the same verdict. A failure tells
 //! the number of the point, which is its seed.
 
+pub(crate) mod derived;
 pub(crate) mod number;
 pub mod symbolic;
 

@@ -52,6 +52,7 @@ pub mod schedule;
 pub mod series;
 pub mod solve;
 pub mod stages;
+mod tangent;
 mod verify;
 
 pub use choose::{Basis, Candidate, Choice, Form, MOST_ROUNDING, best};
@@ -64,6 +65,7 @@ pub use quantity::Role;
 pub use repeats::{Kind, Operand, Repeat, Step, Steps, early_angles};
 pub use rounding::Rounding;
 pub use schedule::LONGEST_SCHEDULED;
+pub use tangent::is_differentiated;
 
 /// A machine as straight-line arithmetic.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,7 +8,7 @@
 use lagrangian_symbolic::Function;
 use rustc_hash::FxHashMap;
 
-use super::graph::{Graph, Id, Node};
+use super::graph::{Graph, Id, Node, Scaled};
 use super::{Op, Source};
 use lagrangian_units::Stages;
 
@@ -93,6 +93,19 @@ impl Net {
             .collect();
         net.share_divisions();
         net
+    }
+
+    /// What the values need, their signs prepared with what belongs to them.
+    pub fn of_values(graph: &mut Graph, values: &[Scaled], cut: bool) -> Net {
+        let root = |x: &Scaled| match cut && x.negative && x.factor != Id::ONE {
+            true => {
+                let x = graph.with_signed_factor(*x);
+                (graph.unsigned(x), false)
+            }
+            false => (graph.unsigned(*x), x.negative),
+        };
+        let roots: Vec<(Id, bool)> = values.iter().map(root).collect();
+        Net::new(graph, &roots, cut)
     }
 
     /// How many operands all items have together.

@@ -279,6 +279,15 @@ quantities! {
     Derivatives => {
         "derivatives", "", "d*", Differentials, [Time Coordinates Velocities Inputs], Request, Solves, "E26"
     }
+    /// Derivatives of a sum of accelerations by coordinates, rates, parameters and inputs; the weights of the sum are the
+    /// inputs behind the machine's own.
+    Adjoint => {
+        "adjoint", "", "g*", Chosen, [Time Coordinates Velocities Inputs], Request, Solves, ""
+    }
+    /// Derivatives of an output, by its index among the outputs, by coordinates, rates, parameters, inputs and accelerations.
+    Gradient(usize) => {
+        "gradient", "", "g*", Chosen, [Time Coordinates Velocities Accelerations Inputs], Request, Seldom, ""
+    }
     /// What time alone decides of the accelerations.
     AtTime => { "at_time", "", "r*", Chosen, [Time], Request, Often, "" }
     /// What time and coordinates decide of the accelerations.
@@ -310,10 +319,12 @@ quantities! {
 }
 
 impl Role {
-    /// The name of a function of this role; outputs and assumptions are numbered.
+    /// The name of a function of this role; outputs, their gradients and assumptions are numbered.
     pub fn name(self) -> String {
         match self {
-            Role::Output(index) | Role::Assumption(index) => format!("{}_{index}", self.row().name),
+            Role::Output(index) | Role::Assumption(index) | Role::Gradient(index) => {
+                format!("{}_{index}", self.row().name)
+            }
             _ => self.row().name.into(),
         }
     }
@@ -331,7 +342,11 @@ impl Role {
 
     /// Whether there is a function even if it gives zeros.
     pub fn is_kept(self) -> bool {
-        self.is_fast() || matches!(self, Role::Output(_) | Role::Assumption(_))
+        self.is_fast()
+            || matches!(
+                self,
+                Role::Output(_) | Role::Gradient(_) | Role::Assumption(_)
+            )
     }
 }
 

@@ -14,6 +14,7 @@ use std::collections::BinaryHeap;
 use lagrangian_symbolic::Rational;
 use rustc_hash::FxHashMap;
 
+use super::formula::formula;
 use super::fusion::Contractions;
 use super::graph::{Graph, Id, Node, Scaled};
 use super::latency::latency;
@@ -28,6 +29,42 @@ pub struct Code {
     pub roots: Vec<Value>,
     /// What `Read(Prepared(k))` stands for.
     pub prepared: Vec<Id>,
+}
+
+/// The most operands in a function for which a second way is tried: beyond it, each takes a second.
+pub const LARGEST_FACTORED: usize = 200_000;
+
+/// What functions read of prepared values: the nodes, their formulas, and the functions with the places of these; `name` tells
+/// what an argument is called.
+pub fn prepared(
+    graph: &mut Graph,
+    functions: Vec<(Function, Vec<Id>)>,
+    name: &dyn Fn(Source) -> String,
+) -> (Vec<Id>, Vec<String>, Vec<Function>) {
+    let all = functions.iter().flat_map(|(_, prepared)| prepared);
+    let mut ids: Vec<Id> = all.copied().collect();
+    ids.sort_unstable();
+    ids.dedup();
+    let index_of: FxHashMap<Id, u32> = ids.iter().copied().zip(0..).collect();
+    let functions = functions.into_iter().map(|(mut function, prepared)| {
+        for op in &mut function.code {
+            if let Op::Read(Source::Prepared(index)) = op {
+                *index = index_of[&prepared[*index as usize]];
+            }
+        }
+        function
+    });
+    let functions = functions.collect();
+    let formulas = ids.iter().map(|&factor| {
+        let value = Scaled {
+            negative: false,
+            factor,
+            core: Id::ONE,
+        };
+        formula(graph, value, name)
+    });
+    let formulas = formulas.collect();
+    (ids, formulas, functions)
 }
 
 /// Writes the items down as operations. With the graph that they come from, what turns out to be

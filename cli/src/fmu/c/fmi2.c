@@ -69,6 +69,8 @@ fmi2Status fmi2ExitInitializationMode(fmi2Component c) {
     Unit *unit = c;
     prepare(unit);
     unit->now.mode = unit->is_co_simulation ? STEPPING : EVENT;
+    const Outcome started = projectStart(unit);
+    if (started != WELL) return (fmi2Status)started;
     if (evaluate(unit)) return (fmi2Status)withoutAccelerations(unit, FAILED);
     checkFacts(unit);
     return fmi2OK;
@@ -158,8 +160,12 @@ fmi2Status fmi2EnterEventMode(fmi2Component c) {
 }
 
 fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *fmi2eventInfo) {
+    Unit *unit = c;
+    const int is_off = isOff(unit) > LEFT;
+    if (is_off && project(unit, 0)) return (fmi2Status)say(unit, FAILED, "the state cannot be moved back onto the constraints");
     checkFacts(c);
     memset(fmi2eventInfo, 0, sizeof *fmi2eventInfo);
+    fmi2eventInfo->valuesOfContinuousStatesChanged = is_off;
     return fmi2OK;
 }
 
@@ -174,7 +180,7 @@ fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean noSetFMUStat
                                        fmi2Boolean *terminateSimulation) {
     (void)noSetFMUStatePriorToCurrentPoint;
     checkFacts(c);
-    *enterEventMode = fmi2False;
+    *enterEventMode = isOff(c) > LEFT;
     *terminateSimulation = fmi2False;
     return fmi2OK;
 }

@@ -79,6 +79,8 @@ fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
     Unit *unit = instance;
     prepare(unit);
     unit->now.mode = unit->is_co_simulation ? STEPPING : EVENT;
+    const Outcome started = projectStart(unit);
+    if (started != WELL) return (fmi3Status)started;
     if (evaluate(unit)) return (fmi3Status)withoutAccelerations(unit, FAILED);
     checkFacts(unit);
     return fmi3OK;
@@ -288,11 +290,14 @@ fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance instance) {
 fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *discreteStatesNeedUpdate, fmi3Boolean *terminateSimulation,
                                     fmi3Boolean *nominalsOfContinuousStatesChanged, fmi3Boolean *valuesOfContinuousStatesChanged,
                                     fmi3Boolean *nextEventTimeDefined, fmi3Float64 *nextEventTime) {
+    Unit *unit = instance;
+    const int is_off = !unit->is_co_simulation && isOff(unit) > LEFT;
+    if (is_off && project(unit, 0)) return (fmi3Status)say(unit, FAILED, "the state cannot be moved back onto the constraints");
     checkFacts(instance);
     *discreteStatesNeedUpdate = fmi3False;
     *terminateSimulation = fmi3False;
     *nominalsOfContinuousStatesChanged = fmi3False;
-    *valuesOfContinuousStatesChanged = fmi3False;
+    *valuesOfContinuousStatesChanged = is_off;
     *nextEventTimeDefined = fmi3False;
     *nextEventTime = 0.0;
     return fmi3OK;
@@ -309,7 +314,7 @@ fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean noSetF
                                        fmi3Boolean *enterEventMode, fmi3Boolean *terminateSimulation) {
     (void)noSetFMUStatePriorToCurrentPoint;
     checkFacts(instance);
-    *enterEventMode = fmi3False;
+    *enterEventMode = isOff(instance) > LEFT;
     *terminateSimulation = fmi3False;
     return fmi3OK;
 }

@@ -18,11 +18,15 @@ enum {
     AT_PARAMETERS = AT_ACCELERATIONS + COORDINATES,
     AT_INPUTS = AT_PARAMETERS + PARAMETERS,
     AT_OUTPUTS = AT_INPUTS + INPUTS,
-    AT_KINETIC_ENERGY = AT_OUTPUTS + OUTPUTS,
+    AT_MULTIPLIERS = AT_OUTPUTS + OUTPUTS,
+    AT_KINETIC_ENERGY = AT_MULTIPLIERS + CONSTRAINTS,
     AT_POTENTIAL_ENERGY,
     AT_FACTS,
     REFERENCES = AT_FACTS + FACTS
 };
+
+/* Beyond this share of the size of their terms a state is off its constraints. */
+#define LEFT 1e-10
 
 /* How a call ends; both versions of the interface count so. */
 typedef enum { WELL, WARNED, DISCARDED, FAILED } Outcome;
@@ -59,7 +63,12 @@ struct Unit {
     State now;
     /* What follows from parameters, and from all of the state. */
     UnitPrepared prepared;
+    UnitTangentPrepared tangent;
+    UnitAdjointPrepared adjoint;
     double accelerations[COORDINATES + 1];
+    /* What a projection works with: the mass matrix or a factor of it, the constraint matrix, what these make of each other. */
+    double mass[COORDINATES * COORDINATES + 1], rows[CONSTRAINTS * COORDINATES + 1], carried[CONSTRAINTS * COORDINATES + 1];
+    double normal[CONSTRAINTS * CONSTRAINTS + 1];
     int singular;
     int is_prepared, is_evaluated;
     /* A step of co-simulation. */
@@ -157,7 +166,7 @@ static Outcome unknown(Unit *unit, unsigned reference) {
 static Outcome get(Unit *unit, const unsigned *references, size_t count, double *to) {
     State *now = &unit->now;
     const double *q = now->states, *v = q + COORDINATES, *u = now->inputs, *a = unit->accelerations;
-    double several[OUTPUTS + FACTS + 1];
+    double several[OUTPUTS + FACTS + CONSTRAINTS + 1];
     prepare(unit);
     for (size_t k = 0; k < count; ++k) {
         const unsigned i = references[k];
@@ -172,7 +181,11 @@ static Outcome get(Unit *unit, const unsigned *references, size_t count, double 
             to[k] = now->parameters[i - AT_PARAMETERS];
         } else if (i < AT_OUTPUTS) {
             to[k] = now->inputs[i - AT_INPUTS];
-        } else if (i < AT_KINETIC_ENERGY) {
+        } else if (i >= AT_MULTIPLIERS && i < AT_KINETIC_ENERGY) {
+            if (evaluate(unit)) return withoutAccelerations(unit, DISCARDED);
+            if (unitMultipliers(&unit->prepared, now->time, q, v, u, several)) return withoutAccelerations(unit, DISCARDED);
+            to[k] = several[i - AT_MULTIPLIERS];
+        } else if (i < AT_MULTIPLIERS) {
             if (evaluate(unit)) return withoutAccelerations(unit, DISCARDED);
             unitOutputs(&unit->prepared, now->time, q, v, u, a, several);
             to[k] = several[i - AT_OUTPUTS];
@@ -262,52 +275,271 @@ static void checkFacts(Unit *unit) {
 }
 
 /*
+ * Constraints. Accelerations obey them, so that a run leaves them by the error of its steps only; from time to time the state is
+ * moved back, by the least that inertia allows: dq = W G^T (G W G^T)^-1 (-g), where W is the inverse of the mass matrix, and the
+ * same of rates with their residuals. Coordinates that a spec keeps at the start stay as they are there.
+ */
+
+/* What the residual of each constraint is measured by: the size of its terms. */
+static void sizesOfTerms(const double *rows, const double *x, double *to) {
+    for (int k = 0; k < CONSTRAINTS; ++k) {
+        to[k] = 0.0;
+        for (int i = 0; i < COORDINATES; ++i) {
+            const double term = rows[k * COORDINATES + i] * x[i];
+            to[k] += term < 0.0 ? -term : term;
+        }
+    }
+}
+
+/* Cholesky's factor L of the mass matrix in its place; without the coordinates that are kept. 0 if it is positive definite. */
+static int factorizeMass(double *m, const unsigned char *is_kept) {
+    const int n = COORDINATES;
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j <= i; ++j) {
+            const int is_apart = is_kept && (is_kept[i] || is_kept[j]);
+            double sum = is_apart ? i == j : m[i * n + j];
+            for (int k = 0; k < j; ++k) sum -= m[i * n + k] * m[j * n + k];
+            if (i == j) {
+                if (!(sum > 1e-14 * (is_apart ? 1.0 : m[i * n + i]))) return 1;
+                m[i * n + i] = sqrt(sum);
+            } else {
+                m[i * n + j] = sum / m[j * n + j];
+            }
+        }
+    }
+    return 0;
+}
+
+/*
+ * Takes residuals off x, once: x -= W G^T (G W G^T)^-1 residuals, of the rows that `is_wanted` says. Rows that depend on those
+ * before them say nothing new and are left out.
+ */
+static void moveBack(Unit *unit, double *residuals, const unsigned char *is_wanted, const unsigned char *is_kept, double *x) {
+    const int n = COORDINATES, m = CONSTRAINTS;
+    double *mass = unit->mass, *carried = unit->carried, *normal = unit->normal;
+    const int is_plain = factorizeMass(mass, is_kept);
+    unsigned char is_left[CONSTRAINTS + 1];
+    /* The rows of L^-1 G^T; of G alone where some coordinate has no inertia of its own. */
+    for (int k = 0; k < m; ++k) {
+        for (int i = 0; i < n; ++i) {
+            double sum = is_kept && is_kept[i] ? 0.0 : unit->rows[k * n + i];
+            if (!is_plain) {
+                for (int j = 0; j < i; ++j) sum -= mass[i * n + j] * carried[k * n + j];
+                sum /= mass[i * n + i];
+            }
+            carried[k * n + i] = sum;
+        }
+    }
+    /* Cholesky again, of the products of these rows. */
+    for (int k = 0; k < m; ++k) {
+        double whole = 0.0;
+        for (int i = 0; i < n; ++i) whole += carried[k * n + i] * carried[k * n + i];
+        for (int l = 0; l <= k; ++l) {
+            if (l < k && is_left[l]) continue;
+            double sum = 0.0;
+            for (int i = 0; i < n; ++i) sum += carried[k * n + i] * carried[l * n + i];
+            for (int j = 0; j < l; ++j)
+                if (!is_left[j]) sum -= normal[k * m + j] * normal[l * m + j];
+            if (l < k) normal[k * m + l] = sum / normal[l * m + l];
+            else is_left[k] = !is_wanted[k] || !(sum > 1e-12 * whole);
+            if (l == k && !is_left[k]) normal[k * m + k] = sqrt(sum);
+        }
+        if (is_left[k]) continue;
+        for (int l = 0; l < k; ++l)
+            if (!is_left[l]) residuals[k] -= normal[k * m + l] * residuals[l];
+        residuals[k] /= normal[k * m + k];
+    }
+    for (int k = m; k-- > 0;) {
+        if (is_left[k]) continue;
+        for (int l = k + 1; l < m; ++l)
+            if (!is_left[l]) residuals[k] -= normal[l * m + k] * residuals[l];
+        residuals[k] /= normal[k * m + k];
+    }
+    double change[COORDINATES + 1];
+    for (int i = 0; i < n; ++i) {
+        change[i] = 0.0;
+        for (int k = 0; k < m; ++k)
+            if (!is_left[k]) change[i] += carried[k * n + i] * residuals[k];
+    }
+    for (int i = n; i-- > 0;) {
+        if (!is_plain) {
+            for (int j = i + 1; j < n; ++j) change[i] -= mass[j * n + i] * change[j];
+            change[i] /= mass[i * n + i];
+        }
+        if (!is_kept || !is_kept[i]) x[i] -= change[i];
+    }
+}
+
+/* By how much the state is off the constraints, in the sizes of their terms; 0 without constraints. */
+static double isOff(Unit *unit) {
+    State *now = &unit->now;
+    double residuals[CONSTRAINTS + 1], sizes[CONSTRAINTS + 1], most = 0.0;
+    if (CONSTRAINTS == 0) return 0.0;
+    prepare(unit);
+    const double *q = now->states, *v = q + COORDINATES;
+    unitConstraintMatrix(&unit->prepared, now->time, q, v, now->inputs, unit->rows);
+    for (int level = 0; level < 2; ++level) {
+        if (level == 0) unitConstraintPositions(&unit->prepared, now->time, q, v, now->inputs, residuals);
+        else unitConstraintRates(&unit->prepared, now->time, q, v, now->inputs, residuals);
+        sizesOfTerms(unit->rows, level == 0 ? q : v, sizes);
+        for (int k = 0; k < CONSTRAINTS; ++k) {
+            /* Terms that are all 0 are measured by 1, the unit. */
+            const double size = sizes[k] > 0.0 ? sizes[k] : 1.0;
+            const double off = (residuals[k] < 0.0 ? -residuals[k] : residuals[k]) / size;
+            /* What is no number is off. */
+            if (!(off <= most)) most = off;
+        }
+    }
+    return most;
+}
+
+/* Moves the state onto the constraints; 0 if it gets there. At the start some coordinates and rates are kept. */
+static int project(Unit *unit, int is_start) {
+    State *now = &unit->now;
+    double residuals[CONSTRAINTS + 1];
+    unsigned char all[CONSTRAINTS + 1];
+    double *q = now->states, *v = q + COORDINATES;
+    const unsigned char *kept = is_start ? IS_KEPT : NULL;
+    if (CONSTRAINTS == 0) return 0;
+    prepare(unit);
+    memset(all, 1, sizeof all);
+    /* Newton's method: it doubles the digits, or there are none to be had. */
+    for (int tries = 0; tries < 50; ++tries) {
+        unitConstraintMatrix(&unit->prepared, now->time, q, v, now->inputs, unit->rows);
+        unitConstraintPositions(&unit->prepared, now->time, q, v, now->inputs, residuals);
+        double sizes[CONSTRAINTS + 1];
+        sizesOfTerms(unit->rows, q, sizes);
+        int is_there = 1;
+        for (int k = 0; k < CONSTRAINTS; ++k)
+            if (!((residuals[k] < 0.0 ? -residuals[k] : residuals[k]) <= 1e-14 * (sizes[k] > 0.0 ? sizes[k] : 1.0))) is_there = 0;
+        if (is_there) break;
+        unitMassMatrix(&unit->prepared, now->time, q, v, now->inputs, unit->mass);
+        moveBack(unit, residuals, IS_HOLONOMIC, kept, q);
+    }
+    for (int tries = 0; tries < 2; ++tries) {
+        unitConstraintMatrix(&unit->prepared, now->time, q, v, now->inputs, unit->rows);
+        unitConstraintRates(&unit->prepared, now->time, q, v, now->inputs, residuals);
+        unitMassMatrix(&unit->prepared, now->time, q, v, now->inputs, unit->mass);
+        moveBack(unit, residuals, all, kept ? kept + COORDINATES : NULL, v);
+    }
+    unit->is_evaluated = 0;
+    return !(isOff(unit) <= LEFT);
+}
+
+/* A start that does not obey the constraints is moved onto them, and that is said. */
+static Outcome projectStart(Unit *unit) {
+    double before[STATES + 1], most = 0.0;
+    prepare(unit);
+    memcpy(before, unit->now.states, sizeof before);
+    if (!(isOff(unit) > LEFT)) return WELL;
+    if (project(unit, 1)) {
+        memcpy(unit->now.states, before, sizeof before);
+        return say(unit, FAILED, "no state that obeys the constraints was found near the start");
+    }
+    int which = 0;
+    for (int i = 0; i < STATES; ++i) {
+        const double moved = unit->now.states[i] - before[i], size = moved < 0.0 ? -moved : moved;
+        if (size > most) most = size, which = i;
+    }
+    snprintf(unit->message, sizeof unit->message, "the start was moved onto the constraints, %s%s%s by %g",
+             which < COORDINATES ? "" : "der(", COORDINATE_NAMES[which % (COORDINATES ? COORDINATES : 1)],
+             which < COORDINATES ? "" : ")", most);
+    say(unit, WARNED, unit->message);
+    return WELL;
+}
+
+/*
  * What unknowns change by where knowns change by a seed: coordinates, rates and outputs, and their derivatives by each other, by
  * parameters and by inputs.
  */
 static Outcome differentiateAlong(Unit *unit, const unsigned *unknowns, size_t unknown_count, const unsigned *knowns,
                                    size_t known_count, const double *seed, double *to) {
-#define COUNT (HAS_DERIVATIVES ? (STATES + PARAMETERS + INPUTS + PREPARED + COORDINATES + OUTPUTS) : 0)
-    double all[COUNT + 1];
-    memset(all, 0, sizeof all);
-    double *dq = all, *dv = dq + COORDINATES, *dx = dv + COORDINATES, *du = dx + PARAMETERS, *dp = du + INPUTS;
-    double *da = dp + PREPARED, *dy = da + COORDINATES;
     if (!HAS_DERIVATIVES) return say(unit, FAILED, "this machine is too large for derivatives in a direction");
     if (evaluate(unit)) return withoutAccelerations(unit, DISCARDED);
+    /* Of everything the values, and behind them what they change by. */
+    const State *now = &unit->now;
+    double x[2 * PARAMETERS + 1], q[2 * COORDINATES + 1], v[2 * COORDINATES + 1], a[2 * COORDINATES + 1], u[2 * INPUTS + 1];
+    double y[OUTPUTS + 1];
+    double *dx = x + PARAMETERS, *dq = q + COORDINATES, *dv = v + COORDINATES, *da = a + COORDINATES, *du = u + INPUTS;
+    memcpy(x, now->parameters, PARAMETERS * sizeof *x);
+    memcpy(q, now->states, COORDINATES * sizeof *q);
+    memcpy(v, now->states + COORDINATES, COORDINATES * sizeof *v);
+    memcpy(u, now->inputs, INPUTS * sizeof *u);
+    memset(dx, 0, PARAMETERS * sizeof *dx);
+    memset(dq, 0, COORDINATES * sizeof *dq);
+    memset(dv, 0, COORDINATES * sizeof *dv);
+    memset(du, 0, INPUTS * sizeof *du);
     for (size_t k = 0; k < known_count; ++k) {
         const unsigned i = knowns[k];
-        if (i >= AT_STATES && i < AT_ACCELERATIONS) dq[i - AT_STATES] += seed[k];
+        if (i >= AT_STATES && i < AT_STATES + COORDINATES) dq[i - AT_STATES] += seed[k];
+        else if (i >= AT_STATES + COORDINATES && i < AT_ACCELERATIONS) dv[i - AT_STATES - COORDINATES] += seed[k];
         else if (i >= AT_PARAMETERS && i < AT_INPUTS) dx[i - AT_PARAMETERS] += seed[k];
         else if (i >= AT_INPUTS && i < AT_OUTPUTS) du[i - AT_INPUTS] += seed[k];
         else return unknown(unit, i);
     }
-    const State *now = &unit->now;
-    unitAlong(now->parameters, &unit->prepared, now->time, now->states, now->states + COORDINATES, now->inputs,
-              unit->accelerations, dx, dq, dv, du, dp, da, dy);
+    unitTangentPrepare(x, &unit->tangent);
+    unit->singular = unitTangentAccelerations(&unit->tangent, now->time, q, v, u, a);
+    if (unit->singular) {
+        unit->is_evaluated = 0;
+        return withoutAccelerations(unit, DISCARDED);
+    }
+    memcpy(a, unit->accelerations, COORDINATES * sizeof *a);
+    unitTangentOutputs(&unit->tangent, now->time, q, v, u, a, y);
     for (size_t k = 0; k < unknown_count; ++k) {
         const unsigned i = unknowns[k];
-        if (i >= AT_STATES && i < AT_ACCELERATIONS) to[k] = dq[i - AT_STATES];
+        if (i >= AT_STATES && i < AT_STATES + COORDINATES) to[k] = dq[i - AT_STATES];
+        else if (i >= AT_STATES + COORDINATES && i < AT_ACCELERATIONS) to[k] = dv[i - AT_STATES - COORDINATES];
         else if (i >= AT_ACCELERATIONS && i < AT_PARAMETERS) to[k] = da[i - AT_ACCELERATIONS];
-        else if (i >= AT_OUTPUTS && i < AT_KINETIC_ENERGY) to[k] = dy[i - AT_OUTPUTS];
+        else if (i >= AT_OUTPUTS && i < AT_MULTIPLIERS) to[k] = y[i - AT_OUTPUTS];
         else return unknown(unit, i);
     }
     return WELL;
 }
 
-/* For each known the change of all unknowns with it, weighed by a seed: the same derivatives, of one known after the other. */
+/* For each known the change of all unknowns with it, weighed by a seed: backwards, so that all knowns together cost about what
+   the accelerations cost a few times. */
 static Outcome differentiateBack(Unit *unit, const unsigned *unknowns, size_t unknown_count, const unsigned *knowns,
                                  size_t known_count, const double *seed, double *to) {
-    enum { MOST = 16 };
-    const double one = 1.0;
-    double column[MOST];
+    /* Derivatives by coordinates, rates, parameters and inputs, as references count them; of outputs by accelerations, too. */
+    enum { BY = STATES + PARAMETERS + INPUTS };
+    if (!HAS_DERIVATIVES) return say(unit, FAILED, "this machine is too large for derivatives in a direction");
+    if (evaluate(unit)) return withoutAccelerations(unit, DISCARDED);
+    const State *now = &unit->now;
+    const double *q = now->states, *v = q + COORDINATES;
+    double sums[BY + 1], one[BY + COORDINATES + 1], u[INPUTS + COORDINATES + 1], of_outputs[OUTPUTS + 1];
+    double *weights = u + INPUTS;
+    memset(sums, 0, sizeof sums);
+    memset(of_outputs, 0, sizeof of_outputs);
+    memcpy(u, now->inputs, INPUTS * sizeof *u);
+    memset(weights, 0, COORDINATES * sizeof *weights);
+    for (size_t k = 0; k < unknown_count; ++k) {
+        const unsigned i = unknowns[k];
+        if (i >= AT_STATES && i < AT_ACCELERATIONS) sums[i - AT_STATES] += seed[k];
+        else if (i >= AT_ACCELERATIONS && i < AT_PARAMETERS) weights[i - AT_ACCELERATIONS] += seed[k];
+        else if (i >= AT_OUTPUTS && i < AT_MULTIPLIERS) of_outputs[i - AT_OUTPUTS] += seed[k];
+        else return unknown(unit, i);
+    }
     for (size_t k = 0; k < known_count; ++k) {
-        to[k] = 0.0;
-        for (size_t first = 0; first < unknown_count; first += MOST) {
-            const size_t left = unknown_count - first, count = left < MOST ? left : MOST;
-            const Outcome outcome = differentiateAlong(unit, unknowns + first, count, knowns + k, 1, &one, column);
-            if (outcome != WELL) return outcome;
-            for (size_t i = 0; i < count; ++i) to[k] += seed[first + i] * column[i];
-        }
+        const unsigned i = knowns[k];
+        if (!(i >= AT_STATES && i < AT_ACCELERATIONS) && !(i >= AT_PARAMETERS && i < AT_OUTPUTS)) return unknown(unit, i);
+    }
+    unitAdjointPrepare(now->parameters, &unit->adjoint);
+    /* An output that nobody weighs may have no derivative here. */
+    for (int k = 0; k < OUTPUTS; ++k) {
+        if (of_outputs[k] == 0.0) continue;
+        unitAdjointOutput(&unit->adjoint, now->time, q, v, u, unit->accelerations, k, one);
+        for (int i = 0; i < BY; ++i) sums[i] += of_outputs[k] * one[i];
+        for (int i = 0; i < COORDINATES; ++i) weights[i] += of_outputs[k] * one[BY + i];
+    }
+    unit->singular = unitAdjointAccelerations(&unit->adjoint, now->time, q, v, u, one);
+    if (unit->singular) {
+        unit->is_evaluated = 0;
+        return withoutAccelerations(unit, DISCARDED);
+    }
+    for (int i = 0; i < BY; ++i) sums[i] += one[i];
+    for (size_t k = 0; k < known_count; ++k) {
+        const unsigned i = knowns[k];
+        to[k] = sums[i < AT_ACCELERATIONS ? i - AT_STATES : i - AT_PARAMETERS + STATES];
     }
     return WELL;
 }
@@ -503,6 +735,11 @@ static Outcome integrate(Unit *unit, double until) {
             for (int i = 0; i < INPUTS; ++i) now->inputs[i] += h * now->input_rates[i];
             now->time = is_last ? until : now->time + h;
             unit->is_evaluated = 0;
+            if (isOff(unit) > LEFT && project(unit, 0)) {
+                snprintf(unit->message, sizeof unit->message, "at t = %.17g s the state cannot be moved back onto the constraints",
+                         now->time);
+                return say(unit, FAILED, unit->message);
+            }
             const double factor = error > 0.0 ? 0.9 * pow(error, -0.125) : 6.0;
             const double next = h * (factor > 6.0 ? 6.0 : factor < 0.333 ? 0.333 : factor);
             if (!is_last || next > now->step) now->step = next;

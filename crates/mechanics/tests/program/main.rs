@@ -14,3 +14,4 @@ mod proved;
 mod running;
 mod series;
 mod stages;
+mod tangents;

@@ -1,0 +1,124 @@
+//! What each variable that is calculated depends on, by what the program reads: results that read nothing of a number do not
+//! depend on it.
+
+use std::collections::BTreeSet;
+
+use lagrangian_program::{Function, Op, Program, Role, Source, Value};
+
+use super::Unit;
+use super::variables::{Kind, Variables};
+
+/// The functions of a machine by what they read.
+pub struct Dependencies<'a> {
+    program: &'a Program,
+    variables: &'a Variables,
+    /// For each prepared value the parameters.
+    prepared: Vec<BTreeSet<Source>>,
+    /// For each acceleration what it is a function of.
+    accelerations: Vec<BTreeSet<Source>>,
+}
+
+impl<'a> Dependencies<'a> {
+    /// Of the machine of a unit.
+    pub fn new(unit: &'a Unit<'_>) -> Dependencies<'a> {
+        let program = unit.program;
+        let mut dependencies = Dependencies {
+            program,
+            variables: &unit.variables,
+            prepared: reads(&program.prepare),
+            accelerations: Vec::new(),
+        };
+        let accelerations = dependencies.results(Role::Accelerations);
+        dependencies.accelerations = accelerations;
+        dependencies
+    }
+
+    /// The references of what a variable depends on, with the kind of the dependency; `at_start` of what initialization knows:
+    /// parameters, too.
+    pub fn of(&self, reference: usize, at_start: bool) -> Vec<(usize, &'static str)> {
+        let n = self.program.dimension();
+        let kind = self.variables.all[reference].kind;
+        // A rate is the derivative of its coordinate, and a state itself.
+        let state = match kind {
+            Kind::Coordinate(i) => Some(1 + i),
+            Kind::Rate(i) => Some(1 + n + i),
+            _ => None,
+        };
+        if let Some(state) = state {
+            return vec![(state, "constant")];
+        }
+        let whole = |role| self.results(role).into_iter().next().unwrap_or_default();
+        let sources = match kind {
+            Kind::Acceleration(i) => self.accelerations.get(i).cloned().unwrap_or_default(),
+            Kind::Output(i) => whole(Role::Output(i)),
+            Kind::Multiplier(i) => {
+                let all = self.results(Role::Multipliers);
+                all.into_iter().nth(i).unwrap_or_default()
+            }
+            Kind::KineticEnergy => whole(Role::KineticEnergy),
+            Kind::PotentialEnergy => whole(Role::PotentialEnergy),
+            Kind::Fact(i) => whole(Role::Assumption(i)),
+            Kind::Time
+            | Kind::Parameter(_)
+            | Kind::Input(_)
+            | Kind::Coordinate(_)
+            | Kind::Rate(_) => BTreeSet::new(),
+        };
+        let references = sources.into_iter().filter_map(|source| {
+            let parameters = 1 + 3 * n;
+            Some(match source {
+                Source::Time => 0,
+                Source::Coordinate(i) => 1 + i as usize,
+                Source::Velocity(i) => 1 + n + i as usize,
+                Source::Parameter(i) if at_start => parameters + i as usize,
+                Source::Input(i) => parameters + self.program.parameters.len() + i as usize,
+                _ => return None,
+            })
+        });
+        let references: BTreeSet<usize> = references.collect();
+        references.into_iter().map(|k| (k, "dependent")).collect()
+    }
+
+    /// For each result of a function what it is a function of: accelerations and prepared values by what they are made of.
+    fn results(&self, role: Role) -> Vec<BTreeSet<Source>> {
+        let Some(function) = self.program.function(role) else {
+            return Vec::new();
+        };
+        let resolved = |sources: BTreeSet<Source>| -> BTreeSet<Source> {
+            let mut all = BTreeSet::new();
+            for source in sources {
+                match source {
+                    Source::Prepared(i) => {
+                        all.extend(self.prepared.get(i as usize).into_iter().flatten())
+                    }
+                    Source::Acceleration(i) => {
+                        all.extend(self.accelerations.get(i as usize).into_iter().flatten());
+                    }
+                    source => all.extend([source]),
+                }
+            }
+            all
+        };
+        reads(function).into_iter().map(resolved).collect()
+    }
+}
+
+/// For each result of a function the arguments that it reads.
+fn reads(function: &Function) -> Vec<BTreeSet<Source>> {
+    let of = |result: &Value| {
+        let mut is_needed = vec![false; result.index() + 1];
+        is_needed[result.index()] = true;
+        let mut sources = BTreeSet::new();
+        for index in (0..=result.index()).rev() {
+            if !is_needed[index] {
+                continue;
+            }
+            match &function.code[index] {
+                Op::Read(source) => sources.extend([*source]),
+                op => op.operands().for_each(|x| is_needed[x.index()] = true),
+            }
+        }
+        sources
+    };
+    function.results.iter().map(of).collect()
+}

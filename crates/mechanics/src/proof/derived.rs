@@ -1,0 +1,286 @@
+//! Programs of derivatives are proved, too: against the program that they were made from, run over dual numbers.
+//!
+//! That one is proved against Lagrange's equations, and dual numbers know nothing of how a derivative was written down: what
+//! they add to a value in a program is the chain rule of every operation. So a [tangent](Program::tangent) is compared number
+//! by number, and an [adjoint](Program::adjoint) by the sum of its derivatives along a direction drawn at random, which proves
+//! all of them at once. The numbers under the dual ones are those of the prime field first, and double-doubles that carry a
+//! bound of their error where the field has none, as with the program itself.
+
+use lagrangian_program::{Arguments, Interpreter, Op, Program, Role, is_differentiated};
+use lagrangian_scalar::{Ball, Dual, Residue, Scalar};
+use lagrangian_spec::model::Model;
+
+use super::number::Number;
+use super::{
+    Disagreement, Found, MOST_POINTS, MOST_STATES, MOST_VALUES, Proved, STATES, Sum, Unproved,
+    Verdict, Witness, equal, told,
+};
+use crate::POINTS;
+use crate::equations::literal::{Lagrange, State};
+
+impl Proved {
+    /// What accelerations and outputs change by where their arguments change, as [`Program::tangent`].
+    ///
+    /// # Errors
+    /// If it is not that, or has no values anywhere.
+    pub fn tangent(&self, model: &Model<'_>) -> Result<Proved, Unproved> {
+        self.derived(self.0.tangent(), model)
+    }
+
+    /// The derivatives of accelerations and outputs backwards, as [`Program::adjoint`].
+    ///
+    /// # Errors
+    /// If it is not that, or has no values anywhere.
+    pub fn adjoint(&self, model: &Model<'_>) -> Result<Proved, Unproved> {
+        self.derived(self.0.adjoint(), model)
+    }
+
+    /// A program of derivatives of this one, if it is that: a tangent or an adjoint.
+    ///
+    /// # Errors
+    /// If it is not, or has no values anywhere.
+    pub fn derived(&self, part: Program, model: &Model<'_>) -> Result<Proved, Unproved> {
+        match validate(&self.0, &part, model) {
+            Ok(()) => Ok(Proved(part)),
+            Err((disagreement, witness)) => Err(Unproved {
+                what: told(&disagreement, &part),
+                disagreement,
+                witness,
+            }),
+        }
+    }
+}
+
+/// Holds the derivatives `part` of a program against that program.
+fn validate(
+    whole: &Program,
+    part: &Program,
+    model: &Model<'_>,
+) -> Result<(), (Disagreement, Witness)> {
+    let is_known = |role: Role| match role {
+        Role::Adjoint => whole.function(Role::Accelerations).is_some(),
+        Role::Gradient(i) => whole.function(Role::Output(i)).is_some(),
+        role => is_differentiated(role) && whole.function(role).is_some(),
+    };
+    let mut roles = part.functions.iter().map(|function| function.role);
+    if let Some(role) = roles.find(|role| !is_known(*role)) {
+        return Err((Disagreement::Unseen { role }, Witness::Field));
+    }
+    let holonomic = |k: usize| whole.constraints.get(k).is_some_and(|c| c.holonomic);
+    let machine = Lagrange::of(model, holonomic);
+    let code = || whole.all_functions().flat_map(|f| &f.code);
+    let most = MOST_VALUES / (code().count() as u64).max(1);
+    let most = most.clamp(MOST_STATES, MOST_POINTS);
+    // As with the program itself, the field alone decides of sines and cosines only.
+    let is_smooth = !code().any(|op| matches!(op, Op::Unary(..) | Op::Binary(..)));
+    let in_field = Comparison::<Residue>::new(whole, part).run(&machine, POINTS, most);
+    if in_field == Found::Equal && is_smooth {
+        return Ok(());
+    }
+    let at_states = Comparison::<Ball>::new(whole, part).run(&machine, STATES, MOST_STATES);
+    match (in_field, at_states) {
+        (Found::Equal | Found::Nothing | Found::Exhausted(_), Found::Wrong(wrong)) => {
+            Err((wrong, Witness::States))
+        }
+        (_, Found::Equal) | (Found::Equal, _) => Ok(()),
+        (Found::Wrong(wrong), _) => Err((wrong, Witness::Field)),
+        (_, _) => Err((Disagreement::Undefined, Witness::States)),
+    }
+}
+
+/// A program over dual numbers beside its derivatives over the numbers in these.
+struct Comparison<'p, R> {
+    whole: &'p Program,
+    part: &'p Program,
+    dual: Interpreter<Dual<R>>,
+    interpreter: Interpreter<R>,
+    /// The number of the point.
+    number: u64,
+}
+
+impl<'p, R: Number> Comparison<'p, R> {
+    fn new(whole: &'p Program, part: &'p Program) -> Comparison<'p, R> {
+        let program = whole.with_functions(is_differentiated);
+        let parameters = vec![Dual::<R>::ONE; whole.parameters.len()];
+        Comparison {
+            dual: Interpreter::new(&program, &parameters),
+            interpreter: Interpreter::new(part, &vec![R::ONE; part.parameters.len()]),
+            whole,
+            part,
+            number: 0,
+        }
+    }
+
+    /// Compares every function at so many points, of at most `most`. An output that has a value hardly anywhere is compared
+    /// wherever it has one, as it is when the program itself is proved.
+    fn run(mut self, machine: &Lagrange<'_, '_>, points: usize, most: u64) -> Found {
+        let start = (self.part.start != self.whole.start).then_some(Role::Start);
+        let functions = self.part.functions.iter().map(|function| function.role);
+        let roles: Vec<Role> = start.into_iter().chain(functions).collect();
+        let mut good = vec![0; roles.len()];
+        for number in 0..most {
+            self.number = number;
+            let state = R::state(number, machine);
+            for (role, good) in roles.iter().zip(&mut good) {
+                match self.check(*role, &state) {
+                    Ok(()) => *good += 1,
+                    Err(Verdict::Elsewhere) => {}
+                    Err(Verdict::Wrong(disagreement)) => return Found::Wrong(disagreement),
+                }
+            }
+            if good.iter().all(|&good| good >= points) {
+                return Found::Equal;
+            }
+        }
+        let is_needed = |role: &Role| !matches!(role, Role::Output(_) | Role::Gradient(_));
+        let mut needed = roles.iter().zip(&good).filter(|(role, _)| is_needed(role));
+        match needed.all(|(_, &good)| good >= points) {
+            true => Found::Equal,
+            false => Found::Nothing,
+        }
+    }
+
+    /// Numbers drawn for this point; those of different kinds are independent.
+    fn many(&self, kind: u64, len: usize) -> Vec<R> {
+        let one = |i: usize| R::random(self.number, (kind << 32) + 1 + i as u64);
+        (0..len).map(one).collect()
+    }
+
+    fn check(&mut self, role: Role, at: &State<R>) -> Result<(), Verdict> {
+        let changes = State {
+            parameters: self.many(11, at.parameters.len()),
+            t: R::ZERO,
+            q: self.many(12, at.q.len()),
+            v: self.many(13, at.v.len()),
+            u: self.many(14, at.u.len()),
+            a: self.many(15, at.a.len()),
+        };
+        match role {
+            Role::Adjoint => self.check_adjoint(at, &changes),
+            Role::Gradient(i) => self.check_gradient(i, at, &changes),
+            role => self.check_tangent(role, at, &changes),
+        }
+    }
+
+    /// The program over dual numbers.
+    fn duals(&mut self, role: Role, at: &State<R>, by: &State<R>) -> Result<Vec<Dual<R>>, Verdict> {
+        let pairs = |values: &[R], changes: &[R]| -> Vec<Dual<R>> {
+            let pairs = values.iter().zip(changes);
+            let dual = |(&value, &derivative)| Dual { value, derivative };
+            pairs.map(dual).collect()
+        };
+        let (q, v) = (pairs(&at.q, &by.q), pairs(&at.v, &by.v));
+        let (u, a) = (pairs(&at.u, &by.u), pairs(&at.a, &by.a));
+        let arguments = Arguments {
+            t: Dual::constant(at.t),
+            q: &q,
+            v: &v,
+            u: &u,
+            a: &a,
+        };
+        self.dual.prepare(&pairs(&at.parameters, &by.parameters));
+        let len = self.whole.function(role).map_or(0, |f| f.results.len());
+        let mut results = vec![Dual::ZERO; len];
+        match self.dual.call(role, arguments, &mut results) {
+            Ok(()) if results.iter().all(|x| x.is_finite()) => Ok(results),
+            _ => Err(Verdict::Elsewhere),
+        }
+    }
+
+    /// The derivatives.
+    fn derivatives(&mut self, role: Role, at: &State<R>) -> Result<Vec<R>, Verdict> {
+        let arguments = Arguments {
+            t: at.t,
+            q: &at.q,
+            v: &at.v,
+            u: &at.u,
+            a: &at.a,
+        };
+        self.interpreter.prepare(&at.parameters);
+        let len = self.part.function(role).map_or(0, |f| f.results.len());
+        let mut results = vec![R::ZERO; len];
+        match self.interpreter.call(role, arguments, &mut results) {
+            Ok(()) if results.iter().all(|x| x.is_finite()) => Ok(results),
+            _ => Err(Verdict::Elsewhere),
+        }
+    }
+
+    fn wrong(&self, role: Role, index: usize) -> Verdict {
+        let point = self.number;
+        Disagreement::Result { role, index, point }.into()
+    }
+
+    fn check_tangent(&mut self, role: Role, at: &State<R>, by: &State<R>) -> Result<(), Verdict> {
+        let duals = self.duals(role, at, by)?;
+        let behind = |values: &[R], changes: &[R]| [values, changes].concat();
+        let both = State {
+            parameters: behind(&at.parameters, &by.parameters),
+            t: at.t,
+            q: behind(&at.q, &by.q),
+            v: behind(&at.v, &by.v),
+            u: behind(&at.u, &by.u),
+            a: behind(&at.a, &by.a),
+        };
+        let found = self.derivatives(role, &both)?;
+        let mut expected = Vec::with_capacity(found.len());
+        for block in duals.chunks(at.q.len().max(1)) {
+            if !matches!(role, Role::Output(_)) {
+                expected.extend(block.iter().map(|x| x.value));
+            }
+            expected.extend(block.iter().map(|x| x.derivative));
+        }
+        for (index, (&found, &expected)) in found.iter().zip(&expected).enumerate() {
+            if !equal(found, expected)? {
+                return Err(self.wrong(role, index));
+            }
+        }
+        match found.len() == expected.len() {
+            true => Ok(()),
+            false => Err(self.wrong(role, 0)),
+        }
+    }
+
+    fn check_adjoint(&mut self, at: &State<R>, by: &State<R>) -> Result<(), Verdict> {
+        let weights = self.many(16, at.q.len());
+        let duals = self.duals(Role::Accelerations, at, by)?;
+        let rates: Vec<R> = duals.iter().map(|x| x.derivative).collect();
+        let weighted = State {
+            u: [&at.u[..], &weights].concat(),
+            ..at.clone()
+        };
+        let found = self.derivatives(Role::Adjoint, &weighted)?;
+        let direction = [&by.q[..], &by.v, &by.parameters, &by.u].concat();
+        let expected = rates
+            .iter()
+            .zip(&weights)
+            .map(|(&rate, &weight)| -(rate * weight));
+        let sum = expected.fold(Sum::products(&found, &direction), Sum::plus);
+        match sum.vanishes()? && found.len() == direction.len() {
+            true => Ok(()),
+            false => Err(self.wrong(Role::Adjoint, 0)),
+        }
+    }
+
+    fn check_gradient(
+        &mut self,
+        output: usize,
+        at: &State<R>,
+        by: &State<R>,
+    ) -> Result<(), Verdict> {
+        let role = Role::Gradient(output);
+        let duals = self.duals(Role::Output(output), at, by)?;
+        // A number that a program of this name does not read may be anything.
+        let weighted = State {
+            u: [&at.u[..], &vec![R::ONE; at.q.len()]].concat(),
+            ..at.clone()
+        };
+        let found = self.derivatives(role, &weighted)?;
+        let direction = [&by.q[..], &by.v, &by.parameters, &by.u, &by.a].concat();
+        let expected = duals.first().map_or(R::ZERO, |x| x.derivative);
+        let sum = Sum::products(&found, &direction).plus(-expected);
+        match sum.vanishes()? && found.len() == direction.len() {
+            true => Ok(()),
+            false => Err(self.wrong(role, 0)),
+        }
+    }
+}
