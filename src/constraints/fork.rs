@@ -9,8 +9,8 @@
 //! passes such a pose,
 //!
 //! * its stages are projected onto the constraints before their accelerations are evaluated;
-//! * accelerations within [`PASSED_OVER`] are those between two states on the same branch, one before
-//!   and one after, which are well held: an error of order `ε²`;
+//! * accelerations within [`PASSED_OVER`] are interpolated between four states on the same branch, two before
+//!   and two after, which are well held: an error of order `ε⁴`;
 //! * a state with `ε` below [`WEAK`] is not moved along what holds so little: it goes on as it came, which is
 //!   how the branch goes on;
 //! * the errors of a step are measured along the motion, as that of the state that the constraints then
@@ -35,7 +35,7 @@ pub(super) const PASSED_OVER: f64 = 3e-4;
 /// Within this, a step that fails may have failed because of such a pose.
 const IN_SIGHT: f64 = 0.5;
 
-/// How far from a pose states are looked for, in units of the coordinates' sizes.
+/// How far from a pose states are looked for, in units of the coordinates' sizes, or in rad.
 const BESIDE: f64 = 0.1;
 
 impl<V: Vector> Constraints<V> {
@@ -114,34 +114,51 @@ impl<V: Vector> Constraints<V> {
         self.accelerations_here(system, (t, &q, &v, u), a)
     }
 
-    /// Accelerations between those beside a pose, before and after it.
+    /// Accelerations between those beside a pose, two before and two after it.
+    ///
+    /// They are a smooth function of the place on the line through the state along its rates, projected onto the constraints, so
+    /// the cubic through four of its values is off by the fourth power of their distance.
     fn accelerations_across<S: System<Vector = V>>(
         &self,
         system: &S,
         (t, q, v, u): (f64, &V, &V, &S::Inputs),
         a: &mut V,
     ) -> Result<(), StepError> {
-        let mut beside = a.clone();
-        let after = self.accelerations_beside(system, (t, q, v, u), 1.0, a)?;
-        let before = self.accelerations_beside(system, (t, q, v, u), -1.0, &mut beside)?;
-        let pairs = a.as_mut_slice().iter_mut().zip(beside.as_slice());
-        for (a, beside) in pairs {
-            *a = (before * *a + after * beside) / (before + after);
+        let mut times = [0.0; 4];
+        let mut beside = [(); 4].map(|()| a.zeros_like());
+        for (pair, direction) in [1.0, -1.0].into_iter().enumerate() {
+            let mut far = PASSED_OVER;
+            for k in [2 * pair, 2 * pair + 1] {
+                let at = (t, q, v, u);
+                let (by, was) =
+                    self.accelerations_beside(system, at, (direction, far), &mut beside[k])?;
+                times[k] = by;
+                // The next one is as far from this one as this one is from the pose.
+                far = 2.0 * was;
+            }
+        }
+        let a = a.as_mut_slice();
+        a.fill(0.0);
+        for (k, beside) in beside.iter().enumerate() {
+            let others = times.iter().enumerate().filter(|(j, _)| *j != k);
+            let weight: f64 = others.map(|(_, t)| t / (t - times[k])).product();
+            for (a, beside) in a.iter_mut().zip(beside.as_slice()) {
+                *a += weight * beside;
+            }
         }
         Ok(())
     }
 
-    /// Accelerations at the nearest state in a direction of time that is held well enough; says how long
-    /// until there.
+    /// Accelerations at the nearest state in a direction of time, from some distance on, that is held well enough; says when
+    /// that is, and at which distance.
     fn accelerations_beside<S: System<Vector = V>>(
         &self,
         system: &S,
         (t, q, v, u): (f64, &V, &V, &S::Inputs),
-        direction: f64,
+        (direction, mut far): (f64, f64),
         a: &mut V,
-    ) -> Result<f64, StepError> {
+    ) -> Result<(f64, f64), StepError> {
         let rate = self.scales.rate(v);
-        let mut far = PASSED_OVER;
         // What comes to rest in such a pose may leave it on any branch.
         while rate > 0.0 && far < BESIDE {
             let by = direction * far / rate;
@@ -153,7 +170,7 @@ impl<V: Vector> Constraints<V> {
                 let mut rates = v.clone();
                 self.put_on(system, t + by, &mut ahead, &mut rates)?;
                 self.accelerations_here(system, (t + by, &ahead, &rates, u), a)?;
-                return Ok(far / rate);
+                return Ok((by, far));
             }
             far *= 1.5;
         }

@@ -126,10 +126,12 @@ impl<V: Vector> Scales<V> {
         }
     }
 
-    /// The greatest rate, in coordinates' sizes per second.
+    /// The greatest rate, in coordinates' sizes per second, an angle's being 1 rad however often it has turned.
     pub fn rate(&self, v: &V) -> f64 {
-        let rates = v.as_slice().iter().zip(self.sizes[0].as_slice());
-        let rates = rates.filter(|(_, size)| **size > 0.0);
+        let alike = self.angles.as_slice().iter().zip(self.sizes[0].as_slice());
+        let sizes = alike.map(|(is_angle, size)| if *is_angle > 0.0 { 1.0 } else { *size });
+        let rates = v.as_slice().iter().zip(sizes);
+        let rates = rates.filter(|(_, size)| *size > 0.0);
         rates.map(|(v, size)| v.abs() / size).fold(0.0, f64::max)
     }
 

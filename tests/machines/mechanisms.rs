@@ -482,7 +482,7 @@ fn coarse_steps_over_forks_are_as_exact_as_in_one_coordinate() {
 #[test]
 fn steps_that_end_next_to_a_fork_lose_nothing() {
     let mut random = SplitMix::new(11);
-    // A run through three windows that has such steps; and others at random.
+    // Runs through three windows that have such steps, some after many turns; and others at random.
     let machines = [2, 3].map(|windows| {
         let program = crate::support::library::program("four_bars", &[("N", windows)]);
         let cranks = usize::try_from(windows).expect("two or three") + 1;
@@ -492,7 +492,13 @@ fn steps_that_end_next_to_a_fork_lose_nothing() {
             cranks,
         )
     });
-    let known = [(3, -4.703, 15.22)];
+    let known = [
+        (3, -4.703, 15.22),
+        (3, 3.566, 3.637),
+        (3, -5.800873570712619, 12.29993076728659),
+        (3, -0.15277886223440262, 10.856591556454209),
+        (3, 5.751705232343893, 9.33572748812788),
+    ];
     let others = (0..40).map(|_| (2, random.uniform(-6.0, 6.0), random.uniform(1.0, 15.0)));
     for (windows, rate, until) in known.into_iter().chain(others) {
         let (row, pendulum, cranks) = &machines[windows - 2];
