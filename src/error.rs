@@ -117,7 +117,7 @@ pub enum Error {
     SingularMassMatrix {
         /// The coordinate at which the elimination stopped.
         coordinate: String,
-        /// What was left of its inertia, relative to what it had.
+        /// What elimination left of its element on the diagonal of the mass matrix, relative to that element.
         ratio: f64,
         /// Time, in s.
         t: f64,
@@ -127,7 +127,7 @@ pub enum Error {
     DependentConstraint {
         /// The constraint.
         constraint: String,
-        /// What was left of it beside the others, relative to what it had.
+        /// What elimination left of its element on the diagonal of `G M⁻¹ Gᵀ`, relative to that element.
         ratio: f64,
         /// Time, in s.
         t: f64,
@@ -183,9 +183,9 @@ pub enum Error {
     /// than one way from there, as a parallelogram whose bars come into line, and neither the motion before
     /// nor inertia says in which: it is at rest there, or rounding hides it.
     Fork {
-        /// The constraint that loses its hold.
+        /// The constraint that comes to depend on the others.
         constraint: String,
-        /// Its length beside the others, relative to what it had at the start.
+        /// The length of its row across those of the others, in the metric of inertia, relative to that at the start.
         left: f64,
         /// Time, in s.
         t: f64,
@@ -577,12 +577,7 @@ impl Display for Error {
                 coordinate,
                 ratio,
                 t,
-            } => write!(
-                f,
-                "the mass matrix cannot be inverted at t = {t} s: coordinate `{coordinate}` meets no inertia ({ratio:e} \
-                 of what it had is left), and shorter steps do not avoid it",
-                t = Short(*t)
-            ),
+            } => no_inertia(f, coordinate, *ratio, *t),
             Self::FrictionParadox {
                 contact,
                 several,
@@ -614,8 +609,9 @@ impl Display for Error {
                 t,
             } => write!(
                 f,
-                "the constraint `{constraint}` depends on others at t = {t} s ({ratio:e} of it is left beside them), and \
-                 shorter steps do not avoid it",
+                "the constraint `{constraint}` comes to depend on others at t = {t} s, and shorter steps do not avoid it (elimination \
+                 leaves {ratio:.1e} of its element on the diagonal of G M⁻¹ Gᵀ): the reactions have no single value there. Leave out a \
+                 constraint that follows from others, or keep away from the pose, by other start values or other parameters",
                 t = Short(*t)
             ),
             Self::InconsistentConstraints {
@@ -625,8 +621,8 @@ impl Display for Error {
                 t,
             } if with.is_empty() => write!(
                 f,
-                "the constraint `{constraint}` cannot be met near the state at t = {t} s: {residual:.1e} of its terms' size is \
-                 left",
+                "the constraint `{constraint}` cannot be met near the state at t = {t} s: its residual is \
+                 {residual:.1e} of the size of its terms",
                 t = Short(*t)
             ),
             Self::InconsistentConstraints {
@@ -636,7 +632,7 @@ impl Display for Error {
                 t,
             } => write!(
                 f,
-                "the constraint `{constraint}` contradicts {} at t = {t} s: {residual:.1e} of its terms' size is left",
+                "the constraint `{constraint}` contradicts {} at t = {t} s: its residual is {residual:.1e} of the size of its terms",
                 quoted(with),
                 t = Short(*t)
             ),
@@ -646,9 +642,9 @@ impl Display for Error {
                 t,
             } => write!(
                 f,
-                "the constraint `{constraint}` loses its hold near t = {t} s ({left:.1e} of what it had is left): from there the \
-                 machine may go on in more than one way, and nothing says in which; start it beside that pose, or with rates \
-                 along one of them",
+                "branches of the motion meet near t = {t} s: the constraint `{constraint}` comes to depend on the others (across \
+                 them it has {left:.1e} of the length that it had at the start), and neither the motion nor inertia says on which branch \
+                 the machine goes on. Start it beside that pose, or with rates along one of the branches",
                 t = Short(*t)
             ),
             Self::KeptStart { contradictions, t } => {
@@ -757,6 +753,40 @@ impl Display for Error {
             Self::Stepper { message } => write!(f, "{message}"),
         }
     }
+}
+
+/// Why the mass matrix cannot be inverted, and what is to be done.
+fn no_inertia(f: &mut fmt::Formatter<'_>, coordinate: &str, ratio: f64, t: f64) -> fmt::Result {
+    /// Elimination that takes more than this away has not come to rounding.
+    const MORE_THAN_ROUNDING: f64 = 1e-9;
+    let t = Short(t);
+    if ratio.is_finite() && ratio.abs() > MORE_THAN_ROUNDING {
+        return write!(
+            f,
+            "the mass matrix is not positive definite at t = {t} s: a motion that changes the coordinate `{coordinate}` has negative \
+             kinetic energy. Look at the masses and the moments of inertia of what it moves"
+        );
+    }
+    write!(
+        f,
+        "the mass matrix is singular at t = {t} s: a motion that changes the coordinate `{coordinate}` has no kinetic energy "
+    )?;
+    if ratio == 0.0 || !ratio.is_finite() {
+        write!(
+            f,
+            "(nothing of its element on the diagonal remains after elimination)"
+        )?;
+    } else {
+        write!(
+            f,
+            "({ratio:.1e} of its element on the diagonal remains after elimination, which is rounding)"
+        )?;
+    }
+    write!(
+        f,
+        ". Give what it moves a mass or a moment of inertia; where the coordinate has no meaning at that pose, as the angle of polar \
+         coordinates at a radius of 0, start elsewhere or choose other coordinates"
+    )
 }
 
 impl core::error::Error for Error {}

@@ -831,13 +831,13 @@ impl Display for Singular {
         match self.at {
             Pivot::Coordinate(index) => write!(
                 f,
-                "the mass matrix cannot be inverted at coordinate number {} (the pivot is {:e} of its inertia)",
+                "the mass matrix cannot be inverted: at coordinate number {} the pivot is {:.1e} of the element on the diagonal",
                 index + 1,
                 self.ratio
             ),
             Pivot::Constraint(index) => write!(
                 f,
-                "constraint number {} depends on others ({:e} of it is left)",
+                "constraint number {} depends on others: the pivot is {:.1e} of its element on the diagonal of G M⁻¹ Gᵀ",
                 index + 1,
                 self.ratio
             ),

@@ -6,8 +6,7 @@ use std::io::Read;
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
 use lagrangian::{
-    ContactForce, Error, Evaluation, Machine, Pivot, Simulation, State, StepError, System,
-    check_equations,
+    ContactForce, Error, Evaluation, Machine, Simulation, State, System, check_equations,
 };
 use lagrangian_spec::model::Model;
 use lagrangian_symbolic::Dag;
@@ -163,26 +162,6 @@ fn fill(numbers: &mut Named, given: Option<Numbers>, what: &str) -> Result<(), S
     }
 }
 
-/// Why there are no numbers at a state.
-fn in_words(system: &InterpretedSystem, error: StepError) -> String {
-    match error {
-        StepError::Singular { singular, .. }
-            if matches!(singular.at, Pivot::Coordinate(_)) && singular.ratio.is_finite() =>
-        {
-            format!(
-                "the mass matrix is singular in `{}` here: {:e} of its inertia is left",
-                singular.name(system),
-                singular.ratio
-            )
-        }
-        StepError::Singular { singular, .. } if matches!(singular.at, Pivot::Coordinate(_)) => {
-            let name = singular.name(system);
-            format!("the mass matrix is singular in `{name}` here: it has no inertia")
-        }
-        error => Error::of_step(error, system).to_string(),
-    }
-}
-
 fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, String> {
     let State { t, q, v } = state;
     let (t, q, v) = (*t, &q.values, &v.values);
@@ -204,7 +183,7 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
         dissipation,
         outputs,
         ..
-    } = evaluated.map_err(|error| in_words(system, error))?;
+    } = evaluated.map_err(|error| Error::of_step(error, system).to_string())?;
     if !multipliers.is_empty() && unilateral.iter().any(|force| force.closed) {
         return Err(
             "the multipliers of constraints where contacts are closed are those of a run".into(),

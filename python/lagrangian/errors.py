@@ -85,7 +85,7 @@ class SingularError(LagrangianError, ArithmeticError):
         self.coordinate = coordinate
         """The coordinate, or the constraint, at which elimination stopped."""
         self.ratio = ratio
-        """The share of its size that is left there."""
+        """What remains of its element on the diagonal after elimination, relative to that element."""
         self.index = () if index is None else index
         """Which state of a batch."""
         self._arguments = (text, coordinate, ratio, index)

@@ -70,14 +70,20 @@ pub fn of_singular<S: System>(
     place: Option<usize>,
 ) -> PyErr {
     let name = singular.name(system).to_owned();
-    let what = match singular.at {
-        Pivot::Constraint(_) => "a constraint depends on others",
-        Pivot::Coordinate(_) => "the mass matrix is singular",
-        _ => "the accelerations have no value",
+    let remains = |of: &str| {
+        let ratio = singular.ratio;
+        format!("{ratio:.1e} of its element on the diagonal of {of} remains after elimination")
     };
-    let message = format!(
-        "{what} here, at `{name}`: {:e} of its size is left",
-        singular.ratio
-    );
+    let message = match singular.at {
+        Pivot::Constraint(_) => format!(
+            "the constraint `{name}` depends on others here: {}",
+            remains("G M⁻¹ Gᵀ")
+        ),
+        Pivot::Coordinate(_) => format!(
+            "the mass matrix is singular here, at the coordinate `{name}`: {}",
+            remains("M")
+        ),
+        _ => format!("the accelerations have no value here, at `{name}`"),
+    };
     raise(py, "SingularError", (message, name, singular.ratio, place))
 }

@@ -76,14 +76,14 @@ pub fn contradictions<'d>(model: &Model<'d>, equations: &Equations<'d>, report: 
     let (message, help) = match others {
         [] => (
             format!(
-                "the constraint {} cannot be met near the start: {miss} of it is left at best",
+                "the constraint {} cannot be met near the start: its residual is {miss} at best",
                 name(last)
             ),
             "give a start from which it can be met, or other parameters",
         ),
         _ => (
             format!(
-                "the constraint {} contradicts {} near the start: {miss} of it is left where all are met best",
+                "the constraint {} contradicts {} near the start: its residual is {miss} where all are met best",
                 name(last),
                 others.join(", ")
             ),
