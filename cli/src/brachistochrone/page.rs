@@ -54,7 +54,7 @@ pub fn page(
     };
     Ok(html::fill(PAGE, |part| match part {
         "name" => safe(&model.name),
-        "docs" => format!("<p class=\"docs\">{}</p>\n", safe(&model.docs)),
+        "docs" => format!("<p class=\"docs\">{}</p>\n", html::docs(&model.docs)),
         "alert" => warnings.clone().map(alert).collect(),
         "time" => shortest(rounded(found.motion.time())),
         "figures" => figures.clone(),

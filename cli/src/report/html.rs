@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use lagrangian_print::document::{Run, of_docs};
 use serde_json::Value;
 
 /// Text between tags and in quoted attributes.
@@ -20,6 +21,17 @@ pub fn text(text: &str) -> String {
         }
     }
     safe
+}
+
+/// A paragraph of a doc comment between tags, with its code and its stressed words.
+pub fn docs(paragraph: &str) -> String {
+    let run = |run: &Run| match run {
+        Run::Text(words) => text(words),
+        Run::Code(code) => format!("<code>{}</code>", text(code)),
+        Run::Emphasis(words) => format!("<em>{}</em>", text(words)),
+        Run::Math(math) => math.mathml(),
+    };
+    of_docs(paragraph).iter().map(run).collect()
 }
 
 /// JSON within a `<script>` element: nothing in it looks like a tag or a comment.
@@ -113,6 +125,14 @@ mod tests {
         let safe = json(&value);
         assert!(!safe.contains('<') && !safe.contains('\u{2028}'), "{safe}");
         assert_eq!(serde_json::from_str::<Value>(&safe).unwrap(), value);
+    }
+
+    #[test]
+    fn docs_have_their_code_and_their_stressed_words() {
+        assert_eq!(
+            docs("see *On <b>*, `a*b` & 2*m*l"),
+            "see <em>On &lt;b&gt;</em>, <code>a*b</code> &amp; 2*m*l"
+        );
     }
 
     #[test]

@@ -73,41 +73,38 @@ fn introduction(docs: &str) -> String {
     let first = first.get(..end).unwrap_or_default();
     format!(
         "<details class=\"docs\"><summary>{}</summary>\n{all}</details>\n",
-        safe(first)
+        html::docs(first)
     )
 }
 
 /// Documentation: what is indented by four spaces stays as it is, as in Markdown.
 fn paragraphs(docs: &str) -> String {
     let mut html = String::new();
-    let mut open = "";
-    for line in docs.lines() {
-        let kind = match line {
-            _ if line.trim().is_empty() => "",
-            _ if line.starts_with("    ") => "pre",
-            _ => "p",
-        };
-        if kind != open {
-            if !open.is_empty() {
-                html.push_str(&format!("</{open}>\n"));
+    let lines: Vec<&str> = docs.lines().collect();
+    let is_code = |line: &str| line.starts_with("    ");
+    let together =
+        |a: &&str, b: &&str| a.trim().is_empty() == b.trim().is_empty() && is_code(a) == is_code(b);
+    for block in lines.chunk_by(together) {
+        let text: Vec<&str> = block.iter().map(|line| line.trim()).collect();
+        let text = text.join("\n");
+        match block.first() {
+            Some(line) if line.trim().is_empty() => {}
+            Some(line) if is_code(line) => {
+                html.push_str(&format!("<pre class=\"docs\">{}</pre>\n", safe(&text)));
             }
-            if !kind.is_empty() {
-                html.push_str(&format!("<{kind} class=\"docs\">"));
-            }
-            open = kind;
-        } else if !kind.is_empty() {
-            html.push('\n');
+            _ => html.push_str(&format!("<p class=\"docs\">{}</p>\n", html::docs(&text))),
         }
-        html.push_str(&safe(line.trim()));
-    }
-    if !open.is_empty() {
-        html.push_str(&format!("</{open}>\n"));
     }
     html
 }
 
 fn words(docs: &str) -> Cell {
-    Cell::Words(docs.split_whitespace().collect::<Vec<_>>().join(" "))
+    let docs = docs.split_whitespace().collect::<Vec<_>>().join(" ");
+    if docs.is_empty() {
+        Cell::Words(docs)
+    } else {
+        Cell::Raw(html::docs(&docs))
+    }
 }
 
 fn figure(x: f64) -> Cell {

@@ -148,6 +148,8 @@ fn every_parameter_coordinate_and_doc_is_on_the_page() {
         .collect();
     assert_eq!(changed, ["100", "0.021"]);
     assert!(page.html.contains("default 157.079633"));
+    let page = library("prisms", &[]);
+    assert!(page.html.contains("<em>On Brachistochronic Motion"));
 }
 
 #[test]

@@ -17,7 +17,7 @@ mod unilateral;
 
 use lagrangian_symbolic::{Expr, Math, Names, math};
 
-use super::document::{Block, Document, Row, Run, Section, Words};
+use super::document::{Block, Document, Row, Run, Section, Words, of_docs};
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::equations::groups::{self, Share};
 use lagrangian_mechanics::equations::integrals::Facts;
@@ -159,28 +159,12 @@ fn code(text: impl ToString) -> Run {
     Run::Code(text.to_string())
 }
 
-/// What a doc comment says: paragraphs, with code where it has backticks.
+/// What a doc comment says, in paragraphs.
 fn prose(docs: &str) -> Vec<Block> {
     let paragraphs = docs.split("\n\n").filter(|text| !text.trim().is_empty());
     paragraphs
-        .map(|text| Block::Paragraph(line(text)))
+        .map(|text| Block::Paragraph(of_docs(text)))
         .collect()
-}
-
-/// What a doc comment says, as one line.
-fn line(docs: &str) -> Words {
-    let mut words = Vec::new();
-    let mut rest = docs.trim();
-    while let Some((before, after)) = rest.split_once('`') {
-        let Some((inside, after)) = after.split_once('`') else {
-            break;
-        };
-        words.extend(words![before]);
-        words.push(code(inside));
-        rest = after;
-    }
-    words.extend(words![rest]);
-    words
 }
 
 /// `a`, `a and b`, `a, b and c`.

@@ -64,6 +64,66 @@ pub enum Run {
     Math(Math),
     /// What a program or a spec would say.
     Code(String),
+    /// Words that are stressed.
+    Emphasis(String),
+}
+
+/// What a paragraph of a doc comment says: code between backticks, stressed words between asterisks.
+///
+/// As in CommonMark an asterisk opens before a word and closes after one, so those of `2*m*l` are asterisks; one that has no
+/// partner is one, too.
+pub fn of_docs(paragraph: &str) -> Words {
+    let mut words = Vec::new();
+    let mut plain = String::new();
+    let mut rest = paragraph.trim();
+    let mut before = None;
+    while let Some(letter) = rest.chars().next() {
+        let marked = match letter {
+            '`' => between(rest, "`").map(|(code, after)| (Run::Code(code.to_owned()), after)),
+            '*' if !before.is_some_and(char::is_alphanumeric) => {
+                stressed(rest).map(|(words, after)| (Run::Emphasis(words.to_owned()), after))
+            }
+            _ => None,
+        };
+        let Some((run, after)) = marked else {
+            plain.push(letter);
+            before = Some(letter);
+            rest = &rest[letter.len_utf8()..];
+            continue;
+        };
+        if !plain.is_empty() {
+            words.push(Run::Text(std::mem::take(&mut plain)));
+        }
+        words.push(run);
+        before = Some(letter);
+        rest = after;
+    }
+    if !plain.is_empty() {
+        words.push(Run::Text(plain));
+    }
+    words
+}
+
+/// What stands between the mark that a text begins with and the next one, and what follows.
+fn between<'t>(text: &'t str, mark: &str) -> Option<(&'t str, &'t str)> {
+    text.strip_prefix(mark)?.split_once(mark)
+}
+
+/// The words between the asterisks that a text begins with and those that close them, and what follows.
+fn stressed(text: &str) -> Option<(&str, &str)> {
+    let mark = if text.starts_with("**") { "**" } else { "*" };
+    let inside = text.strip_prefix(mark)?;
+    if inside.starts_with(|letter: char| letter.is_whitespace() || letter == '*') {
+        return None;
+    }
+    let closes = |(at, _): &(usize, &str)| {
+        let (words, after) = (&inside[..*at], &inside[at + mark.len()..]);
+        let ends_a_word = |letter: char| !letter.is_whitespace() && letter != '*';
+        words.ends_with(ends_a_word)
+            && !after.starts_with(|letter: char| letter.is_alphanumeric() || letter == '*')
+    };
+    let (at, _) = inside.match_indices(mark).find(closes)?;
+    Some((&inside[..at], &inside[at + mark.len()..]))
 }
 
 /// A line of a formula.
@@ -161,6 +221,7 @@ fn width_of_words(words: &Words) -> f32 {
         Run::Text(text) => Math::text(text.clone()).width(),
         Run::Math(math) => math.width(),
         Run::Code(code) => 0.525 * code.chars().count() as f32,
+        Run::Emphasis(words) => Math::text(words.clone()).width(),
     };
     words.iter().map(run).sum()
 }

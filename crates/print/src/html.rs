@@ -134,6 +134,7 @@ fn words(words: &Words) -> String {
         Run::Text(text) => markup_words(text),
         Run::Math(math) => math.mathml(),
         Run::Code(code) => format!("<code>{}</code>", markup_words(code)),
+        Run::Emphasis(words) => format!("<em>{}</em>", markup_words(words)),
     };
     words.iter().map(run).collect()
 }

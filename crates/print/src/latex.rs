@@ -123,6 +123,7 @@ fn words(words: &Words) -> String {
         Run::Text(text) => latex_words(text),
         Run::Math(math) => format!("${}$", math.latex()),
         Run::Code(code) => format!(r"\texttt{{{}}}", latex_words(code)),
+        Run::Emphasis(words) => format!(r"\emph{{{}}}", latex_words(words)),
     };
     words.iter().map(run).collect()
 }

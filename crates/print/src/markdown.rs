@@ -73,6 +73,7 @@ fn row(cells: &[Words]) -> String {
 fn words(words: &Words) -> String {
     let run = |run: &Run| match run {
         Run::Text(text) => escaped(text),
+        Run::Emphasis(words) => format!("*{}*", escaped(words)),
         Run::Math(math) => format!("${}$", math.latex()),
         // More backticks around than inside; what ends a cell of a table is escaped in code too.
         Run::Code(code) => {

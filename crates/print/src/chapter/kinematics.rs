@@ -2,8 +2,8 @@
 
 use lagrangian_symbolic::{Expr, Math, print::Sign};
 
-use super::{Chapter, Shown, code, label, line, listed, shown, words};
-use crate::document::{Block, Words};
+use super::{Chapter, Shown, code, label, listed, shown, words};
+use crate::document::{Block, Words, of_docs};
 use lagrangian_mechanics::angular_velocities;
 use lagrangian_spec::model::{Body, Frame, Inertia, PoseId, Space, Step};
 
@@ -105,7 +105,7 @@ impl<'d> Chapter<'_, 'd> {
         }
         if !frame.docs.is_empty() {
             words.extend(words![". "]);
-            words.extend(line(&frame.docs));
+            words.extend(of_docs(&frame.docs));
         }
         words
     }
@@ -123,7 +123,7 @@ impl<'d> Chapter<'_, 'd> {
         let mut words = self.inertia(body);
         if !body.docs.is_empty() {
             words.extend(words![" "]);
-            words.extend(line(&body.docs));
+            words.extend(of_docs(&body.docs));
         }
         blocks.push(Block::Paragraph(words));
         let mut rows = Vec::new();

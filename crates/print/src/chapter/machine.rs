@@ -3,10 +3,8 @@
 use lagrangian_symbolic::print::Mark;
 use lagrangian_symbolic::{Expr, Math, math_as_built};
 
-use super::{
-    Chapter, Shown, code, counted, head, line, listed, paragraph, prose, shown, unit, words,
-};
-use crate::document::{Block, Row, Run, Words};
+use super::{Chapter, Shown, code, counted, head, listed, paragraph, prose, shown, unit, words};
+use crate::document::{Block, Row, Run, Words, of_docs};
 use lagrangian_mechanics::{Freedom, Independent, equations::freedom};
 use lagrangian_spec::model::{ApproximationKind, Name, Space};
 
@@ -140,7 +138,7 @@ impl<'d> Chapter<'_, 'd> {
                 words![code(entry.name)],
                 unit(entry.unit),
                 value.map_or_else(Words::new, |value| words![value]),
-                line(entry.docs),
+                of_docs(entry.docs),
             ]
         };
         let rows = shown(entries.iter().map(|entry| entry.name))
@@ -234,7 +232,7 @@ impl<'d> Chapter<'_, 'd> {
                         let mut item = words![code(&output.name), " in "];
                         item.extend(unit(&output.unit_text));
                         item.extend(words![": "]);
-                        item.extend(line(&output.docs));
+                        item.extend(of_docs(&output.docs));
                         items.push(item);
                     }
                 }
@@ -285,7 +283,7 @@ fn of_all(count: usize) -> String {
 
 fn is_blank(words: &Words) -> bool {
     words.iter().all(|run| match run {
-        Run::Text(text) | Run::Code(text) => text.is_empty(),
+        Run::Text(text) | Run::Code(text) | Run::Emphasis(text) => text.is_empty(),
         Run::Math(math) => math.is_empty(),
     })
 }

@@ -1,5 +1,6 @@
 //! The chapter on a machine: its groups add up, what it says is conserved is, and its texts are well formed.
 
+mod docs;
 mod facts;
 #[allow(dead_code, reason = "shared with the tests of the equations")]
 #[path = "../../../mechanics/tests/mechanics/harness.rs"]

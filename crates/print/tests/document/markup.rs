@@ -212,6 +212,7 @@ const COMMANDS: &[&str] = &[
     "textquotesingle",
     "textsuperscript",
     "texttt",
+    "emph",
     "theta",
     "times",
     "to",
@@ -318,7 +319,8 @@ pub fn check_latex(text: &str) -> Result<(), String> {
                     "right" if open.pop() != Some(Open::Left) => {
                         return Err(format!("nothing to the left: {}", place()));
                     }
-                    "text" | "texttt" | "tag" | "section" | "subsection" | "subsubsection" => {
+                    "text" | "texttt" | "emph" | "tag" | "section" | "subsection"
+                    | "subsubsection" => {
                         rest = rest.strip_prefix('*').unwrap_or(rest);
                         words_follow = true;
                     }
