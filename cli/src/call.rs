@@ -60,6 +60,8 @@ pub enum Command {
     Peaks(Box<Peaks>),
     /// Look at a run once a period, or where something passes a value: a Poincaré section.
     Section(Box<Section>),
+    /// Find parameters and starts from measured motions, with standard errors and what cannot be told apart.
+    Fit(Box<Fit>),
     /// Find the fastest motion from rest at one place to another, under control forces that do no work.
     Brachistochrone(Brachistochrone),
     /// Write the spec of a robot from its file of URDF.
@@ -86,6 +88,7 @@ impl Command {
             | Command::Section(_) => return None,
             Command::Modes(call) => &call.spec,
             Command::Linearize(call) => &call.spec,
+            Command::Fit(call) => &call.spec,
             Command::Brachistochrone(call) => &call.spec,
         })
     }
@@ -156,6 +159,12 @@ impl Command {
                 add("--rate-second", &call.second_rates);
             }
             Command::Spectrum(_) | Command::Peaks(_) | Command::Section(_) => {}
+            Command::Fit(call) => {
+                add("--set", &call.start.parameters);
+                add("--start", &call.start.coordinates);
+                add("--rate", &call.start.rates);
+                add("--input", &call.inputs);
+            }
             Command::Brachistochrone(call) => {
                 add("--set", &call.parameters);
                 add("--from", &call.from);
@@ -184,6 +193,13 @@ impl Command {
             add("--input", &runs.inputs);
             let constants = runs.constants.iter();
             named.extend(constants.map(|(name, _)| ("--const", name.as_str())));
+        }
+        if let Command::Fit(call) = self {
+            named.extend(call.bounds.iter().map(|b| ("--bounds", b.name.as_str())));
+            named.extend(call.sigmas.iter().map(|sigma| match sigma {
+                SigmaOption::Estimated => ("--sigma", "auto"),
+                SigmaOption::Given(set) => ("--sigma", set.name.as_str()),
+            }));
         }
         let constants = self.spec().into_iter().flat_map(|spec| &spec.constants);
         named.extend(constants.map(|(name, _)| ("--const", name.as_str())));
@@ -814,6 +830,109 @@ pub fn names_of(lists: &[String]) -> Result<Vec<String>, String> {
         }
     }
     Ok(names)
+}
+
+/// Arguments of `fit`.
+#[derive(Debug, Args)]
+pub struct Fit {
+    #[command(flatten)]
+    pub spec: Spec,
+    #[command(flatten)]
+    pub start: Start,
+    #[command(flatten)]
+    pub keep: Keep,
+    /// A measured motion: a table `.csv` or `.parquet` with `t` and columns named as those of a run, where an empty cell is no
+    /// measurement; once for each. Behind it what is special to this one: `--data
+    /// 'run.csv,start(phi)=30*deg,load=2,torque=run.csv:u'`.
+    #[arg(long, value_name = "FILE[,NAME=VALUE…]", required = true)]
+    pub data: Vec<String>,
+    /// What is fitted: parameters, starts of coordinates as `start(phi)` and of rates as `rate(phi)`, in each experiment its own.
+    #[arg(long = "fit", value_name = "NAME,…", required = true)]
+    pub sought: Vec<String>,
+    /// Between which values something may be, as in `--bounds k=100..1e4`; one of the two may be left out, `k=0..`.
+    #[arg(long, value_name = "NAME=LEAST..GREATEST", value_parser = bounds, allow_hyphen_values = true)]
+    pub bounds: Vec<Bounds>,
+    /// The standard deviation of what is measured, as in `--sigma phi=0.5*deg`; or `--sigma auto`, which estimates those of all
+    /// columns from their residuals.
+    #[arg(long = "sigma", value_name = "NAME=VALUE|auto", value_parser = sigma)]
+    pub sigmas: Vec<SigmaOption>,
+    /// To which columns is fitted; to all that are coordinates, rates or outputs where left out.
+    #[arg(long, value_name = "NAME,…")]
+    pub columns: Vec<String>,
+    /// Drive an input in all experiments, as in `simulate`: by a formula, a controller or a table.
+    #[arg(long = "input", value_name = "NAME=FORMULA|FILE", value_parser = assignment, allow_hyphen_values = true)]
+    pub inputs: Vec<Assignment>,
+    /// Search so many times: first from the values of the spec and the call, then from others between the bounds, or within a factor
+    /// of 3; the best is told.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = count)]
+    pub starts: u64,
+    /// Relative and absolute tolerance of each step.
+    #[arg(long, default_value_t = 1e-9, value_parser = tolerance, allow_hyphen_values = true)]
+    pub tolerance: f64,
+    /// The integration method: dop853, dopri5, bs32, or radau5 for stiff machines.
+    #[arg(long, value_name = "NAME", default_value = "dop853")]
+    pub method: String,
+    /// How many steps each run may take.
+    #[arg(long, value_name = "N", default_value_t = 10_000_000, value_parser = steps, allow_hyphen_values = true)]
+    pub max_steps: usize,
+    /// Write a variant of the spec with what was fitted.
+    #[arg(long, value_name = "FILE.machine")]
+    pub out: Option<PathBuf>,
+    /// Write measured, computed and residual to a table, `.csv` or `.parquet`.
+    #[arg(long, value_name = "FILE")]
+    pub table: Option<PathBuf>,
+    /// Draw as SVG measured against computed, and the residuals.
+    #[arg(long, value_name = "FILE.svg")]
+    pub plot: Option<PathBuf>,
+}
+
+/// `name=least..greatest`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bounds {
+    /// What is bounded.
+    pub name: String,
+    /// The least and the greatest value, where there are such.
+    pub ends: [Option<Assignment>; 2],
+}
+
+fn bounds(text: &str) -> Result<Bounds, String> {
+    let wanted = "expected NAME=LEAST..GREATEST, as in k=100..1e4, or k=0..";
+    let (name, range) = text.split_once('=').ok_or(wanted)?;
+    let (low, high) = range.split_once("..").ok_or(wanted)?;
+    let name = match name.trim() {
+        "" => return Err(wanted.into()),
+        name => normalized(name).into_owned(),
+    };
+    let end = |value: &str| match value.trim() {
+        "" => None,
+        value => Some(Assignment {
+            name: name.clone(),
+            value: value.to_owned(),
+        }),
+    };
+    let ends = [end(low), end(high)];
+    match ends {
+        [None, None] => Err(wanted.into()),
+        ends => Ok(Bounds { name, ends }),
+    }
+}
+
+/// What `--sigma` says.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SigmaOption {
+    /// Standard deviations are estimated.
+    Estimated,
+    /// This one is given.
+    Given(Assignment),
+}
+
+fn sigma(text: &str) -> Result<SigmaOption, String> {
+    match text.trim() {
+        "auto" => Ok(SigmaOption::Estimated),
+        text => Ok(SigmaOption::Given(
+            assignment(text).map_err(|_| "expected NAME=VALUE, or `auto`")?,
+        )),
+    }
 }
 
 /// Arguments of `brachistochrone`.

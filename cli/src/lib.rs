@@ -18,6 +18,7 @@ mod drawing;
 mod evaluate;
 mod exit;
 mod failure;
+mod fit;
 mod fmu;
 mod host;
 mod import;
@@ -114,6 +115,7 @@ fn status(call: &Call, json: bool) -> u8 {
         Command::Spectrum(call) => spectrum::run(call),
         Command::Peaks(call) => peaks::run(call),
         Command::Section(call) => section::run(call),
+        Command::Fit(call) => fit::run(call),
         Command::Brachistochrone(call) => brachistochrone::run(call),
         Command::Import(call) => import::run(call),
     });

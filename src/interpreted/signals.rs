@@ -214,6 +214,12 @@ impl Signals {
         self.sampled.as_ref().map_or(&[], |sampled| &sampled.rules)
     }
 
+    /// The numbers of the inputs that are driven while the machine runs, with their signals, in an order in which each reads only
+    /// what was set before. Inputs that are sampled are not among them.
+    pub fn driven(&self) -> impl Iterator<Item = (usize, &Signal)> {
+        self.rules.iter().map(|rule| (rule.input, &rule.signal))
+    }
+
     /// Whether nothing is driven.
     pub fn is_empty(&self) -> bool {
         self.rules.is_empty() && self.sampled.is_none()

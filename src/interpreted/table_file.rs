@@ -187,6 +187,25 @@ impl TableFile {
         self.read(times, (name, (self.place(name)?, 1.0)), true)
     }
 
+    /// The same in a unit, which what a header says is checked against and converted to.
+    ///
+    /// ```
+    /// use lagrangian::interpreted::TableFile;
+    ///
+    /// let file = TableFile::from_text("run.csv", "t,angle [deg]\n0,180\n1,\n")?;
+    /// let (times, angles) = file.measured("angle", "rad")?;
+    /// assert_eq!((times, angles[0]), (vec![0.0, 1.0], std::f64::consts::PI));
+    /// assert!(angles[1].is_nan());
+    /// # Ok::<(), lagrangian::interpreted::TableFileError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`column_with_gaps`](Self::column_with_gaps), and if the header has another unit.
+    pub fn measured(&self, name: &str, unit: &str) -> Result<(Vec<f64>, Vec<f64>), TableFileError> {
+        let times = self.find("t", "s")?;
+        self.read(times, (name, self.find(name, unit)?), true)
+    }
+
     /// Times, and the numbers of a column at a place, each with what it is multiplied by.
     fn read(
         &self,

@@ -1,0 +1,598 @@
+//! `lagrangian fit`: parameters and starts from measured motions.
+
+mod data;
+mod figure;
+mod told;
+mod variant;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use lagrangian::Machine;
+use lagrangian::interpreted::{InterpretedMachine, Named, Signals};
+use lagrangian_fit::least_squares::Trouble;
+use lagrangian_fit::motion::{Experiment, Fit, Found, Quantity, Running, Sought, Subject};
+use lagrangian_fit::searches::{Failed, Search, Sigmas, search};
+use lagrangian_mechanics::Compiled;
+use lagrangian_spec::diagnostic::{Severity, nearest};
+use lagrangian_sweep::plan::Law;
+use lagrangian_sweep::signals::{self, Written};
+use lagrangian_symbolic::Dag;
+
+use crate::call::{self, Bounds, SigmaOption};
+use crate::evaluate::set_start;
+use crate::failure::Failure;
+use crate::inputs;
+use crate::interrupt;
+use crate::output::{self, Destination, MACHINE, SVG, TABLE, keep_apart};
+use crate::progress;
+use crate::reading::{self, Reading};
+use crate::simulate;
+use crate::table;
+use data::{Class, Given};
+
+/// The most searches of `--starts`.
+const MOST_SEARCHES: u64 = 10_000;
+
+/// The files that a call asks for.
+struct Files {
+    out: Option<Destination>,
+    table: Option<Destination>,
+    plot: Option<Destination>,
+}
+
+impl Files {
+    fn new(
+        call: &call::Fit,
+        given: &[Given],
+        everywhere: &[(String, Written)],
+    ) -> Result<Files, Failure> {
+        let files = Files {
+            out: Destination::of("--out", call.out.as_ref(), MACHINE)?,
+            table: Destination::of("--table", call.table.as_ref(), TABLE)?,
+            plot: Destination::of("--plot", call.plot.as_ref(), SVG)?,
+        };
+        output::keep_document_apart(files.all(), call.spec.json)?;
+        let mut read: Vec<(&Path, &str)> = vec![(&call.spec.path, "the spec")];
+        read.extend(
+            given
+                .iter()
+                .map(|given| (given.path.as_path(), "measured data")),
+        );
+        let written = given.iter().flat_map(|given| inputs::files(&given.inputs));
+        read.extend(written.chain(inputs::files(everywhere)));
+        keep_apart(files.all(), &read)?;
+        Ok(files)
+    }
+
+    fn all(&self) -> impl Iterator<Item = &Destination> {
+        [&self.out, &self.table, &self.plot].into_iter().flatten()
+    }
+}
+
+/// Everything that is told of a fit.
+struct Fitted<'a, 'f> {
+    call: &'a call::Fit,
+    machine: &'a InterpretedMachine,
+    given: &'a [Given],
+    classes: &'a [Class],
+    fit: &'a mut Fit<'f>,
+    sigmas: Sigmas,
+    found: Found,
+    searches: Vec<Search>,
+    /// The number of the search that found it.
+    best: usize,
+    warnings: Vec<String>,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// If the spec, the data or the call is at fault, or the search finds no minimum.
+pub fn run(call: &call::Fit) -> Result<(), Failure> {
+    let method = simulate::method(&call.method)?;
+    if std::ptr::eq(method, &lagrangian::methods::TAYLOR) {
+        return Err(Failure::Call(
+            "--method taylor: a fit runs the motion with its derivatives, which have no series; take dop853".into(),
+        ));
+    }
+    let mut given = data::given(call)?;
+    let everywhere = inputs::written(&call.inputs)?;
+    let files = Files::new(call, &given, &everywhere)?;
+    let dag = Dag::new();
+    let mut reading = Reading::open(&call.spec)?;
+    let laws = reading.drive(&call.spec, &everywhere)?;
+    let formulas = reading.formulas();
+    let compiled = reading.compile_beside(&dag, files.all());
+    let mut compiled = compiled.map_err(inputs::told)?;
+    let machine = reading::machine(&compiled, &call.start)?;
+    // What drives an input is no output of the machine.
+    let own = compiled.model.outputs.len() - formulas;
+    compiled.model.outputs.truncate(own);
+    let mut start = machine.start();
+    start.q.values.fill(f64::NAN);
+    start.v.values.fill(f64::NAN);
+    set_start(&mut start, &call.start)?;
+    reading::check_kept(&machine.start(), &call.keep)?;
+
+    let mut experiments = Vec::new();
+    for one in &given {
+        let signals = signals_of(one, &laws, own, &machine, &compiled)?;
+        experiments.push(one.experiment(&machine, &compiled, &start, signals)?);
+    }
+    let (classes, ignored) =
+        data::measure(call, &machine, &compiled, &mut given, &mut experiments)?;
+    for note in ignored {
+        output::complain(format_args!("note: {note}"));
+    }
+    let sought = sought(call, &machine, &compiled, &given, &experiments)?;
+    check_values(&machine, &sought)?;
+    let (sigmas, values) = sigmas(call, &classes, &experiments)?;
+    let refusal = |parameters: &[f64]| {
+        let said = compiled.model.refused_values(parameters);
+        let wrong = said
+            .iter()
+            .find(|said| said.code.severity() == Severity::Error);
+        wrong.map(|wrong| format!("{} [{}]", wrong.message, wrong.code))
+    };
+    let stop = interrupt::flag();
+    let mut fit = Fit {
+        experiments,
+        sought,
+        sigmas: values,
+        running: Running {
+            method,
+            tolerance: call.tolerance,
+            most_steps: call.max_steps,
+            kept: reading::kept_names(&call.keep).map(<[String]>::to_vec),
+            stop: Arc::new(move || stop.load(std::sync::atomic::Ordering::Relaxed)),
+        },
+        refusal: &refusal,
+        runs: [0, 0],
+    };
+    let measured = data::count(&fit.experiments);
+    if measured < fit.sought.len() {
+        return Err(Failure::Call(format!(
+            "{} measurements cannot tell {} numbers",
+            measured,
+            fit.sought.len()
+        )));
+    }
+    progress::now("fitting");
+    let count = usize::try_from(call.starts.min(MOST_SEARCHES)).unwrap_or(1);
+    let searched = search(&mut fit, count, sigmas).map_err(|failed| match failed {
+        Failed::NoStart(why) => {
+            Failure::Run(format!("there is no motion where the search begins: {why}"))
+        }
+        Failed::Unsettled => {
+            Failure::Run("the standard deviations do not settle: give them by --sigma".to_owned())
+        }
+        Failed::Trouble(trouble) => stopped(trouble),
+    })?;
+    let mut result = Fitted {
+        call,
+        machine: &machine,
+        given: &given,
+        classes: &classes,
+        sigmas,
+        found: searched.found,
+        searches: searched.searches,
+        best: searched.best,
+        warnings: Vec::new(),
+        fit: &mut fit,
+    };
+    result.warnings = told::warnings(&result);
+    let trouble = written(&mut result, &files);
+    if call.spec.json {
+        output::line(format_args!("{:#}", told::document(&result)));
+    } else {
+        output::text(&told::text(&result));
+        for warning in &result.warnings {
+            output::complain(format_args!("warning: {warning}"));
+        }
+    }
+    match trouble {
+        Err(failure) => Err(failure),
+        Ok(()) if result.found.minimum.ending.is_minimum() => Ok(()),
+        Ok(()) => Err(Failure::Run(format!(
+            "the search {} in {} evaluations; begin it nearer by --set and --start, bound it by --bounds, or try several by --starts",
+            result.found.minimum.ending.words(),
+            result.found.minimum.evaluations
+        ))),
+    }
+}
+
+/// What drives the inputs of an experiment: tables of its own, and for other inputs what drives them everywhere. The formulas
+/// of these are the outputs behind the machine's own.
+fn signals_of(
+    given: &Given,
+    everywhere: &[(String, Law)],
+    own: usize,
+    machine: &InterpretedMachine,
+    compiled: &Compiled<'_>,
+) -> Result<Signals, Failure> {
+    let tables = inputs::laws(&given.inputs, &compiled.model)?;
+    let mut numbers = Vec::new();
+    let mut laws = Vec::new();
+    let mut next = own;
+    for (name, law) in everywhere {
+        let is_replaced = tables.iter().any(|(other, _)| other == name);
+        if law.formula().is_some() {
+            if !is_replaced {
+                numbers.push(next);
+            }
+            next += 1;
+        }
+        if !is_replaced {
+            laws.push((name.clone(), law.clone()));
+        }
+    }
+    laws.extend(tables);
+    let mut numbers = numbers.into_iter();
+    let signals = signals::signals(&laws, machine, || numbers.next().unwrap_or(own));
+    signals.map_err(Failure::Call)
+}
+
+/// Writes the files of a call.
+fn written(result: &mut Fitted<'_, '_>, files: &Files) -> Result<(), Failure> {
+    if let Some(file) = &files.out {
+        file.write_text(&variant::spec(result, file)?)?;
+    }
+    if files.table.is_none() && files.plot.is_none() {
+        return Ok(());
+    }
+    let x = result.found.minimum.x.clone();
+    if let Some(file) = &files.table {
+        let columns = data::columns(result.fit, &x, result.classes).map_err(stopped)?;
+        let columns: Vec<(String, &[f64])> = columns
+            .iter()
+            .map(|(header, values)| (header.clone(), values.as_slice()))
+            .collect();
+        table::write_columns(&columns, file)?;
+    }
+    if let Some(file) = &files.plot {
+        let drawing = figure::svg(result, &x)?;
+        file.write_text(&drawing)?;
+    }
+    Ok(())
+}
+
+/// A motion that there is not, or an interruption, as a failure.
+fn stopped(trouble: Trouble) -> Failure {
+    match trouble {
+        Trouble::NoValue(why) => Failure::Run(why),
+        Trouble::Stopped => {
+            output::complain("interrupted: nothing is written or printed");
+            Failure::Interrupted
+        }
+    }
+}
+
+/// What a call fits.
+fn sought(
+    call: &call::Fit,
+    machine: &InterpretedMachine,
+    compiled: &Compiled<'_>,
+    given: &[Given],
+    experiments: &[Experiment],
+) -> Result<Vec<Sought>, Failure> {
+    let names = call::names_of(&call.sought).map_err(Failure::Call)?;
+    let start = machine.start();
+    let mut sought: Vec<Sought> = Vec::new();
+    let mut bounds: Vec<bool> = vec![false; call.bounds.len()];
+    for name in &names {
+        let inside = |word: &str| {
+            let rest = name.strip_prefix(word)?.trim_start().strip_prefix('(')?;
+            Some(rest.strip_suffix(')')?.trim())
+        };
+        let of_start = inside("start").map(|q| (q, true));
+        let of_start = of_start.or_else(|| inside("rate").map(|q| (q, false)));
+        let mut found = match of_start {
+            Some((coordinate, is_start)) => {
+                let places = places(&start.q, coordinate);
+                if places.is_empty() {
+                    let known: Vec<String> = start.q.iter().map(|(n, _)| n.to_owned()).collect();
+                    return Err(unknown(name, "coordinate", coordinate, &known));
+                }
+                of_starts(&start.q, &places, is_start, given, experiments)
+            }
+            None => of_parameters(name, machine, compiled, &start.q)?,
+        };
+        for one in &mut found {
+            if sought.iter().any(|other| other.name == one.name) {
+                return Err(Failure::Call(format!(
+                    "--fit names `{}` more than once",
+                    one.name
+                )));
+            }
+            for (place, bound) in call.bounds.iter().enumerate() {
+                let short = one.name.split(" in ").next().unwrap_or_default();
+                let family = short.split('[').next().unwrap_or_default();
+                if bound.name == short || bound.name == one.name || bound.name == family {
+                    bounds[place] = true;
+                    one.bounds = ends(bound, &one.unit)?;
+                }
+            }
+        }
+        sought.extend(found);
+    }
+    if let Some(place) = bounds.iter().position(|used| !used) {
+        return Err(Failure::Call(format!(
+            "--bounds {}: nothing of this name is fitted",
+            call.bounds[place].name
+        )));
+    }
+    for one in &sought {
+        let [low, high] = one.bounds;
+        if one.from < low || one.from > high {
+            return Err(Failure::Call(format!(
+                "the search for `{}` would begin at {}, outside its bounds {low} to {high}; set where it begins by {}",
+                one.name,
+                one.from,
+                match one.subject {
+                    Subject::Parameter(_) => "--set",
+                    Subject::Start(..) => "--start",
+                    Subject::Rate(..) => "--rate",
+                }
+            )));
+        }
+    }
+    for (one, experiment) in given.iter().zip(experiments) {
+        for set in &one.sets {
+            let is_sought = sought.iter().any(|other| match other.subject {
+                Subject::Parameter(_) => other.name == set.name,
+                _ => false,
+            });
+            if is_sought {
+                return Err(Failure::Call(format!(
+                    "`{}` is fitted, and has one value by --data {}",
+                    set.name, experiment.name
+                )));
+            }
+        }
+    }
+    Ok(sought)
+}
+
+fn of_parameters(
+    name: &str,
+    machine: &InterpretedMachine,
+    compiled: &Compiled<'_>,
+    coordinates: &Named,
+) -> Result<Vec<Sought>, Failure> {
+    let parameters: Vec<String> = machine
+        .parameters()
+        .map(|(of, _)| of.name.to_owned())
+        .collect();
+    let meant =
+        |own: &String| own == name || own.split_once('[').is_some_and(|(base, _)| base == name);
+    let places: Vec<usize> = (0..parameters.len())
+        .filter(|i| meant(&parameters[*i]))
+        .collect();
+    if places.is_empty() {
+        let is_input = compiled
+            .model
+            .inputs
+            .iter()
+            .any(|input| input.name.to_string() == name);
+        let rate = name
+            .strip_prefix("der(")
+            .and_then(|rest| rest.strip_suffix(')'));
+        let help = if is_input {
+            "it is an input, which may be driven by a formula in a parameter that is fitted: --input".to_owned()
+        } else if !self::places(coordinates, name).is_empty() {
+            format!("it is a coordinate, whose start is fitted as start({name})")
+        } else if let Some(rate) = rate.filter(|rate| !self::places(coordinates, rate).is_empty()) {
+            format!("the rate with which it starts is fitted as rate({rate})")
+        } else if let Some(coordinate) = name.strip_suffix("(start)") {
+            format!("the start of a coordinate is fitted as start({coordinate})")
+        } else {
+            return Err(unknown(name, "parameter", name, &parameters));
+        };
+        return Err(Failure::Call(format!(
+            "--fit {name}: no parameter named `{name}`; {help}"
+        )));
+    }
+    let sought = |index: usize| {
+        let name = &parameters[index];
+        Sought {
+            subject: Subject::Parameter(index),
+            name: name.clone(),
+            unit: machine.unit(name).unwrap_or("1").to_owned(),
+            from: machine.parameter_values()[index],
+            bounds: [f64::NEG_INFINITY, f64::INFINITY],
+        }
+    };
+    Ok(places.into_iter().map(sought).collect())
+}
+
+/// Starts of coordinates, in each experiment. Where one is measured at the beginning the search begins with that.
+fn of_starts(
+    coordinates: &Named,
+    places: &[usize],
+    is_start: bool,
+    given: &[Given],
+    experiments: &[Experiment],
+) -> Vec<Sought> {
+    let mut sought = Vec::new();
+    for (e, experiment) in experiments.iter().enumerate() {
+        let start = experiment.machine.start();
+        for &place in places {
+            let name = coordinates.iter().nth(place).map_or("", |(name, _)| name);
+            let own = coordinates.unit(name).unwrap_or("1");
+            let (subject, word, unit, level, otherwise) = match is_start {
+                true => (
+                    Subject::Start(e, place),
+                    "start",
+                    own.to_owned(),
+                    0,
+                    start.q.values[place],
+                ),
+                false => (
+                    Subject::Rate(e, place),
+                    "rate",
+                    data::rate_unit(own),
+                    1,
+                    start.v.values[place],
+                ),
+            };
+            let quantity = match is_start {
+                true => Quantity::Coordinate(place),
+                false => Quantity::Rate(place),
+            };
+            let column = experiment
+                .columns
+                .iter()
+                .find(|column| column.quantity == quantity);
+            let first = column.and_then(|column| column.values.first().copied().flatten());
+            let first = first.filter(|_| experiment.times.first() == Some(&0.0));
+            let from = experiment.start[level][place]
+                .or(first)
+                .unwrap_or(otherwise);
+            let label = match experiments.len() {
+                1 => format!("{word}({name})"),
+                _ => format!("{word}({name}) in {}", given[e].label),
+            };
+            sought.push(Sought {
+                subject,
+                name: label,
+                unit,
+                from,
+                bounds: [f64::NEG_INFINITY, f64::INFINITY],
+            });
+        }
+    }
+    sought
+}
+
+/// The bounds of a call in a unit.
+fn ends(bounds: &Bounds, unit: &str) -> Result<[f64; 2], Failure> {
+    let end = |set: &Option<call::Assignment>, open: f64| match set {
+        None => Ok(open),
+        Some(set) => set.value("--bounds", unit).map_err(Failure::Call),
+    };
+    let low = end(&bounds.ends[0], f64::NEG_INFINITY)?;
+    let high = end(&bounds.ends[1], f64::INFINITY)?;
+    match low < high {
+        true => Ok([low, high]),
+        false => Err(Failure::Call(format!(
+            "--bounds {}: from {low} to {high} there is nothing between",
+            bounds.name
+        ))),
+    }
+}
+
+/// Which of some numbers a name means: one, or a family.
+fn places(numbers: &Named, name: &str) -> Vec<usize> {
+    let mut probe = numbers.clone();
+    probe.values.fill(0.0);
+    match probe.set(name, 1.0) {
+        Ok(()) => (0..probe.values.len())
+            .filter(|k| probe.values[*k] != 0.0)
+            .collect(),
+        Err(_) => Vec::new(),
+    }
+}
+
+fn unknown(said: &str, what: &str, name: &str, known: &[String]) -> Failure {
+    let help = match nearest(name, known.iter().map(String::as_str)) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None if known.is_empty() => "there are none".to_owned(),
+        None => format!("there are: {}", known.join(", ")),
+    };
+    Failure::Call(format!("--fit {said}: no {what} named `{name}`; {help}"))
+}
+
+/// Whether all parameters have values.
+fn check_values(machine: &InterpretedMachine, sought: &[Sought]) -> Result<(), Failure> {
+    let Err(missing) = machine.check_parameters() else {
+        return Ok(());
+    };
+    let is_sought = missing
+        .names
+        .iter()
+        .any(|name| sought.iter().any(|s| s.name == *name));
+    let why = match is_sought {
+        true => "; of what is fitted, where the search begins",
+        false => "",
+    };
+    Err(Failure::Call(format!(
+        "{missing}; set them with --set {}=…{why}",
+        missing.names.join("=… --set ")
+    )))
+}
+
+/// Standard deviations of what is measured, as the call has them.
+fn sigmas(
+    call: &call::Fit,
+    classes: &[Class],
+    experiments: &[Experiment],
+) -> Result<(Sigmas, Vec<f64>), Failure> {
+    let is_auto = call
+        .sigmas
+        .iter()
+        .any(|sigma| *sigma == SigmaOption::Estimated);
+    if is_auto && call.sigmas.len() > 1 {
+        return Err(Failure::Call(
+            "--sigma auto estimates all standard deviations: no other --sigma stands beside it"
+                .into(),
+        ));
+    }
+    if is_auto {
+        let spreads = (0..classes.len()).map(|class| data::spread(experiments, class));
+        return Ok((Sigmas::Estimated, spreads.collect()));
+    }
+    if call.sigmas.is_empty() {
+        let units: Vec<&str> = classes.iter().map(|class| class.unit.as_str()).collect();
+        if units.windows(2).all(|pair| pair[0] == pair[1]) {
+            return Ok((Sigmas::Equal, vec![1.0; classes.len()]));
+        }
+        let names: Vec<String> = classes
+            .iter()
+            .map(|c| format!("{} [{}]", c.name, c.unit))
+            .collect();
+        return Err(Failure::Call(format!(
+            "{} have different units, so how much each counts is not known: give their standard deviations, as in --sigma {}=…, or have \
+             them estimated from the residuals by --sigma auto",
+            names.join(", "),
+            classes[0].name
+        )));
+    }
+    let mut values = vec![f64::NAN; classes.len()];
+    for sigma in &call.sigmas {
+        let SigmaOption::Given(set) = sigma else {
+            continue;
+        };
+        let Some(place) = classes.iter().position(|class| class.name == set.name) else {
+            let known: Vec<&str> = classes.iter().map(|class| class.name.as_str()).collect();
+            return Err(Failure::Call(format!(
+                "--sigma {}: nothing of this name is measured; there are: {}",
+                set.name,
+                known.join(", ")
+            )));
+        };
+        let value = set
+            .value("--sigma", &classes[place].unit)
+            .map_err(Failure::Call)?;
+        if !(value > 0.0 && value.is_finite()) {
+            return Err(Failure::Call(format!(
+                "--sigma {}={}: a standard deviation is greater than 0",
+                set.name, set.value
+            )));
+        }
+        values[place] = value;
+    }
+    let missing: Vec<&str> = classes
+        .iter()
+        .zip(&values)
+        .filter(|(_, value)| value.is_nan())
+        .map(|(class, _)| class.name.as_str())
+        .collect();
+    match missing.is_empty() {
+        true => Ok((Sigmas::Given, values)),
+        false => Err(Failure::Call(format!(
+            "--sigma says nothing of {}, which is measured as well; --columns chooses what is fitted to",
+            missing.join(", ")
+        ))),
+    }
+}

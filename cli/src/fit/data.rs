@@ -1,0 +1,475 @@
+//! What was measured: tables in files, and what a call says of each.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+use lagrangian::interpreted::{InterpretedMachine, Named, Signals};
+use lagrangian::{Machine, State, System};
+use lagrangian_fit::least_squares::Trouble;
+use lagrangian_fit::motion::{Column, Experiment, Fit, Quantity};
+use lagrangian_mechanics::Compiled;
+use lagrangian_spec::diagnostic::{Severity, nearest};
+use lagrangian_sweep::signals::{self, Written};
+
+use crate::call::{self, Assignment};
+use crate::failure::Failure;
+
+/// A file of measurements with what the call says of it: `run.csv,start(phi)=0.3,m=2,torque=run.csv:u`.
+pub struct Given {
+    /// The file.
+    pub path: PathBuf,
+    /// What messages call it.
+    pub label: String,
+    /// Parameters and inputs that have other values in this experiment.
+    pub sets: Vec<Assignment>,
+    /// Coordinates and rates that start elsewhere.
+    pub starts: [Vec<Assignment>; 2],
+    /// Tables that drive inputs.
+    pub inputs: Vec<(String, Written)>,
+}
+
+/// What is measured under one name, in all experiments.
+pub struct Class {
+    pub name: String,
+    pub unit: String,
+    pub quantity: Quantity,
+}
+
+/// The unit of the rate of a coordinate, as the header of a run's table has it.
+pub fn rate_unit(unit: &str) -> String {
+    match unit {
+        "1" => "1/s".into(),
+        unit => format!("{unit}/s"),
+    }
+}
+
+/// The files of a call.
+///
+/// # Errors
+/// The call is at fault.
+pub fn given(call: &call::Fit) -> Result<Vec<Given>, Failure> {
+    let mut all: Vec<Given> = Vec::new();
+    for text in &call.data {
+        let given = read(text).map_err(|why| Failure::Call(format!("--data {text}: {why}")))?;
+        if all.iter().any(|other| other.path == given.path) {
+            return Err(Failure::Call(format!(
+                "--data names {} more than once: its measurements would count twice",
+                given.label
+            )));
+        }
+        all.push(given);
+    }
+    Ok(all)
+}
+
+/// Reads `FILE[,NAME=VALUE…]`.
+fn read(text: &str) -> Result<Given, String> {
+    let wanted =
+        "expected a table `.csv` or `.parquet`, and behind it NAME=VALUE with commas between";
+    let lower = text.to_ascii_lowercase();
+    let ends = [".csv", ".parquet"].iter().flat_map(|ending| {
+        let found = lower.match_indices(ending);
+        found.map(|(at, ending)| at + ending.len())
+    });
+    let is_end = |end: &usize| {
+        let rest = text.get(*end..);
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(','))
+    };
+    let end = ends.filter(is_end).min().ok_or(wanted)?;
+    let (path, rest) = text.split_at(end);
+    let mut given = Given {
+        path: PathBuf::from(path),
+        label: path.to_owned(),
+        sets: Vec::new(),
+        starts: [Vec::new(), Vec::new()],
+        inputs: Vec::new(),
+    };
+    let mut said: Vec<String> = Vec::new();
+    let mut depth = 0_i32;
+    for (place, part) in rest
+        .split(|c: char| {
+            match c {
+                '(' | '[' => depth += 1,
+                ')' | ']' => depth -= 1,
+                _ => {}
+            }
+            c == ',' && depth == 0
+        })
+        .enumerate()
+    {
+        let name = part.split_once('=').map(|(name, _)| name.trim());
+        // Options of a table or of a controller stand behind it.
+        let is_option = !matches!(name, Some(name) if !["end", "every", "delay"].contains(&name));
+        match said.last_mut() {
+            _ if place == 0 => {}
+            Some(last) if is_option => {
+                last.push(',');
+                last.push_str(part);
+            }
+            None if is_option => return Err(wanted.into()),
+            _ => said.push(part.to_owned()),
+        }
+    }
+    let mut names = BTreeSet::new();
+    for text in &said {
+        let set = call::assignment(text)?;
+        if !names.insert(set.name.clone()) {
+            return Err(format!("`{}` has a value more than once", set.name));
+        }
+        let inside = |word: &str| {
+            let rest = set.name.strip_prefix(word)?.strip_prefix('(')?;
+            Some(rest.strip_suffix(')')?.trim().to_owned())
+        };
+        if let Some(name) = inside("start") {
+            given.starts[0].push(Assignment { name, ..set });
+        } else if let Some(name) = inside("rate") {
+            given.starts[1].push(Assignment { name, ..set });
+        } else {
+            match signals::written(&set.value) {
+                Ok(Written::File { .. }) => {
+                    let written = signals::written(&set.value)?;
+                    given.inputs.push((set.name, written));
+                }
+                Ok(Written::Sampled { .. }) => {
+                    return Err(format!(
+                        "`{}`: a controller is the same in all experiments: --input",
+                        set.name
+                    ));
+                }
+                Ok(Written::Formula(_)) | Err(_) => given.sets.push(set),
+            }
+        }
+    }
+    Ok(given)
+}
+
+impl Given {
+    /// The experiment, so far without measurements. `start` has what the call says of all starts, and no numbers elsewhere.
+    ///
+    /// # Errors
+    /// If a name or a value is wrong.
+    pub fn experiment(
+        &self,
+        machine: &InterpretedMachine,
+        compiled: &Compiled<'_>,
+        start: &State<Named>,
+        signals: Signals,
+    ) -> Result<Experiment, Failure> {
+        let option = format!("--data {}:", self.label);
+        let wrong = |why: String| Failure::Call(format!("{option} {why}"));
+        let mut machine = machine.clone();
+        for set in &self.sets {
+            let Some(unit) = machine.unit(&set.name).map(str::to_owned) else {
+                let known: Vec<String> =
+                    machine.parameters().map(|(of, _)| of.name.into()).collect();
+                let help = match nearest(&set.name, known.iter().map(String::as_str)) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => "starts are start(NAME) and rate(NAME)".into(),
+                };
+                let why = format!("no parameter or input named `{}`; {help}", set.name);
+                return Err(wrong(why));
+            };
+            let value = set.value(&option, &unit).map_err(Failure::Call)?;
+            machine
+                .set(&set.name, value)
+                .map_err(|unknown| wrong(unknown.to_string()))?;
+        }
+        if !self.sets.is_empty() {
+            let said = compiled.model.refused_values(machine.parameter_values());
+            let error = said
+                .iter()
+                .find(|said| said.code.severity() == Severity::Error);
+            if let Some(error) = error {
+                return Err(wrong(format!("{} [{}]", error.message, error.code)));
+            }
+        }
+        let mut start = start.clone();
+        for (level, sets) in self.starts.iter().enumerate() {
+            let numbers = match level {
+                0 => &mut start.q,
+                _ => &mut start.v,
+            };
+            for set in sets {
+                let unit = numbers.unit(&set.name).unwrap_or_default();
+                let unit = match level {
+                    0 => unit.to_owned(),
+                    _ => format!("({unit})/s"),
+                };
+                let mut probe = numbers.clone();
+                probe
+                    .set(&set.name, 0.0)
+                    .map_err(|unknown| wrong(unknown.to_string()))?;
+                let value = set.value(&option, &unit).map_err(Failure::Call)?;
+                numbers
+                    .set(&set.name, value)
+                    .map_err(|unknown| wrong(unknown.to_string()))?;
+            }
+        }
+        let given = |numbers: &Named| {
+            numbers
+                .values
+                .iter()
+                .map(|x| (!x.is_nan()).then_some(*x))
+                .collect()
+        };
+        Ok(Experiment {
+            name: self.label.clone(),
+            start: [given(&start.q), given(&start.v)],
+            machine,
+            signals,
+            times: Vec::new(),
+            columns: Vec::new(),
+        })
+    }
+}
+
+/// Everything that can be measured of a machine.
+fn measurable(machine: &InterpretedMachine, compiled: &Compiled<'_>) -> Vec<Class> {
+    let system = machine.prepare();
+    let mut all = Vec::new();
+    for (i, of) in system.coordinates().enumerate() {
+        all.push(Class {
+            name: of.name.to_owned(),
+            unit: of.unit.to_owned(),
+            quantity: Quantity::Coordinate(i),
+        });
+        all.push(Class {
+            name: format!("der({})", of.name),
+            unit: rate_unit(of.unit),
+            quantity: Quantity::Rate(i),
+        });
+    }
+    let outputs = &machine.program().outputs[..compiled.model.outputs.len()];
+    for (i, slot) in outputs.iter().enumerate() {
+        all.push(Class {
+            name: slot.name.to_string(),
+            unit: slot.label(),
+            quantity: Quantity::Output(i),
+        });
+    }
+    all
+}
+
+/// Reads the measurements into the experiments; what is measured, and what is to be said of columns that are not used.
+///
+/// # Errors
+/// What is wrong with a table, or with `--columns`.
+pub fn measure(
+    call: &call::Fit,
+    machine: &InterpretedMachine,
+    compiled: &Compiled<'_>,
+    given: &mut [Given],
+    experiments: &mut [Experiment],
+) -> Result<(Vec<Class>, Vec<String>), Failure> {
+    let known = measurable(machine, compiled);
+    let asked = call::names_of(&call.columns).map_err(Failure::Call)?;
+    for (place, name) in asked.iter().enumerate() {
+        if asked[..place].contains(name) {
+            return Err(Failure::Call(format!(
+                "--columns names `{name}` more than once"
+            )));
+        }
+        if !known.iter().any(|class| class.name == *name) {
+            let names = || known.iter().map(|class| class.name.as_str());
+            let help = match nearest(name, names()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("there are: {}", names().collect::<Vec<_>>().join(", ")),
+            };
+            return Err(Failure::Call(format!(
+                "--columns {name}: no coordinate, rate or output is named `{name}`; {help}"
+            )));
+        }
+    }
+    let mut classes: Vec<Class> = Vec::new();
+    let mut notes = Vec::new();
+    for (one, experiment) in given.iter().zip(experiments.iter_mut()) {
+        let file =
+            signals::table_file(&one.path).map_err(|why| Failure::Call(format!("--data {why}")))?;
+        let names: Vec<String> = file.columns().into_iter().map(|(name, _)| name).collect();
+        let mut unused = Vec::new();
+        for name in &names {
+            let class = known.iter().find(|class| class.name == *name);
+            let is_asked = asked.is_empty() || asked.contains(name);
+            let Some(class) = class.filter(|_| is_asked) else {
+                if asked.is_empty() {
+                    unused.push(name.as_str());
+                }
+                continue;
+            };
+            let (times, values) = file
+                .measured(name, &class.unit)
+                .map_err(|why| Failure::Call(format!("--data {why}")))?;
+            experiment.times = times;
+            let values: Vec<Option<f64>> = values
+                .into_iter()
+                .map(|value| (!value.is_nan()).then_some(value))
+                .collect();
+            if values.iter().all(Option::is_none) {
+                continue;
+            }
+            let sigma = match classes.iter().position(|other| other.name == *name) {
+                Some(place) => place,
+                None => {
+                    classes.push(Class {
+                        name: class.name.clone(),
+                        unit: class.unit.clone(),
+                        quantity: class.quantity,
+                    });
+                    classes.len() - 1
+                }
+            };
+            experiment.columns.push(Column {
+                quantity: class.quantity,
+                sigma,
+                values,
+            });
+        }
+        check_times(one, experiment, &names, &known)?;
+        if !unused.is_empty() {
+            let near = unused.iter().find_map(|name| {
+                let near = nearest(name, known.iter().map(|class| class.name.as_str()))?;
+                Some(format!("; did you mean `{near}` by `{name}`?"))
+            });
+            notes.push(format!(
+                "{}: nothing is fitted to {}, which the machine has as neither coordinate, rate nor output{}",
+                one.label,
+                unused.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "),
+                near.unwrap_or_default()
+            ));
+        }
+    }
+    let is_used = |name: &&String| !classes.iter().any(|class| class.name == **name);
+    if let Some(name) = asked.iter().find(is_used) {
+        return Err(Failure::Call(format!(
+            "--columns {name}: no table has measurements of it"
+        )));
+    }
+    Ok((classes, notes))
+}
+
+/// Whether an experiment can be run along its measurements.
+fn check_times(
+    given: &Given,
+    experiment: &mut Experiment,
+    names: &[String],
+    known: &[Class],
+) -> Result<(), Failure> {
+    let label = &given.label;
+    if experiment.columns.is_empty() {
+        let shown: Vec<&str> = known
+            .iter()
+            .map(|class| class.name.as_str())
+            .take(12)
+            .collect();
+        return Err(Failure::Call(format!(
+            "--data {label}: none of its columns {} has measurements of what the machine has: {}",
+            names.join(", "),
+            shown.join(", ")
+        )));
+    }
+    // Rows in which nothing is measured are none.
+    let rows: Vec<usize> = (0..experiment.times.len())
+        .filter(|row| {
+            experiment
+                .columns
+                .iter()
+                .any(|column| column.values[*row].is_some())
+        })
+        .collect();
+    experiment.times = rows.iter().map(|row| experiment.times[*row]).collect();
+    for column in &mut experiment.columns {
+        column.values = rows.iter().map(|row| column.values[*row]).collect();
+    }
+    let first = experiment.times.first().copied().unwrap_or(0.0);
+    let last = experiment.times.last().copied().unwrap_or(0.0);
+    if first < 0.0 {
+        return Err(Failure::Call(format!(
+            "--data {label}: it begins at t = {first} s, and the machine at 0: shift the times"
+        )));
+    }
+    match last > 0.0 {
+        true => Ok(()),
+        false => Err(Failure::Call(format!(
+            "--data {label}: nothing is measured after the start at t = 0"
+        ))),
+    }
+}
+
+/// How many measurements there are.
+pub fn count(experiments: &[Experiment]) -> usize {
+    let columns = experiments
+        .iter()
+        .flat_map(|experiment| &experiment.columns);
+    columns
+        .map(|column| column.values.iter().flatten().count())
+        .sum()
+}
+
+/// The root of the mean square of what is measured under one name, about its mean; 1 where it is always the same.
+pub fn spread(experiments: &[Experiment], class: usize) -> f64 {
+    let columns = experiments
+        .iter()
+        .flat_map(|experiment| &experiment.columns);
+    let own = columns.filter(|column| column.sigma == class);
+    let values: Vec<f64> = own
+        .flat_map(|column| column.values.iter().flatten().copied())
+        .collect();
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    let square = values.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / values.len() as f64;
+    match square > 0.0 {
+        true => square.sqrt(),
+        false => 1.0,
+    }
+}
+
+/// Measured, computed, and by how much the first is more: a row a time, NaN where nothing was measured.
+///
+/// # Errors
+/// If there is no motion.
+pub fn columns(
+    fit: &mut Fit<'_>,
+    x: &[f64],
+    classes: &[Class],
+) -> Result<Vec<(String, Vec<f64>)>, Trouble> {
+    let header = |name: String, unit: &str| match unit {
+        "1" => name,
+        unit => format!("{name} [{unit}]"),
+    };
+    let mut columns = vec![
+        (header("experiment".into(), "1"), Vec::new()),
+        (header("t".into(), "s"), Vec::new()),
+    ];
+    for class in classes {
+        columns.push((header(class.name.clone(), &class.unit), Vec::new()));
+        columns.push((
+            header(format!("computed({})", class.name), &class.unit),
+            Vec::new(),
+        ));
+        columns.push((
+            header(format!("residual({})", class.name), &class.unit),
+            Vec::new(),
+        ));
+    }
+    for e in 0..fit.experiments.len() {
+        let computed = fit.computed(e, x)?;
+        let experiment = &fit.experiments[e];
+        for (row, t) in experiment.times.iter().enumerate() {
+            columns[0].1.push(e as f64 + 1.0);
+            columns[1].1.push(*t);
+            for class in 0..classes.len() {
+                let place = experiment
+                    .columns
+                    .iter()
+                    .position(|column| column.sigma == class);
+                let measured = place.and_then(|c| experiment.columns[c].values[row]);
+                let measured = measured.unwrap_or(f64::NAN);
+                let value = place.map_or(f64::NAN, |c| computed[row][c]);
+                for (offset, number) in [measured, value, measured - value].into_iter().enumerate()
+                {
+                    columns[2 + 3 * class + offset].1.push(number);
+                }
+            }
+        }
+    }
+    Ok(columns)
+}

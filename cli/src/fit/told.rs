@@ -1,0 +1,537 @@
+//! What is said of a fit: text, JSON, warnings.
+
+use std::fmt::Write as _;
+
+use lagrangian_fit::combinations::Kind;
+use lagrangian_fit::motion::{Derivatives, Subject};
+use lagrangian_fit::searches::{Search, Sigmas};
+use lagrangian_fit::statistics::Standing;
+use serde_json::{Value, json};
+
+use super::Fitted;
+use crate::numbers::shortest;
+
+/// Numbers with a greater correlation than that are hardly told apart.
+const STRONG: f64 = 0.99;
+
+/// A sum of squares that is as improbable as one this many standard deviations off is worth a word.
+const IMPROBABLE: f64 = 5.0;
+
+/// More correlations than these are not printed.
+const MOST_COLUMNS: usize = 8;
+
+/// What is to be said although there is a result.
+pub fn warnings(result: &Fitted<'_, '_>) -> Vec<String> {
+    let statistics = &result.found.statistics;
+    let names: Vec<&str> = result
+        .fit
+        .sought
+        .iter()
+        .map(|one| one.name.as_str())
+        .collect();
+    let list = |standing: Standing| -> Vec<String> {
+        let own = (0..names.len()).filter(|j| statistics.standing[*j] == standing);
+        own.map(|j| format!("`{}`", names[j])).collect()
+    };
+    let mut warnings = Vec::new();
+    let ineffective = list(Standing::Ineffective);
+    if !ineffective.is_empty() {
+        let values = match ineffective.len() {
+            1 => "its value is",
+            _ => "their values are",
+        };
+        warnings.push(format!(
+            "the measurements do not depend on {}; {values} where the search began",
+            ineffective.join(", ")
+        ));
+    }
+    let entangled = list(Standing::Entangled);
+    if !entangled.is_empty() {
+        let all: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
+        let told: Vec<String> = result
+            .found
+            .combinations
+            .iter()
+            .map(|combination| combination.formula(&all))
+            .collect();
+        let told = match told.is_empty() {
+            true => "nothing of them is".to_owned(),
+            false => format!(
+                "only {} {}",
+                told.join(", "),
+                if told.len() == 1 { "is" } else { "are" }
+            ),
+        };
+        warnings.push(format!(
+            "{} cannot be told apart: {told} told by these measurements",
+            entangled.join(", ")
+        ));
+    }
+    let bound = list(Standing::Bound);
+    if !bound.is_empty() {
+        warnings.push(format!(
+            "{} stayed at a bound, beyond which the sum of squares falls",
+            bound.join(", ")
+        ));
+    }
+    for j in 0..names.len() {
+        for k in 0..j {
+            if let Some(rho) = statistics
+                .correlation(j, k)
+                .filter(|rho| rho.abs() > STRONG)
+            {
+                warnings.push(format!(
+                    "`{}` and `{}` are hardly told apart: their correlation is {rho:.4}",
+                    names[k], names[j]
+                ));
+            }
+        }
+    }
+    let freedom = statistics.freedom as f64;
+    let off = statistics.chi_squared - freedom;
+    if result.sigmas == Sigmas::Given
+        && freedom > 0.0
+        && off.abs() > IMPROBABLE * (2.0 * freedom).sqrt()
+    {
+        warnings.push(format!(
+            "residuals are {:.3} times what --sigma says: the standard errors follow --sigma, and hold only if that does",
+            statistics.variance.sqrt()
+        ));
+    }
+    warnings
+}
+
+/// A number with as many digits as its standard error allows: two of the error's own.
+fn rounded(value: f64, error: Option<f64>) -> (String, String) {
+    let Some(error) = error.filter(|error| error.is_finite() && *error > 0.0) else {
+        return (significant(value), String::new());
+    };
+    let place = error.log10().floor() as i32 - 1;
+    let size = value.abs().max(error);
+    // Beside an error that is nearly nothing not all digits are shown.
+    let place = place.max(size.log10().floor() as i32 - 12);
+    match (-6..=6).contains(&(size.log10().floor() as i32)) {
+        true => {
+            let digits = usize::try_from(-place).unwrap_or(0);
+            let shown = match place > 0 {
+                true => {
+                    let unit = 10_f64.powi(place);
+                    ((value / unit).round() * unit, (error / unit).round() * unit)
+                }
+                false => (value, error),
+            };
+            let error = match shown.1 < 10_f64.powi(place) {
+                true => format!("{error:.1e}"),
+                false => format!("{:.digits$}", shown.1),
+            };
+            (format!("{:.digits$}", shown.0), error)
+        }
+        false => {
+            let digits = usize::try_from(size.log10().floor() as i32 - place).unwrap_or(1);
+            (format!("{value:.digits$e}"), format!("{error:.1e}"))
+        }
+    }
+}
+
+/// Seven digits.
+fn significant(value: f64) -> String {
+    let text = format!("{value:.6e}");
+    text.parse::<f64>().map_or(text, shortest)
+}
+
+fn in_unit(text: &str, unit: &str) -> String {
+    match unit {
+        "1" | "" => text.to_owned(),
+        unit => format!("{text} {unit}"),
+    }
+}
+
+/// The text of a result.
+pub fn text(result: &Fitted<'_, '_>) -> String {
+    let statistics = &result.found.statistics;
+    let minimum = &result.found.minimum;
+    let sought = &result.fit.sought;
+    let mut text = String::new();
+    let files: Vec<&str> = result
+        .given
+        .iter()
+        .map(|given| given.label.as_str())
+        .collect();
+    let classes: Vec<&str> = result
+        .classes
+        .iter()
+        .map(|class| class.name.as_str())
+        .collect();
+    // Writing to a String cannot fail.
+    let _ = writeln!(
+        text,
+        "{}: {} fitted to {} measurements of {} in {}",
+        lagrangian::Machine::name(result.machine),
+        sought.len(),
+        statistics.measurements,
+        classes.join(", "),
+        files.join(", ")
+    );
+    let derivatives = match (result.found.derivatives, result.fit.derivatives().1) {
+        (Derivatives::Integrated, _) => "derivatives integrated with the motion".to_owned(),
+        (Derivatives::Differences, why) => {
+            format!(
+                "derivatives by differences of runs, since {}",
+                why.unwrap_or_default()
+            )
+        }
+    };
+    let _ = writeln!(text, "  {derivatives}");
+    let _ = writeln!(
+        text,
+        "  {} steps, {} evaluations: the search {}",
+        minimum.steps,
+        minimum.evaluations,
+        minimum.ending.words()
+    );
+    if result.searches.len() > 1 {
+        text.push_str(&searches(result));
+    }
+    let width = |texts: &mut dyn Iterator<Item = String>| {
+        texts.map(|t| t.chars().count()).max().unwrap_or(0)
+    };
+    let rows: Vec<(String, String, String)> = sought
+        .iter()
+        .enumerate()
+        .map(|(j, one)| {
+            let error = statistics.standard_error(j);
+            let (value, shown) = rounded(minimum.x[j], error);
+            let note = match (statistics.standing[j], error) {
+                (Standing::Told, Some(error)) => {
+                    let share = (error / minimum.x[j]).abs();
+                    let share = match share.is_finite() && share > 0.0 {
+                        true => format!("   ({})", percent(share)),
+                        false => String::new(),
+                    };
+                    match shown.is_empty() {
+                        true => "± 0".to_owned(),
+                        false => format!("± {shown}{share}"),
+                    }
+                }
+                (Standing::Bound, _) => "at its bound".to_owned(),
+                (Standing::Ineffective, _) => "changes nothing".to_owned(),
+                _ => "not told by itself".to_owned(),
+            };
+            (one.name.clone(), in_unit(&value, &one.unit), note)
+        })
+        .collect();
+    text.push_str("  fitted, with standard errors\n");
+    let wide = width(&mut rows.iter().map(|row| row.0.clone()));
+    let wider = width(&mut rows.iter().map(|row| row.1.clone()));
+    for (name, value, note) in &rows {
+        let pad = " ".repeat(wide - name.chars().count());
+        let after = " ".repeat(wider - value.chars().count());
+        let _ = writeln!(text, "    {name}{pad} = {value}{after}  {note}");
+    }
+    if !result.found.combinations.is_empty() {
+        text.push_str(&combinations(result));
+    }
+    text.push_str(&residuals(result));
+    text.push_str(&correlations(result));
+    let mut again = String::from("  as options of simulate\n   ");
+    for (one, x) in sought.iter().zip(&minimum.x) {
+        let (option, name) = match one.subject {
+            Subject::Parameter(_) => ("--set", one.name.clone()),
+            Subject::Start(e, place) if result.given.len() == 1 => {
+                ("--start", coordinate(result, e, place))
+            }
+            Subject::Rate(e, place) if result.given.len() == 1 => {
+                ("--rate", coordinate(result, e, place))
+            }
+            _ => continue,
+        };
+        let _ = write!(again, " {option} {name}={}", shortest(*x));
+    }
+    text.push_str(&again);
+    text.push('\n');
+    text
+}
+
+/// The name of a coordinate.
+pub fn coordinate(result: &Fitted<'_, '_>, experiment: usize, place: usize) -> String {
+    let start = lagrangian::Machine::start(&result.fit.experiments[experiment].machine);
+    let name = start.q.iter().nth(place).map(|(name, _)| name.to_owned());
+    name.unwrap_or_default()
+}
+
+fn percent(share: f64) -> String {
+    let percent = 100.0 * share;
+    match percent {
+        _ if percent >= 10.0 => format!("{percent:.0} %"),
+        _ if percent >= 0.01 => {
+            let digits = (1 - percent.log10().floor() as i32).clamp(0, 4) as usize;
+            format!("{percent:.digits$} %")
+        }
+        _ => format!("{share:.0e} of it"),
+    }
+}
+
+fn searches(result: &Fitted<'_, '_>) -> String {
+    let last = |search: &Search| match &search.end {
+        Ok(minimum) if minimum.ending.is_minimum() => minimum.sums.last().copied(),
+        _ => None,
+    };
+    let count = result.searches.len();
+    let ends: Vec<f64> = result.searches.iter().filter_map(last).collect();
+    let least = ends.iter().copied().fold(f64::INFINITY, f64::min);
+    let same = ends
+        .iter()
+        .filter(|sum| **sum <= least * (1.0 + 1e-6))
+        .count();
+    let other = ends
+        .iter()
+        .copied()
+        .filter(|sum| *sum > least * (1.0 + 1e-6));
+    let next = other.fold(f64::INFINITY, f64::min);
+    let next = match next.is_finite() {
+        true => format!(
+            "; the next minimum has {:.3} times its sum of squares",
+            next / least
+        ),
+        false => String::new(),
+    };
+    format!(
+        "  of {count} searches {} ended in a minimum, {same} of these in this one{next}\n",
+        ends.len()
+    )
+}
+
+fn combinations(result: &Fitted<'_, '_>) -> String {
+    let sought = &result.fit.sought;
+    let names: Vec<String> = sought.iter().map(|one| one.name.clone()).collect();
+    let units: Vec<String> = sought.iter().map(|one| one.unit.clone()).collect();
+    let x = &result.found.minimum.x;
+    let mut text = String::from("  told of what cannot be told apart\n");
+    for combination in &result.found.combinations {
+        let error = result
+            .found
+            .statistics
+            .standard_error_of(&combination.gradient(x));
+        let (value, error) = rounded(combination.value(x), Some(error));
+        let unit = combination.unit(&units).unwrap_or_default();
+        let local = match combination.kind {
+            Kind::Local => "   (for small changes)",
+            Kind::Product | Kind::Sum => "",
+        };
+        let _ = writeln!(
+            text,
+            "    {} = {}  ± {error}{local}",
+            combination.formula(&names),
+            in_unit(&value, &unit)
+        );
+    }
+    text
+}
+
+/// The root of the mean square of the residuals of each column, in its unit.
+fn roots(result: &Fitted<'_, '_>) -> Vec<f64> {
+    let mut sums = vec![(0.0, 0.0_f64); result.classes.len()];
+    let mut residuals = result.found.minimum.residuals.iter();
+    for experiment in &result.fit.experiments {
+        for column in &experiment.columns {
+            for _ in column.values.iter().flatten() {
+                let r = residuals.next().copied().unwrap_or(0.0) * result.fit.sigmas[column.sigma];
+                sums[column.sigma].0 += r * r;
+                sums[column.sigma].1 += 1.0;
+            }
+        }
+    }
+    sums.iter()
+        .map(|(sum, count)| (sum / count).sqrt())
+        .collect()
+}
+
+fn residuals(result: &Fitted<'_, '_>) -> String {
+    let statistics = &result.found.statistics;
+    let mut text = String::from("  residuals, root of the mean square\n");
+    for (place, (class, root)) in result.classes.iter().zip(roots(result)).enumerate() {
+        let sigma = match result.sigmas {
+            Sigmas::Equal => String::new(),
+            Sigmas::Given => format!(
+                ", standard deviation {} given",
+                in_unit(&shortest(result.fit.sigmas[place]), &class.unit)
+            ),
+            Sigmas::Estimated => format!(
+                ", standard deviation {} estimated",
+                in_unit(&significant(result.fit.sigmas[place]), &class.unit)
+            ),
+        };
+        let root = in_unit(&format!("{root:.3e}"), &class.unit);
+        let _ = writeln!(text, "    {}: {root}{sigma}", class.name);
+    }
+    let freedom = statistics.freedom;
+    let _ = match result.sigmas {
+        Sigmas::Equal => writeln!(
+            text,
+            "    standard deviation {} over {freedom} degrees of freedom, from which the standard errors are",
+            in_unit(
+                &format!("{:.3e}", statistics.variance.sqrt()),
+                &result.classes[0].unit
+            )
+        ),
+        _ => writeln!(
+            text,
+            "    χ² = {} over {freedom} degrees of freedom",
+            significant(statistics.chi_squared)
+        ),
+    };
+    text
+}
+
+fn correlations(result: &Fitted<'_, '_>) -> String {
+    let statistics = &result.found.statistics;
+    let told: Vec<usize> = (0..result.fit.sought.len())
+        .filter(|j| statistics.standing[*j] == Standing::Told)
+        .collect();
+    if told.len() < 2 {
+        return String::new();
+    }
+    if told.len() > MOST_COLUMNS {
+        return "  correlations: with --json\n".to_owned();
+    }
+    let name = |j: usize| result.fit.sought[j].name.as_str();
+    let wide = told
+        .iter()
+        .map(|j| name(*j).chars().count())
+        .max()
+        .unwrap_or(0);
+    let mut text = String::from("  correlations\n");
+    for (row, j) in told.iter().enumerate() {
+        let pad = " ".repeat(wide - name(*j).chars().count());
+        let _ = write!(text, "    {}{pad}", name(*j));
+        for k in &told[..=row] {
+            let rho = statistics.correlation(*j, *k).unwrap_or(f64::NAN);
+            let _ = write!(text, "  {rho:>7.4}");
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// The result for programs.
+pub fn document(result: &Fitted<'_, '_>) -> Value {
+    let statistics = &result.found.statistics;
+    let minimum = &result.found.minimum;
+    let sought = &result.fit.sought;
+    let names: Vec<String> = sought.iter().map(|one| one.name.clone()).collect();
+    let units: Vec<String> = sought.iter().map(|one| one.unit.clone()).collect();
+    let standing = |standing: Standing| match standing {
+        Standing::Told => "told",
+        Standing::Bound => "bound",
+        Standing::Ineffective => "ineffective",
+        Standing::Entangled => "entangled",
+    };
+    let finite = |x: f64| x.is_finite().then_some(x);
+    let fitted: Vec<Value> = sought
+        .iter()
+        .enumerate()
+        .map(|(j, one)| {
+            let experiment = match one.subject {
+                Subject::Parameter(_) => None,
+                Subject::Start(e, _) | Subject::Rate(e, _) => Some(result.given[e].label.clone()),
+            };
+            json!({
+                "name": one.name,
+                "experiment": experiment,
+                "unit": one.unit,
+                "value": minimum.x[j],
+                "standard_error": statistics.standard_error(j),
+                "standing": standing(statistics.standing[j]),
+                "from": result.searches[result.best].from[j],
+                "bounds": one.bounds.map(finite),
+            })
+        })
+        .collect();
+    let matrix = |entry: &dyn Fn(usize, usize) -> Option<f64>| -> Vec<Vec<Option<f64>>> {
+        let count = sought.len();
+        (0..count)
+            .map(|j| (0..count).map(|k| entry(j, k)).collect())
+            .collect()
+    };
+    let covariance = matrix(&|j, k| {
+        statistics.correlation(j, k)?;
+        Some(statistics.covariance[(j, k)])
+    });
+    let combinations: Vec<Value> = result
+        .found
+        .combinations
+        .iter()
+        .map(|combination| {
+            json!({
+                "formula": combination.formula(&names),
+                "kind": match combination.kind {
+                    Kind::Product => "product",
+                    Kind::Sum => "sum",
+                    Kind::Local => "local",
+                },
+                "unit": combination.unit(&units),
+                "value": combination.value(&minimum.x),
+                "standard_error": statistics.standard_error_of(&combination.gradient(&minimum.x)),
+                "terms": combination.terms.iter().map(|(j, c)| json!({"name": names[*j], "factor": c})).collect::<Vec<_>>(),
+            })
+        })
+        .collect();
+    let columns: Vec<Value> = result
+        .classes
+        .iter()
+        .zip(roots(result))
+        .enumerate()
+        .map(|(place, (class, root))| {
+            json!({
+                "name": class.name,
+                "unit": class.unit,
+                "residual": root,
+                "sigma": (result.sigmas != Sigmas::Equal).then(|| result.fit.sigmas[place]),
+            })
+        })
+        .collect();
+    let searches: Vec<Value> = result
+        .searches
+        .iter()
+        .map(|search| match &search.end {
+            Ok(minimum) => json!({
+                "from": search.from,
+                "value": minimum.x,
+                "sum": minimum.sums.last(),
+                "converged": minimum.ending.is_minimum(),
+            }),
+            Err(why) => json!({"from": search.from, "error": why}),
+        })
+        .collect();
+    json!({
+        "machine": lagrangian::Machine::name(result.machine),
+        "converged": minimum.ending.is_minimum(),
+        "ending": minimum.ending.words(),
+        "steps": minimum.steps,
+        "evaluations": minimum.evaluations,
+        "runs": result.fit.runs[0],
+        "runs_with_derivatives": result.fit.runs[1],
+        "derivatives": match result.found.derivatives {
+            Derivatives::Integrated => "integrated",
+            Derivatives::Differences => "differences",
+        },
+        "fitted": fitted,
+        "covariance": covariance,
+        "correlation": matrix(&|j, k| statistics.correlation(j, k)),
+        "combinations": combinations,
+        "measurements": statistics.measurements,
+        "degrees_of_freedom": statistics.freedom,
+        "chi_squared": statistics.chi_squared,
+        "variance": finite(statistics.variance),
+        "sigma": match result.sigmas {
+            Sigmas::Equal => "equal",
+            Sigmas::Given => "given",
+            Sigmas::Estimated => "estimated",
+        },
+        "columns": columns,
+        "singular_values": statistics.singular_values,
+        "sums": minimum.sums,
+        "searches": searches,
+        "warnings": result.warnings,
+    })
+}

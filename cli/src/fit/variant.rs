@@ -1,0 +1,133 @@
+//! What was fitted as a variant of the spec, which every command and the macro takes.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use lagrangian_fit::motion::Subject;
+
+use super::{Fitted, told};
+use crate::failure::Failure;
+use crate::numbers::shortest;
+use crate::output::Destination;
+
+/// The text of the variant.
+///
+/// # Errors
+/// If what is fitted cannot be said in a variant.
+pub fn spec(result: &Fitted<'_, '_>, file: &Destination) -> Result<String, Failure> {
+    let program = result.machine.program();
+    let minimum = &result.found.minimum;
+    let (mut parameters, mut coordinates) = (String::new(), String::new());
+    let several = result.given.len() > 1;
+    let mut left = Vec::new();
+    for (j, (one, x)) in result.fit.sought.iter().zip(&minimum.x).enumerate() {
+        let error = match result.found.statistics.standard_error(j) {
+            Some(error) => format!("Fitted, with a standard error of {}.", shortest(error)),
+            None => "Not told by the measurements.".to_owned(),
+        };
+        let value = shortest(*x);
+        // A failure to write to a String there is not.
+        let _ = match one.subject {
+            Subject::Parameter(index) => {
+                let unit = &program.parameters[index].unit_text;
+                check_name(&one.name)?;
+                writeln!(
+                    parameters,
+                    "        /// {error}\n        {}: {unit} = {value},",
+                    one.name
+                )
+            }
+            Subject::Start(..) | Subject::Rate(..) if several => {
+                left.push(one.name.clone());
+                Ok(())
+            }
+            Subject::Start(e, place) => {
+                let name = told::coordinate(result, e, place);
+                let unit = &program.coordinates[place].unit_text;
+                check_name(&name)?;
+                writeln!(
+                    coordinates,
+                    "        /// {error}\n        {name}: {unit} = {value},"
+                )
+            }
+            Subject::Rate(e, place) => {
+                let name = told::coordinate(result, e, place);
+                let unit = &program.coordinates[place].unit_text;
+                check_name(&name)?;
+                let unit = match unit.as_str() {
+                    "1" => "1/s".to_owned(),
+                    unit => format!("({unit})/s"),
+                };
+                writeln!(coordinates, "        der({name}): {unit} = {value},")
+            }
+        };
+    }
+    let files: Vec<&str> = result
+        .given
+        .iter()
+        .map(|given| given.label.as_str())
+        .collect();
+    let base = relative(&result.call.spec.path, file.file())?;
+    let base = base.replace('\\', "\\\\").replace('"', "\\\"");
+    let mut text = format!("/// Fitted to {} by `lagrangian fit`.\n", files.join(", "));
+    if !left.is_empty() {
+        let _ = writeln!(
+            text,
+            "/// Each experiment starts elsewhere: {} are not part of it.",
+            left.join(", ")
+        );
+    }
+    let name = lagrangian::Machine::name(result.machine);
+    let _ = writeln!(text, "machine {name}Fitted extends \"{base}\" {{");
+    for (name, value) in &result.call.spec.constants {
+        let _ = writeln!(text, "    constants {{ {name} = {value} }}");
+    }
+    if !parameters.is_empty() {
+        let _ = write!(text, "    parameters {{\n{parameters}    }}\n");
+    }
+    if !coordinates.is_empty() {
+        let _ = write!(text, "    coordinates {{\n{coordinates}    }}\n");
+    }
+    text.push_str("}\n");
+    Ok(text)
+}
+
+/// A member of a family has no declaration of its own.
+fn check_name(name: &str) -> Result<(), Failure> {
+    match name.contains('[') {
+        false => Ok(()),
+        true => Err(Failure::Call(format!(
+            "--out: `{name}` is a member of a family, which no variant of a spec gives a value of its own; --json has it"
+        ))),
+    }
+}
+
+/// The path to a spec from the folder of a file.
+fn relative(spec: &Path, file: Option<&Path>) -> Result<String, Failure> {
+    let whole = |path: &Path| {
+        path.canonicalize()
+            .map_err(|error| Failure::Run(format!("cannot find {}: {error}", path.display())))
+    };
+    let spec_path = whole(spec)?;
+    let Some(folder) = file.and_then(Path::parent) else {
+        return Ok(spec_path.to_string_lossy().into_owned());
+    };
+    let folder = match folder.as_os_str().is_empty() {
+        true => PathBuf::from("."),
+        false => folder.to_owned(),
+    };
+    let folder = whole(&folder)?;
+    let (from, to): (Vec<_>, Vec<_>) = (
+        folder.components().collect(),
+        spec_path.components().collect(),
+    );
+    let shared = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
+    if shared == 0 {
+        return Ok(spec_path.to_string_lossy().into_owned());
+    }
+    let up = from[shared..].iter().map(|_| "..".to_owned());
+    let down = to[shared..]
+        .iter()
+        .map(|part| part.as_os_str().to_string_lossy().into_owned());
+    Ok(up.chain(down).collect::<Vec<_>>().join("/"))
+}

@@ -1,0 +1,810 @@
+//! `lagrangian fit` against SciPy on closed forms, against what is known of made-up data, and one way of saying against another.
+
+use std::fmt::Write as _;
+
+use crate::support::{Scratch, lagrangian, root};
+use serde_json::Value;
+
+const OSCILLATOR: &str = "machine Oscillator in plane {
+    parameters { m: kg = 2, k: N/m = 25, c: N*s/m = 0.5 }
+    coordinates { x: m = 0.1 }
+    bodies { block { mass: m, at: (x, 0) } }
+    springs { spring { stiffness: k, stretch: x } }
+    dampers { damper { damping: c, stretch: x } }
+    outputs { pull: N = k*x, a: m/s^2 = der(der(x)) }
+    gravity none;
+}";
+
+/// The result of a fit that succeeds.
+fn fit(arguments: &[&str]) -> Value {
+    let output = lagrangian(&[&["fit"], arguments, &["--json"]].concat());
+    let text = String::from_utf8(output.stdout).expect("text");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{text}{errors}");
+    serde_json::from_str(&text).expect("JSON")
+}
+
+/// What is said of a call that fails, and its exit status.
+fn refused(arguments: &[&str]) -> (i32, String) {
+    let output = lagrangian(&[&["fit"], arguments].concat());
+    let said = String::from_utf8(output.stderr).expect("text");
+    (output.status.code().expect("no signal"), said)
+}
+
+fn number(value: &Value) -> f64 {
+    value
+        .as_f64()
+        .unwrap_or_else(|| panic!("no number: {value}"))
+}
+
+fn list(value: &Value) -> &[Value] {
+    value
+        .as_array()
+        .unwrap_or_else(|| panic!("no list: {value}"))
+}
+
+/// Estimates and their standard errors.
+fn estimates(result: &Value) -> Vec<(f64, f64)> {
+    list(&result["fitted"])
+        .iter()
+        .map(|one| (number(&one["value"]), number(&one["standard_error"])))
+        .collect()
+}
+
+fn by_scipy(name: &str) -> Value {
+    let path = root().join("cli/tests/command/fit/by_scipy.json");
+    let text = std::fs::read_to_string(path).expect("numbers of SciPy");
+    let all: Value = serde_json::from_str(&text).expect("JSON");
+    all[name].clone()
+}
+
+/// Estimates and covariances are those of SciPy.
+///
+/// The search ends within 1e-6 of a standard error; the runs' own errors, 1e-9 of a motion whose noise is above 1e-2 of it, are
+/// 1e-7 of one. Covariances change with the place by less than themselves in a standard error, and their derivatives are as
+/// exact as the tolerance times the steps of a run: 1e-6 of the product of the standard errors.
+fn assert_agrees(result: &Value, known: &Value) {
+    let errors: Vec<f64> = (0..list(&known["estimate"]).len())
+        .map(|j| number(&known["covariance"][j][j]).sqrt())
+        .collect();
+    for (j, (value, error)) in estimates(result).into_iter().enumerate() {
+        let off = (value - number(&known["estimate"][j])).abs();
+        assert!(off <= 2e-6 * errors[j], "{}: {result:#}", known["names"][j]);
+        assert!(
+            (error / errors[j] - 1.0).abs() <= 2e-6,
+            "{error} {}",
+            errors[j]
+        );
+        for (k, other) in errors.iter().enumerate() {
+            let off = number(&result["covariance"][j][k]) - number(&known["covariance"][j][k]);
+            assert!(off.abs() <= 4e-6 * errors[j] * other, "{j} {k}: {off:e}");
+        }
+    }
+    let off = number(&result["chi_squared"]) / number(&known["sum"]) - 1.0;
+    assert!(off.abs() <= 1e-6, "{off:e}");
+}
+
+#[test]
+fn an_oscillator_is_fitted_as_scipy_does() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let result = fit(&[
+        spec.path(),
+        "--data",
+        "cli/tests/command/fit/oscillator.csv",
+        "--fit",
+        "k,c,start(x),rate(x)",
+    ]);
+    let known = by_scipy("oscillator");
+    assert_agrees(&result, &known);
+    // Three cells are empty.
+    assert_eq!(result["measurements"], known["count"]);
+    assert_eq!(result["derivatives"], "integrated");
+    assert_eq!(result["converged"], true);
+}
+
+#[test]
+fn two_experiments_have_starts_of_their_own() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let [first, second] =
+        ["first", "second"].map(|name| format!("cli/tests/command/fit/{name}.csv"));
+    let call = [
+        spec.path(),
+        "--data",
+        &first,
+        "--data",
+        &second,
+        "--fit",
+        "k,c",
+        "--fit",
+        "start(x),rate(x)",
+        "--sigma",
+        "x=3*mm",
+        "--sigma",
+        "der(x)=2*cm/s",
+    ];
+    let result = fit(&call);
+    // In the order of the call: of each coordinate the starts in both experiments, then the rates.
+    let names: Vec<&str> = list(&result["fitted"])
+        .iter()
+        .map(|one| one["name"].as_str().expect("a name"))
+        .collect();
+    let order = [0, 1, 2, 4, 3, 5];
+    let known = by_scipy("two");
+    let picked = |of: &str| -> Vec<Value> { order.iter().map(|j| known[of][j].clone()).collect() };
+    let covariance: Vec<Value> = order
+        .iter()
+        .map(|j| {
+            order
+                .iter()
+                .map(|k| known["covariance"][j][k].clone())
+                .collect()
+        })
+        .collect();
+    let sorted = serde_json::json!({
+        "names": names,
+        "estimate": picked("estimate"),
+        "covariance": covariance,
+        "sum": known["sum"],
+    });
+    assert_eq!(names[3], format!("start(x) in {second}"));
+    assert_agrees(&result, &sorted);
+}
+
+/// x of the oscillator at times, in closed form.
+fn swung(t: f64, [m, k, c]: [f64; 3], [x, v]: [f64; 2]) -> f64 {
+    let decay = c / (2.0 * m);
+    let omega = (k / m - decay * decay).sqrt();
+    let (sin, cos) = (omega * t).sin_cos();
+    (-decay * t).exp() * (x * cos + (v + decay * x) / omega * sin)
+}
+
+/// A table of a function of time.
+fn table(header: &str, times: impl Iterator<Item = f64>, of: impl Fn(f64) -> Vec<f64>) -> Scratch {
+    let mut text = format!("{header}\n");
+    for t in times {
+        let cells: Vec<String> = of(t).iter().map(|x| format!("{x:?}")).collect();
+        let _ = writeln!(text, "{t:?},{}", cells.join(","));
+    }
+    Scratch::new("run.csv", &text)
+}
+
+fn times(until: f64, count: usize) -> impl Iterator<Item = f64> {
+    (0..=count).map(move |k| until * k as f64 / count as f64)
+}
+
+#[test]
+fn what_cannot_be_told_apart_is_named_with_what_can() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let free = table("t,x [m]", times(3.0, 60), |t| {
+        vec![swung(t, [2.0, 30.0, 0.6], [0.1, 0.0])]
+    });
+    // Masses, stiffnesses and dampings have one factor in common.
+    let result = fit(&[spec.path(), "--data", free.path(), "--fit", "m,k,c"]);
+    for one in list(&result["fitted"]) {
+        assert_eq!(one["standing"], "entangled", "{one}");
+        assert!(one["standard_error"].is_null());
+    }
+    let told: Vec<(&str, f64)> = list(&result["combinations"])
+        .iter()
+        .map(|one| {
+            (
+                one["formula"].as_str().expect("text"),
+                number(&one["value"]),
+            )
+        })
+        .collect();
+    let names: Vec<&str> = told.iter().map(|(name, _)| *name).collect();
+    assert_eq!(names, ["m/c", "k/c"], "{result:#}");
+    // What is exact but for the tolerance comes back so.
+    assert!((told[0].1 / (2.0 / 0.6) - 1.0).abs() < 1e-6, "{told:?}");
+    assert!((told[1].1 / 50.0 - 1.0).abs() < 1e-6, "{told:?}");
+    let said = result["warnings"][0].as_str().expect("a warning");
+    assert!(said.contains("only m/c, k/c are told"), "{said}");
+
+    // Of two masses that move as one the sum is told; and gravity is at right angles to the motion.
+    let two = OSCILLATOR
+        .replace("m: kg = 2", "m: kg = 0.5, m2: kg = 1, depth: m = 3")
+        .replace("block {", "second { mass: m2, at: (x, depth) }, block {");
+    let two = Scratch::new("two.machine", &two);
+    let call = [
+        two.path(),
+        "--data",
+        free.path(),
+        "--set",
+        "k=30",
+        "--fit",
+        "m,m2,depth,c",
+    ];
+    let result = fit(&call);
+    let combination = &result["combinations"][0];
+    assert_eq!(combination["formula"], "m + m2");
+    assert_eq!(combination["unit"], "kg");
+    assert!((number(&combination["value"]) - 2.0).abs() < 1e-6);
+    let standing: Vec<&str> = list(&result["fitted"])
+        .iter()
+        .map(|one| one["standing"].as_str().expect("text"))
+        .collect();
+    assert_eq!(standing, ["entangled", "entangled", "ineffective", "told"]);
+}
+
+#[test]
+fn of_a_pendulum_gravity_by_length_is_told() {
+    let spec = "machine Pendulum in plane {
+        parameters { m: kg = 1, l: m = 0.5, g: m/s^2 = 9.81 }
+        coordinates { theta: rad = 1 }
+        bodies { ball { mass: m, at: l*(sin(theta), -cos(theta)) } }
+        gravity (0, -g);
+    }";
+    let spec = Scratch::new("pendulum.machine", spec);
+    let run = Scratch::new("run.csv", "");
+    let made = lagrangian(&[
+        "simulate",
+        spec.path(),
+        "--until",
+        "4",
+        "--every",
+        "0.1",
+        "--set",
+        "l=0.6",
+        "--out",
+        run.path(),
+        "--tolerance",
+        "1e-13",
+    ]);
+    assert!(made.status.success());
+    let result = fit(&[
+        spec.path(),
+        "--data",
+        run.path(),
+        "--columns",
+        "theta",
+        "--fit",
+        "m,l,g",
+    ]);
+    let combination = &result["combinations"][0];
+    assert_eq!(combination["formula"], "l/g");
+    assert_eq!(combination["unit"], "m/(m/s^2)");
+    // A motion to 1e-9 through some seven periods.
+    assert!(
+        (number(&combination["value"]) * 9.81 / 0.6 - 1.0).abs() < 1e-7,
+        "{combination}"
+    );
+    assert_eq!(result["fitted"][0]["standing"], "ineffective");
+    // Mass at the value where it began; a search that stays put in what is not told.
+    assert_eq!(number(&result["fitted"][0]["value"]), 1.0);
+}
+
+#[test]
+fn units_of_a_table_change_nothing() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let of = |t: f64| swung(t, [2.0, 31.0, 0.4], [0.1, 0.0]) + 1e-3 * (977.0 * t).sin();
+    let si = table("t [s],x [m]", times(2.0, 50), |t| vec![of(t)]);
+    let mut text = String::from("# the same\nx [mm]; t [ms]; remark\n");
+    for t in times(2.0, 50) {
+        let _ = writeln!(text, "{:?};{:?};0", of(t) * 1000.0, t * 1000.0);
+    }
+    let other = Scratch::new("other.csv", &text);
+    let [a, b] = [&si, &other]
+        .map(|data| estimates(&fit(&[spec.path(), "--data", data.path(), "--fit", "k,c"])));
+    for ((x, e), (y, f)) in a.iter().zip(&b) {
+        // Rounding of the table, times 1e3 for all that is made of it.
+        assert!(
+            (x - y).abs() < 1e-12 * x && (e - f).abs() < 1e-10 * e,
+            "{a:?} {b:?}"
+        );
+    }
+}
+
+#[test]
+fn a_spring_and_a_formula_that_pushes_like_one_give_one_answer() {
+    let data = table("t,x [m],a", times(2.0, 40), |t| {
+        let of = |t: f64| swung(t, [2.0, 30.0, 0.6], [0.1, 0.0]);
+        vec![
+            of(t) + 1e-3 * (631.0 * t).sin(),
+            -15.0 * of(t) + 0.02 * (211.0 * t).cos(),
+        ]
+    });
+    let spring = Scratch::new("oscillator.machine", OSCILLATOR);
+    let pushed = OSCILLATOR
+        .replace(
+            "springs { spring { stiffness: k, stretch: x } }",
+            "forces { push { on: x, value: u } }",
+        )
+        .replace("coordinates", "inputs { u: N } coordinates");
+    let pushed = Scratch::new("pushed.machine", &pushed);
+    // A start that follows from what is fitted, beside one that does not: 0.1 m either way at k = 25.
+    let sigmas = ["--sigma", "x=1e-3", "--sigma", "a=0.02"];
+    let same = ["--data", data.path(), "--fit", "k,c"];
+    let a = fit(&[&[spring.path()], &same[..], &sigmas].concat());
+    let b = fit(&[&[pushed.path(), "--input", "u=-k*x"], &same[..], &sigmas].concat());
+    assert_eq!(b["derivatives"], "integrated");
+    for ((x, e), (y, f)) in estimates(&a).into_iter().zip(estimates(&b)) {
+        // The search ends within 1e-6 of a standard error.
+        assert!(
+            (x - y).abs() < 2e-6 * e && (e - f).abs() < 1e-6 * e,
+            "{a:#} {b:#}"
+        );
+    }
+}
+
+#[test]
+fn a_start_that_follows_from_a_parameter_moves_with_it() {
+    let text = OSCILLATOR
+        .replace("x: m = 0.1", "x: m = p/k")
+        .replace("m: kg = 2,", "m: kg = 2, p: N = 3,");
+    let spec = Scratch::new("loaded.machine", &text);
+    // Hung with 3 N on 30 N/m, and let go.
+    let data = table("t,x [m]", times(2.0, 40), |t| {
+        vec![swung(t, [2.0, 30.0, 0.6], [0.1, 0.0]) + 1e-3 * (631.0 * t).sin()]
+    });
+    let call = [spec.path(), "--data", data.path(), "--fit", "k,c,p"];
+    let a = fit(&call);
+    // The same start as a number of its own: p = k x.
+    let plain = Scratch::new("oscillator.machine", OSCILLATOR);
+    let b = fit(&[plain.path(), "--data", data.path(), "--fit", "k,c,start(x)"]);
+    let (a, b) = (estimates(&a), estimates(&b));
+    for j in 0..2 {
+        assert!((a[j].0 - b[j].0).abs() < 2e-6 * a[j].1, "{a:?} {b:?}");
+        assert!((a[j].1 / b[j].1 - 1.0).abs() < 1e-5, "{a:?} {b:?}");
+    }
+    assert!(
+        (a[2].0 - a[0].0 * b[2].0).abs() < 4e-6 * a[2].1,
+        "{a:?} {b:?}"
+    );
+}
+
+#[test]
+fn with_constraints_differences_of_runs_give_the_same() {
+    let swing = "machine Swing in plane {
+        parameters { l: m = 0.5, c: N*m*s = 0.02 }
+        coordinates { theta: rad = 1 }
+        bodies { ball { mass: 1, at: l*(sin(theta), -cos(theta)) } }
+        dissipations { hinge: 1/2*c*der(theta)^2 }
+        outputs { height: m = -l*cos(theta) }
+        gravity (0, -9.81);
+    }";
+    let tied = "machine Swing in plane {
+        parameters { l: m = 0.5, c: N*m*s = 0.02 }
+        coordinates { theta: rad = 1, x: m = l*sin(1), y: m = -l*cos(1) }
+        bodies { ball { mass: 1, at: (x, y) } }
+        dissipations { hinge: 1/2*c*der(theta)^2 }
+        constraints { across: x = l*sin(theta), along: y = -l*cos(theta) }
+        outputs { height: m = y }
+        gravity (0, -9.81);
+    }";
+    let [swing, tied] =
+        [("swing.machine", swing), ("tied.machine", tied)].map(|(n, t)| Scratch::new(n, t));
+    let run = Scratch::new("made.csv", "");
+    let made = lagrangian(&[
+        "simulate",
+        swing.path(),
+        "--until",
+        "2",
+        "--every",
+        "0.05",
+        "--set",
+        "l=0.52",
+        "--set",
+        "c=0.03",
+        "--out",
+        run.path(),
+    ]);
+    assert!(made.status.success());
+    let text = std::fs::read_to_string(&run.0).expect("a run");
+    let mut noisy = String::from("t,theta,height\n");
+    let header: Vec<&str> = text.lines().next().expect("a header").split(',').collect();
+    let place = |name: &str| {
+        header
+            .iter()
+            .position(|h| h.starts_with(name))
+            .expect("a column")
+    };
+    let (theta, height) = (place("theta"), place("height"));
+    for (row, line) in text.lines().skip(1).enumerate() {
+        let cells: Vec<f64> = line
+            .split(',')
+            .map(|x| x.parse().expect("a number"))
+            .collect();
+        let noise = |by: f64| 1e-3 * (by * row as f64).sin();
+        let _ = writeln!(
+            noisy,
+            "{},{},{}",
+            cells[0],
+            cells[theta] + noise(97.0),
+            cells[height] + noise(41.0)
+        );
+    }
+    let data = Scratch::new("run.csv", &noisy);
+    let call = [
+        "--data",
+        data.path(),
+        "--fit",
+        "l,c",
+        "--sigma",
+        "theta=1e-3",
+        "--sigma",
+        "height=1e-3",
+    ];
+    let a = fit(&[&[swing.path()], &call[..]].concat());
+    let b = fit(&[&[tied.path()], &call[..]].concat());
+    assert_eq!(
+        [&a["derivatives"], &b["derivatives"]],
+        ["integrated", "differences"]
+    );
+    for ((x, e), (y, f)) in estimates(&a).into_iter().zip(estimates(&b)) {
+        // Differences over 1e-3 of a number are exact to about a millionth, and so is where their search ends.
+        assert!(
+            (x - y).abs() < 1e-4 * e && (e - f).abs() < 1e-4 * e,
+            "{a:#} {b:#}"
+        );
+    }
+}
+
+#[test]
+fn friction_of_what_slides_is_fitted() {
+    // A block thrown at 3 m/s stops by μ g: x = v t − μ g t²/2 until t = v/(μ g) = 1.02 s.
+    let spec = "machine Block in plane {
+        parameters { mu: 1 = 0.2 }
+        coordinates { x: m, der(x): m/s = 3 }
+        frames { block = ground.shift(x, 0) }
+        bodies { block { mass: 2, frame: block } }
+        gravity (0, -9.81);
+        sliding { floor { body: block, on: ground, direction: (1, 0), friction: mu } }
+    }";
+    let spec = Scratch::new("block.machine", spec);
+    let data = table("t,x [m]", times(1.5, 30), |t| {
+        let t = t.min(3.0 / (0.3 * 9.81));
+        vec![3.0 * t - 0.15 * 9.81 * t * t]
+    });
+    let result = fit(&[spec.path(), "--data", data.path(), "--fit", "mu"]);
+    assert_eq!(result["derivatives"], "differences");
+    assert!((estimates(&result)[0].0 - 0.3).abs() < 1e-7, "{result:#}");
+}
+
+#[test]
+fn bounds_hold_and_are_named() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let data = table("t,x [m]", times(2.0, 40), |t| {
+        vec![swung(t, [2.0, 30.0, 0.6], [0.1, 0.0]) + 1e-3 * (631.0 * t).sin()]
+    });
+    let call = [spec.path(), "--data", data.path(), "--fit", "k,c"];
+    let held = fit(&[&call[..], &["--bounds", "c=0.1..0.55"]].concat());
+    assert_eq!(held["fitted"][1]["standing"], "bound");
+    assert_eq!(number(&held["fitted"][1]["value"]), 0.55);
+    assert!(
+        held["warnings"][0]
+            .as_str()
+            .expect("text")
+            .contains("`c` stayed at a bound"),
+        "{held}"
+    );
+    // What is left is the fit with it held there.
+    let alone = fit(&[
+        spec.path(),
+        "--data",
+        data.path(),
+        "--fit",
+        "k",
+        "--set",
+        "c=0.55",
+    ]);
+    let (a, b) = (&held["fitted"][0], estimates(&alone)[0]);
+    assert!((number(&a["value"]) - b.0).abs() < 2e-6 * b.1, "{a} {b:?}");
+    // One degree of freedom more or less.
+    assert!(
+        (number(&a["standard_error"]) / b.1 - 1.0).abs() < 1e-6,
+        "{a} {b:?}"
+    );
+    // Bounds that do not matter change nothing.
+    let wide = fit(&[&call[..], &["--bounds", "c=0..", "--bounds", "k=1..1e3"]].concat());
+    let free = fit(&call);
+    for ((x, e), (y, _)) in estimates(&wide).into_iter().zip(estimates(&free)) {
+        assert!((x - y).abs() < 2e-6 * e);
+    }
+}
+
+#[test]
+fn several_searches_leave_a_minimum_that_is_not_the_least() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    // Eight periods: from a stiffness of 10 the phase is off by half of them, and the way is over hills.
+    let data = table("t,x [m]", times(13.0, 130), |t| {
+        vec![swung(t, [2.0, 30.0, 0.1], [0.1, 0.0])]
+    });
+    let call = [
+        spec.path(),
+        "--data",
+        data.path(),
+        "--fit",
+        "k",
+        "--set",
+        "k=9",
+        "--set",
+        "c=0.1",
+        "--bounds",
+        "k=1..100",
+    ];
+    let one = fit(&call);
+    assert!((estimates(&one)[0].0 - 30.0).abs() > 1.0, "{one:#}");
+    let many = fit(&[&call[..], &["--starts", "40"]].concat());
+    assert!((estimates(&many)[0].0 - 30.0).abs() < 1e-5, "{many:#}");
+    assert_eq!(list(&many["searches"]).len(), 40);
+}
+
+#[test]
+fn estimated_deviations_are_those_of_the_residuals() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let data = [
+        "--data",
+        "cli/tests/command/fit/first.csv",
+        "--fit",
+        "k,c,start(x),rate(x)",
+    ];
+    let auto = fit(&[&[spec.path()], &data[..], &["--sigma", "auto"]].concat());
+    let sigma = |place: usize| number(&auto["columns"][place]["sigma"]);
+    // As given they lead to the same estimates, and the sum of squares is the number of degrees of freedom.
+    let given = [format!("x={}", sigma(0)), format!("der(x)={}", sigma(1))];
+    let again = fit(&[
+        &[spec.path()],
+        &data[..],
+        &["--sigma", &given[0], "--sigma", &given[1]],
+    ]
+    .concat());
+    for ((x, e), (y, f)) in estimates(&auto).into_iter().zip(estimates(&again)) {
+        assert!((x - y).abs() < 1e-4 * e && (e / f - 1.0).abs() < 1e-5);
+    }
+    let chi = number(&again["chi_squared"]) / number(&again["degrees_of_freedom"]);
+    assert!((chi - 1.0).abs() < 1e-5, "{chi}");
+    // The noise was made with 3 mm and 2 cm/s: 59 degrees of freedom know it to 1 / √(2·59), here within four of these.
+    assert!((sigma(0) / 0.003 - 1.0).abs() < 4.0 * 0.092, "{}", sigma(0));
+    assert!((sigma(1) / 0.02 - 1.0).abs() < 4.0 * 0.092, "{}", sigma(1));
+}
+
+#[test]
+fn what_was_fitted_comes_back_as_a_spec_a_table_and_a_drawing() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let [out, rows, plot] =
+        ["fitted.machine", "rows.csv", "fit.svg"].map(|name| Scratch::new(name, ""));
+    let result = fit(&[
+        spec.path(),
+        "--data",
+        "cli/tests/command/fit/oscillator.csv",
+        "--fit",
+        "k,c,start(x),rate(x)",
+        "--out",
+        out.path(),
+        "--table",
+        rows.path(),
+        "--plot",
+        plot.path(),
+    ]);
+    // The variant runs as the fit did: its residuals have the sum of squares of the fit.
+    let run = Scratch::new("run.csv", "");
+    let made = lagrangian(&[
+        "simulate",
+        out.path(),
+        "--until",
+        "4",
+        "--every",
+        "0.04",
+        "--out",
+        run.path(),
+    ]);
+    assert!(
+        made.status.success(),
+        "{}",
+        String::from_utf8_lossy(&made.stderr)
+    );
+    let column = |text: &str, name: &str| -> Vec<f64> {
+        let mut lines = text.lines();
+        let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
+        let place = header
+            .iter()
+            .position(|own| *own == name)
+            .unwrap_or_else(|| panic!("{header:?}"));
+        lines
+            .map(|line| {
+                line.split(',')
+                    .nth(place)
+                    .expect("a cell")
+                    .parse()
+                    .unwrap_or(f64::NAN)
+            })
+            .collect()
+    };
+    let read = |file: &Scratch| std::fs::read_to_string(&file.0).expect("text");
+    let simulated = column(&read(&run), "x [m]");
+    let measured =
+        std::fs::read_to_string(root().join("cli/tests/command/fit/oscillator.csv")).expect("data");
+    let measured = column(&measured, "x [m]");
+    let sum: f64 = measured
+        .iter()
+        .zip(&simulated)
+        .filter(|(y, _)| !y.is_nan())
+        .map(|(y, x)| (y - x).powi(2))
+        .sum();
+    assert!((sum / number(&result["chi_squared"]) - 1.0).abs() < 1e-6);
+    // So has the table, a row less for each that measures nothing.
+    let residuals = column(&read(&rows), "residual(x) [m]");
+    let sum: f64 = residuals.iter().map(|r| r * r).sum();
+    assert!((sum / number(&result["chi_squared"]) - 1.0).abs() < 1e-12);
+    assert_eq!(
+        residuals.len(),
+        measured.iter().filter(|y| !y.is_nan()).count()
+    );
+    // A point for each measurement in each of two panels, and the sign in the legend.
+    let drawing = read(&plot);
+    assert_eq!(drawing.matches("<circle").count(), 2 * residuals.len() + 1);
+}
+
+#[test]
+fn an_experiment_may_have_values_and_inputs_of_its_own() {
+    let text = OSCILLATOR.replace(
+        "dampers",
+        "inputs { u: N } forces { push { on: x, value: u } } dampers",
+    );
+    let spec = Scratch::new("driven.machine", &text);
+    // Against a constant push the equilibrium moves: x = u/k + (x0 − u/k) cos …
+    let pushed = |u: f64, m: f64| {
+        move |t: f64| {
+            vec![
+                u / 30.0 + swung(t, [m, 30.0, 0.6], [0.1 - u / 30.0, 0.0]),
+                u,
+            ]
+        }
+    };
+    let light = table("t,x,u", times(2.0, 40), pushed(3.0, 2.0));
+    let heavy = table("t,x,u", times(2.0, 40), pushed(-1.5, 4.0));
+    let [a, b] = [(&light, 2.0), (&heavy, 4.0)]
+        .map(|(file, m)| format!("{0},m={m},start(x)=10*cm,u={0}:u,hold", file.path()));
+    let result = fit(&[spec.path(), "--data", &a, "--data", &b, "--fit", "k,c"]);
+    let found = estimates(&result);
+    assert!(
+        (found[0].0 - 30.0).abs() < 1e-5 && (found[1].0 - 0.6).abs() < 1e-6,
+        "{result:#}"
+    );
+}
+
+#[test]
+fn what_is_wrong_is_said() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let good = Scratch::new("good.csv", "t,x\n0,0.1\n1,0.2\n2,0.1\n");
+    let both = Scratch::new("both.csv", "t,x,der(x)\n0,0.1,1\n1,0.2,1\n2,0.1,1\n");
+    let files = [
+        ("early.csv", "t,x\n-1,0.1\n1,0.2\n", "it begins at t = -1 s"),
+        (
+            "start.csv",
+            "t,x\n0,0.1\n",
+            "nothing is measured after the start",
+        ),
+        (
+            "order.csv",
+            "t,x\n0,0.1\n0,0.2\n",
+            "line 3, column 1: this time is not later",
+        ),
+        (
+            "unit.csv",
+            "t,x [kg]\n0,0.1\n1,0.2\n",
+            "the unit `kg` of `x`",
+        ),
+        (
+            "text.csv",
+            "t,x\n0,0.1\n1,much\n",
+            "line 3, column 3: `much` in `x` is no finite number",
+        ),
+        (
+            "none.csv",
+            "t,y\n0,0.1\n1,0.2\n",
+            "none of its columns y has measurements",
+        ),
+        (
+            "empty.csv",
+            "t,x\n0,\n1,\n",
+            "none of its columns x has measurements",
+        ),
+    ];
+    for (name, text, why) in files {
+        let file = Scratch::new(name, text);
+        let (status, said) = refused(&[spec.path(), "--data", file.path(), "--fit", "k"]);
+        assert_eq!(status, 2, "{name}: {said}");
+        assert!(said.contains(why), "{name}: {said}");
+    }
+    let path = good.path();
+    let double = format!("{path},k=3");
+    for (data, arguments, why) in [
+        (
+            path,
+            &["--fit", "kk"][..],
+            "no parameter named `kk`; did you mean `k`?",
+        ),
+        (path, &["--fit", "x"], "whose start is fitted as start(x)"),
+        (path, &["--fit", "x(start)"], "is fitted as start(x)"),
+        (path, &["--fit", "start(y)"], "no coordinate named `y`"),
+        (path, &["--fit", "k,k"], "names `k` more than once"),
+        (
+            path,
+            &["--fit", "k", "--bounds", "c=0..1"],
+            "--bounds c: nothing of this name is fitted",
+        ),
+        (
+            path,
+            &["--fit", "k", "--bounds", "k=1..2"],
+            "would begin at 25, outside its bounds 1 to 2",
+        ),
+        (
+            path,
+            &["--fit", "k", "--bounds", "k=2..1"],
+            "there is nothing between",
+        ),
+        (
+            path,
+            &["--fit", "k", "--bounds", "k=1*m..2"],
+            "expected N/m, found m",
+        ),
+        (
+            path,
+            &["--fit", "k", "--sigma", "y=1"],
+            "--sigma y: nothing of this name is measured",
+        ),
+        (path, &["--fit", "k", "--sigma", "x=0"], "greater than 0"),
+        (
+            path,
+            &["--fit", "k", "--columns", "y"],
+            "--columns y: no coordinate, rate or output",
+        ),
+        (
+            path,
+            &["--fit", "k", "--columns", "pull"],
+            "no table has measurements of it",
+        ),
+        (
+            path,
+            &["--fit", "k,c,m,start(x)"],
+            "3 measurements cannot tell 4 numbers",
+        ),
+        (path, &["--fit", "k", "--method", "taylor"], "take dop853"),
+        (path, &["--fit", "k", "--data", path], "more than once"),
+        (path, &["--fit", "k", "--out", "x.csv"], "writes `.machine`"),
+        (path, &["--fit", "k", "--table", path], "would overwrite"),
+        (
+            both.path(),
+            &["--fit", "k"],
+            "x [m], der(x) [m/s] have different units",
+        ),
+        (
+            both.path(),
+            &["--fit", "k", "--sigma", "x=1"],
+            "says nothing of der(x)",
+        ),
+        (
+            both.path(),
+            &["--fit", "k", "--sigma", "auto", "--sigma", "x=1"],
+            "no other --sigma",
+        ),
+        (
+            &double,
+            &["--fit", "k"],
+            "`k` is fitted, and has one value by --data",
+        ),
+        ("run.txt", &["--fit", "k"], "expected a table"),
+        ("missing.csv", &["--fit", "k"], "cannot read missing.csv"),
+    ] {
+        let (status, said) = refused(&[&[spec.path(), "--data", data], arguments].concat());
+        assert_eq!(status, 2, "{arguments:?}: {said}");
+        assert!(said.contains(why), "{arguments:?}: {said}");
+    }
+    // A motion that there is not is a matter of the run.
+    let (status, said) = refused(&[
+        spec.path(),
+        "--data",
+        path,
+        "--fit",
+        "k",
+        "--max-steps",
+        "1",
+    ]);
+    assert_eq!(status, 1, "{said}");
+    assert!(
+        said.contains("there is no motion where the search begins"),
+        "{said}"
+    );
+}

@@ -1,0 +1,170 @@
+//! What a minimum says: estimates, how exact they are, and what of them can be told at all.
+//!
+//! With residuals weighted by their standard deviations the estimates' covariance is `(Jᵀ J)⁻¹`, times the variance of unit
+//! weight `|r|² / (m − p)` where these deviations are known up to a factor only (G. A. F. Seber, C. J. Wild, *Nonlinear Regression*,
+//! 1989, section 2.1). Where columns of J depend on each other this inverse exists in the directions only that the residuals
+//! depend on: by singular values of J, its columns scaled to one length so that units play no part.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::least_squares::{Minimum, held};
+
+/// What is known of each number that was fitted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// It has an estimate and a standard error.
+    Told,
+    /// It is at a bound.
+    Bound,
+    /// The residuals do not depend on it.
+    Ineffective,
+    /// The residuals depend on it, but what it does others can do as well.
+    Entangled,
+}
+
+/// What a minimum says of the numbers that were fitted.
+#[derive(Clone, Debug)]
+pub struct Statistics {
+    /// How many measurements there are.
+    pub measurements: usize,
+    /// How many directions the residuals tell.
+    pub told: usize,
+    /// Measurements less these.
+    pub freedom: usize,
+    /// The sum of squares of the weighted residuals.
+    pub chi_squared: f64,
+    /// The variance of unit weight that the residuals show; not a number without degrees of freedom.
+    pub variance: f64,
+    /// For each number what is known of it.
+    pub standing: Vec<Standing>,
+    /// Covariances; those of what is not told are those within the directions that are.
+    pub covariance: DMatrix<f64>,
+    /// The singular values of J with its columns scaled to one length, relative to the greatest.
+    pub singular_values: Vec<f64>,
+    /// Directions that change no residual, among what is entangled: a column for each, a row for each number.
+    pub null: DMatrix<f64>,
+}
+
+impl Statistics {
+    /// The statistics of a minimum. `sizes` are numbers of the size of those that were fitted, `exact` how exact the
+    /// derivatives are as a share, and `is_scaled` says that the weights are known up to a factor only.
+    pub fn of(
+        at: &Minimum,
+        bounds: &[[f64; 2]],
+        sizes: &[f64],
+        exact: f64,
+        is_scaled: bool,
+    ) -> Statistics {
+        let count = at.x.len();
+        let norms: Vec<f64> = at.jacobian.column_iter().map(|c| c.norm()).collect();
+        let effect = |j: usize| norms[j] * sizes[j].abs();
+        let greatest = (0..count).map(effect).fold(0.0, f64::max);
+        let held = held(at, bounds);
+        let mut standing: Vec<Standing> = (0..count)
+            .map(|j| match (held[j], effect(j) > exact * greatest) {
+                (true, _) => Standing::Bound,
+                (_, false) => Standing::Ineffective,
+                _ => Standing::Told,
+            })
+            .collect();
+        let open: Vec<usize> = (0..count)
+            .filter(|j| standing[*j] == Standing::Told)
+            .collect();
+        let scaled = DMatrix::from_fn(at.residuals.len(), open.len(), |i, j| {
+            at.jacobian[(i, open[j])] / norms[open[j]]
+        });
+        let (values, right) = singular(scaled);
+        let largest = values.iter().copied().fold(0.0, f64::max);
+        let (kept, lost): (Vec<usize>, Vec<usize>) =
+            (0..open.len()).partition(|i| values[*i] > exact * largest);
+        let part = |which: &[usize], weigh: &dyn Fn(f64) -> f64| {
+            DMatrix::from_fn(open.len(), which.len(), |j, i| {
+                right[(which[i], j)] * weigh(values[which[i]]) / norms[open[j]]
+            })
+        };
+        let root = part(&kept, &|value| 1.0 / value);
+        let freedom = at.residuals.len().saturating_sub(kept.len());
+        let chi_squared: f64 = at.residuals.iter().map(|r| r * r).sum();
+        let variance = match freedom {
+            0 => f64::NAN,
+            _ => chi_squared / freedom as f64,
+        };
+        let factor = if is_scaled { variance } else { 1.0 };
+        let inner = &root * root.transpose() * factor;
+        let mut covariance = DMatrix::zeros(count, count);
+        for (a, j) in open.iter().enumerate() {
+            for (b, k) in open.iter().enumerate() {
+                covariance[(*j, *k)] = inner[(a, b)];
+            }
+        }
+        let outside = part(&lost, &|_| 1.0);
+        let mut null = DMatrix::zeros(count, lost.len());
+        // A vector of the directions that are lost is known to about the share that derivatives are.
+        let seen = exact.sqrt();
+        for (a, j) in open.iter().enumerate() {
+            let share = outside.row(a).norm() * norms[*j];
+            if share > seen {
+                standing[*j] = Standing::Entangled;
+                for i in 0..lost.len() {
+                    null[(*j, i)] = outside[(a, i)];
+                }
+            }
+        }
+        Statistics {
+            measurements: at.residuals.len(),
+            told: kept.len(),
+            freedom,
+            chi_squared,
+            variance,
+            standing,
+            covariance,
+            singular_values: values.iter().map(|value| value / largest).collect(),
+            null,
+        }
+    }
+
+    /// The standard error of a number; none where it is not told.
+    pub fn standard_error(&self, j: usize) -> Option<f64> {
+        let is_told = self.standing[j] == Standing::Told;
+        is_told.then(|| self.covariance[(j, j)].sqrt())
+    }
+
+    /// The correlation of two numbers; none where one of them is not told.
+    pub fn correlation(&self, j: usize, k: usize) -> Option<f64> {
+        let errors = self.standard_error(j)? * self.standard_error(k)?;
+        Some(match j == k {
+            true => 1.0,
+            false => (self.covariance[(j, k)] / errors).clamp(-1.0, 1.0),
+        })
+    }
+
+    /// The standard error of a function of the numbers with this gradient, which must be one that the residuals tell.
+    pub fn standard_error_of(&self, gradient: &[f64]) -> f64 {
+        let gradient = DVector::from_column_slice(gradient);
+        (gradient.transpose() * &self.covariance * &gradient)[(0, 0)]
+            .max(0.0)
+            .sqrt()
+    }
+}
+
+/// Singular values, and the vectors on the right, a row for each column of the matrix.
+fn singular(matrix: DMatrix<f64>) -> (Vec<f64>, DMatrix<f64>) {
+    let columns = matrix.ncols();
+    if columns == 0 {
+        return (Vec::new(), DMatrix::zeros(0, 0));
+    }
+    // With as many rows as columns at least there is a vector for each column.
+    let square = match matrix.nrows() >= columns {
+        true => matrix.qr().r(),
+        false => {
+            let mut square = DMatrix::zeros(columns, columns);
+            square.rows_mut(0, matrix.nrows()).copy_from(&matrix);
+            square
+        }
+    };
+    let svd = square.svd(false, true);
+    let right = svd
+        .v_t
+        .unwrap_or_else(|| DMatrix::identity(columns, columns));
+    (svd.singular_values.iter().copied().collect(), right)
+}

@@ -1,0 +1,5 @@
+//! Least squares, against certified values and closed forms.
+
+mod combinations;
+mod motion;
+mod nist;
