@@ -2,7 +2,10 @@
 //!
 //! ```sh
 //! cargo bench --bench ensemble
+//! cargo bench --bench ensemble -- --ends FOLDER
 //! ```
+//!
+//! The second runs 256 double pendulums to many tolerances, and writes where they end, for `benches/peers/ensembles.py`.
 
 mod timing;
 
@@ -71,7 +74,57 @@ where
     );
 }
 
+/// Double pendulums from a grid of angles at rest, for 5 s: for each tolerance a line of JSON with the processor's seconds, the best of
+/// nine times, and a file of the ends, θ1, θ2 and their rates for each, as 64-bit numbers in little-endian order.
+fn ends(folder: &str) {
+    const SIDE: u32 = 16;
+    const END: f64 = 5.0;
+    let machine = DoublePendulum::default();
+    let start = Trajectory::of(&machine, END);
+    let trajectories: Vec<_> = (0..SIDE * SIDE)
+        .map(|i| {
+            let mut trajectory = start.clone();
+            let at = |k: u32| 0.1 + 0.9 * f64::from(k) / f64::from(SIDE - 1);
+            trajectory.start.q.theta1 = at(i / SIDE);
+            trajectory.start.q.theta2 = at(i % SIDE);
+            (trajectory.start.v.theta1, trajectory.start.v.theta2) = (0.0, 0.0);
+            trajectory
+        })
+        .collect();
+    for power in 4..=13 {
+        let tolerance = 10_f64.powi(-power);
+        let ensemble = Ensemble::<8>::new()
+            .method(Method::DOP853)
+            .tolerance(tolerance);
+        let mut ends = vec![[f64::NAN; 4]; trajectories.len()];
+        let times = (0..9).map(|_| {
+            let run = || {
+                ensemble.run(trajectories.iter().cloned(), |i, arrived: Result<_, _>| {
+                    if let Ok(lagrangian::Arrival { end, .. }) = arrived {
+                        let (q, v) = (end.q, end.v);
+                        ends[i] = [q.theta1, q.theta2, v.theta1, v.theta2];
+                    }
+                });
+            };
+            timing::seconds(run).0
+        });
+        let seconds = times.fold(f64::INFINITY, f64::min);
+        let file = format!("{folder}/lagrangian-{power}.bin");
+        let bytes: Vec<u8> = ends
+            .iter()
+            .flatten()
+            .flat_map(|x| x.to_le_bytes())
+            .collect();
+        std::fs::write(&file, bytes).expect("the folder takes files");
+        println!("{{\"tolerance\": {tolerance:e}, \"seconds\": {seconds}, \"file\": \"{file}\"}}");
+    }
+}
+
 fn main() {
+    let mut arguments = std::env::args().skip_while(|argument| argument != "--ends");
+    if let Some(folder) = arguments.nth(1) {
+        return ends(&folder);
+    }
     println!("| machine | method | tolerance | one by one | 4 at a time | 8 at a time | gain |");
     println!("| --- | --- | --: | --: | --: | --: | --: |");
     for (method, tolerance) in [(Method::DOP853, 1e-9), (Method::DOPRI5, 1e-5)] {

@@ -91,7 +91,7 @@ class Sweep:
         self._columns = {name: values for name, _, values in columns}
         self.units: Mapping[str, str] = {name: unit for name, unit, _ in columns if unit is not None}
         self.samples: Optional[Dict[str, np.ndarray]] = None
-        """With ``record=every``: long columns ``run``, ``t``, coordinates and rates."""
+        """With ``record="every=…"`` or ``"event=…"``: long columns ``run``, ``t``, coordinates and rates, and ``event``."""
         if samples is not None:
             self.samples = {name: values for name, _, values in samples}
         self._keywords = keywords
@@ -316,7 +316,8 @@ def sweep(
       from a to b, to an array, or to a distribution (:class:`Uniform`, :class:`LogUniform`, :class:`Normal`,
       :class:`Triangular`), of which ``samples`` are drawn by ``design`` (``random``, ``latin``, ``sobol``); or a DataFrame, a
       row a run. Names in ``together`` go side by side and are not crossed.
-    * ``record``: ``"end"``, ``"at=0.5,1"``, ``"every=0.01"``, or several of these.
+    * ``record``: ``"end"``, ``"at=0.5,1"``, ``"every=0.01"``, or several of these; ``"event=NAME,…"`` has samples at every event
+      of these names, from ``after`` on.
     * ``reduce``: a mapping from names to reductions, ``"max(abs(x))"``: ``max``, ``min``, ``range``, ``mean``, ``rms``,
       ``integral``, ``first``, ``last``, ``when_max``, ``when_min`` of an expression, ``count``, ``first``, ``last`` of an event;
       from ``after`` on, in s.
@@ -363,6 +364,7 @@ def sweep(
         watches.append({"name": name, "formula": formula, "ends": bool(getattr(what, "terminal", False))})
     at: List[float] = []
     every: Optional[float] = None
+    at_events: List[str] = []
     for one in [record] if isinstance(record, str) or not isinstance(record, (list, tuple)) else record:
         if one == "end":
             continue
@@ -371,8 +373,10 @@ def sweep(
             at += [float(t) for t in rest.split(",")]
         elif kind == "every":
             every = float(rest)
+        elif kind == "event":
+            at_events += [name.strip() for name in rest.split(",")]
         else:
-            raise ValueError(f"record={one!r}: must be 'end', 'at=0.5,1' or 'every=0.01'")
+            raise ValueError(f"record={one!r}: must be 'end', 'at=0.5,1', 'every=0.01' or 'event=NAME'")
     starts, rates = _by_name(start, machine, "start"), _by_name(rate, machine, "rate")
     plan = {
         "version": 1,
@@ -389,6 +393,7 @@ def sweep(
         "events": watches,
         "at": at,
         "every": every,
+        **({"at_events": at_events} if at_events else {}),
         "reduce": [_reduction(name, text, list(events or {})) for name, text in (reduce or {}).items()],
         "after": after,
         "design": factors,

@@ -1,8 +1,13 @@
 """What the documentation prints is run as it is printed."""
 
+import doctest
+import importlib
+import pkgutil
 import re
 
 import pytest
+
+import lagrangian
 
 from conftest import ROOT
 
@@ -22,3 +27,16 @@ def test_programs_run_as_printed(path, monkeypatch, tmp_path):
     names = {}
     for block in blocks:
         exec(compile(block, str(path), "exec"), names)
+
+
+def test_docstrings_say_what_happens(monkeypatch):
+    monkeypatch.chdir(ROOT)
+    tried = 0
+    for module in pkgutil.iter_modules(lagrangian.__path__, "lagrangian."):
+        if module.name.endswith(("_native", "__main__")):
+            continue
+        found = doctest.testmod(importlib.import_module(module.name), extraglobs={"load": lagrangian.load})
+        assert not found.failed, module.name
+        tried += found.attempted
+    tried += doctest.testmod(lagrangian).attempted
+    assert tried >= 4

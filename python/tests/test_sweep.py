@@ -77,6 +77,7 @@ def test_what_a_sweep_refuses(oscillator):
         ({"vary": {"k": [1, 2]}, "reduce": {"p": "max(y)"}}, lg.SpecError, "`y`"),
         ({"vary": {"k": [1, 2]}, "record": "sometimes"}, ValueError, "record"),
         ({"vary": {"k": [1, 2]}, "engine": "steam"}, ValueError, "engine"),
+        ({"vary": {"k": [1, 2]}, "record": ["every=1", "event=e"], "events": {"e": "x"}}, ValueError, "one kind"),
     ):
         with pytest.raises(error, match=why):
             oscillator.sweep(until=1, **settings)
@@ -97,6 +98,19 @@ def test_inputs_and_samples(oscillator):
     t = sweep.samples["t"]
     closed = np.cos(2 * t) + 0.5 / 3 * (np.sin(t) - 0.5 * np.sin(2 * t))
     np.testing.assert_allclose(sweep.samples["x"], closed, atol=1e-9)
+
+
+def test_samples_at_events(oscillator):
+    sweep = oscillator.sweep(
+        {"start(x)": [0.5, 1.0]}, until=5, events={"zero": "x"}, record="event=zero", after=1.0, tolerance=1e-12
+    )
+    # cos 2t = 0 at (k + 1/2) pi/2: 2.36 and 3.93 s after the first, which comes before 1 s.
+    t = (np.arange(1, 3) + 0.5) * math.pi / 2
+    np.testing.assert_allclose(sweep.samples["t"], np.tile(t, 2), atol=1e-9)
+    assert sweep.samples["run"].tolist() == [0, 0, 1, 1] and set(sweep.samples["event"]) == {"zero"}
+    np.testing.assert_allclose(np.abs(sweep.samples["der(x)"]), [1.0, 1.0, 2.0, 2.0], atol=1e-9)
+    with pytest.raises(ValueError, match="did you mean `zero`"):
+        oscillator.sweep({"k": [1.0]}, until=1, events={"zero": "x"}, record="event=zeros")
 
 
 def test_files(oscillator, tmp_path):

@@ -578,6 +578,29 @@ fn what_makes_no_sense_is_refused_before_the_first_run() {
         (&["--vary", "x=1,2"], "whose start is `start(x)`"),
         (&["--vary", "k=1..2:0"], "a whole number from 1"),
         (&["--vary", "k=-1..2:3:log"], "the same sign"),
+        (
+            &[
+                "--vary", "k=1,2", "--event", "low=x", "--record", "event=lo",
+            ],
+            "did you mean `low`?",
+        ),
+        (
+            &[
+                "--vary",
+                "k=1,2",
+                "--event",
+                "low=x",
+                "--record",
+                "event=low",
+                "--record",
+                "every=0.1",
+            ],
+            "samples are of one kind",
+        ),
+        (
+            &["--vary", "k=1,2", "--record", "event=low,low"],
+            "`low` is there already",
+        ),
         (&["--vary", "k=3*m"], "--vary k=3*m: expected N/m, found m"),
         (&["--vary", "k=1..2"], "--samples N"),
         (
