@@ -354,6 +354,16 @@ fn text(
             width = widths[0]
         );
     }
+    for one in compared {
+        let count = one.difference.count;
+        if count < times.len() {
+            let name = &one.name;
+            let _ = writeln!(
+                text,
+                "{name}: at {count} of these instants both have a value"
+            );
+        }
+    }
     for (k, which) in ["first", "second"].into_iter().enumerate() {
         let between = compared
             .iter()

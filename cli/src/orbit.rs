@@ -578,21 +578,23 @@ fn panes(trace: &Trace, label: &str) -> Vec<Pane> {
             .collect(),
     });
     let periods = found.iter().map(|(value, orbit)| (*value, orbit.period));
-    vec![
-        Pane {
-            along: [label.to_owned(), "modulus".to_owned()],
-            curves: moduli.collect(),
-            are_points: false,
-        },
-        Pane {
+    let mut panes = vec![Pane {
+        along: [label.to_owned(), "modulus".to_owned()],
+        curves: moduli.collect(),
+        are_points: false,
+    }];
+    // Of a machine that is driven it is what was asked for.
+    if found.iter().any(|(_, orbit)| orbit.is_autonomous) {
+        panes.push(Pane {
             along: [label.to_owned(), "period [s]".to_owned()],
             curves: vec![Curve {
                 name: "period".to_owned(),
                 points: periods.collect(),
             }],
             are_points: false,
-        },
-    ]
+        });
+    }
+    panes
 }
 
 fn text_of_trace(trace: &Trace, name: &str, unit: &str) -> String {

@@ -31,7 +31,17 @@ fn keys(value: &Value) -> Vec<&String> {
 
 #[test]
 fn results_have_the_keys_that_the_page_prints() {
-    let [point, evaluated, simulated, modes, model, fastest] = &blocks()[..] else {
+    let [
+        point,
+        evaluated,
+        simulated,
+        modes,
+        model,
+        orbit,
+        compared,
+        fastest,
+    ] = &blocks()[..]
+    else {
         panic!("the page has other blocks of JSON");
     };
     let spec = "machines/double_pendulum.machine";
@@ -62,6 +72,28 @@ fn results_have_the_keys_that_the_page_prints() {
     ] {
         assert_eq!(keys(&found[list][0]), keys(&model[entry][0]));
     }
+
+    let upright = [
+        "orbit",
+        "machines/kapitza_pendulum.machine",
+        "--start",
+        "theta=0",
+    ];
+    let found = printed(&[&upright[..], &["--period", "2*pi/omega", "--json"]].concat());
+    assert_eq!(keys(&found), keys(orbit));
+    assert_eq!(keys(&found["at"]), keys(&orbit["at"]));
+    assert_eq!(
+        keys(&found["multipliers"][0]),
+        keys(&orbit["multipliers"][0])
+    );
+
+    let within = ["--until", "0.1", "--within", "1e-3", "--json"];
+    let found = printed(&[&["compare", spec, spec][..], &within].concat());
+    assert_eq!(keys(&found), keys(compared));
+    assert_eq!(
+        keys(&found["quantities"][0]),
+        keys(&compared["quantities"][0])
+    );
 
     let prisms = ["brachistochrone", "machines/prisms.machine"];
     let to = ["--natural", "--to", "q1=12,q2=6", "--json"];
