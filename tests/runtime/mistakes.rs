@@ -174,6 +174,69 @@ fn a_singular_mass_matrix_names_coordinate_and_time() {
     assert!((t - 0.5).abs() < 1e-12, "{t}");
 }
 
+/// What stops a run is told by the names of the machine, as mechanics calls it, and with what can be done.
+#[test]
+fn singular_equations_are_told_with_what_to_do() {
+    let singular = |ratio: f64| Error::SingularMassMatrix {
+        coordinate: "phi".into(),
+        ratio,
+        t: 0.5,
+    };
+    let dependent = Error::DependentConstraint {
+        constraint: "rod".into(),
+        ratio: 3e-17,
+        t: 0.5,
+    };
+    let fork = Error::Fork {
+        constraint: "rod".into(),
+        left: 0.0,
+        t: 0.5,
+    };
+    let contradicting = Error::InconsistentConstraints {
+        constraint: "rod".into(),
+        with: vec!["wall".into()],
+        residual: 0.25,
+        t: 0.5,
+    };
+    for (error, needed) in [
+        (
+            singular(3e-17),
+            ["`phi` has no kinetic energy", "moment of inertia"],
+        ),
+        (
+            singular(0.0),
+            ["`phi` has no kinetic energy", "moment of inertia"],
+        ),
+        // A negative pivot of a negative element, and of a positive one.
+        (
+            singular(1.0),
+            ["`phi` has negative kinetic energy", "moments of inertia"],
+        ),
+        (
+            singular(-0.5),
+            ["`phi` has negative kinetic energy", "moments of inertia"],
+        ),
+        (
+            dependent,
+            ["`rod` comes to depend on others", "Leave out a constraint"],
+        ),
+        (
+            fork,
+            ["`rod` comes to depend on the others", "with rates along"],
+        ),
+        (
+            contradicting,
+            ["`rod` contradicts `wall`", "residual is 2.5e-1"],
+        ),
+    ] {
+        let text = error.to_string();
+        assert!(text.contains("t = 0.5 s"), "{text}");
+        for needed in needed {
+            assert!(text.contains(needed), "{text}");
+        }
+    }
+}
+
 #[test]
 fn a_machine_whose_mass_vanishes_is_singular() {
     let machine = DoublePendulum {
