@@ -2,7 +2,7 @@
 
 //! The machine library as Rust, derived from `machines/` and usable without the macro.
 //!
-//! Beside each module, in `programs/`, stands the plain text of its arithmetic, for review.
+//! `programs/` has the arithmetic of some of them as plain text, for review, and hashes of all.
 #![no_std]
 
 /// The machine of [`AndrewsSqueezer`].
