@@ -162,6 +162,7 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
     let count = usize::try_from(call.starts.min(MOST_SEARCHES)).unwrap_or(1);
     let searched = search(&mut fit, count, sigmas).map_err(|failed| match failed {
         Failed::NoStart(why) => {
+            let why = why.replace("`max_steps`", "--max-steps");
             Failure::Run(format!("there is no motion where the search begins: {why}"))
         }
         Failed::Unsettled => {

@@ -10,6 +10,7 @@
 from . import errors
 from ._command import Brachistochrone, Campbell, Check, Published
 from ._equations import Equations, Program
+from ._fit import Combination, Fit
 from ._linear import Linear, Mode, Modes
 from ._machine import Evaluation, Machine, load, loads
 from ._named import Named, State
@@ -44,12 +45,14 @@ __all__ = [
     "Brachistochrone",
     "Campbell",
     "Check",
+    "Combination",
     "Diagnostic",
     "Energy",
     "Equations",
     "Evaluation",
     "Event",
     "ExportError",
+    "Fit",
     "LagrangianError",
     "Linear",
     "LogUniform",

@@ -10,7 +10,7 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
-from . import _batch, _command, _linear, _native, _orbit, _sensitive, _simulate, _sweep, _sympy
+from . import _batch, _command, _fit, _linear, _native, _orbit, _sensitive, _simulate, _sweep, _sympy
 from ._equations import Equations, Program
 from ._named import Named, State
 from .errors import Diagnostic, SingularError, unknown
@@ -406,6 +406,7 @@ class Machine(_native.Machine):
     check = _command.check
     campbell = _command.campbell
     brachistochrone = _command.brachistochrone
+    fit = _fit.fit
     orbit = _orbit.orbit
     sympy = _sympy.symbolic
     sensitivities = _sensitive.sensitivities

@@ -324,7 +324,7 @@ pub fn measure(
                 values,
             });
         }
-        check_times(one, experiment, &names, &known)?;
+        check_times(one, experiment, &names, (&known[..], &asked[..]))?;
         if !unused.is_empty() {
             let near = unused.iter().find_map(|name| {
                 let near = nearest(name, known.iter().map(|class| class.name.as_str()))?;
@@ -352,9 +352,16 @@ fn check_times(
     given: &Given,
     experiment: &mut Experiment,
     names: &[String],
-    known: &[Class],
+    (known, asked): (&[Class], &[String]),
 ) -> Result<(), Failure> {
     let label = &given.label;
+    if experiment.columns.is_empty() && !asked.is_empty() {
+        return Err(Failure::Call(format!(
+            "--data {label}: it has no measurements of {}; its columns are {}",
+            asked.join(", "),
+            names.join(", ")
+        )));
+    }
     if experiment.columns.is_empty() {
         let shown: Vec<&str> = known
             .iter()

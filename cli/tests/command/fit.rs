@@ -754,7 +754,7 @@ fn what_is_wrong_is_said() {
         (
             path,
             &["--fit", "k", "--columns", "pull"],
-            "no table has measurements of it",
+            "it has no measurements of pull; its columns are x",
         ),
         (
             path,
