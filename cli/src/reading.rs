@@ -199,7 +199,7 @@ impl Reading {
         let names = files.map(|index| self.sources.name(SourceId(index)));
         let is_file = |name: &&str| *name != "the unit" && !name.starts_with("--");
         let bases = names.filter(|name| **name != self.name).filter(is_file);
-        let bases = bases.map(|name| (Path::new(name), "which the spec extends"));
+        let bases = bases.map(|name| (Path::new(name), read_as(Path::new(name))));
         let read: Vec<_> = std::iter::once(spec).chain(bases).collect();
         keep_apart(destinations, &read)
     }
@@ -384,4 +384,12 @@ fn unknown_name(what: &str, unknown: &UnknownName, other: Option<&str>) -> Failu
         (None, None) => format!("there are: {}", unknown.known.join(", ")),
     };
     Failure::Call(format!("no {what} named `{name}`; {help}"))
+}
+
+/// What a file is that a spec is made from.
+pub fn read_as(file: &Path) -> &'static str {
+    match file.extension().is_some_and(|ending| ending == "machine") {
+        true => "which the spec extends",
+        false => "which the spec reads",
+    }
 }

@@ -304,7 +304,7 @@ fn keep_from<'a>(
 ) -> Result<(), Failure> {
     let bases = plan.spec.files.iter().map(|file| Path::new(&file.name));
     let mut read: Vec<(&Path, &str)> = vec![(&call.spec.path, "the spec")];
-    read.extend(bases.map(|path| (path, "which the spec extends")));
+    read.extend(bases.map(|path| (path, reading::read_as(path))));
     read.extend(
         call.table
             .iter()

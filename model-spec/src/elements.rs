@@ -19,6 +19,7 @@ mod gravity;
 mod potential;
 mod rolling;
 mod rope;
+mod rotor;
 mod sliding;
 mod spring;
 mod stop;
@@ -40,6 +41,7 @@ use crate::token::Token;
 
 /// The sections of elements, in the order in which their items are worked out and listed.
 const ROWS: &[Row] = &[
+    rotor::ROW,
     spring::ROW,
     torsion_spring::ROW,
     gravity::ROW,

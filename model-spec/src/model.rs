@@ -77,7 +77,7 @@ pub struct Model<'d> {
     pub poses: Vec<Pose<'d>>,
     /// Named frames of reference.
     pub frames: Vec<Frame>,
-    /// Rigid bodies and particles.
+    /// Rigid bodies and particles, and behind them what `rotors` says: bodies without mass that turn by an angle.
     pub bodies: Vec<Body<'d>>,
     /// Whatever contributes to the equations beside the inertia of the bodies: springs, gravity, forces,
     /// constraints, section by section.

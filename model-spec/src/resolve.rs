@@ -12,6 +12,7 @@
 //! | [`names`] | what is declared under a name, and the members of families |
 //! | [`work`] | in which order |
 //! | [`expression`] | the value and the unit of an expression |
+//! | [`tables`] | functions that tables give |
 //! | [`frames`] | frames and points |
 //! | [`motion`] | angular velocities of frames, velocities of points fixed to them |
 //! | [`fields`] | the fields of records |
@@ -52,6 +53,7 @@ mod published;
 mod rates;
 mod relaxation;
 mod stages;
+mod tables;
 mod text;
 pub(crate) mod value;
 mod warnings;
@@ -68,7 +70,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::diagnostic::{Code, Diagnostic, Report, nearest};
 use crate::model::bounds::Bound;
-use crate::model::{Model, Pose, PoseId, Space, Variable, stage};
+use crate::model::{Assumption, Body, Model, Pose, PoseId, Space, Variable, stage};
 use crate::source::{Files, Sources, Span};
 use crate::syntax::{self, Item, Quantity, SectionKind, Spec};
 
@@ -78,6 +80,7 @@ use layers::Layers;
 use names::{Declaration, Group, Member, Namespace};
 use outlines::Outline;
 use relaxation::Guide;
+use tables::Tables;
 use value::MemberId;
 use work::Need;
 
@@ -126,12 +129,15 @@ pub(crate) fn resolve<'d>(
     if !formulas.is_empty() {
         formulas::add(formulas, &mut layers.specs, sources);
     }
-    let resolver = Resolver::new(&layers, language, dag, constants, report);
+    let tables = Tables::load(&layers.specs, files, sources);
+    let mut resolver = Resolver::new(&layers, language, dag, constants, report);
+    resolver.tables = Some(&tables);
     let mut model = resolver.resolve(&layers.specs)?;
     if !model.sliding().is_empty() {
         // What is wrong has been said.
         let mut unread = Report::new();
         let mut resolver = Resolver::new(&layers, language, dag, constants, &mut unread);
+        resolver.tables = Some(&tables);
         resolver.guides = relaxation::guides(&model);
         resolver.time = model.time;
         resolver.symbols = relaxation::symbols(&model);
@@ -176,6 +182,13 @@ pub(crate) struct Resolver<'a, 'd, 'r> {
     guides: Vec<Guide<'d>>,
     /// The symbols that are to be used again, by name.
     symbols: FxHashMap<String, Expr<'d>>,
+
+    /// What turns and has no place, behind all bodies.
+    rotors: Vec<Body<'d>>,
+    /// The tables of the spec, where it is read with its files.
+    tables: Option<&'r Tables>,
+    /// That tables are not asked for what is beyond their ends.
+    table_facts: Vec<Assumption<'d>>,
 
     /// The groups of which a member is used.
     used: FxHashSet<usize>,
@@ -222,6 +235,9 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             pose_of: FxHashMap::default(),
             guides: Vec::new(),
             symbols: FxHashMap::default(),
+            rotors: Vec::new(),
+            tables: None,
+            table_facts: Vec::new(),
             used: FxHashSet::default(),
             bounds: Vec::new(),
             steps: 0,
@@ -252,12 +268,13 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             None::<()>
         });
         let frames = self.each(Frames, Self::named_frame);
-        let bodies = self.each(Bodies, Self::body);
+        let mut bodies = self.each(Bodies, Self::body);
         self.outlines = bodies.iter().enumerate().filter_map(Outline::of).collect();
-        let assumptions = self.assumptions(layers);
+        let mut assumptions = self.assumptions(layers);
         let facts = assumptions.iter().map(|fact| fact.excess);
         self.facts = facts.map(|fact| (fact, fact.symbols())).collect();
         let elements = self.elements(layers);
+        bodies.append(&mut self.rotors);
         let circles = self.each(Circles, Self::circle);
         let contacts = self.each(Contacts, Self::contacts);
         let contacts = contacts.into_iter().flatten().collect();
@@ -273,6 +290,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         let published = self.published(layers);
 
         coordinates.extend(self.relaxed_coordinates());
+        assumptions.append(&mut self.table_facts);
 
         let bounds = self.check_bounds(&assumptions, &parameters);
         self.check_not_empty(machine);
@@ -362,6 +380,11 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
                 self.ordinals.insert(member, ordinal);
             }
         }
+    }
+
+    /// Adds what turns and has no place.
+    pub(crate) fn add_rotor(&mut self, rotor: Body<'d>) {
+        self.rotors.push(rotor);
     }
 
     /// Which one of its section a member is.

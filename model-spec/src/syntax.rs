@@ -19,7 +19,7 @@
 //!             | "coordinates" "{" list("der" "(" declared ")" ":" unit "=" expression) "}"
 //! values      = ("define" | "frames") "{" list(declared "=" expression) "}"
 //!             | ("potentials" | "dissipations") "{" list(declared ":" expression) "}"
-//! records     = ("bodies" | "springs" | "torsion_springs" | "dampers" | "bushings" | "stops"
+//! records     = ("bodies" | "rotors" | "springs" | "torsion_springs" | "dampers" | "bushings" | "stops"
 //!               | "forces" | "torques" | "actuators" | "drag" | "transmissions" | "ropes"
 //!               | "wheels" | "sliding" | "circles" | "rolling" | "contacts") "{" list(declared record) "}"
 //! record      = "{" list(NAME ":" expression) "}"
@@ -50,7 +50,7 @@
 //! power       = chain ["^" signed]
 //! chain       = operand {"." NAME ["(" list(expression) ")"]}
 //! operand     = NUMBER | NAME ["[" expression "]"] | NAME "(" list(expression) ")"
-//!             | "(" list(expression) ")"
+//!             | "(" list(expression) ")" | "table" "(" TEXT "," expression ["," "hold"] ")"
 //!
 //! unit        = factor {("*" | "/") factor}
 //! factor      = ("1" | NAME | "(" unit ")") ["^" ["-"] NUMBER]

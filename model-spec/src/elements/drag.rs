@@ -8,9 +8,12 @@
 //!
 //! L. D. Landau and E. M. Lifshitz, *Fluid Mechanics*, 2nd ed. 1987, § 45.
 
-use lagrangian_symbolic::Expr;
+use std::collections::BTreeSet;
+
+use lagrangian_symbolic::{Expr, Symbol};
 
 use super::force::FORCE;
+use crate::identity;
 use crate::model::bounds::BoundKind;
 use crate::model::element::{Contribution, Load};
 use crate::model::stage;
@@ -74,13 +77,37 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         let rate = resolver.rate(x, span)?;
         velocity.push(wind.as_ref().map_or(rate, |wind| rate - wind[k]));
     }
-    product.push(resolver.length(&velocity));
+    product.push(speed(resolver, &velocity));
     let factor = -resolver.dag.product(product) / 2;
     let force = velocity.into_iter().map(|w| factor * w).collect();
     Some(Resolved::of([Contribution::Load(Load::Point {
         at,
         force,
     })]))
+}
+
+/// The length of a velocity. Of what one rate alone moves it is the size of that rate times a length that
+/// does not vanish with it, so that the force has a derivative at rest too.
+fn speed<'d>(resolver: &Resolver<'_, 'd, '_>, velocity: &[Expr<'d>]) -> Expr<'d> {
+    let whole = || resolver.length(velocity);
+    let is_rate = |&symbol: &Symbol| resolver.dag.stage_of(symbol) == stage::VELOCITY;
+    let rates: BTreeSet<Symbol> = velocity
+        .iter()
+        .flat_map(|w| w.symbols())
+        .filter(is_rate)
+        .collect();
+    let [rate] = rates.iter().copied().collect::<Vec<_>>()[..] else {
+        return whole();
+    };
+    let slopes: Vec<Expr<'d>> = velocity.iter().map(|w| w.diff(rate)).collect();
+    let rate = resolver.dag.expr_of(rate);
+    let is_all = velocity.iter().zip(&slopes).all(|(&w, &slope)| {
+        slope.stage() < stage::VELOCITY && identity::equal(w, slope * rate) == Some(true)
+    });
+    match is_all {
+        true => rate.abs() * resolver.distance(&slopes),
+        false => whole(),
+    }
 }
 
 fn of_factor<'a, 'd>(

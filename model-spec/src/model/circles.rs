@@ -61,6 +61,8 @@ pub fn body_axes<'d>(model: &Model<'d>, body: &Body<'d>) -> Option<Vec<Vec<Expr<
     match body.rotation {
         Rotation::Frame(pose) => Some(model.poses[pose.index()].axes.clone()),
         Rotation::Unspecified => None,
+        // A rotor in space has no axes.
+        Rotation::Angle(_) if body.at.len() == 3 => None,
         Rotation::Angle(angle) => {
             let (sin, cos) = (angle.sin(), angle.cos());
             Some(vec![vec![cos, sin], vec![-sin, cos]])

@@ -23,7 +23,7 @@ use crate::unit::{Measure, Unit};
 const LARGEST_EXPONENT: i64 = 64;
 
 /// Functions of vectors, and those that the language knows besides [`Function`].
-const VECTOR_FUNCTIONS: [&str; 6] = ["dot", "cross", "norm", "direction", "polar", "der"];
+const VECTOR_FUNCTIONS: [&str; 7] = ["dot", "cross", "norm", "direction", "polar", "der", "table"];
 
 impl<'a, 'd> Resolver<'a, 'd, '_> {
     /// What an expression is worth.
@@ -44,6 +44,11 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             ExpressionKind::Call(call) => self.call(call, span, scope.hinting(None)),
             ExpressionKind::Chain(chain) => self.chain(chain, span, scope.hinting(None)),
             ExpressionKind::Tuple(components) => self.tuple(components, span, scope),
+            ExpressionKind::Text(_) => {
+                let message = "a file stands only in `table(\"…\", x)`";
+                self.error(Code::WrongKind, span, message);
+                Value::Unknown
+            }
             ExpressionKind::Error => Value::Unknown,
         }
     }
@@ -151,7 +156,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// A finished number, or the error that it has none.
-    fn finish(
+    pub(super) fn finish(
         &mut self,
         expr: Expr<'d>,
         unit: Option<Unit>,
@@ -687,6 +692,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     fn call(&mut self, call: &'a Call, span: Span, scope: Scope<'a>) -> Value<'d> {
         let arguments = &call.arguments;
         let word = call.function.text.as_str();
+        if word == "table" {
+            return self.table(arguments, span, scope);
+        }
         // `pow` is what the algebra calls the operator `^`.
         let scalar_function = Function::ALL
             .into_iter()

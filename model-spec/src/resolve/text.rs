@@ -117,6 +117,10 @@ impl Writer<'_, '_> {
                 }
             }
             ExpressionKind::Tuple(components) => self.list(components),
+            ExpressionKind::Text(text) => {
+                // Writing to a String cannot fail.
+                let _ = write!(self.text, "\"{text}\"");
+            }
             ExpressionKind::Error => self.text.push('…'),
         }
     }

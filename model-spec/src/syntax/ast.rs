@@ -74,6 +74,8 @@ pub struct Spec {
     pub published: Vec<Published>,
     /// `remove section.name;`
     pub remove: Vec<Remove>,
+    /// The files that stand in `table("…", x)`, with their columns where these are said.
+    pub tables: Vec<Spanned<String>>,
 
     /// True where something had to be skipped that may have declared names: then a name that is
     /// declared nowhere is no mistake of its own.
@@ -630,6 +632,8 @@ pub enum ExpressionKind {
     Chain(Chain),
     /// `(a, b)`: a vector, two components or more.
     Tuple(Vec<Expression>),
+    /// `"torque.csv"`: the file of a table.
+    Text(String),
     /// Something that could not be read, and was reported.
     Error,
 }

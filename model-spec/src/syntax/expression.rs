@@ -151,6 +151,18 @@ impl Parser<'_> {
                     span: start,
                 }
             }
+            Some(TokenKind::Text) if self.is_file_of_table() => {
+                let text = self.peek().map_or("", |word| word.text).to_owned();
+                self.at += 1;
+                self.texts.push(Spanned {
+                    value: text.clone(),
+                    span: start,
+                });
+                Expression {
+                    kind: ExpressionKind::Text(text),
+                    span: start,
+                }
+            }
             Some(TokenKind::Ident) => self.name_or_call(start),
             Some(TokenKind::Open(Delimiter::Parenthesis)) => self.in_brackets(start),
             other => {
@@ -158,6 +170,16 @@ impl Parser<'_> {
                 self.error(start)
             }
         }
+    }
+
+    /// Whether the next word is the first argument of a `table`.
+    fn is_file_of_table(&self) -> bool {
+        let before = |back: usize| {
+            let at = self.at.checked_sub(back)?;
+            self.words.get(at)
+        };
+        before(1).is_some_and(|word| word.kind == TokenKind::Open(Delimiter::Parenthesis))
+            && before(2).is_some_and(|word| word.kind == TokenKind::Ident && word.text == "table")
     }
 
     /// `theta`, `q[i-1]`, `polar(s1, phi1)`

@@ -23,6 +23,7 @@ impl Spec {
         let mut parser = Parser::new(tokens, source, sections, report);
         let mut spec = parser.source();
         spec.incomplete |= parser.skipped_names;
+        spec.tables = std::mem::take(&mut parser.texts);
         spec
     }
 }
@@ -58,6 +59,8 @@ pub(super) struct Parser<'t> {
     pub(super) quiet: usize,
     /// True once something was skipped that may have declared a name.
     pub(super) skipped_names: bool,
+    /// The files of tables.
+    pub(super) texts: Vec<Spanned<String>>,
     pub(super) report: &'t mut Report,
 }
 
@@ -90,6 +93,7 @@ impl<'t> Parser<'t> {
             failed: false,
             quiet: 0,
             skipped_names: false,
+            texts: Vec::new(),
             report,
         }
     }

@@ -26,6 +26,11 @@ fn files() -> InMemory {
             "broken.machine",
             "machine Broken in plane { parameters { m kg } }",
         )
+        .with(
+            "motor.csv",
+            "speed [rpm], torque [N*m], current [A], force [N]\n0, 2, 1, 0\n1500, 0, 3, 1\n",
+        )
+        .with("broken.csv", "x, y\n1, 2\n2, two\n")
         .with("self.machine", variant("Itself", "self.machine"))
         .with("there.machine", variant("There", "back.machine"))
         .with("back.machine", variant("Back", "there.machine"));

@@ -93,6 +93,7 @@ fn bracketed(expression: &Expression) -> String {
             bracketed(&chain.root) + &chain.links.iter().map(link).collect::<String>()
         }
         ExpressionKind::Tuple(values) => format!("<{}>", list(values)),
+        ExpressionKind::Text(text) => format!("{text:?}"),
         ExpressionKind::Error => "error".to_owned(),
     }
 }

@@ -1,8 +1,12 @@
 //! Parts that machines are made of, against equations typed in by hand and against the same written out.
 
-use lagrangian_mechanics::constraints;
+use lagrangian_mechanics::{Compiled, constraints};
+use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::identity;
-use lagrangian_symbolic::{evaluate, nearest};
+use lagrangian_spec::model::Model;
+use lagrangian_spec::model::element::Load;
+use lagrangian_spec::source::{InMemory, Sources};
+use lagrangian_symbolic::{Dag, evaluate, nearest};
 
 use crate::by_hand::{assert_agreement, mutate};
 use crate::harness::{derived, resolved};
@@ -356,4 +360,206 @@ fn wheels_and_balls_do_not_slip() {
          by_hand_marble_y: (der(p) + r*(der(b)*cos(a) + der(c)*sin(b)*sin(a)) - der(plate)*o)*cos(plate)
             - (der(o) - r*(der(b)*sin(a) - der(c)*sin(b)*cos(a)) + der(plate)*p)*sin(plate) = 0,",
     );
+}
+
+/// A motor on an arm, behind a gear; and on a slide, as mass.
+const GEARED: &str = r#"
+machine Geared in space {
+    parameters { A: kg*m^2 = 0.2, m: kg = 2, n: 1 = 50, Jm: kg*m^2 = 1e-4, mm: kg = 0.3, k: N/m = 4 }
+    coordinates { phi: rad = 0.3, psi: rad = 0.2, s: m = 0.1 }
+    frames { arm = ground.turn(x, phi), hand = arm.turn(z, psi) }
+    bodies { hand { mass: m, inertia: (A, A, 2*A), frame: hand }, slide { mass: m, at: (0, s, 0) } }
+    gravity none;
+    rotors {
+        motor { inertia: Jm, angle: n*phi },
+        // On the arm, it turns with both.
+        wrist { inertia: Jm, angle: n*psi - phi },
+        screw { inertia: mm, angle: s },
+    }
+    springs { spring { stiffness: k, stretch: s } }
+    published "by hand" {
+        kinetic_energy = 1/2*A*der(phi)^2 + A*der(psi)^2 + 1/2*m*der(s)^2 + 1/2*Jm*n^2*der(phi)^2
+            + 1/2*Jm*(n*der(psi) - der(phi))^2 + 1/2*mm*der(s)^2,
+        equation phi: (A + Jm*n^2 + Jm)*der(der(phi)) - n*Jm*der(der(psi)) = 0,
+        equation psi: (2*A + Jm*n^2)*der(der(psi)) - n*Jm*der(der(phi)) = 0,
+        equation s: (m + mm)*der(der(s)) + k*s = 0,
+    }
+}
+"#;
+
+#[test]
+fn rotors_are_what_is_typed_by_hand() {
+    assert_agreement(GEARED, 4);
+    let (made, survivors) = mutate(GEARED);
+    assert!(survivors.is_empty(), "not found: {survivors:?}");
+    assert!(made >= 15, "{made} mutants");
+}
+
+/// In the plane a rotor is a body that does not move from its place.
+#[test]
+fn a_rotor_is_a_wheel_that_stays_where_it_is() {
+    let machine = |rotor: &str| {
+        format!(
+            "machine Winch in plane {{
+                parameters {{ m: kg = 3, J: kg*m^2 = 2, r: m = 0.1 }}
+                coordinates {{ y: m, phi: rad }}
+                bodies {{ load {{ mass: m, at: (0, y) }} {rotor} }}
+                gravity (0, -9.81);
+                springs {{ rope {{ stiffness: 1000, stretch: y - r*phi }} }}
+            }}"
+        )
+    };
+    let shown = |rotor: &str| {
+        derived(&machine(rotor), |_, equations| {
+            let (matrix, forces) = (&equations.mass_matrix, &equations.forces);
+            let entries = (0..2).flat_map(|i| (0..2).map(move |j| matrix.get(i, j).to_string()));
+            let forces = forces.iter().map(|force| force.to_string());
+            entries.chain(forces).collect::<Vec<_>>()
+        })
+    };
+    assert_eq!(
+        shown("} rotors { drum { inertia: J, angle: phi + y/r }"),
+        shown(", drum { mass: 5, inertia: J, at: (1, 2), angle: phi + y/r }"),
+    );
+}
+
+/// Rows that go up, stay and come down, unevenly; a row at which the slope changes its sign.
+const ROWS: [[f64; 2]; 7] = [
+    [-2.0, 1.0],
+    [-0.5, 1.5],
+    [0.0, 4.0],
+    [1.0, 4.0],
+    [3.25, 2.5],
+    [4.0, 3.0],
+    [6.0, -1.0],
+];
+
+/// Value and slope between these rows: `scipy.interpolate.PchipInterpolator(x, y)(at)` and its
+/// `derivative()(at)`, of SciPy 1.17.1.
+const BY_SCIPY: [[f64; 3]; 13] = [
+    [-2.0, 1.0, 0.0],
+    [-1.75, 1.0116305329719963, 0.09485094850948506],
+    [-0.75, 1.3359304426377596, 0.5826558265582655],
+    [-0.5, 1.5, 0.7317073170731708],
+    [-0.125, 3.626524390243902, 5.3963414634146325],
+    [0.5, 4.0, 0.0],
+    [1.0, 4.0, 0.0],
+    [2.0, 3.374485596707819, -0.9876543209876543],
+    [3.5, 2.6296296296296293, 0.8888888888888888],
+    [3.75, 2.8703703703703702, 0.8888888888888888],
+    [4.5, 2.7443181818181817, -1.018939393939394],
+    [5.875, -0.5222833806818182, -3.703835227272727],
+    [6.0, -1.0, -3.9393939393939394],
+];
+
+/// A disc that a motor drives, by a table; and what the table says at any place.
+const BY_TABLE: &str = r#"
+machine ByTable in plane {
+    parameters { J: kg*m^2 = 0.1 }
+    coordinates { phi: rad, x: 1, y: m }
+    bodies { disc { mass: 1, inertia: J, at: (0, 0), angle: phi }, point { mass: 1, at: (x*one, y) } }
+    constants { one: m = 1 }
+    torques { motor { on: disc, torque: table("motor.csv:torque", der(phi)) } }
+    outputs {
+        value: 1 = table("rows.csv", x),
+        slope: 1/s = der(table("rows.csv", x)),
+        held: 1 = table("rows.csv", x, hold),
+    }
+}
+"#;
+
+fn by_table<R>(look: impl for<'d> FnOnce(&Model<'d>) -> R) -> R {
+    let rows = ROWS.map(|[x, y]| format!("{x}, {y}\n")).concat();
+    // A straight line from 2 N m at rest to nothing at 1200 rpm, of which a row lies on it.
+    let motor = "speed [rpm]; current [A]; torque [N*mm]\n-600; 0; 3000\n0; 0; 2000\n1200; 1; 0\n";
+    let mut files = InMemory::new()
+        .with("rows.csv", format!("x, y\n{rows}"))
+        .with("motor.csv", motor);
+    let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
+    let (name, constants) = ("test.machine", &[]);
+    let model = lagrangian_spec::model(
+        &dag,
+        name,
+        BY_TABLE,
+        constants,
+        &mut files,
+        &mut sources,
+        &mut report,
+    );
+    look(&model.unwrap_or_else(|| panic!("{}", report.render_short(&sources))))
+}
+
+fn outputs_at(model: &Model<'_>, at: f64) -> Vec<f64> {
+    let x = &model.coordinates[1];
+    let outputs: Vec<_> = model.outputs.iter().map(|output| output.value).collect();
+    evaluate(model.dag, &outputs, |symbol| match () {
+        () if Some(symbol) == x.q.as_symbol() => at,
+        () if Some(symbol) == x.v.as_symbol() => 1.0,
+        () => 0.0,
+    })
+}
+
+#[test]
+fn a_table_is_the_monotone_cubic_of_scipy() {
+    // Seven pieces of ten operations each, of numbers below 6.
+    let tolerance = 7.0 * 10.0 * 6.0 * f64::EPSILON;
+    by_table(|model| {
+        for [at, value, slope] in BY_SCIPY {
+            let found = outputs_at(model, at);
+            assert!((found[0] - value).abs() < tolerance, "{at}: {found:?}");
+            assert!((found[1] - slope).abs() < tolerance, "{at}: {found:?}");
+            assert!((found[2] - value).abs() < tolerance, "{at}: {found:?}");
+        }
+        // Beyond its ends it keeps what it had there.
+        assert!((outputs_at(model, -3.0)[2] - 1.0).abs() < tolerance);
+        assert!((outputs_at(model, 60.0)[2] + 1.0).abs() < tolerance);
+    });
+}
+
+#[test]
+fn a_table_is_in_the_units_of_its_file_and_ends_where_that_ends() {
+    by_table(|model| {
+        let texts: Vec<_> = model
+            .assumptions
+            .iter()
+            .map(|fact| fact.text.as_str())
+            .collect();
+        assert_eq!(
+            texts,
+            [
+                "der(phi) >= -600 rpm, the end of motor.csv",
+                "der(phi) <= 1200 rpm, the end of motor.csv",
+                "x >= -2, the end of rows.csv",
+                "x <= 6, the end of rows.csv",
+            ]
+        );
+        let torque = model.loads().find_map(|load| match load {
+            Load::Torque { torque, .. } => Some(torque[0]),
+            _ => None,
+        });
+        let torque = torque.expect("a torque");
+        let rate = model.coordinates[0].v.as_symbol();
+        for speed in [-50.0, 0.0, 10.0, 125.0] {
+            let found = evaluate(model.dag, &[torque], |symbol| match Some(symbol) == rate {
+                true => speed,
+                false => 0.0,
+            });
+            let full = 1200.0 * std::f64::consts::TAU / 60.0;
+            // Three pieces of ten operations each, of some N m.
+            let tolerance = 3.0 * 10.0 * 4.0 * f64::EPSILON;
+            assert!(
+                (found[0] - 2.0 * (1.0 - speed / full)).abs() < tolerance,
+                "{speed}: {found:?}"
+            );
+        }
+    });
+}
+
+#[test]
+fn a_machine_with_a_table_is_proved() {
+    by_table(|model| {
+        let mut report = Report::new();
+        let compiled = Compiled::new(model.clone(), &mut report);
+        assert!(compiled.is_some(), "{:?}", report.diagnostics());
+    });
 }
