@@ -1,6 +1,6 @@
 //! Measured against computed: for each quantity the motion with its measurements, and below it the residuals.
 
-use lagrangian_fit::motion::{Experiment, Fit, Running};
+use lagrangian_fit::motion::{Experiment, Fit};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -99,9 +99,7 @@ fn densely(fit: &Fit<'_>, e: usize, x: &[f64]) -> Result<Vec<(f64, Vec<f64>)>, F
         experiments,
         sought: sought.collect(),
         sigmas: fit.sigmas.clone(),
-        running: Running {
-            ..fit.running.clone()
-        },
+        running: fit.running.clone(),
         refusal: fit.refusal,
         runs: [0, 0],
     };

@@ -74,15 +74,12 @@ pub fn warnings(result: &Fitted<'_, '_>) -> Vec<String> {
             bound.join(", ")
         ));
     }
-    for j in 0..names.len() {
-        for k in 0..j {
-            if let Some(rho) = statistics
-                .correlation(j, k)
-                .filter(|rho| rho.abs() > STRONG)
-            {
+    for (j, second) in names.iter().enumerate() {
+        for (k, first) in names.iter().enumerate().take(j) {
+            let strong = statistics.correlation(j, k);
+            if let Some(rho) = strong.filter(|rho| rho.abs() > STRONG) {
                 warnings.push(format!(
-                    "`{}` and `{}` are hardly told apart: their correlation is {rho:.4}",
-                    names[k], names[j]
+                    "`{first}` and `{second}` are hardly told apart: their correlation is {rho:.4}"
                 ));
             }
         }

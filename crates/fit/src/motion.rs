@@ -503,17 +503,17 @@ impl Fit<'_> {
         let sizes = self.sizes();
         let share = self.running.tolerance.cbrt();
         let mut columns = Vec::new();
-        for j in 0..x.len() {
-            let step = share * x[j].abs().max(1e-3 * sizes[j]);
+        for (j, own) in x.iter().copied().enumerate() {
+            let step = share * own.abs().max(1e-3 * sizes[j]);
             let [low, high] = self.sought[j].bounds;
-            let ends = [(x[j] - step).max(low), (x[j] + step).min(high)];
+            let ends = [(own - step).max(low), (own + step).min(high)];
             let mut tried = Vec::new();
             for end in ends {
                 let mut to = x.to_vec();
                 to[j] = end;
                 tried.push(self.residuals(&to));
             }
-            let here = |this: &mut Self| this.residuals(x).map(|residuals| (x[j], residuals));
+            let here = |this: &mut Self| this.residuals(x).map(|residuals| (own, residuals));
             let mut sides = Vec::new();
             for (end, tried) in ends.into_iter().zip(tried) {
                 // Where there is no machine on one side the derivative is that of the other.
