@@ -23,7 +23,7 @@ use crate::modes::{self, number};
 use crate::numbers::{by_name, shortest};
 use crate::output::{self, Destination, ORBIT, SVG, TABLE, keep_apart};
 use crate::reading::{self, Reading};
-use crate::recording::Recording;
+use crate::recording::Run;
 use crate::runs::{self, header};
 use crate::{inputs, plot, progress, simulate, table};
 
@@ -59,6 +59,8 @@ pub fn run(call: &call::Orbit) -> Result<(), Failure> {
         return along(call, &ready, &sought, vary, &files);
     }
     let orbit = orbit::find(&ready.machine, &sought).map_err(|none| said(&none, call))?;
+    let motion = motion(&ready.machine, &orbit, call)?;
+    runs::warn(&motion);
     if let Some(file) = &files[0] {
         match file.ending() {
             "npz" => {
@@ -66,11 +68,11 @@ pub fn run(call: &call::Orbit) -> Result<(), Failure> {
             }
             "mat" => file.write(|to| to.write_all(&mat::bytes(&arrays(&ready.machine, &orbit))))?,
             "json" => file.write_text(&format!("{:#}\n", as_json(&ready.machine, &orbit)))?,
-            _ => table::write(&motion(&ready.machine, &orbit, call)?, file)?,
+            _ => table::write(&simulate::record(&motion), file)?,
         }
     }
     if let Some(file) = &files[1] {
-        let recording = motion(&ready.machine, &orbit, call)?;
+        let recording = simulate::record(&motion);
         file.write_text(&plot::svg(ready.machine.name(), &recording).map_err(Failure::Run)?)?;
     }
     match call.spec.json {
@@ -241,11 +243,7 @@ pub fn places(numbers: &Named, name: &str) -> Vec<usize> {
 }
 
 /// One period of the motion.
-fn motion(
-    machine: &InterpretedMachine,
-    orbit: &Orbit,
-    call: &call::Orbit,
-) -> Result<Recording, Failure> {
+fn motion(machine: &InterpretedMachine, orbit: &Orbit, call: &call::Orbit) -> Result<Run, Failure> {
     let start = orbit.start.clone();
     let signals = lagrangian::interpreted::Signals::new(machine, []).map_err(Failure::run)?;
     let run = signals
@@ -255,9 +253,8 @@ fn motion(
         .every(orbit.period / SAMPLES)
         .energy_balance(true)
         .forget_steps()
-        .run(start)
-        .map_err(Failure::run)?;
-    Ok(simulate::record(&run))
+        .run(start);
+    run.map_err(Failure::run)
 }
 
 /// Names of coordinates, then of rates.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use lagrangian::interpreted::{InterpretedMachine, TableFile};
 use lagrangian::methods::{Method, TAYLOR};
-use lagrangian::{Crossing, Machine, Simulation, State, System};
+use lagrangian::{Crossing, InputLaw, Machine, Simulation, Solution, State, System};
 use lagrangian_analysis::Curve;
 use lagrangian_analysis::curve::Between;
 use lagrangian_spec::diagnostic::{Report, nearest};
@@ -17,7 +17,7 @@ use lagrangian_symbolic::Dag;
 use crate::call::{self, Assignment};
 use crate::evaluate::set_start;
 use crate::failure::Failure;
-use crate::output::{Destination, MACHINE, TABLE, ending_is_one_of, keep_apart};
+use crate::output::{self, Destination, MACHINE, TABLE, ending_is_one_of, keep_apart};
 use crate::reading::{self, Reading};
 use crate::recording::{Kind, Recording, Run};
 use crate::{inputs, simulate};
@@ -421,6 +421,7 @@ pub fn spec(
     if let Some(objection) = verdict::objection(&ran) {
         return Err(Failure::Run(objection));
     }
+    warn(&ran);
     let at = |times: Vec<f64>| -> Result<Recording, Failure> {
         let states = ran.at_each(times).map_err(Failure::run)?;
         Ok(Recording::of(&ran, &states))
@@ -441,6 +442,16 @@ pub fn spec(
         }
     };
     Ok(Columns::of(recording))
+}
+
+/// Prints what a run warns of: facts that did not hold, energy that is missing.
+pub fn warn<M: Machine, L>(run: &Solution<M, L>)
+where
+    L: InputLaw<M::System>,
+{
+    for warning in run.warnings() {
+        output::complain(format_args!("warning: {warning}"));
+    }
 }
 
 /// The states at the events of a run that the call asked for.

@@ -19,7 +19,7 @@ use crate::modes::{self, number};
 use crate::orbit::{differentiate, places};
 use crate::output::{self, Destination, SVG, TABLE, keep_apart};
 use crate::reading::{self, Reading};
-use crate::runs::header;
+use crate::runs::{header, warn};
 use crate::{progress, simulate, table};
 
 /// How often a run is recorded where the call does not say.
@@ -396,6 +396,7 @@ fn made(
     let run = simulation
         .run(from)
         .map_err(|error| Failure::Run(verdict::said(&error)))?;
+    warn(&run);
     let states = match run.samples() {
         [] => std::slice::from_ref(run.start()),
         states => states,

@@ -504,8 +504,11 @@ impl Search<'_> {
             .iter()
             .map(|(gap, _)| *gap)
             .fold(f64::INFINITY, f64::min);
-        // Of those that are about as near the first.
-        let first = gaps.iter().find(|(gap, _)| *gap <= 1.5 * least);
+        // Of those that are about as near the first; and near is what a thousandth of the way around is: on an orbit all returns are,
+        // but for rounding.
+        let around = (&scale * &rate).norm() / omega;
+        let near = (1.5 * least).max(1e-3 * around);
+        let first = gaps.iter().find(|(gap, _)| *gap <= near);
         first.map(|(_, period)| *period).ok_or(NoOrbit::NoReturn)
     }
 
