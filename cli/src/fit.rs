@@ -127,6 +127,9 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
     }
     let sought = sought(call, &machine, &compiled, &given, &experiments)?;
     check_values(&machine, &sought)?;
+    if files.out.is_some() {
+        variant::check(&sought, given.len())?;
+    }
     let (sigmas, values) = sigmas(call, &classes, &experiments)?;
     let refusal = |parameters: &[f64]| {
         let said = compiled.model.refused_values(parameters);
@@ -183,23 +186,34 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
         fit: &mut fit,
     };
     result.warnings = told::warnings(&result);
-    let trouble = written(&mut result, &files);
+    let error = match written(&mut result, &files) {
+        Err(Failure::Interrupted) => return Err(Failure::Interrupted),
+        Err(failure) => Some(failure.message()),
+        Ok(()) if result.found.minimum.ending.is_minimum() => None,
+        Ok(()) => Some(format!(
+            "the search {} in {} evaluations; begin it nearer by --set and --start, bound it by --bounds, or try several by --starts",
+            result.found.minimum.ending.words(),
+            result.found.minimum.evaluations
+        )),
+    };
     if call.spec.json {
-        output::line(format_args!("{:#}", told::document(&result)));
+        let mut document = told::document(&result);
+        if let Some(error) = &error {
+            document["error"] = error.as_str().into();
+        }
+        output::line(format_args!("{document:#}"));
     } else {
         output::text(&told::text(&result));
         for warning in &result.warnings {
             output::complain(format_args!("warning: {warning}"));
         }
     }
-    match trouble {
-        Err(failure) => Err(failure),
-        Ok(()) if result.found.minimum.ending.is_minimum() => Ok(()),
-        Ok(()) => Err(Failure::Run(format!(
-            "the search {} in {} evaluations; begin it nearer by --set and --start, bound it by --bounds, or try several by --starts",
-            result.found.minimum.ending.words(),
-            result.found.minimum.evaluations
-        ))),
+    match error {
+        None => Ok(()),
+        Some(error) => {
+            output::complain(format_args!("error: {error}"));
+            Err(Failure::Said)
+        }
     }
 }
 

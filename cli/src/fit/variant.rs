@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use lagrangian_fit::motion::Subject;
+use lagrangian_fit::motion::{Sought, Subject};
 
 use super::{Fitted, told};
 use crate::failure::Failure;
@@ -13,7 +13,7 @@ use crate::output::Destination;
 /// The text of the variant.
 ///
 /// # Errors
-/// If what is fitted cannot be said in a variant.
+/// If the spec cannot be found any more.
 pub fn spec(result: &Fitted<'_, '_>, file: &Destination) -> Result<String, Failure> {
     let program = result.machine.program();
     let minimum = &result.found.minimum;
@@ -30,7 +30,6 @@ pub fn spec(result: &Fitted<'_, '_>, file: &Destination) -> Result<String, Failu
         let _ = match one.subject {
             Subject::Parameter(index) => {
                 let unit = &program.parameters[index].unit_text;
-                check_name(&one.name)?;
                 writeln!(
                     parameters,
                     "        /// {error}\n        {}: {unit} = {value},",
@@ -44,7 +43,6 @@ pub fn spec(result: &Fitted<'_, '_>, file: &Destination) -> Result<String, Failu
             Subject::Start(e, place) => {
                 let name = told::coordinate(result, e, place);
                 let unit = &program.coordinates[place].unit_text;
-                check_name(&name)?;
                 writeln!(
                     coordinates,
                     "        /// {error}\n        {name}: {unit} = {value},"
@@ -53,7 +51,6 @@ pub fn spec(result: &Fitted<'_, '_>, file: &Destination) -> Result<String, Failu
             Subject::Rate(e, place) => {
                 let name = told::coordinate(result, e, place);
                 let unit = &program.coordinates[place].unit_text;
-                check_name(&name)?;
                 let unit = match unit.as_str() {
                     "1" => "1/s".to_owned(),
                     unit => format!("({unit})/s"),
@@ -92,12 +89,18 @@ pub fn spec(result: &Fitted<'_, '_>, file: &Destination) -> Result<String, Failu
     Ok(text)
 }
 
-/// A member of a family has no declaration of its own.
-fn check_name(name: &str) -> Result<(), Failure> {
-    match name.contains('[') {
-        false => Ok(()),
-        true => Err(Failure::Call(format!(
-            "--out: `{name}` is a member of a family, which no variant of a spec gives a value of its own; --json has it"
+/// Whether what is fitted can be said in a variant: a member of a family has no declaration of its own.
+///
+/// # Errors
+/// The call is at fault.
+pub fn check(sought: &[Sought], experiments: usize) -> Result<(), Failure> {
+    let is_said = |one: &&Sought| matches!(one.subject, Subject::Parameter(_)) || experiments == 1;
+    let mut said = sought.iter().filter(is_said);
+    match said.find(|one| one.name.contains('[')) {
+        None => Ok(()),
+        Some(one) => Err(Failure::Call(format!(
+            "--out: `{}` is a member of a family, which no variant of a spec gives a value of its own; --json has it",
+            one.name
         ))),
     }
 }
