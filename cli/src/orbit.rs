@@ -30,6 +30,9 @@ use crate::{inputs, plot, progress, simulate, table};
 /// How often a period is recorded.
 const SAMPLES: f64 = 400.0;
 
+/// The fewest steps that a period is recorded with.
+const STEPS: f64 = 50.0;
+
 /// A machine, and where its period is.
 struct Ready<'d> {
     compiled: Compiled<'d>,
@@ -251,6 +254,8 @@ fn motion(machine: &InterpretedMachine, orbit: &Orbit, call: &call::Orbit) -> Re
         .tolerance(call.tolerance)
         .until(start.t + orbit.period)
         .every(orbit.period / SAMPLES)
+        // An orbit that is a state at rest takes steps of any length, over which the work of what drives it cannot be summed.
+        .longest_step(orbit.period / STEPS)
         .energy_balance(true)
         .forget_steps()
         .run(start);
