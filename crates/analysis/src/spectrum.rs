@@ -195,14 +195,13 @@ impl Spectrum {
                 // Both images are one there.
                 still.amplitude = Complex::new(0.5 * left[0].re, 0.0);
                 self.add(&mut left, still, -1.0);
-                for k in 0..found.len() {
-                    let (top, before) = found[k];
+                for (top, own) in &mut found {
                     // The wave alone, and not its image, whose foot stands here too.
-                    self.add_one(&mut left, before.place, before.amplitude);
-                    let wave = self.wave(&left, top);
-                    self.add_one(&mut left, -before.place, before.amplitude.conj());
+                    self.add_one(&mut left, own.place, own.amplitude);
+                    let wave = self.wave(&left, *top);
+                    self.add_one(&mut left, -own.place, own.amplitude.conj());
                     self.add(&mut left, wave, -1.0);
-                    found[k].1 = wave;
+                    *own = wave;
                 }
             }
         }

@@ -51,7 +51,7 @@ fn radix_two(values: &mut [Complex<f64>], factors: &[Complex<f64>]) {
     let size = values.len();
     let bits = size.trailing_zeros();
     for k in 0..size {
-        let reversed = k.reverse_bits() >> (usize::BITS - bits.max(1)) & (size - 1);
+        let reversed = (k.reverse_bits() >> (usize::BITS - bits.max(1))) & (size - 1);
         if k < reversed {
             values.swap(k, reversed);
         }
