@@ -12,12 +12,22 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use lagrangian_jit::{Several, SeveralArguments};
+use lagrangian_native::Lanes;
+use lagrangian_program::{Interpreter, Role};
+
 use crate::errors;
 use crate::machine::Machine;
 
 /// So many states are not worth a thread of their own: at some tenths of a microsecond each they take less than what
 /// starting it does.
 const ROWS_A_THREAD: usize = 4096;
+
+/// States that are evaluated side by side.
+const LANES: usize = 8;
+
+/// Fewer states are not worth code for several: it is made in a fifth of a microsecond for an operation.
+const WORTH_LANES: usize = 1024;
 
 /// How many threads evaluate a batch; 0 where nobody has said it: as many as there are cores.
 static THREADS: AtomicUsize = AtomicUsize::new(0);
@@ -58,7 +68,7 @@ impl Batch<'_> {
     fn each(
         &self,
         machine: &Machine,
-        rows: std::ops::Range<usize>,
+        rows: impl Iterator<Item = usize>,
         mut work: impl FnMut(usize, &InterpretedSystem, &mut Scratch),
     ) {
         let (n, m) = (machine.dimension(), machine.inputs.values.len());
@@ -83,6 +93,57 @@ impl Batch<'_> {
             }
             work(k, &other.prepare(), &mut scratch);
         }
+    }
+
+    /// Accelerations of the rows in lanes, whose bits are those of one state alone; the rows that it leaves out.
+    fn side_by_side(
+        &self,
+        lanes: &mut Several<LANES>,
+        rows: std::ops::Range<usize>,
+        out: &mut [f64],
+    ) -> Vec<usize> {
+        let [n, m] = [self.q.len(), self.u.len()].map(|of| of / self.t.len().max(1));
+        let zero = || Lanes::<LANES>::splat(0.0);
+        let [mut q, mut v, mut a] = [(); 3].map(|()| vec![zero(); n]);
+        let mut u = vec![zero(); m];
+        let mut alone = Vec::new();
+        let mut blocks = out.chunks_exact_mut(LANES * n.max(1));
+        let mut first = rows.start;
+        for block in blocks.by_ref() {
+            let gather = |to: &mut [Lanes<LANES>], from: &[f64], width: usize| {
+                for (i, lanes) in to.iter_mut().enumerate() {
+                    for (lane, value) in lanes.0.iter_mut().enumerate() {
+                        *value = from[(first + lane) * width + i];
+                    }
+                }
+            };
+            gather(&mut q, self.q, n);
+            gather(&mut v, self.v, n);
+            gather(&mut u, self.u, m);
+            let mut t = zero();
+            t.0.copy_from_slice(&self.t[first..][..LANES]);
+            let arguments = SeveralArguments {
+                t,
+                q: &q,
+                v: &v,
+                u: &u,
+                a: &[],
+            };
+            let held = lanes.call(Role::Accelerations, arguments, &mut a);
+            let held = held.unwrap_or(0);
+            for lane in 0..LANES {
+                if held >> lane & 1 == 0 {
+                    alone.push(first + lane);
+                    continue;
+                }
+                for (i, lanes) in a.iter().enumerate() {
+                    block[lane * n + i] = lanes.0[lane];
+                }
+            }
+            first += LANES;
+        }
+        alone.extend(first..rows.end);
+        alone
     }
 
     /// Raises `ValueError` where the values of a row are none that a machine can have.
@@ -151,9 +212,18 @@ pub fn accelerations<'py>(
     py.detach(|| {
         let parts = threads().min(rows.div_ceil(ROWS_A_THREAD)).max(1);
         let length = rows.div_ceil(parts).max(1);
+        let lanes = match batch.varied.is_empty() && rows >= WORTH_LANES {
+            true => machine.in_lanes(),
+            false => None,
+        };
         let part = |first: usize, out: &mut [f64]| {
             let count = out.len().checked_div(n).unwrap_or(0);
-            batch.each(machine, first..first + count, |k, system, scratch| {
+            // What has no accelerations is asked alone, which says why.
+            let alone: Vec<usize> = match lanes.clone() {
+                Some(mut lanes) => batch.side_by_side(&mut lanes, first..first + count, out),
+                None => (first..first + count).collect(),
+            };
+            batch.each(machine, alone.into_iter(), |k, system, scratch| {
                 let Scratch { q, v, u, a } = scratch;
                 let to = &mut out[(k - first) * n..][..n];
                 match system.accelerations(batch.t[k], q, v, u, a) {
@@ -322,6 +392,20 @@ pub fn linearize<'py>(
 }
 
 impl Machine {
+    /// Code for several states of this machine, where there is any: not of one with friction, whose accelerations are no function
+    /// alone.
+    fn in_lanes(&self) -> Option<Several<LANES>> {
+        let program = self.machine.program();
+        if self.is_interpreted || !program.contacts.is_empty() || self.dimension() == 0 {
+            return None;
+        }
+        let library = self.derived.library(LANES)?;
+        Several::shared(
+            library,
+            &Interpreter::new(program, self.machine.parameter_values()),
+        )
+    }
+
     fn raised(&self, py: Python<'_>, error: StepError, place: usize) -> PyErr {
         match error {
             StepError::Singular { singular, .. } => {

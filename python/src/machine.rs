@@ -48,6 +48,8 @@ pub fn engine() -> &'static str {
 pub struct Machine {
     pub derived: Arc<Derived>,
     pub machine: InterpretedMachine,
+    /// Whether machine code is not wanted.
+    pub is_interpreted: bool,
     /// Inputs where nobody sets them.
     pub inputs: Named,
     /// Systems that nobody uses: making one for each call would take longer than the call.
@@ -142,6 +144,7 @@ impl Machine {
         Ok(Machine {
             inputs: system.default_inputs(),
             systems: Mutex::new(vec![system]),
+            is_interpreted: matches!(engine, Engine::Interpreter),
             derived,
             machine,
         })

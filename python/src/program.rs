@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::thread;
 
 use lagrangian::interpreted::InterpretedMachine;
+use lagrangian_jit::Library;
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_program::Slot;
@@ -48,6 +49,7 @@ pub struct Derived {
     /// For each formula the number of its output.
     pub numbers: Vec<usize>,
     series: OnceLock<Result<ProvedSeries, String>>,
+    library: OnceLock<Option<Arc<Library>>>,
 }
 
 /// Why there is no program.
@@ -214,6 +216,7 @@ impl Derived {
             text,
             formulas,
             series: OnceLock::new(),
+            library: OnceLock::new(),
         }
     }
 
@@ -269,6 +272,15 @@ impl Derived {
             derived.unwrap_or_else(|_| Err("it could not be derived".into()))
         };
         self.series.get_or_init(derive).clone()
+    }
+
+    /// Machine code for so many states at once, made when it is first asked for; none where there is none.
+    pub fn library(&self, lanes: usize) -> Option<Arc<Library>> {
+        let make = || {
+            let program = Arc::new(self.machine.program().clone());
+            Library::for_lanes(program, lanes, true).ok().map(Arc::new)
+        };
+        self.library.get_or_init(make).clone()
     }
 
     /// What is wrong with values of the parameters: a negative mass.
