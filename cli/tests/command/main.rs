@@ -16,6 +16,7 @@ mod linearize;
 mod map;
 mod modes;
 mod orbit;
+mod parts;
 mod report;
 mod runs;
 mod scripts;
