@@ -250,6 +250,7 @@ where
         bias,
         kinetic_energy,
         potential_energy,
+        state_energy,
         dissipation,
         dissipation_rate,
         default_inputs,

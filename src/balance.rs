@@ -266,7 +266,7 @@ pub struct Energies {
     pub t: f64,
     /// Kinetic energy, in J.
     pub kinetic: f64,
-    /// Potential energy, in J.
+    /// Potential energy, with what contacts that yield and states of first order store, in J.
     pub potential: f64,
     /// Work done since the start by drives, applied forces and inputs, in J.
     pub work: f64,

@@ -74,6 +74,11 @@ macro_rules! forward {
             self.wrapped().kinetic_energy(t, &self.own(q), &self.own(v))
         }
     };
+    (@ state_energy) => {
+        fn state_energy(&self, t: f64, q: &Self::Vector, v: &Self::Vector) -> f64 {
+            self.wrapped().state_energy(t, &self.own(q), &self.own(v))
+        }
+    };
     (@ potential_energy) => {
         fn potential_energy(&self, t: f64, q: &Self::Vector, u: &Self::Inputs) -> f64 {
             self.wrapped().potential_energy(t, &self.own(q), u)

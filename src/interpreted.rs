@@ -499,6 +499,13 @@ impl System for InterpretedSystem {
         self.number(Role::PotentialEnergy, at(t, q, &[], &u.values))
     }
 
+    fn state_energy(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>) -> f64 {
+        match self.program.function(Role::StateEnergy) {
+            Some(_) => self.number(Role::StateEnergy, at(t, q, v, &[])),
+            None => 0.0,
+        }
+    }
+
     fn dissipation(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, u: &Named) -> f64 {
         self.number(Role::Dissipation, at(t, q, v, &u.values))
     }

@@ -58,3 +58,13 @@ impl Display for UnknownName {
 }
 
 impl core::error::Error for UnknownName {}
+
+/// The name of the rate of a coordinate: `der(phi)`. Of the integral of a state of first order, `integral(i)` or
+/// `integral(T)[3]`, it is the state: `i`, `T[3]`.
+pub(crate) fn rate_name(coordinate: &str) -> std::string::String {
+    let integral = coordinate.strip_prefix("integral(");
+    match integral.and_then(|integral| integral.split_once(')')) {
+        Some((base, index)) => std::format!("{base}{index}"),
+        None => std::format!("der({coordinate})"),
+    }
+}

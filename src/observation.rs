@@ -202,7 +202,9 @@ impl<'x, V: Vector> Known<'x, V> {
             a: system.to_coordinates(&a),
             outputs: system.outputs(t, &q, &v, &a, &u),
             kinetic_energy: system.kinetic_energy(t, &q, &v),
-            potential_energy: system.potential_energy(t, &q, &u) + stored,
+            potential_energy: system.potential_energy(t, &q, &u)
+                + system.state_energy(t, &q, &v)
+                + stored,
             inputs: u,
         })
     }

@@ -17,6 +17,7 @@ use crate::event::{self, Crossing, Event, Terminal, Triple, made, state};
 use crate::friction::{Change, Contacts, Motion};
 use crate::inputs::{Held, InputLaw};
 use crate::interpolant::Interpolant;
+use crate::names::rate_name;
 use crate::observation::{Known, Sight};
 use crate::phases::Kept;
 use crate::piece::Piece;
@@ -727,11 +728,11 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             dissipated: integrals.dissipated(),
         };
         record.explained.take(model.system, stepper, &energies);
-        let mut stored = 0.0;
+        let mut stored = model.system.state_energy(t, q, v);
         if <M::System as System>::MAY_COLLIDE
             && let Some(touching) = stepper.touching()
         {
-            stored = touching.stored(model.system, t, q, v);
+            stored += touching.stored(model.system, t, q, v);
         }
         if !self.settings.keep_energies
             && record.energies.len() > 1
@@ -1088,7 +1089,7 @@ fn contradicts_kept<S: System>(
 fn number_name(coordinate: &str, level: usize) -> String {
     match level {
         0 => coordinate.into(),
-        _ => std::format!("der({coordinate})"),
+        _ => rate_name(coordinate),
     }
 }
 
@@ -1278,7 +1279,7 @@ fn check_start<S: System>(system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> R
         }
         if !v.is_finite() {
             return Err(Error::StartNotFinite {
-                name: std::format!("der({name})"),
+                name: rate_name(name),
                 value: v,
             });
         }

@@ -16,6 +16,7 @@ use std::vec;
 use std::vec::Vec;
 
 use crate::forward::forward;
+use crate::names::rate_name;
 use crate::shared_workspace::SharedWorkspace;
 use crate::{
     Assumption, Coordinates, Differentiate, Error, Machine, Quantity, Singular, State, System,
@@ -261,7 +262,7 @@ impl<'m, M: Machine<System: Differentiate>> Sensitive<'m, M> {
 
     fn with_start_rate(self, index: usize) -> Self {
         let (name, unit) = &self.names[index];
-        let (name, unit) = (std::format!("der({name})"), std::format!("({unit}/s)"));
+        let (name, unit) = (rate_name(name), std::format!("({unit}/s)"));
         self.with(Variable::StartRate(index), (&name, &unit))
     }
 
@@ -459,6 +460,7 @@ impl<S: Differentiate> System for SensitiveSystem<S> {
         forces,
         kinetic_energy,
         potential_energy,
+        state_energy,
         dissipation,
         work_rate,
         dissipation_rate,

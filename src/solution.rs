@@ -476,7 +476,9 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
         let mut energies = Energies {
             t,
             kinetic: run.system.kinetic_energy(t, &q, &v),
-            potential: run.system.potential_energy(t, &q, &u) + run.stored(t, &q, &v),
+            potential: run.system.potential_energy(t, &q, &u)
+                + run.system.state_energy(t, &q, &v)
+                + run.stored(t, &q, &v),
             ..*before
         };
         // In parts, where the motion within a step is of a higher degree.

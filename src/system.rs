@@ -263,6 +263,11 @@ pub trait System {
         f64::NAN
     }
 
+    /// Energy `E` that states of first order store, in J, as far as the description says it. By default 0.
+    fn state_energy(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector) -> f64 {
+        0.0
+    }
+
     /// Rayleigh's dissipation function `D`, in W. By default 0: nothing is damped.
     fn dissipation(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _u: &Self::Inputs) -> f64 {
         0.0
@@ -270,7 +275,8 @@ pub trait System {
 
     /// Power, in W, of everything that is neither in `T + V` nor in `D`: drives (explicit time),
     /// applied forces, inputs, and constraints that move (`−λ·∂g/∂t`, of whatever multipliers hold
-    /// these accelerations). Along every motion `d(T + V)/dt = work_rate − dissipation_rate`. By default 0, which a balance
+    /// these accelerations), and what supplies states of first order that store energy. Along every motion
+    /// `d(T + V + E)/dt = work_rate − dissipation_rate`. By default 0, which a balance
     /// of energy shows where it is not so.
     fn work_rate(
         &self,
@@ -283,7 +289,7 @@ pub trait System {
         0.0
     }
 
-    /// Power lost in the dampers, `Σ vᵢ ∂D/∂vᵢ`, in W. By default 0.
+    /// Power lost in the dampers, `Σ vᵢ ∂D/∂vᵢ`, and in losses that the description names, in W. By default 0.
     fn dissipation_rate(
         &self,
         _t: f64,

@@ -16,6 +16,7 @@ use lagrangian::{Machine, System};
 use lagrangian_brachistochrone::direct::Search;
 use lagrangian_mechanics::Compiled;
 use lagrangian_symbolic::Dag;
+use lagrangian_units::rate_name;
 
 use crate::call::{self, Assignment};
 use crate::failure::Failure;
@@ -49,6 +50,13 @@ pub fn run(call: &call::Brachistochrone) -> Result<(), Failure> {
     )?;
     let dag = Dag::new();
     let compiled = Reading::open(&call.spec)?.compile_beside(&dag, all())?;
+    let mut states = compiled.model.coordinates.iter();
+    if let Some(state) = states.find(|c| c.rate.is_some()) {
+        return Err(Failure::Run(format!(
+            "the machine has the state `{}`, whose value at the end nothing says: without `states` there is a fastest motion",
+            rate_name(&state.name.to_string(), "")
+        )));
+    }
     let start = call::Start {
         parameters: call.parameters.clone(),
         coordinates: Vec::new(),

@@ -472,7 +472,7 @@ pub struct Evaluate {
     pub start: Start,
     #[command(flatten)]
     pub keep: Keep,
-    /// A JSON list of points {"t", "q", "v", "parameters", "inputs"}, or `-` for standard input; without it, the start.
+    /// A JSON list of points {"t", "q", "v", "states", "parameters", "inputs"}, or `-` for standard input; without it, the start.
     #[arg(long, value_name = "POINTS.json")]
     pub at: Option<PathBuf>,
 }

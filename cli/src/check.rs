@@ -61,7 +61,13 @@ pub fn run(call: &call::Check) -> Result<(), Failure> {
         contradictions(&compiled.model, &compiled.equations, &mut reading.report);
     }
     let freedom = compiled.as_ref();
-    let freedom = freedom.map(|compiled| freedom_of(&compiled.model, &compiled.equations));
+    let freedom = freedom.map(|compiled| {
+        let mut freedom = freedom_of(&compiled.model, &compiled.equations);
+        // A state of first order is no freedom.
+        let states = compiled.model.coordinates.iter();
+        freedom.coordinates -= states.filter(|c| c.rate.is_some()).count();
+        freedom
+    });
     let comparisons = match &compiled {
         Some(compiled) => compare::compare(&compiled.model, &compiled.equations),
         None => Vec::new(),
@@ -98,10 +104,15 @@ pub fn run(call: &call::Check) -> Result<(), Failure> {
 
 fn summarize(compiled: &Compiled, freedom: Freedom, warnings: usize) {
     let model = &compiled.model;
+    let states = model.coordinates.len() - freedom.coordinates;
+    let states = match states {
+        0 => String::new(),
+        states => counted(states, "state", "states") + ", ",
+    };
     output::line(format_args!(
-        "{}: {}, {}{}, {}; {}",
+        "{}: {}, {states}{}{}, {}; {}",
         model.name,
-        counted(model.coordinates.len(), "coordinate", "coordinates"),
+        counted(freedom.coordinates, "coordinate", "coordinates"),
         constrained(freedom),
         counted(model.bodies.len(), "body", "bodies"),
         counted(model.parameters.len(), "parameter", "parameters"),

@@ -6,7 +6,7 @@ use lagrangian::{
 };
 use serde_json::{Value, json};
 
-use crate::numbers::{by_name, shortest};
+use crate::numbers::{by_name, shortest, states};
 use crate::recording::Run;
 
 /// What a run has shown of a contact.
@@ -143,6 +143,9 @@ fn event(event: &ContactEvent<Named>) -> Value {
     let Value::Object(fields) = &mut document else {
         return document;
     };
+    if let Some(states) = states(&event.state.v) {
+        fields.insert("states".into(), states);
+    }
     if let Some(impact) = event.impact {
         fields.insert("gap_rate".into(), json!(impact.gap_rate));
         fields.insert("slip".into(), json!(impact.slip));

@@ -10,6 +10,7 @@ use lagrangian::{
 };
 use lagrangian_spec::model::Model;
 use lagrangian_symbolic::Dag;
+use lagrangian_units::{integral_name, state_of};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -18,6 +19,7 @@ use crate::collisions;
 use crate::contacts;
 use crate::diagnostics;
 use crate::failure::Failure;
+use crate::numbers::{by_name, states};
 use crate::output;
 pub use crate::reading::set_start;
 use crate::reading::{self, Reading};
@@ -31,6 +33,9 @@ struct Numbered {
     applied: Vec<f64>,
     forces: Vec<f64>,
     accelerations: Vec<f64>,
+    /// The rates of states of first order, by name; machines without states have none.
+    #[serde(skip_serializing_if = "Map::is_empty")]
+    state_rates: Map<String, Value>,
     /// By the name of the constraint; machines without constraints have none.
     multipliers: Map<String, Value>,
     /// Generalized reactions of the constraints on each coordinate, Gᵀ λ.
@@ -110,8 +115,15 @@ fn at(
     let mut state = machine.start();
     set_start(&mut state, &call.start).map_err(|_| "no such coordinate")?;
     state.t = point.t.unwrap_or(0.0);
-    fill(&mut state.q, point.q, "q")?;
-    fill(&mut state.v, point.v, "v")?;
+    let integrals = integrals(&state.q);
+    fill(&mut state.q, point.q, ("q", false))?;
+    fill(&mut state.v, point.v, ("v", false))?;
+    if let Some(given) = point.states {
+        if !integrals.contains(&true) {
+            return Err("the machine has no states of first order".to_owned());
+        }
+        fill(&mut state.v, Some(given), ("states", true))?;
+    }
     if call.keep.names.is_empty() {
         return numbers(&machine.prepare(), &state);
     }
@@ -121,10 +133,10 @@ fn at(
     let state = run.map_err(|error| error.to_string())?.start().clone();
     let mut result = numbers(&machine.prepare(), &state)?;
     for (name, values) in [("q", &state.q), ("v", &state.v)] {
-        let values = values
-            .iter()
-            .map(|(name, value)| (name.to_owned(), value.into()));
-        result[name] = Value::Object(values.collect());
+        result[name] = by_name(values);
+    }
+    if let Some(states) = states(&state.v) {
+        result["states"] = states;
     }
     Ok(result)
 }
@@ -139,23 +151,46 @@ fn named(name: &str, entry: &Entry) -> Vec<(String, f64)> {
     }
 }
 
-fn fill(numbers: &mut Named, given: Option<Numbers>, what: &str) -> Result<(), String> {
+/// Which coordinates are integrals of states of first order.
+fn integrals(coordinates: &Named) -> Vec<bool> {
+    let names = coordinates.iter();
+    names.map(|(name, _)| state_of(name).is_some()).collect()
+}
+
+/// Fills in what a point gives: coordinates, or their rates, or among the rates states of first order.
+fn fill(
+    numbers: &mut Named,
+    given: Option<Numbers>,
+    (what, is_states): (&str, bool),
+) -> Result<(), String> {
+    let integrals = integrals(numbers);
+    let places: Vec<usize> = (0..integrals.len())
+        .filter(|j| integrals[*j] == is_states)
+        .collect();
     match given {
         None => Ok(()),
-        Some(Numbers::List(values)) if values.len() == numbers.values.len() => {
-            numbers.values = values;
+        Some(Numbers::List(values)) if values.len() == places.len() => {
+            for (place, value) in places.into_iter().zip(values) {
+                numbers.values[place] = value;
+            }
             Ok(())
         }
         Some(Numbers::List(values)) => Err(format!(
-            "{what} has {} numbers, the machine has {} coordinates",
+            "{what} has {} numbers, the machine has {} {}",
             values.len(),
-            numbers.values.len()
+            places.len(),
+            if is_states { "states" } else { "coordinates" }
         )),
         Some(Numbers::ByName(entries)) => {
             for (name, value) in entries.iter().flat_map(|(name, entry)| named(name, entry)) {
-                numbers
-                    .set(&name, value)
-                    .map_err(|unknown| format!("no coordinate: {unknown}"))?;
+                let set = match is_states {
+                    true => numbers.set(&integral_name(&name), value),
+                    false => numbers.set(&name, value),
+                };
+                set.map_err(|unknown| match is_states {
+                    true => format!("no state is named `{name}`"),
+                    false => format!("no coordinate: {unknown}"),
+                })?;
             }
             Ok(())
         }
@@ -215,18 +250,33 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
             return Err(format!("the {name} is not finite here: {value}"));
         }
     }
+    // The rows of states of first order stand behind those of the coordinates, and say what their rates are.
+    let is_integral: Vec<bool> = system
+        .coordinates()
+        .map(|c| state_of(c.name).is_some())
+        .collect();
+    let own = is_integral.iter().filter(|is| !**is).count();
+    let state_rates = system.coordinates().zip(&a);
+    let state_rates = state_rates
+        .filter_map(|(c, rate)| Some((state_of(c.name)?, Value::from(*rate))))
+        .collect();
     let result = Numbered {
-        mass_matrix: matrix.chunks(n.max(1)).map(<[f64]>::to_vec).collect(),
-        bias,
-        applied,
-        forces,
-        accelerations: a,
+        mass_matrix: matrix
+            .chunks(n.max(1))
+            .take(own)
+            .map(|row| row[..own].to_vec())
+            .collect(),
+        bias: bias[..own].to_vec(),
+        applied: applied[..own].to_vec(),
+        forces: forces[..own].to_vec(),
+        state_rates,
+        accelerations: a[..own].to_vec(),
         multipliers: system
             .constraints()
             .zip(multipliers)
             .map(|(constraint, value)| (constraint.name.to_owned(), value.into()))
             .collect(),
-        reactions,
+        reactions: reactions.into_iter().take(own).collect(),
         contacts,
         kinetic_energy,
         potential_energy,

@@ -19,6 +19,7 @@ use lagrangian_linear::zeros::zeros;
 use lagrangian_linear::{Complex, DMatrix};
 use lagrangian_spec::diagnostic::nearest;
 use lagrangian_symbolic::Dag;
+use lagrangian_units::{integral_name, rate_unit, state_of};
 use serde_json::{Value, json};
 
 use crate::call;
@@ -109,6 +110,14 @@ fn about_start(
     let width = start.q.iter().map(|(name, _)| name.chars().count()).max();
     let width = width.unwrap_or(0);
     for (((name, _), q), v) in start.q.iter().zip(&model.q).zip(&model.v) {
+        if let Some(state) = state_of(name) {
+            let unit = match rate_unit(name, start.q.unit(name).unwrap_or("s")).as_str() {
+                "1" => String::new(),
+                unit => format!(" {unit}"),
+            };
+            let _ = writeln!(text, "  {state:width$}  {}{unit}", number(*v));
+            continue;
+        }
         let unit = match start.q.unit(name) {
             None | Some("1") => String::new(),
             Some(unit) => format!(" {unit}"),
@@ -178,12 +187,13 @@ fn request(call: &call::Linearize, machine: &InterpretedMachine) -> Result<Reque
         let found = resolve(name, &start.q, &observed, &constraints);
         if found.is_empty() {
             let own = observed.iter().map(|(name, _)| name.to_owned());
-            let coordinates = start.q.iter().flat_map(|(name, _)| {
-                [
+            let coordinates = start.q.iter().flat_map(|(name, _)| match state_of(name) {
+                Some(state) => vec![format!("der({state})"), state],
+                None => vec![
                     name.to_owned(),
                     format!("der({name})"),
                     format!("der({name},2)"),
-                ]
+                ],
             });
             let constraints = constraints.iter().map(|name| format!("multiplier({name})"));
             let known: Vec<String> = own.chain(coordinates).chain(constraints).collect();
@@ -193,7 +203,15 @@ fn request(call: &call::Linearize, machine: &InterpretedMachine) -> Result<Reque
     }
     if wanted.is_empty() {
         outputs = match observed.values.len() {
-            0 => (0..zero.len()).map(Observed::Coordinate).collect(),
+            0 => start
+                .q
+                .iter()
+                .enumerate()
+                .map(|(i, (name, _))| match state_of(name) {
+                    Some(_) => Observed::Rate(i),
+                    None => Observed::Coordinate(i),
+                })
+                .collect(),
             count => (0..count).map(Observed::Output).collect(),
         };
     }
@@ -231,10 +249,18 @@ fn resolve(name: &str, q: &Named, outputs: &Named, constraints: &[String]) -> Ve
         let found = all.filter(|(_, name)| is_member(name));
         return found.map(|(k, _)| Observed::Multiplier(k)).collect();
     }
+    let states = places(q, &integral_name(name));
+    if !states.is_empty() {
+        return states.into_iter().map(Observed::Rate).collect();
+    }
     let Some(inside) = inside("der(") else {
         let coordinates = places(q, name).into_iter();
         return coordinates.map(Observed::Coordinate).collect();
     };
+    let states = places(q, &integral_name(inside));
+    if !states.is_empty() {
+        return states.into_iter().map(Observed::Acceleration).collect();
+    }
     match inside.rsplit_once(',') {
         None => places(q, inside).into_iter().map(Observed::Rate).collect(),
         Some((coordinate, order)) => {
@@ -271,8 +297,13 @@ fn as_json(names: &[Vec<String>; 2], result: &Linearization) -> Value {
     } = result;
     let by_name = |names: &[String], values: &[f64]| -> Value {
         let pairs = names.iter().zip(values);
+        let pairs = pairs.filter(|(name, _)| state_of(name).is_none());
         Value::Object(pairs.map(|(name, x)| (name.clone(), json!(x))).collect())
     };
+    let states = names[0].iter().zip(&model.v);
+    let states: serde_json::Map<String, Value> = states
+        .filter_map(|(name, x)| Some((state_of(name)?, json!(x))))
+        .collect();
     let labels = |labels: &[model::Label]| -> Vec<Value> {
         let labels = labels.iter();
         labels
@@ -281,13 +312,17 @@ fn as_json(names: &[Vec<String>; 2], result: &Linearization) -> Value {
     };
     let complex = |x: &Complex<f64>| json!({"re": x.re, "im": x.im});
     let outputs: Vec<String> = model.outputs.iter().map(|y| y.name.clone()).collect();
+    let mut at = json!({
+        "q": by_name(&names[0], &model.q),
+        "v": by_name(&names[0], &model.v),
+        "u": by_name(&names[1], &model.u),
+        "y": by_name(&outputs, &model.y),
+    });
+    if !states.is_empty() {
+        at["states"] = Value::Object(states);
+    }
     json!({
-        "at": {
-            "q": by_name(&names[0], &model.q),
-            "v": by_name(&names[0], &model.v),
-            "u": by_name(&names[1], &model.u),
-            "y": by_name(&outputs, &model.y),
-        },
+        "at": at,
         "states": labels(&model.states),
         "inputs": labels(&model.inputs),
         "outputs": labels(&model.outputs),

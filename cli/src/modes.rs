@@ -16,6 +16,7 @@ use lagrangian_linear::{Complex, model};
 use lagrangian_mechanics::Compiled;
 use lagrangian_spec::model::Model;
 use lagrangian_symbolic::Dag;
+use lagrangian_units::{rate_name, rate_unit as unit_of_rate, state_of};
 use serde_json::{Map, Value, json};
 
 use crate::call;
@@ -253,13 +254,29 @@ fn refuse_drives(machine: &InterpretedMachine, q: &[f64], wanted: &Wanted) -> Re
     )))
 }
 
+/// Whether a coordinate moves.
+fn moves(names: &[&str], motion: &Motion) -> bool {
+    let mut rates = names.iter().zip(&motion.v);
+    rates.any(|(name, v)| *v != 0.0 && state_of(name).is_none())
+}
+
+/// A coordinate by its name, the integral of a state of first order by that of the state.
+fn shown(name: &str) -> String {
+    state_of(name).unwrap_or_else(|| name.to_owned())
+}
+
 fn as_json(names: &[&str], motion: &Motion) -> Value {
     let by_name = |values: &[f64]| -> Map<String, Value> {
         let pairs = names.iter().zip(values);
+        let pairs = pairs.filter(|(name, _)| state_of(name).is_none());
         pairs
             .map(|(name, x)| ((*name).to_owned(), json!(x)))
             .collect()
     };
+    let states = names.iter().zip(&motion.v);
+    let states: Map<String, Value> = states
+        .filter_map(|(name, x)| Some((state_of(name)?, json!(x))))
+        .collect();
     let Modes {
         modes,
         free,
@@ -272,8 +289,8 @@ fn as_json(names: &[&str], motion: &Motion) -> Value {
         .map(|mode| {
             let shape = names.iter().zip(&mode.shape).zip(&motion.records);
             let shape: Map<String, Value> = shape
-                .filter(|(_, is_record)| !**is_record)
-                .map(|((name, x), _)| ((*name).to_owned(), json!([x.re, x.im])))
+                .filter(|((name, _), is_record)| !**is_record || state_of(name).is_some())
+                .map(|((name, x), _)| (shown(name), json!([x.re, x.im])))
                 .collect();
             json!({
                 "kind": mode.kind(),
@@ -286,14 +303,18 @@ fn as_json(names: &[&str], motion: &Motion) -> Value {
             })
         })
         .collect();
+    let mut equilibrium = json!({
+        "q": by_name(&motion.found.place.q()),
+        "v": by_name(&motion.v),
+        "steps": motion.found.steps,
+        "free": free,
+        "drifts": drifts,
+    });
+    if !states.is_empty() {
+        equilibrium["states"] = Value::Object(states);
+    }
     json!({
-        "equilibrium": {
-            "q": by_name(&motion.found.place.q()),
-            "v": by_name(&motion.v),
-            "steps": motion.found.steps,
-            "free": free,
-            "drifts": drifts,
-        },
+        "equilibrium": equilibrium,
         "modes": modes,
         "lost": {"modes": lost, "below": lost_below},
     })
@@ -370,11 +391,12 @@ fn columns(names: &[&str], units: &[&str], trace: &Trace) -> Vec<(String, Vec<f6
         ]
         .map(str::to_owned),
     );
-    headers.extend(names.iter().zip(units).map(|(name, unit)| with(name, unit)));
-    headers.extend(names.iter().zip(units).map(|(name, unit)| match *unit {
-        "1" => format!("der({name}) [1/s]"),
-        unit => format!("der({name}) [{unit}/s]"),
-    }));
+    let is_place: Vec<bool> = names.iter().map(|name| state_of(name).is_none()).collect();
+    let of_places = names.iter().zip(units).zip(&is_place);
+    let of_places = of_places.filter(|(_, is_place)| **is_place);
+    headers.extend(of_places.map(|((name, unit), _)| with(name, unit)));
+    let rates = names.iter().zip(units);
+    headers.extend(rates.map(|(name, unit)| with(&rate_name(name, ""), &unit_of_rate(name, unit))));
     let mut columns: Vec<(String, Vec<f64>)> = headers
         .into_iter()
         .map(|header| (header, Vec::new()))
@@ -391,7 +413,8 @@ fn columns(names: &[&str], units: &[&str], trace: &Trace) -> Vec<(String, Vec<f6
                 *error,
                 lambda.im / TAU,
             ];
-            let q = motion.found.place.q();
+            let q = motion.found.place.q().into_iter().zip(&is_place);
+            let q = q.filter(|(_, is_place)| **is_place).map(|(q, _)| q);
             let row = own.into_iter().chain(q).chain(motion.v.iter().copied());
             for ((_, column), x) in columns.iter_mut().zip(row) {
                 column.push(x);
@@ -514,7 +537,7 @@ pub fn text_of_place(
     motion: &Motion,
 ) -> String {
     let mut text = String::new();
-    let width = names.iter().map(|name| name.chars().count()).max();
+    let width = names.iter().map(|name| shown(name).chars().count()).max();
     let width = width.unwrap_or(0);
     let found = &motion.found;
     let times = if found.steps == 1 { "step" } else { "steps" };
@@ -525,6 +548,14 @@ pub fn text_of_place(
     // Writing to a String cannot fail.
     let _ = writeln!(text, "{what}, {} {times} from the start:", found.steps);
     for (k, (name, q)) in names.iter().zip(found.place.q()).enumerate() {
+        if let Some(state) = state_of(name) {
+            let unit = match unit_of_rate(name, units[k]).as_str() {
+                "1" => String::new(),
+                unit => format!(" {unit}"),
+            };
+            let _ = writeln!(text, "  {state:width$}  {}{unit}", number(motion.v[k]));
+            continue;
+        }
         let (moved, unit) = (q - start[k], units[k]);
         // What is nothing but rounding, in rad or m, is not shown.
         let q = if q.abs() <= 1e-12 { 0.0 } else { q };
@@ -552,7 +583,7 @@ pub fn text_of_place(
 
 fn text(names: &[&str], units: &[&str], start: &[f64], wanted: &Wanted, motion: &Motion) -> String {
     let mut text = String::new();
-    let width = names.iter().map(|name| name.chars().count()).max();
+    let width = names.iter().map(|name| shown(name).chars().count()).max();
     let width = width.unwrap_or(0);
     let modes = &motion.modes;
     text.push_str(&text_of_place(names, units, start, wanted, motion));
@@ -564,7 +595,7 @@ fn text(names: &[&str], units: &[&str], start: &[f64], wanted: &Wanted, motion: 
             modes.free
         );
     }
-    if motion.v.iter().any(|v| *v != 0.0) && modes.drifts > 0 {
+    if moves(names, motion) && modes.drifts > 0 {
         let ways = if modes.drifts == 1 { "way" } else { "ways" };
         let _ = writeln!(
             text,
@@ -602,6 +633,7 @@ fn text(names: &[&str], units: &[&str], start: &[f64], wanted: &Wanted, motion: 
         for (name, x) in names.iter().zip(&mode.shape) {
             // Beside an amplitude of 1, in rad or m, the rest is nothing to look at; with --json it is there.
             if x.norm() > 1e-12 {
+                let name = shown(name);
                 let _ = writeln!(text, "  {name:width$}  {}", amplitude(*x));
             }
         }

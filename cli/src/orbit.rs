@@ -11,6 +11,7 @@ use lagrangian_linear::orbit::{
 use lagrangian_mechanics::Compiled;
 use lagrangian_spec::model::{Variable, stage};
 use lagrangian_symbolic::Dag;
+use lagrangian_units::rate_name;
 use serde_json::{Value, json};
 
 use crate::call;
@@ -141,6 +142,14 @@ fn ready<'d>(
         ))
     })?;
     reading::check_kept(&machine.start(), &call.keep)?;
+    let mut states = compiled.model.coordinates.iter();
+    if let Some(state) = states.find(|c| c.rate.is_some()) {
+        return Err(Failure::Run(format!(
+            "the machine has the state of first order `{}`, whose integral over time comes back after no period: orbits are found \
+             of machines without `states`",
+            rate_name(&state.name.to_string(), "")
+        )));
+    }
     if let Some(constraint) = machine.prepare().constraints().next() {
         return Err(Failure::Run(format!(
             "the start of a machine with constraints moves along them, and so it has no variational equations here (`{}`): say the \

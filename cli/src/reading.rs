@@ -9,7 +9,7 @@ use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::model::{Coordinate, Model};
 use lagrangian_spec::resolve::Formula;
 use lagrangian_spec::source::{Files, SourceId, Sources};
-use lagrangian_spec::unit::Unit;
+use lagrangian_spec::unit::{Unit, integral_name, rate_unit};
 use lagrangian_sweep::plan::Law;
 use lagrangian_sweep::signals::Written;
 use lagrangian_symbolic::{Dag, Rational};
@@ -240,7 +240,9 @@ pub fn machine(
             return Err(unknown_name("parameter or input", &unknown, other));
         }
     }
-    for set in start.coordinates.iter().chain(&start.rates) {
+    let is_state = |set: &&Assignment| state_named(&machine.start().v, &set.name).is_some();
+    let coordinates = start.coordinates.iter().filter(|set| !is_state(set));
+    for set in coordinates.chain(&start.rates) {
         let mut coordinates = machine.start().q;
         let Err(unknown) = coordinates.set(&set.name, 0.0) else {
             continue;
@@ -266,20 +268,30 @@ pub fn machine(
 /// # Errors
 /// If one names a coordinate that the machine does not have.
 pub fn set_start(start: &mut State<Named>, call: &call::Start) -> Result<(), Failure> {
-    for (assignments, numbers, option) in [
-        (&call.coordinates, &mut start.q, "--start"),
-        (&call.rates, &mut start.v, "--rate"),
-    ] {
-        for set in families_first(assignments) {
-            let of_rate = |unit: &str| format!("({unit})/s");
-            let unit = numbers.unit(&set.name).map(|unit| match option {
-                "--rate" => of_rate(unit),
-                _ => unit.to_owned(),
-            });
-            assign(numbers, set, option, &unit.unwrap_or_default())?;
+    for set in families_first(&call.coordinates) {
+        if let Some((integral, unit)) = state_named(&start.v, &set.name) {
+            let set = Assignment {
+                name: integral,
+                value: set.value.clone(),
+            };
+            assign(&mut start.v, &set, "--start", &unit)?;
+            continue;
         }
+        let unit = start.q.unit(&set.name).map(str::to_owned);
+        assign(&mut start.q, set, "--start", &unit.unwrap_or_default())?;
+    }
+    for set in families_first(&call.rates) {
+        let unit = start.v.unit(&set.name).map(|unit| format!("({unit})/s"));
+        assign(&mut start.v, set, "--rate", &unit.unwrap_or_default())?;
     }
     Ok(())
+}
+
+/// The name under which a state of first order, or a family of them, stands among rates, and its unit.
+fn state_named(rates: &Named, name: &str) -> Option<(String, String)> {
+    let integral = integral_name(name);
+    let unit = rate_unit(&integral, rates.unit(&integral)?);
+    Some((integral, unit))
 }
 
 /// Gives a coordinate, or its rate, what a call says, in a unit.

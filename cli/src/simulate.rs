@@ -10,6 +10,7 @@ use lagrangian_spec::diagnostic::nearest;
 use lagrangian_sweep::signals::{self, Written};
 use lagrangian_sweep::verdict;
 use lagrangian_symbolic::Dag;
+use lagrangian_units::state_of;
 use serde_json::{Value, json};
 
 use crate::call;
@@ -19,7 +20,7 @@ use crate::evaluate::set_start;
 use crate::failure::Failure;
 use crate::inputs;
 use crate::interrupt::Interrupt;
-use crate::numbers::{by_name, shortest};
+use crate::numbers::{by_name, shortest, states};
 use crate::output::{self, Destination, PAGE, SVG, TABLE, keep_apart};
 use crate::progress;
 use crate::reading::{self, Reading};
@@ -338,6 +339,9 @@ fn document(
         "warnings": warnings,
     });
     if let Value::Object(fields) = &mut document {
+        if let Some(states) = states(&end.v) {
+            fields.insert("states".into(), states);
+        }
         if !call.inputs.is_empty() {
             let inputs = call.inputs.iter();
             let inputs = inputs.map(|input| (input.name.clone(), input.value.clone().into()));
@@ -389,11 +393,16 @@ fn print_summary(
     let width = end
         .q
         .iter()
-        .map(|(name, _)| name.chars().count())
+        .map(|(name, _)| state_of(name).map_or(name.chars().count(), |state| state.chars().count()))
         .max()
         .unwrap_or(0);
     output::line(format_args!("  at the end"));
     for ((name, q), (_, v)) in end.q.iter().zip(end.v.iter()) {
+        if let Some(state) = state_of(name) {
+            let pad = " ".repeat(width.saturating_sub(state.chars().count()));
+            output::line(format_args!("    {state}{pad} = {}", shortest(v)));
+            continue;
+        }
         let pad = " ".repeat(width - name.chars().count());
         output::line(format_args!(
             "    {name}{pad} = {:<24} der({name}){pad} = {}",

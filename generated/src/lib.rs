@@ -33,6 +33,8 @@ pub mod crusher9;
 pub mod crushing_crusher;
 /// The machine of [`CushionedCrusher`].
 pub mod cushioned_crusher;
+/// The machine of [`DcMotor`].
+pub mod dc_motor;
 /// The machine of [`DoublePendulum`].
 pub mod double_pendulum;
 /// The machine of [`ElasticPendulum`].
@@ -59,6 +61,8 @@ pub mod motor_crusher;
 pub mod paper_crusher;
 /// The machine of [`ParticlePendulum`].
 pub mod particle_pendulum;
+/// The machine of [`PositionServo`].
+pub mod position_servo;
 /// The machine of [`Prisms`].
 pub mod prisms;
 /// The machine of [`Rattleback`].
@@ -106,6 +110,7 @@ pub use closed_pendulum::ClosedPendulum;
 pub use crusher9::Crusher9;
 pub use crushing_crusher::CrushingCrusher;
 pub use cushioned_crusher::CushionedCrusher;
+pub use dc_motor::DcMotor;
 pub use double_pendulum::DoublePendulum;
 pub use elastic_pendulum::ElasticPendulum;
 pub use flyball_governor::FlyballGovernor;
@@ -119,6 +124,7 @@ pub use kapitza_pendulum::KapitzaPendulum;
 pub use motor_crusher::MotorCrusher;
 pub use paper_crusher::PaperCrusher;
 pub use particle_pendulum::ParticlePendulum;
+pub use position_servo::PositionServo;
 pub use prisms::Prisms;
 pub use rattleback::Rattleback;
 pub use rolling_coin::RollingCoin;

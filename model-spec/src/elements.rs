@@ -14,8 +14,10 @@ mod damper;
 mod dissipation;
 mod drag;
 mod elastic;
+mod energy;
 mod force;
 mod gravity;
+mod loss;
 mod potential;
 mod rolling;
 mod rope;
@@ -60,6 +62,8 @@ const ROWS: &[Row] = &[
     wheel::ROW,
     sliding::ROW,
     rolling::ROW,
+    energy::ROW,
+    loss::ROW,
 ];
 
 /// All sections.

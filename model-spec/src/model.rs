@@ -67,7 +67,8 @@ pub struct Model<'d> {
     pub parameters: Vec<Parameter<'d>>,
     /// Compile-time constants; expressions hold their values already.
     pub constants: Vec<Constant<'d>>,
-    /// Generalized coordinates, in the order of `q`.
+    /// Generalized coordinates, in the order of `q`: those of the spec, then the integrals of its states of
+    /// first order.
     pub coordinates: Vec<Coordinate<'d>>,
     /// Values that the user sets while the machine runs.
     pub inputs: Vec<Input<'d>>,
@@ -203,6 +204,9 @@ pub struct Coordinate<'d> {
     pub start: Expr<'d>,
     /// Its rate there, 0 where the spec gives none; may depend on parameters.
     pub start_rate: Expr<'d>,
+    /// None of a coordinate. A state of first order `s` is the rate of a coordinate that nothing depends
+    /// on, its integral over time; then this is `ds/dt`, of states, coordinates, rates, inputs and time.
+    pub rate: Option<Expr<'d>>,
     /// Its symbol, that of its velocity, and that of its acceleration.
     pub q: Expr<'d>,
     /// The symbol of its velocity.

@@ -20,6 +20,7 @@
 //! | [`outlines`] | the shapes of bodies |
 //! | [`element`] | what elements mean, by the list that it is given |
 //! | [`rates`] | rates at the start |
+//! | [`states`] | states of first order, and their rates |
 //! | [`bounds`] | numbers that no machine has |
 //! | [`warnings`] | what may not be meant |
 //! | [`relaxation`] | the same machine with its guides relaxed |
@@ -53,6 +54,7 @@ mod published;
 mod rates;
 mod relaxation;
 mod stages;
+mod states;
 mod tables;
 mod text;
 pub(crate) mod value;
@@ -262,6 +264,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         let constants = self.each(Constants, Self::constant);
         let mut coordinates = self.each(Coordinates, Self::coordinate);
         self.start_rates(layers, &mut coordinates);
+        let states = self.states(layers);
         let inputs = self.each(Inputs, Self::input);
         self.each(Define, |resolver, member| {
             resolver.definition(member);
@@ -289,6 +292,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         let destination = self.destination(layers, &coordinates);
         let published = self.published(layers);
 
+        coordinates.extend(states);
         coordinates.extend(self.relaxed_coordinates());
         assumptions.append(&mut self.table_facts);
 

@@ -17,6 +17,8 @@
 //! quantities  = ("parameters" | "constants" | "coordinates" | "inputs" | "outputs")
 //!               "{" list(declared [":" unit] ["=" expression]) "}"
 //!             | "coordinates" "{" list("der" "(" declared ")" ":" unit "=" expression) "}"
+//!             | "states" "{" list(declared ":" unit ["=" expression]
+//!                                 | "der" "(" declared ")" [":" unit] "=" expression) "}"
 //! values      = ("define" | "frames") "{" list(declared "=" expression) "}"
 //!             | ("potentials" | "dissipations") "{" list(declared ":" expression) "}"
 //! records     = ("bodies" | "rotors" | "springs" | "torsion_springs" | "dampers" | "bushings" | "stops"

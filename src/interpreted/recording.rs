@@ -5,6 +5,8 @@ use std::string::String;
 use std::vec;
 use std::vec::Vec;
 
+use lagrangian_spec::unit::{rate_name, rate_unit, state_of};
+
 use super::{InterpretedMachine, InterpretedSystem, Named};
 use crate::{Compliance, Energies, InputLaw, Solution, State, System};
 
@@ -108,15 +110,24 @@ impl Recording {
                 values: Vec::with_capacity(states.len()),
             })
         };
-        for quantity in system.coordinates() {
+        // Of a state of first order there is its value, and not the integral of that.
+        let is_integral: Vec<bool> = system
+            .coordinates()
+            .map(|quantity| state_of(quantity.name).is_some())
+            .collect();
+        for quantity in system
+            .coordinates()
+            .filter(|of| state_of(of.name).is_none())
+        {
             column(quantity.name.into(), quantity.unit.into(), Kind::Coordinate);
         }
         for quantity in system.coordinates() {
-            let unit = match quantity.unit {
-                "1" => "1/s".into(),
-                unit => format!("{unit}/s"),
+            let unit = rate_unit(quantity.name, quantity.unit);
+            let kind = match state_of(quantity.name) {
+                Some(_) => Kind::Output,
+                None => Kind::Rate,
             };
-            column(format!("der({})", quantity.name), unit, Kind::Rate);
+            column(rate_name(quantity.name, ""), unit, kind);
         }
         let start = run.start();
         let (q, v) = (&start.q.values, &start.v.values);
@@ -206,7 +217,10 @@ impl Recording {
                     (outputs, inputs, unknown(reactions), [f64::NAN; 3])
                 }
             };
-            let moving = state.q.values.iter().chain(&state.v.values).copied();
+            let places = state.q.values.iter().zip(&is_integral);
+            let places = places.filter(|(_, is_integral)| !**is_integral);
+            let places = places.map(|(place, _)| place);
+            let moving = places.chain(&state.v.values).copied();
             let residual = residual_at(run.energies(), state.t);
             let outputs = seen.into_iter().zip(&shown);
             let outputs = outputs.filter(|(_, is_shown)| **is_shown);

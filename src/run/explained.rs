@@ -40,8 +40,9 @@ impl Explained {
         let u = stepper.inputs();
         let n = q.as_slice().len();
         self.steps += 1;
+        let of_states = system.state_energy(t, q, v).abs();
         self.greatest = (self.greatest)
-            .max(energies.kinetic.abs() + energies.potential.abs())
+            .max(energies.kinetic.abs() + energies.potential.abs() + of_states)
             .max(energies.work.abs() + energies.dissipated.abs());
         if self.steps.is_power_of_two() {
             self.look(system, (t, q, u), energies.potential);
@@ -63,7 +64,8 @@ impl Explained {
         let work = applied.as_slice().iter().zip(of_q.as_slice());
         let mut change = work.map(|(force, by)| (force * by).abs()).sum::<f64>();
         let (by_q, by_v) = (length(&of_q), length(&of_v));
-        change += length(a) * by_q + (sqrt(2.0 * energies.kinetic.abs()) + by_v) * by_v;
+        change +=
+            length(a) * by_q + (sqrt(2.0 * (energies.kinetic.abs() + of_states)) + by_v) * by_v;
         if stepper.is_implicit() {
             let power = |q: &S::Vector, v: &S::Vector| {
                 system.work_rate(t, q, v, a, u) - system.dissipation_rate(t, q, v, u)
@@ -93,14 +95,15 @@ impl Explained {
         let n = q.as_slice().len();
         self.inertia = vec![0.0; n];
         let rest = q.zeros_like();
-        let of_rest = system.kinetic_energy(t, q, &rest);
+        let energy = |v: &S::Vector| system.kinetic_energy(t, q, v) + system.state_energy(t, q, v);
+        let of_rest = energy(&rest);
         for (i, inertia) in self.inertia.iter_mut().enumerate() {
             // T is of second degree in the rates.
             let mut doubled = -2.0 * of_rest;
             for rate in [1.0, -1.0] {
                 let mut v = rest.clone();
                 v.as_mut_slice()[i] = rate;
-                doubled += system.kinetic_energy(t, q, &v);
+                doubled += energy(&v);
             }
             *inertia = sqrt(doubled.max(0.0));
         }

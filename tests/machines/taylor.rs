@@ -124,6 +124,7 @@ fn within_a_step_the_polynomial_obeys_the_equations() {
     for name in [
         "chain",
         "crusher9",
+        "dc_motor",
         "elastic_pendulum",
         "gyroscope_in_gimbals",
         "heavy_top",

@@ -11,13 +11,14 @@ use lagrangian_spec::source::{Disk, Sources};
 use lagrangian_symbolic::{Dag, Rational};
 
 /// The file names of all machines without constraints.
-pub const MACHINES: [&str; 23] = [
+pub const MACHINES: [&str; 25] = [
     "asymmetric_top",
     "cart_pole",
     "chain",
     "chain_relative",
     "crusher9",
     "cushioned_crusher",
+    "dc_motor",
     "double_pendulum",
     "elastic_pendulum",
     "frozen_crusher",
@@ -26,6 +27,7 @@ pub const MACHINES: [&str; 23] = [
     "kapitza_pendulum",
     "motor_crusher",
     "paper_crusher",
+    "position_servo",
     "simple_pendulum",
     "six_joint_arm",
     "small_angle_crusher",
@@ -76,6 +78,7 @@ macro_rules! for_each_machine {
         $do!(ChainRelative, "chain_relative");
         $do!(Crusher9, "crusher9");
         $do!(CushionedCrusher, "cushioned_crusher");
+        $do!(DcMotor, "dc_motor");
         $do!(DoublePendulum, "double_pendulum");
         $do!(ElasticPendulum, "elastic_pendulum");
         $do!(FrozenCrusher, "frozen_crusher");
@@ -84,6 +87,7 @@ macro_rules! for_each_machine {
         $do!(KapitzaPendulum, "kapitza_pendulum");
         $do!(MotorCrusher, "motor_crusher");
         $do!(PaperCrusher, "paper_crusher");
+        $do!(PositionServo, "position_servo");
         $do!(SimplePendulum, "simple_pendulum");
         $do!(SixJointArm, "six_joint_arm");
         $do!(SmallAngleCrusher, "small_angle_crusher");

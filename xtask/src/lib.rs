@@ -227,6 +227,7 @@ fn quantities() -> String {
             (Role::Gradient(_), _) => "one for each output, in functional mock-up units",
             (Role::Output(_), _) => "one for each output",
             (Role::Assumption(_), _) => "one for each assumption",
+            (_, Needs::Stores) => "with `energies`",
             (_, Needs::Request) => "with `stages`",
         };
         let code = |text: &str| match text.is_empty() {

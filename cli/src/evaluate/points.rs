@@ -19,6 +19,8 @@ pub struct Point {
     pub q: Option<Numbers>,
     /// Their rates.
     pub v: Option<Numbers>,
+    /// States of first order.
+    pub states: Option<Numbers>,
     /// Parameters by name.
     pub parameters: Vec<(String, Entry)>,
     /// Inputs by name.
@@ -44,7 +46,7 @@ pub enum Entry {
 }
 
 /// The names that a point may have.
-const FIELDS: [&str; 5] = ["t", "q", "v", "parameters", "inputs"];
+const FIELDS: [&str; 6] = ["t", "q", "v", "states", "parameters", "inputs"];
 
 /// Reads a list of points from a text, whose name is for messages. A point that is wrong does not stop the others.
 ///
@@ -152,6 +154,7 @@ impl<'a> Reader<'a> {
                 "t" => point.t = Some(self.number(value).map_err(in_field)?),
                 "q" => point.q = Some(self.numbers(value).map_err(in_field)?),
                 "v" => point.v = Some(self.numbers(value).map_err(in_field)?),
+                "states" => point.states = Some(self.numbers(value).map_err(in_field)?),
                 "parameters" => point.parameters = self.entries(value).map_err(in_field)?,
                 "inputs" => point.inputs = self.entries(value).map_err(in_field)?,
                 _ => {

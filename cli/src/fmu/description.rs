@@ -1,6 +1,6 @@
 //! `modelDescription.xml`, in both versions, and `buildDescription.xml`.
 
-use lagrangian_units::Unit as PhysicalUnit;
+use lagrangian_units::{Unit as PhysicalUnit, state_of};
 
 use super::dependencies::Dependencies;
 use super::units::Units;
@@ -176,13 +176,24 @@ fn row(unit: &Unit<'_>, variable: &Variable, units: &mut Units) -> Row {
         },
         Kind::Coordinate(i) => {
             let slot = &program.coordinates[i];
-            exact(state(i), units.of(slot.unit), words(&slot.docs))
+            let docs = match state_of(&slot.name.to_string()) {
+                Some(state) => format!("Integral of {state} over time, on which nothing depends"),
+                None => words(&slot.docs),
+            };
+            exact(state(i), units.of(slot.unit), docs)
         }
         Kind::Rate(i) => {
             let slot = &program.coordinates[i];
             Row {
                 derivative: Some(1 + i),
-                ..exact(state(n + i), units.of(slot.unit.rate()), String::new())
+                ..exact(
+                    state(n + i),
+                    units.of(slot.unit.rate()),
+                    match state_of(&slot.name.to_string()) {
+                        Some(_) => words(&slot.docs),
+                        None => String::new(),
+                    },
+                )
             }
         }
         Kind::Acceleration(i) => {

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use lagrangian_program::Program;
+use lagrangian_units::state_of;
 
 use crate::failure::Failure;
 
@@ -56,11 +57,21 @@ impl Variables {
                 .collect::<Vec<_>>()
         };
         all.extend(each(&coordinates, Kind::Coordinate, str::to_owned));
-        all.extend(each(&coordinates, Kind::Rate, |name| {
-            format!("der({name})")
+        // A state of first order is the rate of its integral.
+        let states = program.coordinates.iter();
+        let states = states.map(|slot| Some(structured(&state_of(&slot.name.to_string())?)));
+        let states: Vec<Option<String>> = states.collect();
+        let rates = coordinates.iter().zip(&states).enumerate();
+        all.extend(rates.clone().map(|(i, (name, state))| {
+            let rate = state.clone().unwrap_or_else(|| format!("der({name})"));
+            (Kind::Rate(i), rate)
         }));
-        all.extend(each(&coordinates, Kind::Acceleration, |name| {
-            format!("der({name},2)")
+        all.extend(rates.map(|(i, (name, state))| {
+            let rate = match state {
+                Some(state) => format!("der({state})"),
+                None => format!("der({name},2)"),
+            };
+            (Kind::Acceleration(i), rate)
         }));
         all.extend(each(
             &names(&program.parameters),
@@ -89,7 +100,8 @@ impl Variables {
                 name: free(name, &mut taken),
                 is_output: match kind {
                     Kind::Output(_) => true,
-                    Kind::Coordinate(_) => !has_outputs,
+                    Kind::Coordinate(i) => !has_outputs && states[i].is_none(),
+                    Kind::Rate(i) => !has_outputs && states[i].is_some(),
                     _ => false,
                 },
             })

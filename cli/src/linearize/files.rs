@@ -4,6 +4,7 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use lagrangian_linear::DMatrix;
+use lagrangian_units::rate_name;
 
 use super::arrays::{arrays, plain};
 use super::{Linearization, as_json, frequencies, mat, npz};
@@ -86,7 +87,7 @@ impl Files {
             }
         }
         let coordinates = names[0].iter().cloned();
-        let rates = names[0].iter().map(|name| format!("der({name})"));
+        let rates = names[0].iter().map(|name| rate_name(name, ""));
         let all: Vec<String> = coordinates.chain(rates).collect();
         let [states, inputs, outputs] =
             [&model.states, &model.inputs, &model.outputs].map(|labels| plain(labels));

@@ -21,6 +21,7 @@ mod report;
 mod runs;
 mod scripts;
 mod signals;
+mod states;
 #[path = "../support/mod.rs"]
 mod support;
 mod sweep;

@@ -13,6 +13,7 @@ use super::layout::{Writer, width};
 use super::names::{Field, Scope, fields, flat, snake_case};
 use lagrangian_mechanics::Proved;
 use lagrangian_program::{Function, Guard, Op, Program, Reads, Role, Shape, Slot, Source};
+use lagrangian_units::{rate_unit, state_of};
 
 /// What C keeps for itself, and the functions of its library that the code calls.
 const RESERVED: &[&str] = &[
@@ -196,13 +197,17 @@ impl<'a> Emitter<'a> {
         );
         for (i, slot) in program.coordinates.iter().enumerate() {
             let docs = slot.docs.split_whitespace().collect::<Vec<_>>().join(" ");
+            let name = slot.name.to_string();
+            let what = match state_of(&name) {
+                Some(state) => format!(
+                    "the state {state}, {}, in v, its integral over time in q",
+                    rate_unit(&name, &slot.unit_text)
+                ),
+                None => format!("{name}, {}", slot.unit_text),
+            };
             writer.comment(
                 " *",
-                harmless(&format!(
-                    "    [{i}] {}, {}  {docs}",
-                    slot.name, slot.unit_text
-                ))
-                .trim_end(),
+                harmless(&format!("    [{i}] {what}  {docs}")).trim_end(),
             );
         }
         writer.line(" *");
@@ -789,7 +794,7 @@ fn field_names(groups: &[Field], slots: &[Slot]) -> Vec<String> {
     let mut scope = Scope::with(RESERVED);
     groups
         .iter()
-        .map(|field| scope.take_plain(&ascii(&slots[field.slots[0]].name.base)))
+        .map(|field| scope.take_plain(&ascii(slots[field.slots[0]].name.word())))
         .collect()
 }
 

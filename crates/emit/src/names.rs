@@ -47,9 +47,9 @@ pub fn snake_case(name: &str) -> String {
 /// A name that may stand inside another: `q[3]` is `q_3`, `q[-1]` is `q_m1`.
 pub fn flat(name: &Name) -> String {
     match name.index {
-        Some(index) if index < 0 => format!("{}_m{}", name.base, index.unsigned_abs()),
-        Some(index) => format!("{}_{index}", name.base),
-        None => name.base.clone(),
+        Some(index) if index < 0 => format!("{}_m{}", name.word(), index.unsigned_abs()),
+        Some(index) => format!("{}_{index}", name.word()),
+        None => name.word().to_owned(),
     }
 }
 
@@ -104,7 +104,7 @@ pub fn fields<'a>(names: impl IntoIterator<Item = &'a Name>) -> Vec<Field> {
         {
             Some((_, field)) => field.slots.push(slot),
             None => {
-                let ident = identifier(&name.base);
+                let ident = identifier(name.word());
                 let field = Field {
                     ident,
                     slots: vec![slot],

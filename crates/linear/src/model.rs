@@ -14,6 +14,7 @@
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem};
 use lagrangian::{Machine, System};
 use lagrangian_scalar::{DoubleDouble, Dual, Scalar};
+use lagrangian_units::{rate_unit, state_of};
 use nalgebra::DMatrix;
 
 use crate::motion::{self, Motion};
@@ -313,7 +314,7 @@ pub fn about(
         s: choice.independent.iter().map(|j| v[*j].into()).collect(),
         q: wide,
     };
-    let records = vec![false; n];
+    let records = reduced.integrals();
     let at = At {
         choice: &choice,
         place: &place,
@@ -354,6 +355,13 @@ struct Asked<'a> {
 
 /// `der(x)` in its unit.
 fn rate(of: &Label, order: u8) -> Label {
+    if let Some(state) = state_of(&of.name) {
+        let unit = rate_unit(&of.name, &of.unit);
+        return match order {
+            1 => Label { name: state, unit },
+            _ => rate(&Label { name: state, unit }, order - 1),
+        };
+    }
     let name = match order {
         1 => format!("der({})", of.name),
         _ => format!("der({},{order})", of.name),
@@ -427,7 +435,14 @@ impl<'a> Asked<'a> {
         let rates = at.choice.independent.iter();
         let rates = rates.map(|j| rate(&self.coordinates[*j], 1));
         let records = self.coordinates.iter().zip(at.records);
-        let records = records.filter(|(_, is_record)| **is_record);
+        let is_integral = |label: &Label| state_of(&label.name).is_some();
+        // That a state of first order has an integral is nothing to be told.
+        let records = records.filter(|(label, is_record)| **is_record && !is_integral(label));
+        let integrals = self
+            .coordinates
+            .iter()
+            .filter(|label| is_integral(label))
+            .count();
         let states: Vec<Label> = names.chain(rates).collect();
         let Matrices {
             a,
@@ -441,7 +456,7 @@ impl<'a> Asked<'a> {
         Model {
             y: y.iter().copied().collect(),
             drift: drift.iter().copied().collect(),
-            is_reduced: states.len() < 2 * q.len(),
+            is_reduced: states.len() + integrals < 2 * q.len(),
             records: records.map(|(label, _)| label.name.clone()).collect(),
             a_bounds: bounds.a,
             inputs: self.inputs,
@@ -560,6 +575,7 @@ fn matrices(
     let tangent = reduced.tangent(choice, &q)?;
     let here = respond(reduced, asked, choice, &q, &s)?;
     let places = at.places();
+    let integrals = reduced.integrals();
     let (n, moving, kept) = (q.len(), s.len(), places.len());
     let states = kept + moving;
     let value = |x: &Number| x.value.hi();
@@ -597,13 +613,13 @@ fn matrices(
         for (i, x) in there.outputs.iter().enumerate() {
             found.c[(i, column)] = slope(x);
         }
-        for (i, step) in direction
-            .iter()
-            .enumerate()
-            .filter(|(i, _)| !at.records[*i])
-        {
-            found.basis[(i, column)] = step.hi();
-            found.basis[(n + i, column)] = slope(&there.rates[i]);
+        for (i, step) in direction.iter().enumerate() {
+            if !at.records[i] {
+                found.basis[(i, column)] = step.hi();
+            }
+            if !at.records[i] || integrals[i] {
+                found.basis[(n + i, column)] = slope(&there.rates[i]);
+            }
         }
     }
     q = constants(&place.q);
@@ -618,7 +634,7 @@ fn matrices(
         for (i, x) in there.outputs.iter().enumerate() {
             found.c[(i, column)] = slope(x);
         }
-        for i in (0..n).filter(|i| !at.records[*i]) {
+        for i in (0..n).filter(|i| !at.records[*i] || integrals[*i]) {
             found.basis[(n + i, column)] = slope(&there.rates[i]);
         }
     }

@@ -28,11 +28,12 @@ pub(crate) const SAME: f64 = 1e-22;
 pub struct Motion {
     /// The state.
     pub found: Found,
-    /// Rates of all coordinates; 0 where they are but for rounding.
+    /// Rates of all coordinates, states of first order among them; 0 where they are but for rounding.
     pub v: Vec<f64>,
     /// The motions near it, their shapes with a number for each coordinate.
     pub modes: Modes,
-    /// Coordinates that only record where the machine has come: they have no part in shapes.
+    /// Coordinates that only record where the machine has come: they have no part in shapes. Those that are integrals of
+    /// states of first order are among them, and shapes have the amplitude of the state in their place.
     pub records: Vec<bool>,
 }
 
@@ -182,7 +183,7 @@ pub fn records(reduced: &mut Reduced<'_>, state: &State<'_>) -> Result<Vec<bool>
 /// # Errors
 /// If it does not go on steadily, or has no eigenvalues.
 pub fn near(reduced: &mut Reduced<'_>, found: Found, steady: &[bool]) -> Result<Motion, Unsteady> {
-    let records = records(reduced, &found.state())?;
+    let mut records = records(reduced, &found.state())?;
     let Found {
         choice,
         here,
@@ -239,6 +240,11 @@ pub fn near(reduced: &mut Reduced<'_>, found: Found, steady: &[bool]) -> Result<
     for mode in &mut modes.modes {
         mode.shape = in_coordinates(&tangent, &records, mode);
     }
+    let integrals = reduced.integrals();
+    let modes = of_states(modes, &integrals);
+    for (record, is_integral) in records.iter_mut().zip(&integrals) {
+        *record |= is_integral;
+    }
     let v = (0..reduced.dimension()).map(|j| {
         let v = here.rates[j];
         if v.abs() <= bounds.rates[j] && !steady[j] {
@@ -253,6 +259,51 @@ pub fn near(reduced: &mut Reduced<'_>, found: Found, steady: &[bool]) -> Result<
         records,
         found,
     })
+}
+
+/// Shapes with the amplitudes of states of first order in place of those of their integrals; and without the motions in
+/// which nothing but integrals is displaced, which are none of the machine.
+fn of_states(mut modes: Modes, integrals: &[bool]) -> Modes {
+    let count = integrals.iter().filter(|is| **is).count();
+    if count == 0 {
+        return modes;
+    }
+    modes.free = modes.free.saturating_sub(count);
+    let zero = Complex::new(0.0, 0.0);
+    let mut free: Vec<Vec<Complex<f64>>> = Vec::new();
+    modes.modes.retain_mut(|mode| {
+        let is_free = mode.lambda == zero;
+        for (x, _) in mode.shape.iter_mut().zip(integrals).filter(|(_, is)| **is) {
+            *x = match is_free {
+                true => zero,
+                false => *x * mode.lambda,
+            };
+        }
+        if is_free {
+            for other in &free {
+                let pairs = mode.shape.iter().zip(other);
+                let along = pairs.fold(zero, |sum, (x, y)| sum + x * y.conj());
+                let pairs = mode.shape.iter_mut().zip(other);
+                pairs.for_each(|(x, y)| *x -= along * y);
+            }
+            let norm = mode.shape.iter().map(|x| x.norm_sqr()).sum::<f64>().sqrt();
+            // The shapes are of size 1, and what is left of a dependent one is rounding.
+            if norm <= 1e-9 {
+                return false;
+            }
+            free.push(mode.shape.iter().map(|x| x / norm).collect());
+        }
+        let largest = mode.shape.iter().map(|x| x.norm()).fold(0.0, f64::max);
+        let first = mode
+            .shape
+            .iter()
+            .find(|x| x.norm() >= (1.0 - 1e-9) * largest);
+        if let Some(unit) = first.copied().filter(|_| largest > 0.0) {
+            mode.shape.iter_mut().for_each(|x| *x /= unit);
+        }
+        true
+    });
+    modes
 }
 
 /// A shape in z as one in coordinates, the largest number 1.

@@ -19,6 +19,7 @@ use lagrangian::System;
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem};
 use lagrangian_program::{Arguments, Interpreter, Role, Shape};
 use lagrangian_scalar::{DoubleDouble, Dual, Scalar};
+use lagrangian_units::state_of;
 use nalgebra::{DMatrix, DVector};
 
 use crate::precise;
@@ -216,6 +217,12 @@ impl<'a> Reduced<'a> {
             .map(|j| states.iter().all(|(q, v)| reduced.is_idle(j, q, v)))
             .collect();
         reduced
+    }
+
+    /// Which coordinates are integrals of states of first order, and not places.
+    pub fn integrals(&self) -> Vec<bool> {
+        let coordinates = self.system.coordinates();
+        coordinates.map(|c| state_of(c.name).is_some()).collect()
     }
 
     /// How many coordinates there are.

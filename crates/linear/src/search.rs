@@ -68,6 +68,16 @@ pub struct Wanted {
 }
 
 impl Wanted {
+    /// The same where states of first order, which are the rates of these coordinates, are to be found too.
+    pub fn with_states(&self, integrals: &[bool]) -> Wanted {
+        let mut wanted = self.clone();
+        for (j, _) in integrals.iter().enumerate().filter(|(_, is)| **is) {
+            wanted.solved[j] |= !wanted.steady[j];
+            wanted.steady[j] = true;
+        }
+        wanted
+    }
+
     /// Rates of the coordinates that move steadily, as far as they are given, and 0 of the others.
     pub fn given(&self) -> Vec<f64> {
         let rates = self.rates.iter().zip(&self.steady);

@@ -37,6 +37,7 @@ pub fn motion(
     let system = machine.prepare();
     let inputs = system.default_inputs().values;
     let mut reduced = Reduced::new(machine, &system, &inputs, &states(q, &wanted.given()));
+    let wanted = &wanted.with_states(&reduced.integrals());
     let found = search::find(&mut reduced, q, wanted);
     let found = found.map_err(|lost| match start_is_unsteady(&mut reduced, q, wanted) {
         // What depends on where it is cannot be balanced for long either.

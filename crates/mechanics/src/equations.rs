@@ -74,6 +74,8 @@ pub struct Equations<'d> {
     pub kinetic_energy: Expr<'d>,
     /// Potential energy `V(q, t)`, eq. (E2).
     pub potential_energy: Expr<'d>,
+    /// Energy `E(s, q, t)` that states of first order store, eq. (E59).
+    pub state_energy: Expr<'d>,
     /// Rayleigh's dissipation function `D(q, v, t)`, eq. (E3).
     pub dissipation: Expr<'d>,
     /// Mass matrix `M(q, t)`, eq. (E4).
@@ -312,7 +314,9 @@ impl<'d> Equations<'d> {
             return;
         }
         let forces = derivatives::unbalanced(model, &self.mass_matrix, &self.forces);
+        // The row of a state is no balance of forces, and no constraint stands in it.
         let rows = model.coordinates.iter().zip(forces);
+        let rows = rows.filter(|(coordinate, _)| coordinate.rate.is_none());
         let power = rows.map(|(coordinate, left)| -(coordinate.v * left));
         self.work_rate = dag.sum(std::iter::once(self.work_rate).chain(power));
     }
@@ -381,6 +385,7 @@ fn exact<'d>(model: &Model<'d>) -> Option<Equations<'d>> {
     Some(Equations {
         kinetic_energy: dag.sum(kinetic_energies.iter().copied()),
         potential_energy,
+        state_energy: dag.sum(model.energies_of_states()),
         dissipation,
         mass_matrix: projection.mass_matrix()?,
         bias: projection.project(&projection.bias_loads(1, false), all.clone()),
@@ -440,6 +445,7 @@ fn approximate<'d>(
     let (mass_matrix, bias) = lagrange::inertia(model, &x, kinetic_energy)?;
     let mut loads = Loads::of_energies(dag, potential_energy, dissipation);
     projection.add_forces(&mut loads);
+    projection.add_state_rates(&mut loads);
     let applied = projection.project(&loads, 0..x.q.len());
     let forces: Vec<Expr<'d>> = applied
         .iter()
@@ -453,6 +459,7 @@ fn approximate<'d>(
     Some(Equations {
         kinetic_energy,
         potential_energy,
+        state_energy: dag.sum(model.energies_of_states()),
         dissipation,
         mass_matrix,
         forces,

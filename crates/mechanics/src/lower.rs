@@ -388,6 +388,7 @@ fn quantity<'d>(model: &Model<'d>, equations: &Equations<'d>, role: Role) -> Opt
         contacts: equations.sliding.len(),
         unilateral: equations.unilateral.len(),
         derivatives: model.derivatives.len(),
+        stores: model.energies_of_states().next().is_some(),
     };
     if !role.row().needs.are_met(sizes) {
         return None;
@@ -403,6 +404,7 @@ fn quantity<'d>(model: &Model<'d>, equations: &Equations<'d>, role: Role) -> Opt
         Role::Forces => equations.forces.clone(),
         Role::KineticEnergy => vec![equations.kinetic_energy],
         Role::PotentialEnergy => vec![equations.potential_energy],
+        Role::StateEnergy => vec![equations.state_energy],
         Role::Dissipation => vec![equations.dissipation],
         Role::WorkRate => vec![equations.work_rate],
         Role::DissipationRate => vec![equations.dissipation_rate],

@@ -655,6 +655,17 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             let found = self.call(role, at, 1)?[0];
             self.compare(role, 0, found, expected)?;
         }
+        if self
+            .parts
+            .machine
+            .model
+            .energies_of_states()
+            .next()
+            .is_some()
+        {
+            let found = self.call(Role::StateEnergy, at, 1)?[0];
+            self.compare(Role::StateEnergy, 0, found, literal.state_energy)?;
+        }
         let mut inertia = Sum::products(w, &computed.bias);
         for (i, &w) in w.iter().enumerate() {
             let along = row(&computed.mass_matrix, n, i).zip(&at.a);
@@ -721,7 +732,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
     }
 
     /// The power of drives and dampers, by the balance of energy: whatever the accelerations are,
-    /// `d(T + V)/dt = P − R + v·(M a − f)`. Where constraints move by themselves, their power is in
+    /// `d(T + V + E)/dt = P − R + v·(M a − f)`. Where constraints move by themselves, their power is in
     /// `P` and the last term is not there.
     fn check_power(
         &mut self,
@@ -736,12 +747,14 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             true => self.parts.machine.damping(at, &at.v),
             false => R::ZERO,
         };
+        let lost = lost + literal.lost;
         let found = self.call(Role::DissipationRate, at, 1)?[0];
         self.compare(Role::DissipationRate, 0, found, lost)?;
         let power = self.call(Role::WorkRate, at, 1)?[0];
         let with_constraints = Sum::of([power, -literal.energy_rate, -lost]);
         let mut without = with_constraints;
-        for i in 0..n {
+        // The row of a state is no balance of forces.
+        for i in (0..n).filter(|&i| model.coordinates[i].rate.is_none()) {
             without = without.plus(-(at.v[i] * computed.forces[i]));
             for (m, &a) in row(&computed.mass_matrix, n, i).zip(&at.a) {
                 without = without.plus(at.v[i] * m * a);

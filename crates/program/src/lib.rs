@@ -28,7 +28,7 @@
 use lagrangian_symbolic::{self as symbolic, Rational};
 
 use lagrangian_units::{
-    Compliance, ImpactLaw, ImpactOrder, Name, Painleve, Stages, Unit, Variable,
+    Compliance, ImpactLaw, ImpactOrder, Name, Painleve, Stages, Unit, Variable, state_of,
 };
 
 pub mod choose;
@@ -137,7 +137,7 @@ pub struct Slot {
 impl Slot {
     /// The unit as a label beside its number: as the spec writes it where that is no SI unit.
     pub fn label(&self) -> String {
-        match self.unit.is_scaled() {
+        match self.unit.is_scaled() || state_of(&self.name.base).is_some() {
             true => self.unit_text.clone(),
             false => self.unit.to_string(),
         }

@@ -12,7 +12,7 @@ use rustc_hash::FxHashMap;
 use super::quantity::Entry;
 use super::{Function, Op, Program, Role, Source, Value};
 use crate::formula::number;
-use lagrangian_units::Variable;
+use lagrangian_units::{Variable, rate_name};
 
 impl fmt::Display for Program {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -37,8 +37,10 @@ impl Program {
             Source::Prepared(index) => format!("prepared[{index}]"),
             Source::Time => "t".into(),
             Source::Coordinate(index) => coordinate(index).to_string(),
-            Source::Velocity(index) => format!("der({})", coordinate(index)),
-            Source::Acceleration(index) => format!("der(der({}))", coordinate(index)),
+            Source::Velocity(index) => rate_name(&coordinate(index).to_string(), ""),
+            Source::Acceleration(index) => {
+                rate_name(&rate_name(&coordinate(index).to_string(), ""), "")
+            }
             Source::Input(index) => self.inputs[index as usize].name.to_string(),
             Source::AtTime(index) => format!("at_time[{index}]"),
             Source::AtPosition(index) => format!("at_position[{index}]"),
@@ -82,7 +84,10 @@ impl Program {
             Entry::At(row, column) => {
                 format!("{name}[{}, {}]", self.member(row), self.member(column))
             }
-            Entry::Rate(i) => format!("{name}[der({})]", self.coordinates[i].name),
+            Entry::Rate(i) => {
+                let coordinate = self.coordinates[i].name.to_string();
+                format!("{name}[{}]", rate_name(&coordinate, ""))
+            }
             Entry::Derivative(i, variable) => {
                 let coordinate = &self.coordinates[i].name;
                 format!("{name}[{coordinate}, {}]", self.variable_name(variable))

@@ -86,6 +86,8 @@ pub enum Needs {
     Contacts,
     /// Those with unilateral contacts.
     Unilateral,
+    /// Those whose states of first order store energy.
+    Stores,
     /// Those that are asked for it.
     Request,
 }
@@ -98,6 +100,7 @@ impl Needs {
             Needs::Constraints => sizes.constraints > 0,
             Needs::Contacts => sizes.contacts > 0,
             Needs::Unilateral => sizes.unilateral > 0,
+            Needs::Stores => sizes.stores,
         }
     }
 }
@@ -149,6 +152,8 @@ pub struct Sizes {
     pub unilateral: usize,
     /// Variables that accelerations are differentiated by.
     pub derivatives: usize,
+    /// Whether states of first order store energy.
+    pub stores: bool,
 }
 
 /// Writes the enumeration and the table from the same rows.
@@ -300,6 +305,8 @@ quantities! {
     KineticEnergy => { "kinetic_energy", "T", "", Number, [Time Coordinates Velocities], Nothing, Seldom, "E1" }
     /// Potential energy `V`, in J.
     PotentialEnergy => { "potential_energy", "V", "", Number, [Time Coordinates Inputs], Nothing, Seldom, "E2" }
+    /// Energy `E` that states of first order store, in J.
+    StateEnergy => { "state_energy", "E", "", Number, [Time Coordinates Velocities], Stores, Seldom, "E59" }
     /// Dissipation function `D`, in W.
     Dissipation => { "dissipation", "D", "", Number, [Time Coordinates Velocities Inputs], Nothing, Seldom, "E3" }
     /// Power `P` that drives, forces and inputs put in, in W.
@@ -418,6 +425,7 @@ impl Program {
             contacts: self.contacts.len(),
             unilateral: self.unilateral.len(),
             derivatives: self.derivatives.len(),
+            stores: self.function(Role::StateEnergy).is_some(),
         }
     }
 

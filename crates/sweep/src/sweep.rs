@@ -9,9 +9,10 @@ use lagrangian::{Crossing, Ending, Machine, Observation, Simulation, State, Syst
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_spec::diagnostic::{Report, Severity, nearest};
-use lagrangian_spec::model::{Model, stage};
+use lagrangian_spec::model::{Coordinate, Model, stage};
 use lagrangian_spec::resolve::Formula as Asked;
 use lagrangian_spec::source::Sources;
+use lagrangian_spec::unit::{integral_name, rate_name, rate_unit, state_of};
 use lagrangian_symbolic::{Dag, Rational};
 
 use crate::design;
@@ -84,14 +85,24 @@ pub struct Chunk {
 }
 
 impl Place {
-    /// What a name stands for: `omega`, `start(x)`, `rate(x)`.
-    fn of(name: &str) -> Place {
+    /// What a name stands for: `omega`, `start(x)`, `rate(x)`. A state of first order is the rate of its integral.
+    fn of(name: &str, model: &Model<'_>) -> Place {
         let inner = |function: &str| {
             let inner = name.strip_prefix(function)?.strip_prefix('(')?;
             Some(inner.strip_suffix(')')?.trim().to_owned())
         };
         match (inner("start"), inner("rate")) {
-            (Some(name), _) => Place::Start(name),
+            (Some(name), _) => {
+                let integral = integral_name(&name);
+                let is_meant = |c: &Coordinate<'_>| {
+                    let own = c.name.to_string();
+                    own == integral || (state_of(&own).is_some() && c.name.base == integral)
+                };
+                match model.coordinates.iter().any(is_meant) {
+                    true => Place::Rate(integral),
+                    false => Place::Start(name),
+                }
+            }
             (_, Some(name)) => Place::Rate(name),
             _ => Place::Set(name.to_owned()),
         }
@@ -109,16 +120,16 @@ impl Place {
 /// # Errors
 /// If the machine has nothing of this name; with the near name.
 pub fn unit_of(model: &Model<'_>, name: &str) -> Result<String, String> {
-    let place = Place::of(name);
+    let place = Place::of(name, model);
     let (what, wanted) = match &place {
         Place::Set(name) => ("parameter or input", name),
         Place::Start(name) | Place::Rate(name) => ("coordinate", name),
     };
     let wanted = &*lagrangian_spec::token::normalized(wanted);
-    let coordinates = model
-        .coordinates
-        .iter()
-        .map(|c| (c.name.to_string(), c.unit.to_string()));
+    let coordinates = model.coordinates.iter().map(|c| match c.rate {
+        Some(_) => (c.name.to_string(), c.unit_text.clone()),
+        None => (c.name.to_string(), c.unit.to_string()),
+    });
     let parameters = model
         .parameters
         .iter()
@@ -133,8 +144,9 @@ pub fn unit_of(model: &Model<'_>, name: &str) -> Result<String, String> {
     };
     let is_meant =
         |name: &str| name == wanted || name.split_once('[').is_some_and(|(base, _)| base == wanted);
-    if let Some((_, unit)) = known.iter().find(|(name, _)| is_meant(name)) {
+    if let Some((name, unit)) = known.iter().find(|(name, _)| is_meant(name)) {
         return Ok(match place {
+            Place::Rate(_) if state_of(name).is_some() => rate_unit(name, unit),
             Place::Rate(_) => format!("({unit})/s"),
             _ => unit.clone(),
         });
@@ -907,7 +919,10 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
             ));
         }
     }
-    Ok(varied.into_iter().map(Place::of).collect())
+    Ok(varied
+        .into_iter()
+        .map(|name| Place::of(name, model))
+        .collect())
 }
 
 /// Sets families first.
@@ -943,17 +958,14 @@ fn columns(
         kind,
     };
     let system = machine.prepare();
-    let per_second = |unit: &str| match unit {
-        "1" => "1/s".to_owned(),
-        unit => format!("{unit}/s"),
-    };
     let state = |suffix: &str| {
         let positions = system
             .coordinates()
             .map(|c| number(format!("{}{suffix}", c.name), c.unit));
-        let rates = system
-            .coordinates()
-            .map(|c| number(format!("der({}){suffix}", c.name), &per_second(c.unit)));
+        let rates = system.coordinates().map(|c| {
+            let name = format!("{}{suffix}", rate_name(c.name, ""));
+            number(name, &rate_unit(c.name, c.unit))
+        });
         positions.chain(rates).collect::<Vec<_>>()
     };
     let mut columns = vec![other("run", Kind::Count)];

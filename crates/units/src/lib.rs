@@ -20,7 +20,10 @@ mod measure;
 mod names;
 
 pub use measure::Measure;
-pub use names::{Compliance, ImpactLaw, ImpactOrder, Name, Painleve, Stages, Variable, rate_name};
+pub use names::{
+    Compliance, ImpactLaw, ImpactOrder, Name, Painleve, Stages, Variable, integral_name, rate_name,
+    rate_unit, state_of,
+};
 
 /// What units are powers of.
 const BASES: [&str; 6] = ["kg", "m", "s", "A", "K", "cycle"];

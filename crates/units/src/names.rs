@@ -20,9 +20,66 @@ impl fmt::Display for Name {
     }
 }
 
-/// The name of the rate of a coordinate, or of a member of a family of them: `der(theta)`, `der(q[3])`.
+impl Name {
+    /// The name of the integral of this over time: `integral(i)`, `integral(T)[3]`.
+    pub fn integral(&self) -> Name {
+        Name {
+            base: format!("integral({})", self.base),
+            index: self.index,
+        }
+    }
+
+    /// The base, or of an integral the base of what is integrated: a word that may name a field.
+    pub fn word(&self) -> &str {
+        integrand(&self.base).map_or(&self.base, |(base, _)| base)
+    }
+}
+
+/// What is integrated, and what stands behind the bracket: `integral(T)[3]` is (`T`, `[3]`).
+fn integrand(name: &str) -> Option<(&str, &str)> {
+    let (base, index) = name.strip_prefix("integral(")?.split_once(')')?;
+    let is_index = index.is_empty() || (index.starts_with('[') && index.ends_with(']'));
+    is_index.then_some((base, index))
+}
+
+/// The state of first order of which a coordinate is the integral over time, if it is that: no spec can give a
+/// coordinate the name `integral(i)`.
+///
+/// ```
+/// use lagrangian_units::state_of;
+///
+/// assert_eq!(state_of("integral(i)"), Some("i".to_owned()));
+/// assert_eq!(state_of("integral(T)[3]"), Some("T[3]".to_owned()));
+/// assert_eq!(state_of("phi"), None);
+/// ```
+pub fn state_of(coordinate: &str) -> Option<String> {
+    integrand(coordinate).map(|(base, index)| format!("{base}{index}"))
+}
+
+/// The name of the integral of a state over time: `integral(T)[3]` of `T[3]`.
+pub fn integral_name(state: &str) -> String {
+    match state.split_once('[') {
+        Some((base, index)) => format!("integral({base})[{index}"),
+        None => format!("integral({state})"),
+    }
+}
+
+/// The unit of the rate of a coordinate, as text: `m/s` of `m`; of the integral of a state the unit of the state, `A` of
+/// `A*s`.
+pub fn rate_unit(coordinate: &str, unit: &str) -> String {
+    match (integrand(coordinate), unit) {
+        (Some(_), "s") => "1".to_owned(),
+        (Some(_), unit) => unit.strip_suffix("*s").unwrap_or(unit).to_owned(),
+        (None, "1") => "1/s".to_owned(),
+        (None, unit) => format!("{unit}/s"),
+    }
+}
+
+/// The name of the rate of a coordinate, or of a member of a family of them: `der(theta)`, `der(q[3])`; of the
+/// integral of a state the state: `i` of `integral(i)`.
 pub fn rate_name(coordinate: &str, index: impl fmt::Display) -> String {
-    format!("der({coordinate}{index})")
+    let whole = format!("{coordinate}{index}");
+    state_of(&whole).unwrap_or_else(|| format!("der({whole})"))
 }
 
 /// What accelerations depend on, and can be differentiated by.

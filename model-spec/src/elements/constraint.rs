@@ -33,6 +33,11 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     let ([left, right], unit) = resolver.sides(&equation.left, &equation.right, scope)?;
     let expression = left - right;
     let span = equation.left.span.to(equation.right.span);
+    let states =
+        "constraints hold coordinates and velocities; how a state changes is said by `der(…)`";
+    if resolver.refuse_states(expression, span, "a constraint", states) {
+        return None;
+    }
     if expression.stage() < stage::POSITION {
         let message = "this constrains no coordinate";
         resolver.error(Code::NoCoordinates, span, message);

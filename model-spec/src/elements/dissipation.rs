@@ -32,6 +32,10 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     let scope = resolver.scope(member, &DISSIPATION);
     let why = "a dissipation function is in W: 1/2*b*der(x)^2";
     let function = resolver.scalar_in(value, Unit::WATT, why, scope)?;
+    let help = "its derivative by a velocity is a force: write that under `forces` or `torques`";
+    if resolver.refuse_states(function.expr, value.span, "a dissipation function", help) {
+        return None;
+    }
     let dissipated = Contribution::Dissipated(Energy::Given(function.expr));
     Some(Resolved::of([dissipated]))
 }

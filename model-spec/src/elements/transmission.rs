@@ -117,6 +117,10 @@ fn check<'d>(resolver: &mut Resolver<'_, 'd, '_>, joined: Expr<'d>, span: Span) 
         resolver.error(Code::NoCoordinates, span, "this constrains no coordinate");
         return None;
     }
+    let help = "a transmission holds coordinates and their rates";
+    if resolver.refuse_states(joined, span, "a transmission", help) {
+        return None;
+    }
     if joined.stage() == stage::VELOCITY && !is_linear(joined) {
         let message = "this is not linear in the velocities";
         let diagnostic = Diagnostic::new(Code::NotLinear, span, message);

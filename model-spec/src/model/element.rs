@@ -46,6 +46,11 @@ pub enum Contribution<'d> {
     Rolling(Rolling<'d>),
     /// A guided contact with Coulomb friction.
     Sliding(Sliding<'d>),
+    /// Energy that states of first order store, in J, of these, coordinates, parameters and time: a share of E, for the
+    /// balance of energy alone.
+    OfStates(Expr<'d>),
+    /// Power that is lost in another way than by dissipation, in W, for the balance of energy alone.
+    Lost(Expr<'d>),
 }
 
 /// A share of the potential energy, or of the dissipation function.
@@ -230,6 +235,22 @@ impl<'d> Model<'d> {
         all.collect()
     }
 
+    /// Energies that states of first order store.
+    pub fn energies_of_states(&self) -> impl Iterator<Item = Expr<'d>> {
+        self.contributions().filter_map(|(_, one)| match one {
+            Contribution::OfStates(energy) => Some(*energy),
+            _ => None,
+        })
+    }
+
+    /// Powers that are lost in another way than by dissipation.
+    pub fn losses(&self) -> impl Iterator<Item = Expr<'d>> {
+        self.contributions().filter_map(|(_, one)| match one {
+            Contribution::Lost(power) => Some(*power),
+            _ => None,
+        })
+    }
+
     /// Circles that touch and roll.
     pub fn rolling(&self) -> Vec<&Rolling<'d>> {
         let all = self.contributions().filter_map(|(_, one)| match one {
@@ -302,6 +323,7 @@ impl<'d> Contribution<'d> {
             Contribution::Load(Load::Along { measure, force, .. }) => vec![measure, force],
             Contribution::Load(Load::Torque { torque, .. }) => torque.iter_mut().collect(),
             Contribution::Gravity(gravity) => gravity.iter_mut().collect(),
+            Contribution::OfStates(value) | Contribution::Lost(value) => vec![value],
             Contribution::Constraint(constraint) => vec![&mut constraint.expression],
             Contribution::Rolling(rolling) => rolling.friction.iter_mut().collect(),
             Contribution::Sliding(sliding) => {

@@ -312,6 +312,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 let why = "a slip is a velocity, in m/s";
                 let slip = self.scalar_in(said, VELOCITY, why, scope);
                 let slip = slip.map(|slip| slip.expr);
+                let help = "a slip is a sum of terms a(q, t)*der(q)";
+                if let Some(slip) = slip
+                    && self.refuse_states(slip, said.span, "a slip", help)
+                {
+                    return None;
+                }
                 if slip.is_some_and(|slip| !is_linear(slip)) {
                     let message = "this slip is not linear in the velocities";
                     let diagnostic = Diagnostic::new(Code::NotLinear, said.span, message);

@@ -33,7 +33,11 @@ impl Resolver<'_, '_, '_> {
                 "inputs" => Variable::Input,
                 _ => Variable::Parameter,
             };
-            let count = self.members_of(*section).len();
+            let mut count = self.members_of(*section).len();
+            if *section == SectionKind::Coordinates {
+                // A state is the rate of a coordinate.
+                count += self.members_of(SectionKind::States).len();
+            }
             return (0..count).map(variable).collect();
         }
         self.parameters_named(member)

@@ -917,7 +917,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             declarations
                 .iter()
                 .map(section)
-                .any(|s| s == SectionKind::Coordinates)
+                .any(|s| matches!(s, SectionKind::Coordinates | SectionKind::States))
         };
         let groups: Vec<usize> = (0..self.groups.len()).filter(is_coordinate).collect();
         let mut rates = vec![(self.time.as_symbol()?, self.dag.one())];
@@ -929,7 +929,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 continue;
             }
             for &member in self.groups[group].members.values() {
-                if self.declaration(member).section != SectionKind::Coordinates {
+                let section = self.declaration(member).section;
+                if !matches!(section, SectionKind::Coordinates | SectionKind::States) {
                     continue;
                 }
                 if let Some([q, v, a]) = self.members[member].symbols {

@@ -90,7 +90,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    fn unit_text(&self, member: MemberId, unit: Unit) -> String {
+    pub(super) fn unit_text(&self, member: MemberId, unit: Unit) -> String {
         let written = self
             .quantity(member)
             .and_then(|quantity| quantity.unit.as_ref());
@@ -162,6 +162,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             unit_text: self.unit_text(member, unit?),
             start,
             start_rate: self.dag.zero(),
+            rate: None,
             q,
             v,
             a,
@@ -219,7 +220,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    fn check_symbol_name(&mut self, member: MemberId) {
+    pub(super) fn check_symbol_name(&mut self, member: MemberId) {
         if let Value::Scalar(scalar) = self.members[member].value.clone() {
             self.check_unit_name(member, &scalar);
         }

@@ -15,7 +15,7 @@ use crate::syntax::{
     Approximation, Declared, ElementContent, Equation, Expression, Form, Ident, Index, Item,
     Quantity, Range, Record, Reference, Remove, SectionKind, Spanned, Spec,
 };
-use crate::unit::{Measure, Unit};
+use crate::unit::{Measure, Unit, rate_name};
 
 /// The most members that all families of a machine may have together.
 ///
@@ -59,6 +59,7 @@ impl Namespace {
             SectionKind::Parameters
             | SectionKind::Constants
             | SectionKind::Coordinates
+            | SectionKind::States
             | SectionKind::Inputs
             | SectionKind::Define => Namespace::Values,
             _ => Namespace::Section(section),
@@ -115,7 +116,8 @@ pub(super) struct Member<'d> {
     /// Of a body: its frame.
     pub frame_state: State,
     pub frame: Value<'d>,
-    /// Of a coordinate: position, velocity, acceleration; of a parameter or input: itself, thrice.
+    /// Of a coordinate: position, velocity, acceleration; of a state: its integral over time, itself, its
+    /// rate; of a parameter or input: itself, thrice.
     pub symbols: Option<[Expr<'d>; 3]>,
 }
 
@@ -144,6 +146,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             (Constants, &spec.constants),
             (Parameters, &spec.parameters),
             (Coordinates, &spec.coordinates),
+            (States, &spec.states),
             (Inputs, &spec.inputs),
             (Outputs, &spec.outputs),
         ] {
@@ -514,16 +517,20 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         } = self.declaration(member);
         let stage = match section {
             SectionKind::Parameters => stage::PARAMETER,
-            SectionKind::Coordinates => stage::POSITION,
+            SectionKind::Coordinates | SectionKind::States => stage::POSITION,
             SectionKind::Inputs => stage::INPUT,
             _ => return,
         };
-        let name = self.name(member).to_string();
+        let is_state = section == SectionKind::States;
+        let name = match is_state {
+            true => self.name(member).integral().to_string(),
+            false => self.name(member).to_string(),
+        };
         let mut symbols = [self.symbol(&name, stage); 3];
-        if section == SectionKind::Coordinates {
-            let rate = format!("der({name})");
+        if is_state || section == SectionKind::Coordinates {
+            let rate = rate_name(&name, "");
             symbols[1] = self.symbol(&rate, stage::VELOCITY);
-            symbols[2] = self.symbol(&format!("der({rate})"), stage::ACCELERATION);
+            symbols[2] = self.symbol(&rate_name(&rate, ""), stage::ACCELERATION);
         }
         let measure = match content {
             Content::Quantity(quantity) => declared_measure(quantity),
@@ -536,10 +543,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         if let Some(measure) = measure {
             // The symbol is measured as declared, and so is whatever the user gives and sees;
             // formulas are in SI units.
-            let is_si = measure.is_si() || section == SectionKind::Coordinates;
+            let is_si = measure.is_si() || is_state || section == SectionKind::Coordinates;
             member.value = Value::Scalar(Scalar {
                 expr: match is_si {
-                    true => symbols[0],
+                    true => symbols[usize::from(is_state)],
                     false => measure.in_si(dag) * symbols[0],
                 },
                 unit: Some(measure.unit),

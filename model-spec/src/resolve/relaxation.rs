@@ -13,7 +13,7 @@ use super::value::{MemberId, Vector};
 use crate::model::element::Sliding;
 use crate::model::{Coordinate, Model, Name, Pose, PoseId, Rotation, stage};
 use crate::source::Span;
-use crate::unit::Unit;
+use crate::unit::{Unit, rate_name};
 
 /// A guide that is relaxed.
 pub(super) struct Guide<'d> {
@@ -77,7 +77,8 @@ pub(super) fn symbols<'d>(model: &Model<'d>) -> FxHashMap<String, Expr<'d>> {
     let inputs = model.inputs.iter().map(|i| (i.name.to_string(), i.symbol));
     let coordinates = model.coordinates.iter().flat_map(|c| {
         let name = c.name.to_string();
-        let (rate, acceleration) = (format!("der({name})"), format!("der(der({name}))"));
+        let rate = rate_name(&name, "");
+        let acceleration = rate_name(&rate, "");
         [(name, c.q), (rate, c.v), (acceleration, c.a)]
     });
     parameters.chain(inputs).chain(coordinates).collect()
@@ -136,6 +137,7 @@ impl<'d> Resolver<'_, 'd, '_> {
                 unit_text: "m".into(),
                 start: self.dag.zero(),
                 start_rate: self.dag.zero(),
+                rate: None,
                 q,
                 v,
                 a,

@@ -34,6 +34,10 @@ pub struct Spec {
     pub coordinates: Vec<Item<Quantity>>,
     /// `der(name): unit = rate`, among the coordinates; the value is never left out
     pub rates: Vec<Item<Quantity>>,
+    /// `name: unit = start`, of first order
+    pub states: Vec<Item<Quantity>>,
+    /// `der(name) = expression`, among the states; the value is never left out, the unit is where nobody says it
+    pub state_rates: Vec<Item<Quantity>>,
     /// `name: unit = default`
     pub inputs: Vec<Item<Quantity>>,
     /// `name: unit = expression`; the value is never left out
@@ -183,6 +187,7 @@ sections! {
     Parameters => "parameters",
     Constants => "constants",
     Coordinates => "coordinates",
+    States => "states",
     Inputs => "inputs",
     Define => "define",
     Assume => "assume",
@@ -206,7 +211,7 @@ impl SectionKind {
         Some(match word {
             "body" | "mass" | "masses" | "particles" | "links" => SectionKind::Bodies,
             "param" | "params" | "variables" => SectionKind::Parameters,
-            "dofs" | "states" | "generalized_coordinates" => SectionKind::Coordinates,
+            "dofs" | "generalized_coordinates" => SectionKind::Coordinates,
             "definitions" | "let" => SectionKind::Define,
             "assumptions" => SectionKind::Assume,
             _ => return None,
@@ -257,6 +262,7 @@ impl SectionKind {
             SectionKind::Parameters => "a parameter",
             SectionKind::Constants => "a constant",
             SectionKind::Coordinates => "a coordinate",
+            SectionKind::States => "a state",
             SectionKind::Inputs => "an input",
             SectionKind::Define => "a definition",
             SectionKind::Assume => "a fact",

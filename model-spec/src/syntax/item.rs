@@ -207,6 +207,40 @@ impl Parser<'_> {
         });
     }
 
+    /// Items `name: unit = start`, and `der(name) = expression`.
+    pub(super) fn states(&mut self, spec: &mut Spec) {
+        let kind = SectionKind::States;
+        self.each_item(kind, |parser, docs| {
+            let start = parser.here();
+            let is_rate = parser.begins_rate();
+            let (name, content) = if is_rate {
+                let name = parser.rate_of()?;
+                let unit = match parser.eat_mark(':') {
+                    true => parser.unit(),
+                    false => None,
+                };
+                parser.expect_equals();
+                let value = Some(parser.expression());
+                (name, Quantity { unit, value })
+            } else {
+                let name = parser.declared(&format!("the name of {}", kind.item()))?;
+                let content = parser.quantity(kind, &name.base.text, name.span, false);
+                (name, content)
+            };
+            let items = match is_rate {
+                true => &mut spec.state_rates,
+                false => &mut spec.states,
+            };
+            items.push(Item {
+                docs,
+                name,
+                content,
+                span: start.to(parser.before()),
+            });
+            Some(())
+        });
+    }
+
     /// `der(phi)`, `der(q[1..N])`: the coordinate; its span is that of the whole.
     fn rate_of(&mut self) -> Option<Declared> {
         let start = self.here();

@@ -248,6 +248,7 @@ impl Parser<'_> {
             SectionKind::Parameters => self.quantities(kind, &mut spec.parameters),
             SectionKind::Constants => self.quantities(kind, &mut spec.constants),
             SectionKind::Coordinates => self.coordinates(spec),
+            SectionKind::States => self.states(spec),
             SectionKind::Inputs => self.quantities(kind, &mut spec.inputs),
             SectionKind::Outputs => self.quantities(kind, &mut spec.outputs),
             SectionKind::Define => self.values(kind, &mut spec.define, '='),

@@ -104,6 +104,7 @@ impl<S: System> System for Held<'_, S> {
         forces,
         kinetic_energy,
         potential_energy,
+        state_energy,
         dissipation,
         work_rate,
         dissipation_rate,

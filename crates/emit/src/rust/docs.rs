@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use crate::names::Field;
 use lagrangian_program::Slot;
 use lagrangian_spec::model::Name;
+use lagrangian_units::{rate_unit, state_of};
 
 /// Documentation of the spec as documentation of Rust: nothing in it may turn into a test.
 pub(super) fn prose(docs: &str) -> String {
@@ -54,7 +55,10 @@ pub(super) fn field_docs(field: &Field, slots: &[Slot], with_default: bool) -> S
 pub(super) fn slot_docs(name: &Name, slot: &Slot, with_default: bool) -> String {
     let mut docs = prose(&slot.docs);
     if docs.is_empty() {
-        docs = format!("`{name}`.");
+        docs = format!(
+            "`{}`.",
+            state_of(&name.to_string()).unwrap_or_else(|| name.to_string())
+        );
     } else if !docs.ends_with(['.', '!', '?', ':', '`']) {
         docs.push('.');
     }
@@ -64,7 +68,15 @@ pub(super) fn slot_docs(name: &Name, slot: &Slot, with_default: bool) -> String 
             .lines()
             .any(|line| line.starts_with(['-', '*', '|', '#', '>']));
     docs.push_str(if is_plain { " " } else { "\n\n" });
-    let _ = write!(docs, "Unit: `{}`.", slot.unit_text); // writing to a String cannot fail
+    // Writing to a String cannot fail.
+    let _ = match state_of(&name.to_string()) {
+        Some(state) => write!(
+            docs,
+            "Among rates the state `{state}`, in `{}`; among coordinates its integral over time, on which nothing depends.",
+            rate_unit(&name.to_string(), &slot.unit_text)
+        ),
+        None => write!(docs, "Unit: `{}`.", slot.unit_text),
+    };
     if let Some(default) = slot.default.as_ref().filter(|_| with_default) {
         let _ = write!(docs, " Default: {}.", default.text);
     }

@@ -37,7 +37,12 @@ fn standstill(spec: &Spec) -> Program {
         }
         slots
     };
-    let coordinates = slots(&spec.coordinates);
+    let mut coordinates = slots(&spec.coordinates);
+    let states = slots(&spec.states).into_iter();
+    coordinates.extend(states.map(|slot| Slot {
+        name: slot.name.integral(),
+        ..slot
+    }));
     let n = coordinates.len();
     let zeros = |role, shape: Shape| {
         let (code, results) = match shape.is_empty() {

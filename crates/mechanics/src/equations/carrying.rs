@@ -764,6 +764,8 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
             | Contribution::Gravity(_)
             | Contribution::Constraint(_)
             | Contribution::Rolling(_)
+            | Contribution::OfStates(_)
+            | Contribution::Lost(_)
             | Contribution::Sliding(_) => {}
         }
     }

@@ -223,7 +223,10 @@ pub fn equation<'d>(
         Kind::Applied,
     ] {
         let of_kind = shares.iter().filter(|share| share.kind == kind);
-        let sum = dag.sum(of_kind.map(|share| share.forces[i]));
+        let sum = of_kind.map(|share| share.forces[i]);
+        // The row of a state says what its rate is.
+        let rate = model.coordinates[i].rate.filter(|_| kind == Kind::Applied);
+        let sum = dag.sum(sum.chain(rate));
         let side = if kind == Kind::Applied { sum } else { -sum };
         add(
             kind,

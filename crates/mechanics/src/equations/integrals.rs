@@ -40,7 +40,7 @@ pub struct Cyclic<'d> {
 /// What becomes of the energy along every motion.
 #[derive(Clone, Debug)]
 pub enum Energy<'d> {
-    /// `T + V` is conserved.
+    /// `T + V`, with what states of first order store, is conserved.
     Conserved,
     /// `Σ vᵢ ∂T/∂vᵢ − T + V`, Jacobi's integral, is conserved, and `T + V` is not: something is driven, in a way that
     /// explicit time does not show in the energies.
@@ -61,7 +61,7 @@ impl<'d> Facts<'d> {
                 .lower()
                 .iter()
                 .all(|entry| entry.stage() <= stage::PARAMETER),
-            blocks: blocks(equations),
+            blocks: blocks(model, equations),
         }
     }
 }
@@ -75,7 +75,9 @@ fn cyclic<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Cyclic<'d>> {
     let kinetic = slopes(equations.kinetic_energy);
     let potential = slopes(equations.potential_energy);
     let momenta = kinematics::gradient(dag, equations.kinetic_energy, &x.v);
-    let ignorable = (0..x.q.len()).filter(|&i| is_zero(kinetic[i]) && is_zero(potential[i]));
+    // Of the integral of a state that is nothing to be told.
+    let places = (0..x.q.len()).filter(|&i| model.coordinates[i].rate.is_none());
+    let ignorable = places.filter(|&i| is_zero(kinetic[i]) && is_zero(potential[i]));
     let cyclic = |coordinate: usize| {
         let reactions = equations.constraints.iter();
         let reactions = reactions.map(|c| c.row[coordinate] * c.multiplier);
@@ -97,6 +99,9 @@ fn energy<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Energy<'d> {
     if is_zero(equations.work_rate) && is_zero(equations.dissipation_rate) {
         return Energy::Conserved;
     }
+    if model.energies_of_states().next().is_some() || model.losses().next().is_some() {
+        return Energy::Balance;
+    }
     // A constraint that moves by itself does work, which no potential knows.
     let still = constraints::rates_at_rest(model, &equations.constraints);
     if !still.into_iter().all(is_zero) {
@@ -111,7 +116,10 @@ fn energy<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Energy<'d> {
         .iter()
         .zip(slopes)
         .map(|(&q, slope)| q + slope);
-    let power = rates.clone().zip(others).map(|(v, force)| v * force);
+    let is_state = model.coordinates.iter().map(|c| c.rate.is_some());
+    let power = rates.clone().zip(others).zip(is_state);
+    let power = power.filter(|(_, is_state)| !is_state);
+    let power = power.map(|((v, force), _)| v * force);
     let mut explicit = x.explicit(model);
     let change = [-explicit.of(kinetic), explicit.of(potential)];
     if !is_zero(dag.sum(power.chain(change))) {
@@ -139,7 +147,7 @@ fn is_autonomous(model: &Model<'_>, equations: &Equations<'_>) -> bool {
 }
 
 /// Coordinates that a chain of entries of the mass matrix joins, each list and the list of lists in ascending order.
-fn blocks(equations: &Equations<'_>) -> Vec<Vec<usize>> {
+fn blocks(model: &Model<'_>, equations: &Equations<'_>) -> Vec<Vec<usize>> {
     let n = equations.mass_matrix.dimension();
     let mut block: Vec<usize> = (0..n).collect();
     for (i, j, entry) in equations.mass_matrix.entries() {
@@ -151,7 +159,8 @@ fn blocks(equations: &Equations<'_>) -> Vec<Vec<usize>> {
                 .for_each(|b| *b = to);
         }
     }
-    let members = |b: usize| (0..n).filter(|&i| block[i] == b).collect::<Vec<_>>();
+    let places = || (0..n).filter(|&i| model.coordinates[i].rate.is_none());
+    let members = |b: usize| places().filter(|&i| block[i] == b).collect::<Vec<_>>();
     (0..n)
         .map(members)
         .filter(|members| !members.is_empty())

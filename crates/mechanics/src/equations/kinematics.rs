@@ -51,6 +51,17 @@ impl<'d> Variables<'d> {
         Tangent::new(model.dag, &self.kinematic(model).collect::<Vec<_>>())
     }
 
+    /// The total time derivative of what depends on coordinates, states of first order and time: states change as they
+    /// are said to.
+    pub fn along_states(&self, model: &Model<'d>) -> Tangent<'d> {
+        let states = self.v.iter().zip(&model.coordinates);
+        let states = states.filter_map(|(&v, c)| Some((v, c.rate?)));
+        Tangent::new(
+            model.dag,
+            &self.kinematic(model).chain(states).collect::<Vec<_>>(),
+        )
+    }
+
     /// `∂/∂t`, with `q` held.
     pub fn explicit(&self, model: &Model<'d>) -> Tangent<'d> {
         Tangent::new(model.dag, &[(self.t, model.dag.one())])

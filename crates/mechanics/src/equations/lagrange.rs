@@ -15,6 +15,7 @@ use super::constraints::{self, ConstraintEquation};
 use super::energy;
 use super::guide::{guide, relative};
 use super::kinematics::{self, Variables, gradient};
+use super::projected::with_state;
 use super::symmetric::Symmetric;
 use lagrangian_spec::model::circles::planar_turn;
 use lagrangian_spec::model::element::Load;
@@ -122,10 +123,16 @@ impl<'d> Oracle<'d> {
         Oracle {
             sliding: sliding(model),
             constraints: constraints.into_iter().map(constraint).collect(),
-            mass_matrix: mass_matrix(&momenta, &x.v),
+            mass_matrix: mass_matrix(model, &momenta, &x.v),
             bias: (0..x.q.len()).map(|i| inertia(coasting, i)).collect(),
             residual: (0..x.q.len())
-                .map(|i| inertia(total, i) - applied[i])
+                .map(|i| {
+                    let residual = inertia(total, i) - applied[i];
+                    match model.coordinates[i].rate {
+                        Some(_) => residual + model.coordinates[i].a,
+                        None => residual,
+                    }
+                })
                 .collect(),
             kinetic_energy,
             potential_energy,
@@ -201,8 +208,14 @@ fn sliding<'d>(model: &Model<'d>) -> Vec<OracleSliding<'d>> {
 /// Mass matrix, eq. (E4): `Mᵢⱼ = ∂²T/∂vᵢ∂vⱼ = ∂pᵢ/∂vⱼ`.
 ///
 /// `T` is quadratic in `v`, so `M` is symmetric and free of `v`.
-fn mass_matrix<'d>(momenta: &[Expr<'d>], v: &[Symbol]) -> Symmetric<Expr<'d>> {
-    Symmetric::from_lower(v.len(), |i, j| momenta[i].diff(v[j]))
+fn mass_matrix<'d>(model: &Model<'d>, momenta: &[Expr<'d>], v: &[Symbol]) -> Symmetric<Expr<'d>> {
+    Symmetric::from_lower(v.len(), |i, j| {
+        let entry = momenta[i].diff(v[j]);
+        match i == j {
+            true => with_state(model, i, entry),
+            false => entry,
+        }
+    })
 }
 
 /// Applied generalized forces, eq. (E6): `Qᵢ = −∂V/∂qᵢ − ∂D/∂vᵢ + Fᵢ`, where `F` is the virtual
@@ -216,6 +229,7 @@ fn applied<'d>(
     let force = |i: usize| {
         let rate = &mut x.partial(model, i);
         let mut terms = vec![-potential_energy.diff(x.q[i]), -dissipation.diff(x.v[i])];
+        terms.extend(model.coordinates[i].rate);
         for load in model.loads() {
             match load {
                 Load::Point { at, force } => {
@@ -284,5 +298,9 @@ pub(super) fn inertia<'d>(
         .zip(slopes)
         .map(|(&p, slope)| rate.of(p) - slope)
         .collect();
-    Some((Symmetric::from_lower(x.q.len(), |i, j| rows[i][j]), bias))
+    let entry = |i: usize, j: usize| match i == j {
+        true => with_state(model, i, rows[i][j]),
+        false => rows[i][j],
+    };
+    Some((Symmetric::from_lower(x.q.len(), entry), bias))
 }

@@ -66,8 +66,12 @@ pub(crate) struct Literal<R> {
     pub potential_energy: R,
     /// `D`, eq. (E3).
     pub dissipation: R,
-    /// `d(T + V)/dt` along the motion.
+    /// `E`, eq. (E59).
+    pub state_energy: R,
+    /// `d(T + V + E)/dt` along the motion, on which states change as they are said to.
     pub energy_rate: R,
+    /// What is lost beside dissipation.
+    pub lost: R,
     /// `w·(d/dt ∂T/∂v − ∂T/∂q)`.
     pub inertia: R,
     /// `w·Q`, eq. (E6).
@@ -266,13 +270,20 @@ impl<'m, 'd> Lagrange<'m, 'd> {
             [is_frozen, true] => self.approximated(at, w, is_frozen),
         };
         let force = self.virtual_work(&x);
+        let states = model.coordinates.iter().enumerate();
+        let states = states.filter_map(|(i, c)| Some((i, c.rate?)));
+        let stored = self.stored(at);
+        let changing = states.clone().map(|(i, _)| w[i] * at.a[i]);
+        let rates = states.map(|(i, rate)| w[i] * x(rate).value.value.value);
         Literal {
             kinetic_energy: t.value.value,
             potential_energy: v.value.value,
             dissipation: d.value.value,
-            energy_rate: t.derivative.value + v.derivative.value,
-            inertia: t.derivative.derivative,
-            applied: v.derivative.derivative - d.value.derivative + force,
+            state_energy: stored.value,
+            energy_rate: t.derivative.value + v.derivative.value + stored.derivative,
+            lost: sum(model.losses().map(|power| x(power).value.value.value)),
+            inertia: sum(changing) + t.derivative.derivative,
+            applied: v.derivative.derivative - d.value.derivative + force + sum(rates),
             constraints: self.constraints(&x),
             sliding: model
                 .sliding()
@@ -285,6 +296,46 @@ impl<'m, 'd> Lagrange<'m, 'd> {
                 .map(|contact| self.unilateral(contact, &x))
                 .collect(),
         }
+    }
+
+    /// What states of first order store, with its rate along the motion.
+    fn stored<R: Scalar>(&self, at: &State<R>) -> Dual<R> {
+        let model = self.model;
+        let energies: Vec<Expr<'d>> = model.energies_of_states().collect();
+        if energies.is_empty() {
+            return Dual::constant(R::ZERO);
+        }
+        let given: Vec<Expr<'d>> = model.coordinates.iter().filter_map(|c| c.rate).collect();
+        let mut given = self.values(&given, at).into_iter();
+        let rates = model.coordinates.iter().zip(&at.a);
+        let rates: Vec<R> = rates
+            .map(|(c, &a)| c.rate.and_then(|_| given.next()).unwrap_or(a))
+            .collect();
+        let values = all(model, &energies, |symbol| {
+            match self.meanings.get(&symbol) {
+                Some(Meaning::Time) => Dual {
+                    value: at.t,
+                    derivative: R::ONE,
+                },
+                Some(&Meaning::Coordinate(i)) => Dual {
+                    value: at.q[i],
+                    derivative: at.v[i],
+                },
+                Some(&Meaning::Rate(i)) => Dual {
+                    value: at.v[i],
+                    derivative: rates[i],
+                },
+                Some(&Meaning::Parameter(i)) => Dual::constant(at.parameters[i]),
+                Some(&Meaning::Input(i)) => Dual::constant(at.u[i]),
+                Some(&Meaning::Acceleration(i)) => Dual::constant(at.a[i]),
+                None => unknown(),
+            }
+        });
+        energies
+            .iter()
+            .fold(Dual::constant(R::ZERO), |sum, energy| {
+                sum + values[&energy.id()]
+            })
     }
 
     /// `w·∂D/∂v` alone.
@@ -711,6 +762,8 @@ fn geometry<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
             }
         }
     }
+    roots.extend(model.coordinates.iter().filter_map(|c| c.rate));
+    roots.extend(model.losses());
     roots.extend(model.constraints().into_iter().map(|c| c.expression));
     if !model.rolling().is_empty() || !model.contacts.is_empty() {
         let points = model

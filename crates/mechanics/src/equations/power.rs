@@ -1,7 +1,8 @@
 //! What work is done, so that a run can balance its energy.
 //!
-//! Along every motion `d(T + V)/dt = P − R` (E20): `P` is the power of forces, torques, inputs and
-//! of whatever moves the machine by explicit time, `R` the power that dampers take. Both are
+//! Along every motion `d(T + V + E)/dt = P − R` (E20): `P` is the power of forces, torques, inputs and
+//! of whatever moves the machine by explicit time, and what supplies states of first order; `R` the power that dampers
+//! and losses take; E what states store. Both are
 //! derived so that the balance is an identity, not an approximation; what a machine does not have
 //! gives exactly zero, and no instruction.
 
@@ -12,13 +13,23 @@ use super::projected::{Loads, Projection};
 use lagrangian_spec::model::Model;
 
 /// Power that dissipation takes, eq. (E18): `R = Σ vᵢ ∂D/∂vᵢ`, which is `2D` where `D` is
-/// quadratic.
+/// quadratic; and what is lost beside.
 pub(super) fn dissipation_rate<'d>(
     model: &Model<'d>,
     x: &Variables<'d>,
     dissipation: Expr<'d>,
 ) -> Expr<'d> {
-    x.virtual_rates(model).of(dissipation)
+    let dampers = x.virtual_rates(model).of(dissipation);
+    model.dag.sum([dampers].into_iter().chain(model.losses()))
+}
+
+/// The power that states of first order need, eq. (E60): how what they store changes along the motion, with their rates
+/// as they are given, and what is lost beside.
+fn state_power<'d>(model: &Model<'d>, x: &Variables<'d>) -> Expr<'d> {
+    let mut rate = x.along_states(model);
+    let stored = model.energies_of_states().map(|energy| rate.of(energy));
+    let stored: Vec<Expr<'d>> = stored.collect();
+    model.dag.sum(stored.into_iter().chain(model.losses()))
 }
 
 /// Power of applied forces and torques along the virtual motion: `Σ Fᵢ vᵢ`, dampers and potentials
@@ -41,9 +52,12 @@ pub(super) fn work_rate<'d>(
     potential_energy: Expr<'d>,
 ) -> Expr<'d> {
     let explicit = x.explicit(model).of(potential_energy);
-    model
-        .dag
-        .sum([force_power(projection), explicit, projection.drive_power()])
+    model.dag.sum([
+        force_power(projection),
+        explicit,
+        projection.drive_power(),
+        state_power(model, x),
+    ])
 }
 
 /// The power of forces and drives from energies, for any `T`: `P = Σ Fᵢ vᵢ + ∂V/∂t − ∂T/∂t + D(T₁ + 2 T₀)`.
@@ -59,7 +73,10 @@ pub(super) fn work_rate_of_energies<'d>(
 ) -> Expr<'d> {
     let mut explicit = x.explicit(model);
     let change = explicit.of(potential_energy) - explicit.of(kinetic_energy);
-    model
-        .dag
-        .sum([force_power(projection), change, x.total(model).of(driven)])
+    model.dag.sum([
+        force_power(projection),
+        change,
+        x.total(model).of(driven),
+        state_power(model, x),
+    ])
 }

@@ -152,7 +152,11 @@ impl<'a, 'd> Projection<'a, 'd> {
             }
             columns.push(self.project(&momenta, j..n));
         }
-        Some(Symmetric::from_lower(n, |i, j| columns[j][i - j]))
+        let model = self.model;
+        Some(Symmetric::from_lower(n, |i, j| match i == j {
+            true => with_state(model, i, columns[j][0]),
+            false => columns[j][i - j],
+        }))
     }
 
     /// The loads of inertia at `a = 0`, times `sign`; their projection is the bias, eq. (E13):
@@ -169,6 +173,11 @@ impl<'a, 'd> Projection<'a, 'd> {
     pub fn unbalanced(&self) -> Vec<Expr<'d>> {
         let mut loads = self.inertia_loads(&mut self.x.total(self.model), -1, true);
         self.add_applied(&mut loads);
+        let coordinates = self.model.coordinates.iter().enumerate();
+        let states = coordinates.filter(|(_, c)| c.rate.is_some());
+        loads
+            .on_coordinates
+            .extend(states.map(|(i, state)| (i, -state.a)));
         self.project(&loads, 0..self.x.q.len())
     }
 
@@ -216,6 +225,15 @@ impl<'a, 'd> Projection<'a, 'd> {
             }
         }
         self.add_forces(loads);
+        self.add_state_rates(loads);
+    }
+
+    /// Adds the rates of states of first order, eq. (E57): that of a state stands in the row of the coordinate
+    /// of which it is the rate.
+    pub fn add_state_rates(&self, loads: &mut Loads<'d>) {
+        let coordinates = self.model.coordinates.iter().enumerate();
+        let rates = coordinates.filter_map(|(i, c)| Some((i, c.rate?)));
+        loads.on_coordinates.extend(rates);
     }
 
     /// Adds `Σ m g·∂x/∂qᵢ`, on the nodes that inertia acts on.
@@ -372,6 +390,9 @@ impl<'a, 'd> Projection<'a, 'd> {
             let pairs = composite.pairs(&twists[pose.index()]).into_iter();
             inertia.extend(pairs.map(|[u, w, weight]| InertialPair::weightless(u, w, weight)));
         }
+        let states = self.model.coordinates.iter().filter(|c| c.rate.is_some());
+        let one = self.model.dag.one();
+        inertia.extend(states.map(|c| InertialPair::weightless(c.v, c.v, one)));
         let mut acting = Vec::new();
         acting.extend(
             loads
@@ -622,6 +643,14 @@ impl<'d> Loads<'d> {
             on_rates: vec![(dissipation, dag.int(-1))],
             on_coordinates: Vec::new(),
         }
+    }
+}
+
+/// An entry of the diagonal of the mass matrix: the row of a state says what its rate is, `1 ṡ = f`.
+pub(super) fn with_state<'d>(model: &Model<'d>, i: usize, entry: Expr<'d>) -> Expr<'d> {
+    match model.coordinates[i].rate {
+        Some(_) => entry + 1,
+        None => entry,
     }
 }
 

@@ -228,6 +228,7 @@ fn expressions<'m, 'd>(model: &'m mut Model<'d>) -> Vec<&'m mut Expr<'d>> {
             all.push(angle);
         }
     }
+    all.extend(model.coordinates.iter_mut().filter_map(|c| c.rate.as_mut()));
     let elements = model.elements.iter_mut();
     all.extend(elements.flat_map(|element| element.expressions_mut()));
     all.extend(model.assumptions.iter_mut().map(|fact| &mut fact.excess));

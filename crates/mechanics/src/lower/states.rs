@@ -11,7 +11,7 @@ const TRIES: usize = 8;
 
 /// States around the start, where all that the machine assumes holds: angles and other pure
 /// numbers all the way round, lengths by half of themselves and 2 cm, rates of 5 rad/s and
-/// 0.5 m/s, times in [0, 10) s; parameters and inputs at their defaults. A parameter that has
+/// 0.5 m/s, states of first order by half of 1 and of themselves, times in [0, 10) s; parameters and inputs at their defaults. A parameter that has
 /// none is between ½ and 2, in its unit.
 pub(super) fn around_start(model: &Model<'_>) -> States {
     let mut random = SplitMix(1);
@@ -23,14 +23,18 @@ pub(super) fn around_start(model: &Model<'_>) -> States {
         })
         .collect();
     let symbols = Symbols::of(model);
-    let starts: Vec<Expr<'_>> = model.coordinates.iter().map(|c| c.start).collect();
+    let starts = model.coordinates.iter().map(|c| c.start);
+    let starts: Vec<Expr<'_>> = starts
+        .chain(model.coordinates.iter().map(|c| c.start_rate))
+        .collect();
+    let n = model.coordinates.len();
     let facts: Vec<Expr<'_>> = model.assumptions.iter().map(|fact| fact.excess).collect();
     let at_rest = State {
         t: 0.0,
-        q: vec![0.0; starts.len()],
-        v: vec![0.0; starts.len()],
+        q: vec![0.0; n],
+        v: vec![0.0; n],
         u: model.inputs.iter().map(|i| nearest(i.default)).collect(),
-        a: vec![0.0; starts.len()],
+        a: vec![0.0; n],
     };
     let starts = evaluate(model.dag, &starts, |symbol| {
         symbols.value(symbol, &parameters, &at_rest)
@@ -45,7 +49,13 @@ pub(super) fn around_start(model: &Model<'_>) -> States {
             };
             is_angle.iter().map(rate).collect()
         };
-        let (v, a) = (rates(), rates());
+        let (mut v, a) = (rates(), rates());
+        // A state may have values on one side only, and so a start that is not 0: around that.
+        for (i, v) in v.iter_mut().enumerate() {
+            if model.coordinates[i].rate.is_some() {
+                *v = starts[n + i] + *v * (1.0 + starts[n + i].abs());
+            }
+        }
         let places = starts.iter().zip(&is_angle);
         let q = places.map(|(&start, &is_angle)| {
             let half = if is_angle {

@@ -110,7 +110,7 @@ impl Number for Ball {
 
     /// A state about the start: angles and other pure numbers all the way round at first and nearer
     /// from try to try, lengths by half of themselves and 2 cm. Parameters are up to a hundredth or a
-    /// twentieth off their defaults, so that none is 0; one that has none is between ½ and 2.
+    /// twentieth off their defaults, and states of first order about their starts as lengths are, so that none is 0; one that has none is between ½ and 2.
     fn state(number: u64, machine: &Lagrange<'_, '_>) -> State<Ball> {
         let model = machine.model;
         let mut random = SplitMix(number.wrapping_add(1).wrapping_mul(0x5851_f42d_4c95_7f2d));
@@ -132,11 +132,14 @@ impl Number for Ball {
             u,
             parameters,
         };
-        let starts: Vec<Expr<'_>> = model.coordinates.iter().map(|c| c.start).collect();
+        let starts = model.coordinates.iter().map(|c| c.start);
+        let starts: Vec<Expr<'_>> = starts
+            .chain(model.coordinates.iter().map(|c| c.start_rate))
+            .collect();
         let starts = machine.values(&starts, &nothing);
         let width = 0.5f64.powi((number / 6) as i32);
-        let places = model.coordinates.iter().zip(starts);
-        let q = places.map(|(coordinate, start)| {
+        let places = model.coordinates.iter().zip(&starts);
+        let q = places.map(|(coordinate, &start)| {
             let half = match coordinate.unit.is_one() {
                 true => 3.2,
                 false => 0.02 + 0.5 * start.abs(),
@@ -148,7 +151,14 @@ impl Number for Ball {
             let one = |_| Ball::from_f64(random.uniform(-2.0, 2.0));
             (0..n).map(one).collect()
         };
-        let (v, a) = (rates(), rates());
+        let (mut v, a) = (rates(), rates());
+        for (i, v) in v.iter_mut().enumerate() {
+            let start = starts[n + i];
+            if model.coordinates[i].rate.is_some() {
+                let half = width * (0.5 + 0.5 * start.abs());
+                *v = Ball::from_f64(start + random.uniform(-half, half));
+            }
+        }
         let exact = |list: Vec<f64>| list.into_iter().map(Ball::from_f64).collect();
         State {
             t: Ball::from_f64(random.uniform(0.0, 10.0)),

@@ -109,6 +109,12 @@ pub(super) fn residual<'d>(model: &Model<'d>) -> Result<Residual<'d>, NoSeries> 
             }
         }
     }
+    for (i, coordinate) in model.coordinates.iter().enumerate() {
+        if let Some(rate) = coordinate.rate {
+            on_positions.push((coordinate.q, rates.second(coordinate.q)));
+            direct[i].push(-rate);
+        }
+    }
     // M a = f + Gᵀ λ, and with the other sign, for the matrix to be symmetric, −d²g/dt² = 0.
     let (mut multipliers, mut held) = (Vec::new(), Vec::new());
     for (k, constraint) in constraints.iter().enumerate() {

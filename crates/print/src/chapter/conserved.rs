@@ -33,7 +33,11 @@ impl<'d> Chapter<'_, 'd> {
     fn energy_balance(&self) -> Vec<Block> {
         let letter = Math::letter;
         let equations = &self.compiled.equations;
-        let sum = || letter('T') + letter('V');
+        let stores = !equations.state_energy.is_zero();
+        let sum = || match stores {
+            true => letter('T') + letter('V') + letter('E'),
+            false => letter('T') + letter('V'),
+        };
         match &self.facts.energy {
             Energy::Conserved => {
                 let text = "Energy is conserved: nothing drives the machine, nothing damps it. Along every motion";
@@ -53,6 +57,9 @@ impl<'d> Chapter<'_, 'd> {
                 let mut explain = |letter: char, value: Expr<'d>, note: &str| {
                     rows.extend(self.equality(Math::letter(letter), value, note));
                 };
+                if stores {
+                    explain('E', equations.state_energy, "stored by states");
+                }
                 if !equations.work_rate.is_zero() {
                     right = Math::letter('P');
                     explain('P', equations.work_rate, "put in");
@@ -197,6 +204,7 @@ impl<'d> Chapter<'_, 'd> {
             ]);
         } else {
             let free: Vec<usize> = (0..equations.bias.len())
+                .filter(|&i| model.coordinates[i].rate.is_none())
                 .filter(|&i| equations.bias[i].is_zero())
                 .collect();
             if !free.is_empty() {

@@ -6,7 +6,8 @@ use lagrangian_symbolic::{Expr, Math, math_as_built};
 use super::{Chapter, Shown, code, counted, head, listed, paragraph, prose, shown, unit, words};
 use crate::document::{Block, Row, Run, Words, of_docs};
 use lagrangian_mechanics::{Freedom, Independent, equations::freedom};
-use lagrangian_spec::model::{ApproximationKind, Name, Space};
+use lagrangian_spec::model::{ApproximationKind, Coordinate, Name, Space};
+use lagrangian_units::rate_unit;
 
 /// A row of a table of symbols.
 struct Entry<'a, 'd> {
@@ -25,8 +26,14 @@ impl<'d> Chapter<'_, 'd> {
             Space::Plane => "in the plane",
             Space::Space => "in space",
         };
-        let n = model.coordinates.len();
-        let freedom = freedom(model, &self.compiled.equations);
+        let states = model
+            .coordinates
+            .iter()
+            .filter(|c| c.rate.is_some())
+            .count();
+        let n = model.coordinates.len() - states;
+        let mut freedom = freedom(model, &self.compiled.equations);
+        freedom.coordinates -= states;
         let text = match freedom.constraints {
             0 => format!(
                 "The machine moves {place}. It has {} of freedom, as many as generalized coordinates.",
@@ -37,7 +44,7 @@ impl<'d> Chapter<'_, 'd> {
         blocks.push(paragraph([words![text]]));
         blocks.push(self.table(
             &["", "coordinate", "unit", "start", ""],
-            model.coordinates.iter().map(|c| Entry {
+            self.places().map(|c| Entry {
                 symbol: Some(c.q),
                 name: &c.name,
                 unit: &c.unit_text,
@@ -46,6 +53,28 @@ impl<'d> Chapter<'_, 'd> {
             }),
         ));
         blocks.extend(self.rates());
+        let states = model.coordinates.iter().filter(|c| c.rate.is_some());
+        let states: Vec<_> = states
+            .map(|c| {
+                let name = Name {
+                    base: c.name.word().to_owned(),
+                    index: c.name.index,
+                };
+                (c, name, rate_unit(&c.name.to_string(), &c.unit_text))
+            })
+            .collect();
+        if !states.is_empty() {
+            blocks.push(self.table(
+                &["", "state", "unit", "start", ""],
+                states.iter().map(|(c, name, unit)| Entry {
+                    symbol: Some(c.v),
+                    name,
+                    unit,
+                    value: Some(c.start_rate),
+                    docs: &c.docs,
+                }),
+            ));
+        }
         if !model.parameters.is_empty() {
             blocks.push(self.table(
                 &["", "parameter", "unit", "default", ""],
@@ -100,11 +129,16 @@ impl<'d> Chapter<'_, 'd> {
         blocks
     }
 
+    /// The coordinates that are no integrals of states.
+    fn places(&self) -> impl Iterator<Item = &Coordinate<'d>> {
+        let coordinates = self.model.coordinates.iter();
+        coordinates.filter(|c| c.rate.is_none())
+    }
+
     /// How fast it starts, where it does not start at rest.
     fn rates(&self) -> Option<Block> {
         const MOST: usize = 12;
-        let coordinates = &self.model.coordinates;
-        let moving = || coordinates.iter().filter(|c| !c.start_rate.is_zero());
+        let moving = || self.places().filter(|c| !c.start_rate.is_zero());
         let count = moving().count();
         let rates = moving().take(MOST).map(|c| {
             let rate = self.name(c.v).equals(self.value(c.start_rate));

@@ -95,7 +95,10 @@ impl<'d> Chapter<'_, 'd> {
 
     fn equation(&self, index: usize) -> Vec<Block> {
         let coordinate = &self.model.coordinates[index];
-        let heading = Block::Heading(words!["Equation of ", self.name(coordinate.q)]);
+        let heading = Block::Heading(match coordinate.rate {
+            Some(_) => words!["Rate of ", self.name(coordinate.v)],
+            None => words!["Equation of ", self.name(coordinate.q)],
+        });
         let groups = groups::equation(self.model, &self.compiled.equations, &self.shares, index);
         let size = groups
             .iter()

@@ -1,0 +1,440 @@
+//! States of first order: motors, filters, controllers and heat, against closed forms and other spellings.
+
+use crate::support::{Scratch, lagrangian};
+use serde_json::Value;
+
+/// What `lagrangian` prints as JSON.
+fn json(arguments: &[&str]) -> Value {
+    let output = lagrangian(arguments);
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    let (out, said) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {said}{out}");
+    serde_json::from_str(&out).unwrap_or_else(|_| panic!("{arguments:?}: {out}{said}"))
+}
+
+fn number(value: &Value) -> f64 {
+    value
+        .as_f64()
+        .unwrap_or_else(|| panic!("{value} is a number"))
+}
+
+/// A run at a tolerance of 1e-11.
+fn run(spec: &str, until: &str, more: &[&str]) -> Value {
+    let own = [
+        "simulate",
+        spec,
+        "--until",
+        until,
+        "--tolerance",
+        "1e-11",
+        "--json",
+    ];
+    json(&[&own[..], more].concat())
+}
+
+fn close(found: f64, expected: f64, by: f64, what: &str) {
+    let size = expected.abs().max(1e-3);
+    assert!(
+        (found - expected).abs() <= by * size,
+        "{what}: {found} and not {expected}"
+    );
+}
+
+/// `e^{A t} x`, by Taylor's series in steps so short that 30 terms are all that doubles hold.
+fn exponential<const N: usize>(a: [[f64; N]; N], t: f64, mut x: [f64; N]) -> [f64; N] {
+    let largest: f64 = a.iter().flatten().map(|x| x.abs()).sum();
+    let steps = (largest * t).ceil().max(1.0);
+    let h = t / steps;
+    for _ in 0..steps as usize {
+        let mut term = x;
+        for k in 1..=30 {
+            let mut next = [0.0; N];
+            for (next, row) in next.iter_mut().zip(&a) {
+                let product: f64 = row.iter().zip(&term).map(|(a, x)| a * x).sum();
+                *next = product * h / f64::from(k);
+            }
+            term = next;
+            x.iter_mut().zip(term).for_each(|(x, term)| *x += term);
+        }
+    }
+    x
+}
+
+const MOTOR_SPEC: &str = "machines/dc_motor.machine";
+
+// What it says.
+const J: f64 = 2e-4;
+const B: f64 = 1e-4;
+const L: f64 = 2e-3;
+const R: f64 = 0.5;
+const K: f64 = 0.05;
+const U: f64 = 12.0;
+
+/// φ, ω, i, the charge ∫ i dt, and 1, and how they change.
+const MOTOR: [[f64; 5]; 5] = [
+    [0.0, 1.0, 0.0, 0.0, 0.0],
+    [0.0, -B / J, K / J, 0.0, 0.0],
+    [0.0, -K / L, -R / L, 0.0, U / L],
+    [0.0, 0.0, 1.0, 0.0, 0.0],
+    [0.0, 0.0, 0.0, 0.0, 0.0],
+];
+
+#[test]
+fn a_motor_runs_up_as_the_exponential_of_its_matrix_says() {
+    let spec = MOTOR_SPEC;
+    for (method, by) in [("dop853", 1e-8), ("radau5", 1e-7), ("taylor", 1e-8)] {
+        let found = run(spec, "0.05", &["--start", "i=0.5", "--method", method]);
+        let [phi, omega, i, ..] = exponential(MOTOR, 0.05, [0.0, 0.0, 0.5, 0.0, 1.0]);
+        // A tolerance of 1e-11 in each of some hundred steps.
+        close(number(&found["q"]["phi"]), phi, by, method);
+        close(number(&found["v"]["phi"]), omega, by, method);
+        close(number(&found["states"]["i"]), i, by, method);
+        assert!(found["q"].get("integral(i)").is_none(), "{found}");
+        // The sum of J ω², L i² and what was supplied is some 30 J.
+        assert!(number(&found["energy_residual"]).abs() < 1e-7, "{found}");
+    }
+}
+
+#[test]
+fn what_is_supplied_to_a_motor_is_voltage_by_charge() {
+    let spec = MOTOR_SPEC;
+    let output = lagrangian(&["simulate", spec, "--until", "0.05", "--tolerance", "1e-11"]);
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    let after = |word: &str| -> f64 {
+        let rest = said
+            .split(word)
+            .nth(1)
+            .unwrap_or_else(|| panic!("{word} in {said}"));
+        let number = rest.split([',', '\n']).next().unwrap_or_default().trim();
+        number
+            .parse()
+            .unwrap_or_else(|_| panic!("{number} in {said}"))
+    };
+    let [_, omega, i, charge, _] = exponential(MOTOR, 0.05, [0.0, 0.0, 0.0, 0.0, 1.0]);
+    let stored = J * omega * omega / 2.0 + L * i * i / 2.0;
+    // Seven digits are printed.
+    close(
+        after("work of drives and forces "),
+        U * charge,
+        1e-6,
+        "work",
+    );
+    close(after("dissipated "), U * charge - stored, 1e-6, "losses");
+}
+
+#[test]
+fn the_linear_model_of_a_motor_has_its_states() {
+    let found = json(&["linearize", MOTOR_SPEC, "--set", "U=0", "--json"]);
+    let names: Vec<&str> = found["states"]
+        .as_array()
+        .expect("states")
+        .iter()
+        .map(|state| state["name"].as_str().expect("a name"))
+        .collect();
+    assert_eq!(names, ["phi", "der(phi)", "i"]);
+    assert_eq!(found["states"][2]["unit"], "A");
+    for (row, expected) in MOTOR[..3].iter().enumerate() {
+        for (column, expected) in expected[..3].iter().enumerate() {
+            let entry = number(&found["A"][row][column]);
+            close(entry, *expected, 1e-14, "A");
+        }
+    }
+    close(number(&found["B"][2][0]), 1.0 / L, 1e-14, "B");
+    assert!(found["left_out"].as_array().expect("a list").is_empty());
+    // λ² + (b/J + R/L) λ + (b R + k²)/(J L)
+    let (p, q) = (B / J + R / L, (B * R + K * K) / (J * L));
+    let found = json(&["modes", MOTOR_SPEC, "--set", "U=0", "--json"]);
+    let modes = found["modes"].as_array().expect("modes");
+    assert_eq!(modes.len(), 3, "{found}");
+    assert_eq!(found["equilibrium"]["free"], 1);
+    let fast = modes.last().expect("a mode");
+    let re = -p / 2.0 - (p * p / 4.0 - q).sqrt();
+    close(number(&fast["re"]), re, 1e-12, "re");
+    assert_eq!(number(&fast["im"]), 0.0);
+    assert!(fast["shape"].get("i").is_some(), "{fast}");
+}
+
+#[test]
+fn a_servo_stands_where_its_controller_wants_it() {
+    let spec = "machines/position_servo.machine";
+    let found = json(&["modes", spec, "--json"]);
+    // There m g a cos θ = n k i, and the integrator holds the voltage R i.
+    let (weight, wanted) = (1.2 * 9.81 * 0.25, 0.0_f64);
+    let i = weight * wanted.cos() / (40.0 * 0.05);
+    let at = &found["equilibrium"];
+    assert!(number(&at["q"]["theta"]).abs() < 1e-12, "{at}");
+    close(number(&at["states"]["i"]), i, 1e-12, "i");
+    assert!(number(&at["states"]["seen"]).abs() < 1e-12, "{at}");
+    close(
+        number(&at["states"]["error"]),
+        0.5 * i / 40.0,
+        1e-12,
+        "error",
+    );
+    assert_eq!((&at["free"], &at["drifts"]), (&0.into(), &0.into()), "{at}");
+    // And there it comes.
+    let run = run(spec, "20", &[]);
+    assert!(number(&run["q"]["theta"]).abs() < 1e-6, "{run}");
+    close(number(&run["states"]["i"]), i, 1e-5, "i");
+}
+
+/// A brake whose friction heats a disc of which air takes the heat away.
+const BRAKE: &str = "
+machine Brake in plane {
+    parameters { J: kg*m^2 = 0.4, b: N*m*s = 0.1, C: J/K = 4.5, h: W/K = 2, T0: K = 293 }
+    coordinates { phi: rad, der(phi): rad/s = 100 }
+    states { T: K = T0, der(T) = (b*der(phi)^2 - h*(T - T0))/C }
+    bodies { disc { mass: 10, inertia: J, at: (0, 0), angle: phi } }
+    torques { pads { on: disc, torque: -b*der(phi) } }
+    energies { disc: C*(T - T0) }
+    losses { air: h*(T - T0) }
+    gravity none;
+}";
+
+#[test]
+fn what_a_brake_takes_is_in_the_disc_or_in_the_air() {
+    let spec = Scratch::new("brake.machine", BRAKE);
+    let t = 3.0;
+    let found = run(spec.path(), "3", &[]);
+    let (slow, cool) = (2.0 * 0.1 / 0.4, 2.0 / 4.5);
+    let heat = 0.1 * 1e4 / 4.5 * (f64::exp(-slow * t) - f64::exp(-cool * t)) / (cool - slow);
+    close(
+        number(&found["v"]["phi"]),
+        100.0 * f64::exp(-slow * t / 2.0),
+        1e-9,
+        "rate",
+    );
+    close(
+        number(&found["states"]["T"]),
+        293.0 + heat,
+        1e-9,
+        "temperature",
+    );
+    // Of 2000 J.
+    assert!(number(&found["energy_residual"]).abs() < 1e-6, "{found}");
+}
+
+/// Heat that goes through three plates beside a flywheel that nothing brakes.
+const FAMILY: &str = "
+machine Plates in plane {
+    constants { N = 3 }
+    parameters { J: kg*m^2 = 1, c: J/K = 2, g: W/K = 3, hot: K = 400 }
+    coordinates { phi: rad, der(phi): rad/s = 1 }
+    states {
+        T[1..N]: K = 300,
+        der(T[1]) = (g*(hot - T[1]) - g*(T[1] - T[2]))/c,
+        der(T[i in 2..N-1]) = (g*(T[i-1] - T[i]) - g*(T[i] - T[i+1]))/c,
+        der(T[N]) = g*(T[N-1] - T[N])/c,
+    }
+    bodies { wheel { mass: 1, inertia: J, at: (0, 0), angle: phi } }
+    gravity none;
+}";
+
+const APART: &str = "
+machine Plates in plane {
+    parameters { J: kg*m^2 = 1, c: J/K = 2, g: W/K = 3, hot: K = 400 }
+    coordinates { phi: rad, der(phi): rad/s = 1 }
+    define { first = g*(T1 - T2), second = g*(T2 - T3) }
+    states {
+        der(T3): K/s = second/c,
+        der(T1) = (g*(hot - T1) - first)/c,
+        T1: K = 300, T2: K = 300, T3: K = 300,
+        der(T2) = (first - second)/c,
+    }
+    bodies { wheel { mass: 1, inertia: J, at: (0, 0), angle: phi } }
+    gravity none;
+}";
+
+#[test]
+fn a_family_of_states_is_the_states_one_by_one() {
+    let (family, apart) = (
+        Scratch::new("family.machine", FAMILY),
+        Scratch::new("apart.machine", APART),
+    );
+    let together = run(
+        family.path(),
+        "0.7",
+        &["--start", "T=310", "--start", "T[2]=305"],
+    );
+    let single = [
+        "--start", "T1=310", "--start", "T2=305", "--start", "T3=310",
+    ];
+    let single = run(apart.path(), "0.7", &single);
+    let a = 3.0 / 2.0;
+    let matrix = [
+        [-2.0 * a, a, 0.0, 400.0 * a],
+        [a, -2.0 * a, a, 0.0],
+        [0.0, a, -a, 0.0],
+        [0.0; 4],
+    ];
+    let expected = exponential(matrix, 0.7, [310.0, 305.0, 310.0, 1.0]);
+    for k in 0..3 {
+        let [one, other] = [
+            number(&together["states"][format!("T[{}]", k + 1)]),
+            number(&single["states"][format!("T{}", k + 1)]),
+        ];
+        assert_eq!(one, other, "plate {k}");
+        close(one, expected[k], 1e-9, "temperature");
+    }
+}
+
+/// A bob on a rod that a filtered force pushes, with the rod as a constraint or as the radius of an angle.
+fn pendulum(is_closed: bool) -> String {
+    let (coordinates, body, rod, force) = match is_closed {
+        true => (
+            "x: m = 0.6, y: m = -0.8",
+            "bob { mass: m, at: (x, y) }",
+            "constraints { rod: x^2 + y^2 = l^2 }",
+            "pushes { on: x, value: c*u }",
+        ),
+        false => (
+            "phi: rad = 0.6435011087932844",
+            "bob { mass: m, at: (l*sin(phi), -l*cos(phi)) }",
+            "",
+            "pushes { at: bob.at, force: (c*u, 0) }",
+        ),
+    };
+    let place = if is_closed { "x" } else { "l*sin(phi)" };
+    format!(
+        "machine Pushed in plane {{
+            parameters {{
+                m: kg = 2, l: m = 1, g: m/s^2 = 9.81, c: N = 5, tau: s = 0.3, w: rad/s = 3,
+            }}
+            coordinates {{ {coordinates} }}
+            states {{ u: 1 = 0.2, der(u) = (cos(w*t) - u - {place}/l)/tau }}
+            bodies {{ {body} }}
+            forces {{ {force} }}
+            gravity (0, -g);
+            {rod}
+        }}"
+    )
+}
+
+#[test]
+fn states_go_with_constraints() {
+    let (closed, open) = (
+        Scratch::new("closed.machine", &pendulum(true)),
+        Scratch::new("open.machine", &pendulum(false)),
+    );
+    let closed = run(closed.path(), "3", &[]);
+    let open = run(open.path(), "3", &[]);
+    let phi = number(&open["q"]["phi"]);
+    close(number(&closed["q"]["x"]), phi.sin(), 1e-7, "x");
+    close(number(&closed["q"]["y"]), -phi.cos(), 1e-7, "y");
+    close(
+        number(&closed["states"]["u"]),
+        number(&open["states"]["u"]),
+        1e-7,
+        "u",
+    );
+}
+
+#[test]
+fn a_state_is_known_under_its_name_everywhere() {
+    let spec = MOTOR_SPEC;
+    let point = r#"[{"q": [0.1], "v": {"phi": 40}, "states": {"i": 3}, "inputs": {"U": 10}},
+        {"states": [1.5]}]"#;
+    let points = Scratch::new("points.json", point);
+    let found = json(&["evaluate", spec, "--at", points.path()]);
+    let rate = (10.0 - R * 3.0 - K * 40.0) / L;
+    close(number(&found[0]["state_rates"]["i"]), rate, 1e-15, "rate");
+    close(
+        number(&found[0]["accelerations"][0]),
+        (K * 3.0 - B * 40.0) / J,
+        1e-15,
+        "acceleration",
+    );
+    assert_eq!(found[0]["mass_matrix"].as_array().map(Vec::len), Some(1));
+    close(
+        number(&found[1]["outputs"]["supplied"]),
+        12.0 * 1.5,
+        1e-15,
+        "output",
+    );
+
+    let table = points.0.with_file_name("motor.csv");
+    let out = table.to_str().expect("a path");
+    run(spec, "0.01", &["--every", "0.005", "--out", out]);
+    let text = std::fs::read_to_string(&table).expect("a table");
+    let head = text.lines().next().unwrap_or_default().to_owned();
+    assert!(head.contains(",i [A],"), "{head}");
+    assert!(!head.contains("integral"), "{head}");
+
+    let rows = points.0.with_file_name("rows.csv");
+    let out = rows.to_str().expect("a path");
+    let output = lagrangian(&[
+        "sweep",
+        spec,
+        "--until",
+        "0.01",
+        "--vary",
+        "start(i)=0,1,2",
+        "--fresh",
+        "--out",
+        out,
+    ]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    let text = std::fs::read_to_string(&rows).expect("rows");
+    let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let head = lines.next().expect("a head");
+    let place = |name: &str| head.iter().position(|cell| *cell == name);
+    let (start, end) = (place("start(i)"), place("i"));
+    for (line, asked) in lines.zip([0.0, 1.0, 2.0]) {
+        let cell = |place: Option<usize>| -> f64 {
+            let cell = line[place.expect("a column")];
+            cell.parse().expect("a number")
+        };
+        assert_eq!(cell(start), asked);
+        let [_, _, i, ..] = exponential(MOTOR, 0.01, [0.0, 0.0, asked, 0.0, 1.0]);
+        close(cell(end), i, 1e-6, "a run of a sweep");
+    }
+}
+
+#[test]
+fn what_a_state_cannot_do_is_said_at_the_word() {
+    let spec = |extra: &str, rate: &str| {
+        format!(
+            "machine Wrong in plane {{
+                parameters {{ m: kg = 1, b: N*s/m = 2, tau: s = 1 }}
+                coordinates {{ x: m, y: m }}
+                states {{ s: m/s = 1, {rate} }}
+                bodies {{ bob {{ mass: m, at: (x, y) }} }}
+                gravity none;
+                {extra}
+            }}"
+        )
+    };
+    let rate = "der(s) = -s/tau";
+    let right = Scratch::new(
+        "right.machine",
+        &spec("forces { f { on: x, value: -b*s } }", rate),
+    );
+    let output = lagrangian(&["check", right.path()]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    for (extra, rate, word) in [
+        ("", "", "nothing says how the state `s` changes"),
+        ("", "der(s) = der(der(x))", "accelerations"),
+        ("", "der(s) = x", "m/s^2"),
+        ("", "der(s) = s/tau, der(s) = -s/tau", "said twice"),
+        ("", "der(s) = s/tau, der(x) = s", "a state is expected here"),
+        ("", "der(s) = s/tau, der(r) = s", "no state is named `r`"),
+        ("constraints { c: der(x) = s }", rate, "the state `s`"),
+        (
+            "dissipations { d: 1/2*b*(der(x) - s)^2 }",
+            rate,
+            "the state `s`",
+        ),
+        ("energies { e: 1/2*m*der(x)^2 }", rate, "the rate of `x`"),
+        ("potentials { v: b*x*s }", rate, "velocities"),
+        ("forces { f { on: s, value: 1 } }", rate, "a state"),
+    ] {
+        let file = Scratch::new("wrong.machine", &spec(extra, rate));
+        let output = lagrangian(&["check", file.path()]);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned()
+            + &String::from_utf8_lossy(&output.stdout);
+        assert_eq!(output.status.code(), Some(1), "{extra} {rate}: {said}");
+        assert!(said.contains(word), "{extra} {rate}: {said}");
+    }
+}
