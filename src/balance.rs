@@ -235,7 +235,7 @@ pub struct EnergyBalance {
     /// kinetic energy, applied forces and accelerations at its end, in the metric of inertia; for implicit
     /// methods by what `δ` changes in the powers, too, over the length of the step. Rounding adds some units
     /// in the last place of the energies at each step, and what it makes of the potential energy, found
-    /// out by moving coordinates by theirs.
+    /// out by moving coordinates by theirs. Infinite for a method whose steps have a fixed length: nothing bounds their error.
     pub explained: f64,
 }
 

@@ -15,6 +15,8 @@
 //! pivoting (`lcp`). (F. Pfeiffer, C. Glocker, *Multibody Dynamics with Unilateral Contacts*, 1996; D. E. Stewart,
 //! J. C. Trinkle, Int. J. Numer. Methods Eng. 39 (1996) 2673–2691.)
 //!
+//! In time stepping contacts are asked once in each step for their impulses, whenever in it they meet (`stepping`).
+//!
 //! All of it is for runs, which may allocate.
 
 mod delassus;
@@ -24,11 +26,13 @@ mod impact;
 mod lcp;
 mod problem;
 mod routh;
+mod stepping;
 mod touching;
 
 pub use event::{ContactEvent, ContactEventKind, ContactImpact};
 pub use force::{UnilateralForce, unilateral_forces};
 pub(crate) use impact::{Impact, Jam};
+pub(crate) use stepping::Stepped;
 pub(crate) use touching::{Mode, Touching};
 
 use crate::{ContactTrouble, ImpactLaw, ImpactOrder, Painleve};

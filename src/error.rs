@@ -395,6 +395,11 @@ impl Error {
             StepError::OutsideStep { t, from, to } => Self::OutsideRun { t, from, to },
             StepError::NoWorkspace { t } => Self::NoWorkspaceForConstraints { t },
             StepError::Changed { t } => Self::InputsChanged { t },
+            StepError::NoLength { .. } => Self::InvalidSetting {
+                setting: "longest_step",
+                value: f64::INFINITY,
+                needed: "the length of the steps of the method `moreau`, in s",
+            },
             StepError::NotExplicit { .. }
             | StepError::FewDigits { .. }
             | StepError::NotFree { .. }

@@ -13,7 +13,7 @@ pub use stepper::{ExplicitStepper, ExplicitStepperBuilder};
 use crate::attempt::{self, not_finite};
 use crate::control::{self, Control, Work};
 use crate::interpolant::{Ends, Interpolant, hermite};
-use crate::methods::{MAX_STAGES, Method};
+use crate::methods::{Kind, MAX_STAGES, Method};
 use crate::stages::Point;
 use crate::step_error::StepError;
 use crate::step_number::{Real, StepNumber};
@@ -68,7 +68,7 @@ pub(crate) struct Track<N: StepNumber, V> {
 
 /// Whether a method can be used in these numbers.
 fn check<N: StepNumber>(method: &Method, t: f64) -> Result<(), StepError> {
-    if method.tableau.spectrum.is_some() || method.by_series {
+    if method.tableau.spectrum.is_some() || method.kind != Kind::RungeKutta {
         return Err(StepError::NotExplicit { t });
     }
     if N::IS_WIDE && !method.scheme.is_wide {

@@ -141,7 +141,7 @@ pub use inputs::AnyInputs;
 pub use inputs::{DefaultInputs, HeldInputs, InputFunction, InputLaw, InputLawIn};
 pub use interpolant::Interpolant;
 pub use lanes::{Batch, Batched, LaneVector, SomeSingular};
-pub use methods::{METHODS, Method, TAYLOR};
+pub use methods::{METHODS, MOREAU, Method, TAYLOR};
 pub use piece::{NoPiece, Piece};
 pub use step_error::StepError;
 pub use step_number::{Real, StepNumber};

@@ -9,6 +9,7 @@ mod check;
 mod digits;
 mod dormand_prince_5;
 mod dormand_prince_8;
+mod moreau;
 mod radau_5;
 mod scheme;
 mod taylor;
@@ -37,9 +38,32 @@ pub static METHODS: [Method; 4] = [
 /// It is no Runge–Kutta method, so it is not among [`METHODS`]; its [`Tableau`] holds the nodes and weights by which work and
 /// dissipation are integrated along the motion.
 pub static TAYLOR: Method = Method {
-    by_series: true,
+    kind: Kind::Series,
     ..Method::new(taylor::TABLEAU)
 };
+
+/// Moreau's time stepping, for machines with many contacts that open and close
+/// ([`System::unilateral_contacts`](crate::System::unilateral_contacts)): piles, and whatever chatters.
+///
+/// Steps have the fixed length [`longest_step`](crate::Simulation::longest_step), and tolerances play no part. Contacts are asked once
+/// in each which impulses they give, by the law `newton` with rates of the middle of the step; no instant of an impact is looked for. The
+/// error after an impact is of order 1 in the length of steps, and of order 2 where nothing touches. It is a method of
+/// [`Simulation`](crate::Simulation)s.
+pub static MOREAU: Method = Method {
+    kind: Kind::Impulses,
+    ..Method::new(moreau::TABLEAU)
+};
+
+/// What the steps of a method are made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// Stages, of an explicit or an implicit method.
+    RungeKutta,
+    /// The Taylor series of the motion.
+    Series,
+    /// Impulses of contacts, in steps of a fixed length.
+    Impulses,
+}
 
 /// A method of integration, ready to run.
 #[derive(Debug)]
@@ -47,8 +71,7 @@ pub struct Method {
     /// What is published of it.
     pub tableau: Tableau,
     pub(crate) scheme: Scheme,
-    /// Whether its steps are Taylor series.
-    pub(crate) by_series: bool,
+    pub(crate) kind: Kind,
 }
 
 impl Method {
@@ -62,6 +85,8 @@ impl Method {
     pub const RADAU5: &'static Self = &METHODS[3];
     /// Steps by [Taylor series](TAYLOR).
     pub const TAYLOR: &'static Self = &TAYLOR;
+    /// [Moreau's time stepping](MOREAU).
+    pub const MOREAU: &'static Self = &MOREAU;
 
     /// Prepares a published method for machines, whose positions follow from their velocities, if its
     /// tableau is what it says: rows have their lengths and add up to their nodes, and the weights of
@@ -136,7 +161,7 @@ impl Method {
         Self {
             tableau,
             scheme,
-            by_series: false,
+            kind: Kind::RungeKutta,
         }
     }
 
@@ -149,12 +174,17 @@ impl Method {
         }
     }
 
-    /// Every method that has a name, [`TAYLOR`] behind the [`METHODS`] of Runge and Kutta.
+    /// Every method that has a name, [`TAYLOR`] and [`MOREAU`] behind the [`METHODS`] of Runge and Kutta.
     pub fn all() -> impl Iterator<Item = &'static Self> {
-        METHODS.iter().chain([&TAYLOR])
+        METHODS.iter().chain([&TAYLOR, &MOREAU])
     }
 
-    /// The method of that short name: `dop853`, `dopri5`, `bs32`, `radau5`, `taylor`.
+    /// Whether its steps have a fixed length, and not one that a tolerance asks for.
+    pub fn has_fixed_steps(&self) -> bool {
+        self.kind == Kind::Impulses
+    }
+
+    /// The method of that short name: `dop853`, `dopri5`, `bs32`, `radau5`, `taylor`, `moreau`.
     pub fn named(name: &str) -> Option<&'static Self> {
         Self::all().find(|method| method.tableau.name == name)
     }

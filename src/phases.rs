@@ -22,6 +22,8 @@ pub(crate) struct Kept<C, V> {
     pub events: Vec<ContactEvent<C>>,
     /// For each contact how much energy its impacts took, in J.
     pub losses: Vec<f64>,
+    /// In time stepping, for each contact whether it is closed and lasts.
+    pub last: Vec<bool>,
     /// Impacts that created energy: how many, and the worst.
     pub gains: usize,
     pub worst: Option<(usize, f64, f64)>,
@@ -33,6 +35,7 @@ impl<C, V> Default for Kept<C, V> {
             phases: Vec::new(),
             events: Vec::new(),
             losses: Vec::new(),
+            last: Vec::new(),
             gains: 0,
             worst: None,
         }

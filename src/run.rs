@@ -3,6 +3,7 @@
 pub(crate) mod contacts;
 mod explained;
 pub(crate) mod sampled;
+mod stepping;
 
 use sampled::Sampling;
 use std::string::String;
@@ -51,6 +52,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         resumed,
     } = task;
     let until = settings.check()?;
+    stepping::check_length(settings.method.has_fixed_steps(), settings.longest_step)?;
     let system = match of {
         Of::Machine(machine) => {
             check_parameters(machine)?;
@@ -200,7 +202,13 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         stream.end(&end);
     }
     let work = stepper.work();
-    let balance = balance(&stepper, &energies, &explained, kinetic_energy);
+    let has_fixed_steps = settings.method.has_fixed_steps();
+    let balance = balance(
+        &stepper,
+        &energies,
+        &explained,
+        (kinetic_energy, has_fixed_steps),
+    );
     let mut warnings = warnings(&settings, &stepper, of_start);
     if <M::System as System>::MAY_COLLIDE {
         warnings.extend(unilateral.warning(&system));
@@ -348,7 +356,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 }
                 continue;
             }
-            if <M::System as System>::MAY_COLLIDE && self.stepper.touching().is_some() {
+            if <M::System as System>::MAY_COLLIDE
+                && self.stepper.touching().is_some()
+                && !self.settings.method.has_fixed_steps()
+            {
                 let (looks, changes) = (ending.is_ok(), &mut last_change);
                 let next = self.follow_contacts(&mut meeting, &mut interpolant, looks, changes)?;
                 match next {
@@ -623,6 +634,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     fn keep(&mut self, interpolant: &mut LastInterpolant<M>) -> Result<(), Error> {
         self.keep_samples(interpolant)?;
         self.show(interpolant)?;
+        if <M::System as System>::MAY_COLLIDE && self.settings.method.has_fixed_steps() {
+            self.note_step();
+        }
         self.enter_energies();
         if let Some(steps) = &mut self.record.steps {
             steps.push(&self.stepper);
@@ -1291,13 +1305,16 @@ fn balance<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     stepper: &Stepper<'_, S, L, A>,
     energies: &[Energies],
     explained: &Explained,
-    kinetic_energy: f64,
+    (kinetic_energy, has_fixed_steps): (f64, bool),
 ) -> Option<EnergyBalance> {
     let integrals = stepper.quadratures().integrals()?;
     let (first, last) = (energies.first()?, energies.last()?);
     let turned_over = kinetic_energy + integrals.work_turned_over() + last.dissipated;
     Some(EnergyBalance {
-        explained: explained.in_all(turned_over),
+        explained: match has_fixed_steps {
+            true => f64::INFINITY,
+            false => explained.in_all(turned_over),
+        },
         start: first.kinetic + first.potential,
         end: last.kinetic + last.potential,
         work: last.work,

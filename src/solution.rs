@@ -11,7 +11,7 @@ use crate::event::{Event, state};
 use crate::friction::Contacts;
 use crate::inputs::{DefaultInputs, InputLaw};
 use crate::interpolant::{Ends, Interpolant};
-use crate::methods::{MAX_STAGES, Method};
+use crate::methods::{Kind, MAX_STAGES, Method};
 use crate::observation::{Known, Observation};
 use crate::phases::{Kept, Phase};
 use crate::piece::Piece;
@@ -482,7 +482,11 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
             ..*before
         };
         // In parts, where the motion within a step is of a higher degree.
-        let parts = if run.method.by_series { 4 } else { 1 };
+        let parts = if run.method.kind == Kind::Series {
+            4
+        } else {
+            1
+        };
         let half = 0.5 * (t - before.t) / f64::from(parts);
         let nodes = (0..parts).flat_map(|part| GAUSS.map(|(x, weight)| (part, x, weight)));
         for (part, node, weight) in nodes {

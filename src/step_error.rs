@@ -82,6 +82,11 @@ pub enum StepError {
         /// Time, in s.
         t: f64,
     },
+    /// The method takes steps of a fixed length, and none is set ([`Stepper::set_longest_step`]).
+    NoLength {
+        /// Time, in s.
+        t: f64,
+    },
     /// The method is implicit or by series, and the stepper takes explicit ones only.
     NotExplicit {
         /// Time, in s.
@@ -118,6 +123,10 @@ pub enum StepError {
 impl Display for StepError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
+            Self::NoLength { t } => write!(
+                f,
+                "the method takes steps of a fixed length, and none is set at t = {t:e} s: `set_longest_step`"
+            ),
             Self::NoTime { t } => write!(f, "{t} is no time to go to"),
             Self::OutsideStep { t, from, to } => write!(
                 f,

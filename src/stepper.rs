@@ -4,6 +4,8 @@
 #[cfg(feature = "std")]
 mod implicitly;
 #[cfg(feature = "std")]
+mod in_impulses;
+#[cfg(feature = "std")]
 mod in_series;
 #[cfg(feature = "std")]
 mod meeting;
@@ -32,13 +34,15 @@ use crate::interpolant::{Ends, Interpolant, hermite};
 use crate::math::sqrt;
 #[cfg(doc)]
 use crate::methods::Tableau;
-use crate::methods::{MAX_STAGES, Method};
+use crate::methods::{Kind, MAX_STAGES, Method};
 use crate::stages::{Point, in_blocks, weigh};
 use crate::step_error::StepError;
 #[cfg(feature = "std")]
 use crate::taylor::Taylor;
 use crate::tolerance::{LEAST_RELATIVE_TOLERANCE, Tolerance};
 use crate::{ContactTrouble, System, Vector};
+#[cfg(feature = "std")]
+use in_impulses::InImpulses;
 #[cfg(feature = "std")]
 use std::boxed::Box;
 
@@ -86,6 +90,9 @@ pub struct Stepper<'s, S: System, L = DefaultInputs, A = NoBalance> {
     /// None in methods that are not by series.
     #[cfg(feature = "std")]
     taylor: Option<Box<Taylor<S::Vector>>>,
+    /// None in methods other than time stepping.
+    #[cfg(feature = "std")]
+    impulses: Option<Box<InImpulses<S::Vector>>>,
 }
 
 /// The equations of motion with their inputs.
@@ -160,11 +167,11 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             spectrum.map(|spectrum| Box::new(Implicit::new(system.get(), spectrum)))
         };
         #[cfg(not(feature = "std"))]
-        if method.tableau.spectrum.is_some() || method.by_series {
+        if method.tableau.spectrum.is_some() || method.kind != Kind::RungeKutta {
             return Err(StepError::NoWorkspace { t });
         }
         #[cfg(feature = "std")]
-        if method.by_series {
+        if method.kind == Kind::Series {
             let inputs = !law.is_constant();
             if inputs || system.check_series().is_err() {
                 return Err(StepError::NoSeries { inputs, t });
@@ -208,9 +215,16 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             implicit,
             #[cfg(feature = "std")]
             taylor: None,
+            #[cfg(feature = "std")]
+            impulses: None,
         };
         #[cfg(feature = "std")]
-        if method.by_series {
+        if method.kind == Kind::Impulses {
+            let Point { q, v, .. } = &stepper.now;
+            stepper.impulses = Some(Box::new(InImpulses::new(q, v)));
+        }
+        #[cfg(feature = "std")]
+        if method.kind == Kind::Series {
             stepper.taylor = Some(Box::new(Taylor::new(&stepper.tolerance)));
             stepper.expand()?;
         }
@@ -305,8 +319,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
     /// In a step by Taylor series it is the polynomial of the step, of its order.
     pub fn hermite(&self, theta: f64) -> (S::Vector, S::Vector) {
         #[cfg(feature = "std")]
-        if let Some(taylor) = &self.taylor {
-            return crate::taylor::state(taylor.of_step(), theta * self.control.last_step);
+        if let Some(coefficients) = self.coefficients() {
+            return crate::taylor::state(coefficients, theta * self.control.last_step);
         }
         hermite(
             self.control.last_step,
@@ -559,6 +573,12 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             if let Some(taylor) = &mut self.taylor {
                 taylor.retreat();
             }
+            #[cfg(feature = "std")]
+            if let Some(impulses) = &mut self.impulses
+                && let Some(before) = impulses.retreat()
+            {
+                self.model.touching = Some(before);
+            }
             self.quadratures.retreat(self.method.tableau.a[stages]);
             self.control.work.steps -= 1;
             // It was short enough.
@@ -608,6 +628,10 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         }
         if self.changed {
             self.look_again()?;
+        }
+        #[cfg(feature = "std")]
+        if self.impulses.is_some() {
+            return self.step_in_impulses();
         }
         #[cfg(feature = "std")]
         if self.taylor.is_some() {
@@ -670,8 +694,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
     /// exactly as the method is; [`project`](Self::project) does the rest.
     pub fn interpolant(&mut self) -> Result<Interpolant<S::Vector>, StepError> {
         #[cfg(feature = "std")]
-        if let Some(taylor) = &self.taylor {
-            let of_step = taylor.of_step();
+        if let Some(of_step) = self.coefficients() {
             return Ok(Interpolant::of_series(
                 self.beginning(),
                 self.control.last_step,

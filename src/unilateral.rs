@@ -85,6 +85,8 @@ pub enum ContactTrouble {
     SeveralAtOnce,
     /// What is closed, slips and sticks changes again and again at one instant.
     Unsettled,
+    /// Moreau's time stepping does not know its law.
+    NotStepped,
     /// A [`Stepper`](crate::Stepper) alone does not look for impacts: a [`Simulation`](crate::Simulation) does.
     NotFollowed,
 }
@@ -102,6 +104,10 @@ impl ContactTrouble {
                  is for several"
             }
             Self::Unsettled => "what it does changes again and again at this instant",
+            Self::NotStepped => {
+                "the method `moreau` knows contacts with the law `newton`, all at once, without `compliance`, and with `static_friction` equal to \
+                 `friction`"
+            }
             Self::NotFollowed => "impacts are found by a `Simulation`, not by a stepper alone",
         }
     }

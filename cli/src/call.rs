@@ -580,9 +580,13 @@ pub struct Simulate {
     /// Relative and absolute tolerance of each step.
     #[arg(long, default_value_t = 1e-9, value_parser = tolerance, allow_hyphen_values = true)]
     pub tolerance: f64,
-    /// The integration method: dop853, dopri5, bs32, radau5 for stiff machines, or taylor for smooth ones.
+    /// The integration method: dop853, dopri5, bs32, radau5 for stiff machines, taylor for smooth ones, or moreau for many contacts
+    /// that open and close, which needs --longest-step.
     #[arg(long, value_name = "NAME", default_value = "dop853")]
     pub method: String,
+    /// The longest step, in s; the length of the steps of `moreau`, which has no tolerance.
+    #[arg(long, value_name = "SECONDS", value_parser = interval, allow_hyphen_values = true)]
+    pub longest_step: Option<f64>,
     /// How many steps the run may take.
     #[arg(long, value_name = "N", default_value_t = 10_000_000, value_parser = steps, allow_hyphen_values = true)]
     pub max_steps: usize,

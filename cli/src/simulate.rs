@@ -156,6 +156,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         .tolerance(call.tolerance)
         .method(method)
         .until(call.until)
+        .longest_step(call.longest_step.unwrap_or(f64::INFINITY))
         .max_steps(call.max_steps)
         .energy_balance(true)
         .forget_steps()
@@ -266,6 +267,14 @@ pub fn method(name: &str) -> Result<&'static Method, Failure> {
 /// Settings are the fault of the call, everything else that of the machine or the run.
 fn cause(error: Error) -> Failure {
     match error {
+        Error::InvalidSetting {
+            setting: "longest_step",
+            value: f64::INFINITY,
+            ..
+        } => Failure::Call(
+            "the method `moreau` takes steps of a fixed length: give it, as in --longest-step 1e-3"
+                .into(),
+        ),
         // What the options have let pass.
         Error::InvalidSetting {
             setting,
@@ -277,6 +286,7 @@ fn cause(error: Error) -> Failure {
                 "relative" | "absolute" => "--tolerance",
                 "sampled" => "--input …,every=",
                 "delay" => "--input …,delay=",
+                "longest_step" => "--longest-step",
                 _ => &format!("--{setting}"),
             };
             let value = shortest(value);

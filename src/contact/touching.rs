@@ -21,7 +21,7 @@ pub(super) const ROUNDING: f64 = 1e-12;
 const ROUNDING_OF_FORCES: f64 = 1e-11;
 
 /// Friction within this of the greatest that there is, relative to that, is used up.
-const SATURATED: f64 = 1e-10;
+pub(super) const SATURATED: f64 = 1e-10;
 
 /// The state of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,6 +51,8 @@ pub(crate) struct Touching {
     pub(super) speed: f64,
     /// How fast each contact opened after its last impact.
     pub openings: Vec<f64>,
+    /// In time stepping the mean forces of the last step along normal and tangent, in N.
+    stepped: Option<Vec<[f64; 2]>>,
 }
 
 /// Gaps, rates and all that belongs to them at a state.
@@ -136,6 +138,18 @@ pub(crate) struct Reaction {
     pub is_only: bool,
 }
 
+impl Reaction {
+    /// Of forces that are known.
+    pub(super) fn of_forces(a: Vec<f64>, forces: Vec<[f64; 2]>) -> Self {
+        Self {
+            a,
+            sizes: vec![0.0; forces.len()],
+            forces,
+            is_only: true,
+        }
+    }
+}
+
 /// By how much the states of closed contacts hold.
 pub(crate) struct Margins {
     /// For each contact: that it presses, that it slips as it does or sticks, and that a layer is loaded or unloaded
@@ -173,7 +187,14 @@ impl Touching {
             speed: 0.0,
             openings: vec![0.0; rubs.len()],
             rubs,
+            stepped: None,
         }
+    }
+
+    /// Takes note of what contacts did in a step of time stepping: none is a constraint.
+    pub(super) fn set_stepped(&mut self, modes: Vec<Mode>, forces: Vec<[f64; 2]>) {
+        self.modes = modes;
+        self.stepped = Some(forces);
     }
 
     pub fn modes(&self) -> &[Mode] {
@@ -228,6 +249,9 @@ impl Touching {
     pub fn reaction<S: System>(&self, system: &S, at: At<'_, S>) -> Result<Reaction, StepError> {
         let (t, q, v, _) = at;
         let a = Self::free(system, at)?;
+        if let Some(forces) = &self.stepped {
+            return Self::reaction_stepped(system, at, a, forces);
+        }
         let mut reaction = Reaction {
             forces: vec![[0.0; 2]; self.modes.len()],
             sizes: vec![0.0; self.modes.len()],
@@ -377,7 +401,8 @@ impl Touching {
     /// The work that what moves by itself does through the contacts, and what friction takes, in W.
     pub fn power<S: System>(&self, system: &S, at: At<'_, S>) -> [f64; 2] {
         let (t, q, v, _) = at;
-        if self.is_free() {
+        // What impulses did is booked with each step.
+        if self.is_free() || self.stepped.is_some() {
             return [0.0; 2];
         }
         let Ok(reaction) = self.reaction(system, at) else {

@@ -39,6 +39,9 @@ pub(super) struct Meeting {
     corrected: usize,
 }
 
+/// What is told of a contact: which, what, the direction of its slip, and its impact if it is one.
+pub(super) type Told = (usize, ContactEventKind, f64, Option<ContactImpact>);
+
 /// What the run does next.
 pub(super) enum Next {
     /// It steps again.
@@ -66,6 +69,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             return Err(self.model.explain(error, q, v));
         }
         self.record.unilateral.losses = vec![0.0; touching.modes().len()];
+        if self.settings.method.has_fixed_steps() {
+            return self.begin_stepping(&touching);
+        }
         let step = self.settings.first_step.unwrap_or(0.0);
         self.meet_now(Cause::Asked, step, true)
     }
@@ -189,16 +195,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
 
     /// Writes down what happened.
     fn tell(&mut self, happened: &Happened, at_start: bool) {
-        let system = self.model.system;
-        let names: Vec<String> = (system.unilateral_contacts())
-            .map(|contact| contact.name.into())
-            .collect();
         let t = self.stepper.t();
-        let now = state(
-            system,
-            (t, self.stepper.q().clone(), self.stepper.v().clone()),
-        );
-        let mut told = Vec::new();
+        let mut told: Vec<Told> = Vec::new();
         let size = |impulse: [f64; 2]| impulse[0].abs().max(impulse[1].abs());
         let greatest = (happened.impacts.iter()).fold(0.0_f64, |most, i| most.max(size(i.impulse)));
         for impact in &happened.impacts {
@@ -252,8 +250,20 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         for (contact, _) in &happened.ended {
             self.record.unilateral.losses[*contact] += shared;
         }
+        self.enter_contact_events(told, &happened.ended);
+    }
+
+    /// Writes down events of contacts now. `ended` are contacts whose bounces came to their end, with how long these would
+    /// have gone on, in s.
+    pub(super) fn enter_contact_events(&mut self, told: Vec<Told>, ended: &[(usize, f64)]) {
+        let system = self.model.system;
+        let (q, v) = (self.stepper.q().clone(), self.stepper.v().clone());
+        let now = state(system, (self.stepper.t(), q, v));
+        let names: Vec<String> = (system.unilateral_contacts())
+            .map(|contact| contact.name.into())
+            .collect();
         for (contact, kind, direction, impact) in told {
-            let ended = happened.ended.iter().find(|(ended, _)| *ended == contact);
+            let ended = ended.iter().find(|(ended, _)| *ended == contact);
             let left = match (kind, ended) {
                 (ContactEventKind::Closes, Some((_, left))) => *left,
                 _ => 0.0,
@@ -287,7 +297,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     }
 
     /// Notes impacts that have created energy beyond rounding.
-    fn note_gains(&mut self, impacts: &[Impact], t: f64) {
+    pub(super) fn note_gains(&mut self, impacts: &[Impact], t: f64) {
         let loss: f64 = impacts.iter().map(|impact| impact.loss).sum();
         let turned_over: f64 = (impacts.iter())
             .map(|i| (i.impulse[0] * i.gap_rate[0]).abs() + (i.impulse[1] * i.slip[0]).abs())

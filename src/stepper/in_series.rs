@@ -19,10 +19,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             .map_err(|singular| StepError::Singular { singular, t: now.t })
     }
 
-    /// The coefficients of the last step: of coordinates, in powers of the time since its beginning. None where the method
-    /// is not by series.
+    /// The coefficients of the last step: of coordinates, in powers of the time since its beginning. None where the motion in a
+    /// step is no such polynomial.
     pub(crate) fn coefficients(&self) -> Option<&[S::Vector]> {
-        self.taylor.as_ref().map(|taylor| taylor.of_step())
+        match &self.impulses {
+            Some(impulses) => Some(impulses.of_step()),
+            None => self.taylor.as_ref().map(|taylor| taylor.of_step()),
+        }
     }
 
     /// Chooses the length of the next step. A first step that was asked for is not exceeded.

@@ -337,7 +337,8 @@ fn absurd_tolerances_neither_hang_nor_panic() {
 #[test]
 fn a_motion_beyond_all_numbers_ends_with_an_error() {
     let free = Toy::new(([0.0], [1e308]), |_, _, _, _, _| [0.0]);
-    for method in Method::all().filter(|method| method.tableau.name != "taylor") {
+    let is_meant = |method: &&Method| method.tableau.name != "taylor" && !method.has_fixed_steps();
+    for method in Method::all().filter(is_meant) {
         let run = Simulation::new(&free).method(method).until(10.0);
         let error = run.run(free.start()).map(|_| ());
         let name = method.tableau.name;

@@ -25,4 +25,5 @@ mod states;
 #[path = "../support/mod.rs"]
 mod support;
 mod sweep;
+mod time_stepping;
 mod without_inertia;

@@ -229,6 +229,12 @@ impl Sweep {
             );
             return Err(Wrong::Plan(message));
         };
+        if method.has_fixed_steps() {
+            let name = method.tableau.name;
+            let message =
+                format!("the method `{name}` takes steps of a fixed length, which a plan has not");
+            return Err(Wrong::Plan(message));
+        }
         let mut warning = None;
         if std::ptr::eq(method, &TAYLOR) {
             let series = ProvedSeries::derive(&compiled.model);

@@ -1,0 +1,241 @@
+//! Moreau's time stepping against closed forms and against runs that find every impact.
+
+use serde_json::Value;
+
+use crate::collisions::{close, events, number};
+use crate::support::{Scratch, lagrangian};
+
+fn step(spec: &str, until: f64, h: f64, more: &[&str]) -> Value {
+    let (until, h) = (format!("{until:?}"), format!("{h:?}"));
+    let mut arguments = vec!["simulate", spec, "--until", &until, "--json"];
+    arguments.extend(["--method", "moreau", "--longest-step", &h]);
+    arguments.extend(more);
+    let output = lagrangian(&arguments);
+    let text = String::from_utf8(output.stdout).expect("text");
+    let said = String::from_utf8_lossy(&output.stderr);
+    let run: Value = serde_json::from_str(&text).unwrap_or_else(|e| panic!("{e}: {text}{said}"));
+    assert_eq!(run["error"], Value::Null, "{run:#}");
+    run
+}
+
+/// A ball falls exactly, since gravity is constant; its impact is at most one step late, and its rate before that is by g h greater at
+/// most. So after the first bounce its place is off by (1 + e) v h and what the rate makes of it, and not by more.
+#[test]
+fn a_ball_bounces_at_most_a_step_late() {
+    let (e, g) = (0.8, 9.81_f64);
+    let first = (2.0 / g).sqrt();
+    let (t, speed) = (0.9, g * first);
+    let after = e * speed * (t - first) - 0.5 * g * (t - first).powi(2);
+    for h in [1e-2, 1e-3, 1e-4] {
+        let run = step("machines/contacts/bouncing_ball.machine", t, h, &[]);
+        let impacts = events(&run, "impact");
+        assert_eq!(impacts.len(), 1);
+        let [before, behind] = [0, 1].map(|part| number(&impacts[0]["gap_rate"][part]));
+        assert!(
+            (behind + e * before).abs() <= 1e-14 * speed,
+            "{before} {behind}"
+        );
+        let late = number(&impacts[0]["t"]) - first;
+        assert!((-h..=2.0 * h).contains(&late), "{late}");
+        let bound = (1.0 + e) * (speed + g * h) * 2.0 * h + (1.0 + e) * g * h * (t - first);
+        close(number(&run["q"]["y"]), after, bound);
+    }
+}
+
+/// Where nothing touches the error falls with the square of the length of steps.
+#[test]
+fn between_contacts_its_order_is_2() {
+    let spec = Scratch::new(
+        "swings.machine",
+        "machine Swings in plane {
+            parameters { m: kg = 1, l: m = 1, g: m/s^2 = 9.81 }
+            coordinates { phi: rad = 1 }
+            bodies { bob { mass: m, at: l*(sin(phi), -cos(phi)) } }
+            gravity (0, -g);
+            contacts { wall { gap: l*(2*rad - phi), restitution: 0.5 } }
+        }",
+    );
+    let exact = lagrangian(&[
+        "simulate",
+        spec.path(),
+        "--until",
+        "1",
+        "--json",
+        "--tolerance",
+        "1e-13",
+    ]);
+    let exact: Value = serde_json::from_slice(&exact.stdout).expect("JSON");
+    let error = |h: f64| {
+        let run = step(spec.path(), 1.0, h, &[]);
+        number(&run["q"]["phi"]) - number(&exact["q"]["phi"])
+    };
+    let errors = [4e-3, 2e-3, 1e-3].map(error);
+    // c h² + d h³ + …: the quotients go to 4, the second one being half as far from it as the first.
+    let [first, second] = [errors[0] / errors[1], errors[1] / errors[2]];
+    assert!(
+        (second - 4.0).abs() < 0.04 && (first - 4.0).abs() < 0.08,
+        "{errors:?}"
+    );
+}
+
+/// Without friction and with e = 1 an impact changes no energy, whatever meets whatever: 0 ≤ Λ ⊥ γ⁺ + γ⁻ ≥ 0 makes
+/// Λ·(γ⁺ + γ⁻) = 0. Without gravity the energy stays to rounding, however long steps are.
+#[test]
+fn elastic_discs_keep_their_energy_to_rounding() {
+    let run = step(
+        "machines/contacts/pile.machine",
+        3.0,
+        5e-3,
+        &[
+            "--const",
+            "N=6",
+            "--set",
+            "g=0",
+            "--set",
+            "e=1",
+            "--set",
+            "mu=0",
+            "--rate",
+            "x[1]=1",
+            "--rate",
+            "y[2]=-0.7",
+            "--rate",
+            "x[4]=0.3",
+        ],
+    );
+    let impacts = events(&run, "impact").len();
+    assert!(impacts > 20, "{impacts}");
+    let energy = 0.5 * 0.05 * (1.0 + 0.49 + 0.09);
+    let v = run["v"].as_object().expect("rates");
+    let of = |name: &str, mass: f64| -> f64 {
+        let own = v.iter().filter(|(key, _)| key.starts_with(name));
+        own.map(|(_, rate)| 0.5 * mass * number(rate).powi(2)).sum()
+    };
+    let now = of("x[", 0.05) + of("y[", 0.05) + of("theta[", 0.5 * 0.05 * 0.0025);
+    // A few roundings of the rates at each impact.
+    close(
+        now,
+        energy,
+        64.0 * f64::EPSILON * energy * (impacts + 10) as f64,
+    );
+}
+
+/// Discs that fall into a bowl come to rest, none in another, and with all their energy in the books. What sticks does so
+/// exactly: in the end the rates are rounding.
+#[test]
+fn a_pile_comes_to_rest() {
+    let table = Scratch::new("pile.csv", "");
+    std::fs::remove_file(table.path()).expect("removed");
+    let run = step(
+        "machines/contacts/pile.machine",
+        6.0,
+        2e-3,
+        &["--const", "N=8", "--every", "0.02", "--out", table.path()],
+    );
+    for (name, rate) in run["v"].as_object().expect("rates") {
+        assert!(number(rate).abs() <= 1e-12, "der({name}) = {rate}");
+    }
+    let text = std::fs::read_to_string(table.path()).expect("table");
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().expect("header").split(',').collect();
+    let gaps: Vec<usize> = (0..names.len())
+        .filter(|k| names[*k].contains("gap("))
+        .collect();
+    assert!(gaps.len() >= 8 + 28, "{names:?}");
+    let mut pressed = 0.0_f64;
+    for line in lines {
+        let row: Vec<f64> = line
+            .split(',')
+            .map(|x| x.parse().expect("number"))
+            .collect();
+        for &k in &gaps {
+            // Rounding of a gap of some 1e-12 of its terms, of at most 1 m.
+            assert!(row[k] > -4e-12, "{} = {} at {}", names[k], row[k], row[0]);
+        }
+        let normal = (0..names.len()).filter(|k| names[*k].contains("normal("));
+        pressed = pressed.max(normal.map(|k| row[k]).fold(0.0, f64::max));
+    }
+    assert!(pressed > 8.0 * 0.05 * 9.81, "{pressed}");
+    // Gravity and masses are constant, so the steps change no energy but by impulses: the books close to rounding, some of
+    // the energies at each step.
+    let lost = number(&run["impact_loss"]);
+    let (residual, steps) = (number(&run["energy_residual"]), number(&run["steps"]));
+    assert!(
+        lost > 0.0 && residual.abs() <= 16.0 * f64::EPSILON * steps * lost,
+        "{lost} {residual}"
+    );
+}
+
+/// A disc with friction slips, and then rolls at two thirds of its first rate; the law of friction is exact where it
+/// slips and where it sticks, and only the instant between them is off by a step.
+#[test]
+fn a_disc_slides_until_it_rolls() {
+    let spec = Scratch::new(
+        "rolls.machine",
+        "machine Rolls in plane {
+            parameters { m: kg = 2, r: m = 0.1, mu: 1 = 0.2, g: m/s^2 = 9.81 }
+            coordinates { x: m, y: m = 0.1, theta: rad }
+            bodies { disc { mass: m, inertia: m*r^2/2, at: (x, y), angle: theta } }
+            circles { rim { on: disc, center: (0, 0), radius: r } }
+            gravity (0, -g);
+            contacts { floor { circle: rim, along: ground, restitution: 0, friction: mu } }
+        }",
+    );
+    // While it slips v = v₀ − μ g t and r ω = 2 μ g t, so it rolls from t₁ = v₀/(3 μ g) on, at 2 v₀/3.
+    let (v0, mu, g, r) = (1.5, 0.2, 9.81, 0.1);
+    let h = 1e-3;
+    let run = step(spec.path(), 1.0, h, &["--rate", "x=1.5"]);
+    let rolls = 2.0 / 3.0 * v0;
+    // The momentum about a point of the floor stays: so the rate is exact to rounding, however long steps are.
+    close(number(&run["v"]["x"]), rolls, 1e-12);
+    close(number(&run["v"]["theta"]), -rolls / r, 1e-11);
+    let slips = v0 / (3.0 * mu * g);
+    let way = v0 * slips - 0.5 * mu * g * slips * slips + rolls * (1.0 - slips);
+    close(number(&run["q"]["x"]), way, 3.0 * mu * g * h);
+    let sticks = events(&run, "sticks");
+    assert_eq!(sticks.len(), 1, "{run:#}");
+    close(number(&sticks[0]["t"]), slips, 2.0 * h);
+}
+
+#[test]
+fn what_time_stepping_does_not_know_is_refused() {
+    let said = |arguments: &[&str]| {
+        let output = lagrangian(arguments);
+        assert!(!output.status.success());
+        String::from_utf8(output.stderr).expect("text")
+    };
+    let ball = "machines/contacts/bouncing_ball.machine";
+    let without = said(&["simulate", ball, "--until", "1", "--method", "moreau"]);
+    assert!(without.contains("--longest-step"), "{without}");
+    let woodpecker = "machines/contacts/layered_crusher.machine";
+    let yields = said(&[
+        "simulate",
+        woodpecker,
+        "--until",
+        "1e-2",
+        "--method",
+        "moreau",
+        "--longest-step",
+        "1e-3",
+    ]);
+    assert!(
+        yields.contains("`moreau` knows contacts with the law `newton`"),
+        "{yields}"
+    );
+    let rows = std::env::temp_dir().join("stepped_rows.csv");
+    let rows = rows.to_str().expect("a path");
+    let arguments = [
+        "sweep",
+        ball,
+        "--until",
+        "1",
+        "--method",
+        "moreau",
+        "--vary",
+        "e=0.1..0.9:3",
+        "--out",
+        rows,
+    ];
+    let sweep = said(&arguments);
+    assert!(sweep.contains("fixed length"), "{sweep}");
+}

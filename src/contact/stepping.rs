@@ -1,0 +1,273 @@
+//! Contacts in time stepping: which impulses they give in a step of a fixed length.
+//!
+//! ```text
+//! qₘ = q + h/2 v        M (v⁺ − v) = h f + Σ wₙ Λₙ + Σ wₜ Λₜ        q⁺ = qₘ + h/2 v⁺
+//! 0 ≤ Λₙ ⊥ γₙ⁺ + e γₙ ≥ 0,   −Λₜ ∈ μ Λₙ Sgn(γₜ⁺ + eₜ γₜ)          for contacts with g(qₘ) ≤ 0
+//! ```
+//!
+//! with everything in the middle of the step; for those that were closed, and are beside it there, by
+//! `0 ≤ Λₙ ⊥ γₙ⁺ + e γₙ + 2/h g ≥ 0`. (J. J. Moreau, *Unilateral contact and dry friction in finite freedom dynamics*, 1988,
+//! section 8.) What then is penetrated at the end of a step is moved out of it by the least that inertia allows (V. Acary,
+//! *Projected event-capturing time-stepping schemes for nonsmooth mechanical systems with unilateral contact and Coulomb's
+//! friction*, Comput. Methods Appl. Mech. Eng. 256 (2013) 224–250).
+
+use std::vec;
+use std::vec::Vec;
+
+use super::delassus::{Inertia, matrix};
+use super::problem::{self, Asked};
+use super::touching::{At, Here, Reaction, SATURATED};
+use super::{ContactTrouble, Impact, ImpactLaw, ImpactOrder, Mode, Touching};
+use crate::{Singular, StepError, System, Vector};
+
+/// How often a penetration is moved out of, at most: each time squares what is left of it.
+const CORRECTIONS: usize = 16;
+
+/// Contacts that are open by no more than so many times the deepest penetration are near it.
+const NEAR: f64 = 8.0;
+
+/// What contacts did in a step.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Stepped {
+    /// The impulses that they gave.
+    pub impacts: Vec<Impact>,
+    /// The work that what moves by itself did through them, and what they took, in J.
+    pub work: f64,
+    pub lost: f64,
+    /// Contacts that were penetrated at the end of the step, and the energy that moving out of them has added, in J: impacts
+    /// a little late have taken so much less.
+    pub penetrated: Vec<usize>,
+    pub lifted: f64,
+}
+
+impl Touching {
+    /// Whether time stepping knows the laws of the contacts.
+    ///
+    /// # Errors
+    /// The first contact whose law it does not know.
+    pub fn check_stepping<S: System>(
+        &self,
+        system: &S,
+        (t, q, v): (f64, &S::Vector, &S::Vector),
+    ) -> Result<(), StepError> {
+        let here = Here::of(system, t, q, v);
+        let is_known = |k: usize| {
+            let [kinetic, at_rest] = here.friction(k);
+            !self.yields(k) && kinetic == at_rest
+        };
+        let count = self.modes().len();
+        let other = match (self.law, self.order) {
+            (ImpactLaw::Newton, ImpactOrder::AtOnce) => (0..count).find(|k| !is_known(*k)),
+            _ => (0..count).next(),
+        };
+        match other {
+            Some(contact) => Err(StepError::Contact {
+                contact,
+                trouble: ContactTrouble::NotStepped,
+                t,
+            }),
+            None => Ok(()),
+        }
+    }
+
+    /// Adds the impulses of the contacts in a step of length `h` to `v`, which on entry is what the rates would be at its
+    /// end without them. `middle` are time and place in the middle of the step, and `before` the rates at its beginning.
+    ///
+    /// # Errors
+    /// Where the mass matrix is singular, or no impulses obey the law.
+    pub fn step<S: System>(
+        &mut self,
+        system: &S,
+        (t, q): (f64, &S::Vector),
+        before: &S::Vector,
+        v: &mut S::Vector,
+        h: f64,
+    ) -> Result<Stepped, StepError> {
+        let here = Here::of(system, t, q, before);
+        let count = self.modes().len();
+        let mut free = vec![0.0; 2 * count];
+        system.contact_rates(t, q, v, &mut free);
+        // What was closed stays so until it opens, though a disc that rolls over a hump is beside it in the middle of a
+        // step, by the square of its length: it may come back by as much.
+        let lasts = |k: usize| self.modes()[k] != Mode::Open;
+        let is_active = |k: &usize| lasts(*k) || here.gaps[*k] <= here.gap_rounding[*k];
+        let way_back = |k: usize| match lasts(k) {
+            true => 2.0 / h * here.gaps[k].max(0.0),
+            false => 0.0,
+        };
+        let active: Vec<usize> = (0..count).filter(is_active).collect();
+        let mut modes = vec![Mode::Open; count];
+        let mut forces = vec![[0.0; 2]; count];
+        if active.is_empty() {
+            self.set_stepped(modes, forces);
+            return Ok(Stepped::default());
+        }
+        let singular = |singular: Singular| StepError::Singular { singular, t };
+        let inertia = Inertia::new(system, t, q).map_err(singular)?;
+        let directions: Vec<usize> = active.iter().flat_map(|k| [2 * k, 2 * k + 1]).collect();
+        let images: Vec<Vec<f64>> = (directions.iter())
+            .map(|direction| inertia.image(here.row(*direction)))
+            .collect();
+        let g = matrix(&images);
+        let b: Vec<f64> = (directions.iter())
+            .map(|&d| {
+                let after = free[d] + here.restitution(d / 2)[d % 2] * here.rates[d];
+                if d % 2 == 0 {
+                    after + way_back(d / 2)
+                } else {
+                    after
+                }
+            })
+            .collect();
+        let asked: Vec<Asked> = (active.iter())
+            .map(|&k| Asked::Both {
+                friction: here.friction(k)[0],
+                beside: 0.0,
+            })
+            .collect();
+        let unsolved = || StepError::Contact {
+            contact: active[0],
+            trouble: ContactTrouble::Unsettled,
+            t,
+        };
+        let answer = problem::solve(&asked, &g, &b).map_err(|_| unsolved())?;
+        if answer.residual > 1e-8 {
+            return Err(unsolved());
+        }
+
+        let energy_free = system.kinetic_energy(t, q, v);
+        // The impulses along the changes of the rates that are not theirs.
+        let mut beside = 0.0;
+        for (&direction, impulse) in directions.iter().zip(answer.forces.as_flattened()) {
+            let row = here.row(direction).iter();
+            let terms = row.zip(before.as_slice().iter().zip(v.as_slice()));
+            beside += impulse
+                * terms
+                    .map(|(w, (before, free))| w * (before - free))
+                    .sum::<f64>();
+        }
+        let change = inertia.response(&images, answer.forces.iter().flatten().copied());
+        for (v, by) in v.as_mut_slice().iter_mut().zip(change) {
+            *v += by;
+        }
+
+        let mut stepped = Stepped::default();
+        let width = directions.len();
+        for (place, (&k, &impulse)) in active.iter().zip(&answer.forces).enumerate() {
+            let [gap_rate, slip] = [0, 1].map(|part| {
+                let own = g[(2 * place + part) * width..][..width].iter();
+                let by = own.zip(answer.forces.as_flattened()).map(|(g, i)| g * i);
+                let direction = 2 * k + part;
+                [here.rates[direction], free[direction] + by.sum::<f64>()]
+            });
+            // Of contacts that share a load some may press and some not, from step to step: what does not open is closed.
+            if impulse == [0.0; 2] && gap_rate[1] + way_back(k) > here.rate_rounding[2 * k] {
+                continue;
+            }
+            let loss = -0.5
+                * (impulse[0] * (gap_rate[0] + gap_rate[1]) + impulse[1] * (slip[0] + slip[1]));
+            let most = here.friction(k)[0] * impulse[0];
+            modes[k] = match self.rubs(k) {
+                false => Mode::Slides(0.0),
+                true if impulse[1].abs() < most * (1.0 - SATURATED) => Mode::Sticks,
+                true if impulse[1] != 0.0 => Mode::Slides(-impulse[1].signum()),
+                true if slip[1].abs() > here.rate_rounding[2 * k + 1] => {
+                    Mode::Slides(slip[1].signum())
+                }
+                true => Mode::Sticks,
+            };
+            forces[k] = impulse.map(|impulse| impulse / h);
+            stepped.lost += loss;
+            stepped.impacts.push(Impact {
+                contact: k,
+                gap_rate,
+                slip,
+                impulse,
+                loss,
+            });
+        }
+        if !stepped.impacts.is_empty() {
+            // What the impulses did to the rates in the mean of the step; that beyond the losses is done by what moves.
+            let gained = system.kinetic_energy(t, q, v) - energy_free + 0.5 * beside;
+            stepped.work = gained + stepped.lost;
+        }
+        self.set_stepped(modes, forces);
+        Ok(stepped)
+    }
+
+    /// Moves the end of a step out of what it has penetrated. Says which contacts have been penetrated.
+    ///
+    /// # Errors
+    /// Where the mass matrix is singular, or there is no way out.
+    pub fn move_out<S: System>(
+        &self,
+        system: &S,
+        t: f64,
+        q: &mut S::Vector,
+        v: &S::Vector,
+    ) -> Result<Vec<usize>, StepError> {
+        let mut penetrated = Vec::new();
+        for _ in 0..CORRECTIONS {
+            let here = Here::of(system, t, q, v);
+            let is_deep = |k: &usize| here.gaps[*k] < -0.5 * here.gap_rounding[*k];
+            let deep: Vec<usize> = (0..here.gaps.len()).filter(is_deep).collect();
+            if deep.is_empty() {
+                break;
+            }
+            let deepest = deep
+                .iter()
+                .fold(0.0, |most, k| f64::max(most, -here.gaps[*k]));
+            penetrated.extend(deep);
+            // What is near takes part, lest what is moved out of one penetrates the other.
+            let touching: Vec<usize> = (0..here.gaps.len())
+                .filter(|k| here.gaps[*k] <= here.gap_rounding[*k].max(NEAR * deepest))
+                .collect();
+            let singular = |singular: Singular| StepError::Singular { singular, t };
+            let inertia = Inertia::new(system, t, q).map_err(singular)?;
+            // The tangents have rows and columns of zeros: nothing is asked of them.
+            let none = vec![0.0; here.n];
+            let images: Vec<Vec<f64>> = (touching.iter())
+                .flat_map(|k| [inertia.image(here.row(2 * k)), none.clone()])
+                .collect();
+            let gaps: Vec<f64> = touching.iter().flat_map(|k| [here.gaps[*k], 0.0]).collect();
+            let asked = vec![Asked::Normal { share: 0.0 }; touching.len()];
+            let unsolved = |_| StepError::Contact {
+                contact: touching[0],
+                trouble: ContactTrouble::Unsettled,
+                t,
+            };
+            let answer = problem::solve(&asked, &matrix(&images), &gaps).map_err(unsolved)?;
+            let by = inertia.response(&images, answer.forces.iter().flatten().copied());
+            for (q, by) in q.as_mut_slice().iter_mut().zip(by) {
+                *q += by;
+            }
+        }
+        penetrated.sort_unstable();
+        penetrated.dedup();
+        Ok(penetrated)
+    }
+
+    /// Accelerations with the forces of the last step.
+    pub(super) fn reaction_stepped<S: System>(
+        system: &S,
+        (t, q, v, _): At<'_, S>,
+        mut a: Vec<f64>,
+        forces: &[[f64; 2]],
+    ) -> Result<Reaction, StepError> {
+        if forces.as_flattened().iter().any(|force| *force != 0.0) {
+            let here = Here::of(system, t, q, v);
+            let singular = |singular: Singular| StepError::Singular { singular, t };
+            let inertia = Inertia::new(system, t, q).map_err(singular)?;
+            let acting = forces.as_flattened().iter().enumerate();
+            let acting: Vec<_> = acting.filter(|(_, force)| **force != 0.0).collect();
+            let images: Vec<Vec<f64>> = (acting.iter())
+                .map(|(direction, _)| inertia.image(here.row(*direction)))
+                .collect();
+            let by = inertia.response(&images, acting.iter().map(|(_, force)| **force));
+            for (a, by) in a.iter_mut().zip(by) {
+                *a += by;
+            }
+        }
+        Ok(Reaction::of_forces(a, forces.to_vec()))
+    }
+}

@@ -1,0 +1,98 @@
+//! What unilateral contacts do in time stepping, step by step.
+
+use std::vec;
+use std::vec::Vec;
+
+use super::Run;
+use super::contacts::Told;
+use crate::balance::Quadratures;
+use crate::contact::{Impact, Mode, Touching};
+use crate::inputs::InputLaw;
+use crate::phases::Phase;
+use crate::{ContactEventKind, ContactImpact, Error, Machine};
+
+impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
+    /// Contacts at the start of time stepping: none may be penetrated, and each has a law that is known.
+    pub(super) fn begin_stepping(&mut self, touching: &Touching) -> Result<(), Error> {
+        let (t, q, v) = (self.stepper.t(), self.stepper.q(), self.stepper.v());
+        touching
+            .check_stepping(self.model.system, (t, q, v))
+            .map_err(|error| self.model.explain(error, q, v))?;
+        self.record.unilateral.last = vec![false; touching.modes().len()];
+        self.record.unilateral.phases.push(Phase {
+            since: t,
+            touching: touching.clone(),
+            constraints: self.stepper.constraints().clone(),
+        });
+        Ok(())
+    }
+
+    /// Takes note of what contacts did in the last step. One that presses for the first time has had an impact; if it
+    /// presses in the step after that too, it has closed.
+    pub(super) fn note_step(&mut self) {
+        use ContactEventKind::{Closes, Lifts, Reverses, Slips, Sticks};
+        let Some((stepped, before)) = self.stepper.stepped() else {
+            return;
+        };
+        let Some(now) = self.stepper.touching().clone() else {
+            return;
+        };
+        let (stepped, before) = (stepped.clone(), before.modes().to_vec());
+        let impacts = stepped.impacts;
+        let lifted = stepped.lifted / stepped.penetrated.len().max(1) as f64;
+        for k in stepped.penetrated {
+            self.record.unilateral.losses[k] -= lifted;
+        }
+        let mut told: Vec<Told> = Vec::new();
+        for impact in &impacts {
+            self.record.unilateral.losses[impact.contact] += impact.loss;
+            if before[impact.contact] == Mode::Open {
+                let of = ContactImpact {
+                    gap_rate: impact.gap_rate,
+                    slip: impact.slip,
+                    impulse: impact.impulse,
+                    loss: impact.loss,
+                };
+                told.push((impact.contact, ContactEventKind::Impact, 0.0, Some(of)));
+            }
+        }
+        for (k, (before, after)) in before.iter().zip(now.modes()).enumerate() {
+            let lasts = &mut self.record.unilateral.last[k];
+            let kind = match (before, after) {
+                (Mode::Open, _) => continue,
+                (_, Mode::Open) if std::mem::take(lasts) => (Lifts, 0.0),
+                (_, Mode::Open) => continue,
+                _ if !std::mem::replace(lasts, true) => (Closes, 0.0),
+                (Mode::Slides(from), Mode::Slides(to)) if from != to => (Reverses, *to),
+                (Mode::Slides(from), Mode::Sticks) if *from != 0.0 => (Sticks, 0.0),
+                (Mode::Sticks, Mode::Slides(to)) if *to != 0.0 => (Slips, *to),
+                _ => continue,
+            };
+            told.push((k, kind.0, kind.1, None));
+        }
+        let is_new = |impact: &&Impact| before[impact.contact] == Mode::Open;
+        let hits: Vec<Impact> = impacts.iter().filter(is_new).copied().collect();
+        self.note_gains(&hits, self.stepper.t());
+        self.enter_contact_events(told, &[]);
+        let is_new = !impacts.is_empty() || before != now.modes();
+        if is_new {
+            self.record.unilateral.phases.push(Phase {
+                since: self.stepper.t_before(),
+                touching: now,
+                constraints: self.stepper.constraints().clone(),
+            });
+        }
+    }
+}
+
+/// What stands in the way of time stepping for a machine; nothing where it is not asked for.
+pub(super) fn check_length(has_fixed_steps: bool, longest: f64) -> Result<(), Error> {
+    match has_fixed_steps && !longest.is_finite() {
+        true => Err(Error::InvalidSetting {
+            setting: "longest_step",
+            value: longest,
+            needed: "the length of the steps of the method `moreau`, in s",
+        }),
+        false => Ok(()),
+    }
+}

@@ -1,0 +1,182 @@
+//! A step of Moreau's time stepping.
+
+use std::vec::Vec;
+
+use super::{Model, Stepper};
+use crate::attempt::not_finite;
+use crate::balance::Quadratures;
+use crate::compensated::two_sum;
+use crate::contact::{Stepped, Touching};
+use crate::stages::Point;
+use crate::{InputLaw, StepError, System, Vector};
+
+/// What the last step of time stepping was.
+#[derive(Clone, Debug)]
+pub(crate) struct InImpulses<V> {
+    /// The motion in it, in powers of the time since its beginning: of the second degree, through the rates at both ends.
+    of_step: Vec<V>,
+    stepped: Stepped,
+    /// What was known of the contacts at its beginning.
+    before: Option<Touching>,
+}
+
+impl<V: Vector> InImpulses<V> {
+    pub fn new(q: &V, v: &V) -> Self {
+        Self {
+            of_step: [q.clone(), v.clone(), q.zeros_like()].into(),
+            stepped: Stepped::default(),
+            before: None,
+        }
+    }
+
+    /// Coefficients of the motion in the last step.
+    pub fn of_step(&self) -> &[V] {
+        &self.of_step
+    }
+
+    /// The contacts at the beginning of the last step, which is taken back.
+    pub fn retreat(&mut self) -> Option<Touching> {
+        self.before.take()
+    }
+}
+
+impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
+    /// What contacts did in the last step of time stepping, and what was known of them before it.
+    pub(crate) fn stepped(&self) -> Option<(&Stepped, &Touching)> {
+        let impulses = self.impulses.as_ref()?;
+        Some((&impulses.stepped, impulses.before.as_ref()?))
+    }
+
+    /// Takes a step of time stepping.
+    pub(super) fn step_in_impulses(&mut self) -> Result<(), StepError> {
+        if !self.longest.is_finite() {
+            return Err(StepError::NoLength { t: self.now.t });
+        }
+        let left = (self.end - self.now.t) - self.now.t_low;
+        self.control.step = self.longest.copysign(left);
+        self.begin();
+        let last = self.control.is_last(left, self.longest);
+        let h = if last { left } else { self.control.step };
+        self.control.last_step = h;
+        let attempted = self.attempt_in_impulses(h, last);
+        if let Err(error) = attempted {
+            if let Some(impulses) = &mut self.impulses
+                && let Some(before) = impulses.retreat()
+            {
+                self.model.touching = Some(before);
+            }
+            self.now.copy_from(&self.before);
+            return Err(error);
+        }
+        self.control.take(h, 0.0, 1.0);
+        self.accept(h);
+        if let Some(impulses) = &self.impulses {
+            let Stepped {
+                work, lost, lifted, ..
+            } = impulses.stepped;
+            self.quadratures.add_at_once(work, lost - lifted);
+        }
+        Ok(())
+    }
+
+    fn attempt_in_impulses(&mut self, h: f64, last: bool) -> Result<(), StepError> {
+        let Self {
+            method,
+            model,
+            quadratures,
+            before,
+            now,
+            k,
+            stage: (q, v),
+            control,
+            end,
+            impulses,
+            ..
+        } = self;
+        let Some(impulses) = impulses else {
+            return Ok(());
+        };
+        let stages = method.tableau.stages;
+        let half = 0.5 * h;
+        let t = before.t + (before.t_low + half);
+        q.clone_from(&before.q);
+        for (q, v) in q.as_mut_slice().iter_mut().zip(before.v.as_slice()) {
+            *q += half * v;
+        }
+        impulses.before.clone_from(&model.touching);
+        impulses.stepped = Stepped::default();
+
+        // The rates in the middle that forces depend on, and the rates at the end, as if nothing touched.
+        let touching = model.touching.take();
+        let work = &mut control.work;
+        let mut found = model.accelerations(t, q, &before.v, &mut k[1], work);
+        if found.is_ok() {
+            v.clone_from(&before.v);
+            for (v, a) in v.as_mut_slice().iter_mut().zip(k[1].as_slice()) {
+                *v += half * a;
+            }
+            found = model.accelerations(t, q, v, &mut k[1], work);
+        }
+        model.touching = touching;
+        found?;
+        now.v.clone_from(&before.v);
+        for (v, a) in now.v.as_mut_slice().iter_mut().zip(k[1].as_slice()) {
+            *v += h * a;
+        }
+        if let Some(touching) = &mut model.touching {
+            let system = model.system.get();
+            impulses.stepped = touching.step(system, (t, q), &before.v, &mut now.v, h)?;
+        }
+        now.v_low.as_mut_slice().fill(0.0);
+        for i in 0..q.as_slice().len() {
+            let [from, to] = [&before.v, &now.v].map(|v| v.as_slice()[i]);
+            let by = before.q_low.as_slice()[i] + half * (from + to);
+            let (sum, low) = two_sum(before.q.as_slice()[i], by);
+            now.q.as_mut_slice()[i] = sum;
+            now.q_low.as_mut_slice()[i] = low;
+            v.as_mut_slice()[i] = 0.5 * (from + to);
+            k[1].as_mut_slice()[i] = (to - from) / h;
+        }
+        now.set_time(before, h, (*end, &[last]));
+        if let Some(coordinate) = not_finite(&now.q, &now.v, 0) {
+            let t = now.t;
+            return Err(StepError::NotFinite { coordinate, t });
+        }
+        model.take_rates(quadratures, 1, (t, q, v, &k[1]));
+        model.project(now)?;
+        if model.touching.is_some() {
+            let is_counted = quadratures.integrals().is_some();
+            let energy = |model: &mut Model<'_, S, L>, now: &Point<S::Vector>| {
+                model.set_inputs(now.t, &now.q, &now.v);
+                let system = model.system.get();
+                system.kinetic_energy(now.t, &now.q, &now.v)
+                    + system.potential_energy(now.t, &now.q, &model.inputs)
+            };
+            let before = is_counted.then(|| energy(model, now));
+            if let Some(touching) = &model.touching {
+                let system = model.system.get();
+                impulses.stepped.penetrated =
+                    touching.move_out(system, now.t, &mut now.q, &now.v)?;
+            }
+            if !impulses.stepped.penetrated.is_empty() {
+                now.q_low.as_mut_slice().fill(0.0);
+                model.project(now)?;
+                if let Some(before) = before {
+                    impulses.stepped.lifted = energy(model, now) - before;
+                }
+            }
+        }
+        let [place, rate, bend] = &mut impulses.of_step[..] else {
+            return Ok(());
+        };
+        place.clone_from(&before.q);
+        for i in 0..bend.as_slice().len() {
+            let [from, to] = [&before.q, &now.q].map(|q| q.as_slice()[i]);
+            let change = (now.v.as_slice()[i] - before.v.as_slice()[i]) / h;
+            bend.as_mut_slice()[i] = 0.5 * change;
+            // So that it ends where the step does.
+            rate.as_mut_slice()[i] = (to - from) / h - half * change;
+        }
+        model.end(now, quadratures, stages, k, &mut control.work)
+    }
+}
