@@ -344,6 +344,15 @@ pub enum Form {
     Program,
     /// The code as C99.
     C,
+    /// The operations as Python over SymPy, for numbers and symbols.
+    Sympy,
+    /// The operations as MATLAB, for Octave too.
+    Matlab,
+    /// The operations as Julia.
+    Julia,
+    /// The operations as JavaScript.
+    #[value(name = "javascript")]
+    JavaScript,
 }
 
 /// Arguments of `library`.
@@ -400,6 +409,15 @@ pub struct Fmu {
     /// The C compiler, in place of `cc` or what the variable CC names.
     #[arg(long, value_name = "COMMAND")]
     pub cc: Option<String>,
+    /// Libraries for these platforms in place of this one, as in `--target x86_64-linux-gnu,x86_64-windows-gnu`: the compiler is called
+    /// with `--target=TRIPLE`, as Clang takes it, or with the triple for `{}` in --cc, as in `--cc '{}-gcc'`.
+    #[arg(
+        long,
+        value_name = "TRIPLE,…",
+        value_delimiter = ',',
+        conflicts_with = "sources_only"
+    )]
+    pub target: Vec<String>,
     /// Leave out the library: for importers that compile.
     #[arg(long, conflicts_with = "cc")]
     pub sources_only: bool,
@@ -602,6 +620,9 @@ pub struct Simulate {
     /// Write a page that shows the machine move, beside its curves, parameters and equations; one file, for any browser.
     #[arg(long, value_name = "FILE.html")]
     pub report: Option<PathBuf>,
+    /// Put the machine into the page of --report: sliders for parameters, inputs and the start run it again there.
+    #[arg(long, requires = "report")]
+    pub live: bool,
 }
 
 /// Arguments of `sweep`.

@@ -2,6 +2,7 @@
 
 use clap::ValueEnum;
 use lagrangian_emit as emit;
+use lagrangian_emit::script::Dialect;
 use lagrangian_mechanics::Compiled;
 use lagrangian_print::document::Document;
 use lagrangian_program::{Candidate, Counts, Program};
@@ -82,6 +83,10 @@ fn endings(form: Form) -> Endings {
         Form::Rust => RUST,
         Form::C => &["c", "h"],
         Form::Program => &[],
+        Form::Sympy => &["py"],
+        Form::Matlab => &["m"],
+        Form::Julia => &["jl"],
+        Form::JavaScript => &["js"],
     }
 }
 
@@ -94,12 +99,17 @@ fn text(compiled: &Compiled, call: &call::Derive) -> String {
         .map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let origin = vec![format!("@generated from {file} by `lagrangian derive`.")];
     let formulas = || compiled.formulas();
+    let script = |dialect| emit::script::file(program, dialect, &origin, &formulas());
     match call.form {
         Form::Program => program.to_string(),
+        Form::Sympy => script(Dialect::Sympy),
+        Form::Matlab => script(Dialect::Matlab),
+        Form::Julia => script(Dialect::Julia),
+        Form::JavaScript => script(Dialect::JavaScript),
         Form::Rust => emit::rust::module(
             program,
             &emit::rust::Options {
-                origin,
+                origin: origin.clone(),
                 formulas: formulas(),
                 series: compiled.series.clone(),
                 ..Default::default()

@@ -164,11 +164,11 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
     let tables = tables::text(&unit);
     unit.token = tables::token(&[&text, &tables]);
     let sources = sources(&unit, &format!("{text}{tables}"));
-    let platform = match call.sources_only {
-        true => None,
+    let libraries = match call.sources_only {
+        true => Vec::new(),
         false => {
             progress::now("compiling the unit");
-            Some(compile::library(&unit, &sources, call.cc.as_deref())?)
+            compile::libraries(&unit, &sources, call.cc.as_deref(), &call.target)?
         }
     };
     let mut entries = vec![Entry::text(
@@ -184,7 +184,7 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
             description::of_build(&unit),
         ));
     }
-    if let Some((platform, library)) = &platform {
+    for (platform, library) in &libraries {
         let name = format!(
             "binaries/{}/{}.{}",
             platform.folder, unit.identifier, platform.ending
@@ -196,12 +196,13 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
     }
     let bytes = archive::bytes(&entries).map_err(Failure::run)?;
     out.write(|to| to.write_all(&bytes))?;
-    say(call, &unit, platform.as_ref().map(|(p, _)| p.folder));
+    let folders: Vec<&str> = libraries.iter().map(|(p, _)| p.folder).collect();
+    say(call, &unit, &folders);
     Ok(())
 }
 
 /// What is printed of a unit.
-fn say(call: &call::Fmu, unit: &Unit<'_>, platform: Option<&str>) {
+fn say(call: &call::Fmu, unit: &Unit<'_>, platforms: &[&str]) {
     let Program {
         coordinates,
         parameters,
@@ -216,7 +217,7 @@ fn say(call: &call::Fmu, unit: &Unit<'_>, platform: Option<&str>) {
                 "unit": call.out.to_string_lossy(),
                 "fmi": unit.version.name(),
                 "kinds": unit.kinds.iter().map(|kind| kind.name()).collect::<Vec<_>>(),
-                "platform": platform,
+                "platforms": platforms,
                 "token": unit.token,
                 "states": 2 * coordinates.len(),
                 "parameters": parameters.len(),
@@ -232,7 +233,10 @@ fn say(call: &call::Fmu, unit: &Unit<'_>, platform: Option<&str>) {
         call.out.display(),
         unit.version.name(),
         kinds.join(" and "),
-        platform.unwrap_or("sources only"),
+        match platforms {
+            [] => "sources only".to_owned(),
+            platforms => platforms.join(" and "),
+        },
         count(2 * coordinates.len(), "state"),
         count(parameters.len(), "parameter"),
         count(inputs.len(), "input"),

@@ -6,6 +6,7 @@
 //! is hand-written and stands in the files beside this one, as a browser gets it.
 
 pub(crate) mod html;
+pub(crate) mod live;
 mod page;
 mod places;
 mod samples;
@@ -22,6 +23,7 @@ use serde_json::{Value, json};
 use crate::contacts::Found;
 use crate::recording::{Column, Kind, Recording, panels, thin};
 
+pub(crate) use live::Live;
 pub(crate) use page::{DRAWING, STYLE};
 pub use samples::finer;
 pub(crate) use samples::{Samples, base64, encoded};
@@ -93,11 +95,20 @@ impl<'a, L> From<&'a Solution<InterpretedMachine, L>> for Outcome<'a> {
 impl Report<'_, '_> {
     /// The page.
     pub fn page(&self) -> String {
+        self.page_with(None)
+    }
+
+    /// The page with the machine in it, which runs again there; see [`live::objection`] for those that cannot.
+    pub(crate) fn page_that_runs(&self, live: &Live) -> String {
+        self.page_with(Some(live))
+    }
+
+    fn page_with(&self, live: Option<&Live>) -> String {
         let scene = self.scene();
         let samples = Samples::new(self.recording);
-        let data = self.data(&scene, &samples);
+        let data = self.data(&scene, &samples, live.is_some());
         let kinematics = script::kinematics(&self.compiled.model, &scene.values);
-        page::text(self, &scene, &samples, &data, &kinematics)
+        page::text(self, &scene, &samples, &data, &kinematics, live)
     }
 
     fn scene(&self) -> Scene<'_> {
@@ -105,7 +116,7 @@ impl Report<'_, '_> {
     }
 
     /// What the scripts read.
-    fn data(&self, scene: &Scene<'_>, samples: &Samples) -> Value {
+    fn data(&self, scene: &Scene<'_>, samples: &Samples, is_live: bool) -> Value {
         let kinds = [
             Kind::Coordinate,
             Kind::Rate,
@@ -129,7 +140,7 @@ impl Report<'_, '_> {
                 let curves: Vec<Value> = panel
                     .columns
                     .iter()
-                    .map(|column| self.curve(column, points))
+                    .map(|column| self.curve(column, points, is_live))
                     .collect();
                 let rounding = panel.rounding();
                 json!({ "label": panel.label(), "unit": panel.unit, "rounding": rounding, "curves": curves })
@@ -142,17 +153,25 @@ impl Report<'_, '_> {
     }
 
     /// A curve: of a coordinate or a rate its index, since the states have it; of anything else its points.
-    fn curve(&self, column: &Column, points: usize) -> Value {
+    fn curve(&self, column: &Column, points: usize, is_live: bool) -> Value {
         let of_kind = || self.recording.of_kind(column.kind);
         let index = of_kind().position(|other| std::ptr::eq(other, column));
         match column.kind {
             Kind::Coordinate => json!({ "name": column.name, "coordinate": index }),
             Kind::Rate => json!({ "name": column.name, "rate": index }),
-            _ => {
+            kind => {
                 let points = thin(&self.recording.times, &column.values, points);
                 let times = samples::encoded(points.iter().map(|(time, _)| *time));
                 let values = samples::encoded(points.iter().map(|(_, value)| *value));
-                json!({ "name": column.name, "times": times, "values": values })
+                let mut curve = json!({ "name": column.name, "times": times, "values": values });
+                if is_live {
+                    curve["live"] = match kind {
+                        Kind::Output => json!({ "output": index }),
+                        Kind::Energy => json!({ "energy": column.name.split(' ').next() }),
+                        _ => Value::Null,
+                    };
+                }
+                curve
             }
         }
     }

@@ -25,7 +25,7 @@ use crate::output::{self, Destination, PAGE, SVG, TABLE, keep_apart};
 use crate::progress;
 use crate::reading::{self, Reading};
 use crate::recording::{Recording, Run};
-use crate::report::{self, Asked, Report};
+use crate::report::{self, Asked, Live, Report};
 use crate::{plot, table};
 
 /// How often a run is recorded where the call does not say.
@@ -127,6 +127,12 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         }
         machine = machine.with_series(series);
     }
+    if call.live
+        && let Some(objection) =
+            report::live::objection(&compiled.program, method, !laws.is_empty())
+    {
+        return Err(Failure::Call(objection));
+    }
     machine.check_parameters().map_err(|missing| {
         Failure::Run(format!(
             "{missing}; set them with --set {}=…",
@@ -209,7 +215,14 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
                 error: error.as_ref().map(ToString::to_string),
                 is_interrupted: trouble.is_interrupted,
             };
-            let written = file.write_text(&report.page());
+            let page = match call.live {
+                true => report.page_that_runs(&Live {
+                    tolerance: call.tolerance,
+                    most_steps: call.max_steps,
+                }),
+                false => report.page(),
+            };
+            let written = file.write_text(&page);
             trouble.other.extend(written.err().map(Failure::message));
         }
     }

@@ -282,6 +282,7 @@ mod tests {
                 ("a".into(), Entry::One(3.0)),
                 ("b".into(), Entry::Family(vec![4.0, 5.0])),
             ])),
+            states: None,
             parameters: vec![("m1".into(), Entry::One(6.0))],
             inputs: Vec::new(),
         };

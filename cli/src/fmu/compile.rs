@@ -15,41 +15,116 @@ pub struct Platform {
     pub ending: &'static str,
 }
 
-/// The platform that the command itself runs on.
-fn own(version: Version) -> Option<Platform> {
-    let (three, two, ending) = match (OS, ARCH) {
-        ("linux", "x86_64") => ("x86_64-linux", "linux64", "so"),
-        ("linux", "aarch64") => ("aarch64-linux", "aarch64-linux", "so"),
-        ("macos", "x86_64") => ("x86_64-darwin", "darwin64", "dylib"),
-        ("macos", "aarch64") => ("aarch64-darwin", "darwin64", "dylib"),
-        ("windows", "x86_64") => ("x86_64-windows", "win64", "dll"),
-        _ => return None,
+/// The platforms of both versions: what a triple calls the processor and the system, and the folders.
+const PLATFORMS: [(&str, &[&str], [&str; 2], &str); 5] = [
+    ("x86_64", &["linux"], ["linux64", "x86_64-linux"], "so"),
+    (
+        "aarch64",
+        &["linux"],
+        ["aarch64-linux", "aarch64-linux"],
+        "so",
+    ),
+    (
+        "x86_64",
+        &["macos", "darwin"],
+        ["darwin64", "x86_64-darwin"],
+        "dylib",
+    ),
+    (
+        "aarch64",
+        &["macos", "darwin"],
+        ["darwin64", "aarch64-darwin"],
+        "dylib",
+    ),
+    (
+        "x86_64",
+        &["windows", "mingw32"],
+        ["win64", "x86_64-windows"],
+        "dll",
+    ),
+];
+
+/// The platform of a triple such as `x86_64-linux-gnu`, or of the processor and the system that the command runs on.
+fn platform(version: Version, triple: &str) -> Option<Platform> {
+    let mut words = triple.split('-');
+    let arch = words.next().map(|arch| match arch {
+        "arm64" => "aarch64",
+        "amd64" => "x86_64",
+        arch => arch,
+    });
+    let systems: Vec<&str> = words.collect();
+    let is_of = |names: &[&str]| {
+        let mut words = systems.iter();
+        words.any(|word| names.iter().any(|name| word.starts_with(name)))
     };
-    let folder = match version {
-        Version::Three => three,
-        Version::Two => two,
-    };
-    Some(Platform { folder, ending })
+    let row = PLATFORMS
+        .iter()
+        .find(|(of, names, ..)| arch == Some(of) && is_of(names));
+    row.map(|(_, _, [two, three], ending)| Platform {
+        folder: match version {
+            Version::Three => three,
+            Version::Two => two,
+        },
+        ending,
+    })
 }
 
-/// Compiles the unit for this platform; the bytes of the library.
+/// Compiles the unit for each of the targets, or where there are none, for this platform; the bytes of the libraries.
 ///
 /// # Errors
-/// If there is no compiler, or it does not compile the unit.
-pub fn library(
+/// If there is no compiler, it does not compile the unit, or the interface has no folder for a target.
+pub fn libraries(
     unit: &Unit<'_>,
     sources: &[(&'static str, String)],
     named: Option<&str>,
+    targets: &[String],
+) -> Result<Vec<(Platform, Vec<u8>)>, Failure> {
+    if targets.is_empty() {
+        let platform = platform(unit.version, &format!("{ARCH}-{OS}")).ok_or_else(|| {
+            Failure::run(format!(
+                "units have no folder for {ARCH} on {OS}: --sources-only makes one without a library"
+            ))
+        })?;
+        return Ok(vec![library(unit, sources, named, None, platform)?]);
+    }
+    let mut libraries: Vec<(Platform, Vec<u8>)> = Vec::new();
+    for target in targets {
+        let platform = platform(unit.version, target).ok_or_else(|| {
+            Failure::Call(format!(
+                "--target {target}: units have folders for x86_64 and aarch64 on Linux and macOS and for x86_64 on Windows, as in \
+                 x86_64-linux-gnu"
+            ))
+        })?;
+        if libraries
+            .iter()
+            .any(|(other, _)| other.folder == platform.folder)
+        {
+            return Err(Failure::Call(format!(
+                "--target {target}: there is a library in binaries/{} already",
+                platform.folder
+            )));
+        }
+        libraries.push(library(unit, sources, named, Some(target), platform)?);
+    }
+    Ok(libraries)
+}
+
+/// Compiles the unit for a platform.
+fn library(
+    unit: &Unit<'_>,
+    sources: &[(&'static str, String)],
+    named: Option<&str>,
+    target: Option<&str>,
+    platform: Platform,
 ) -> Result<(Platform, Vec<u8>), Failure> {
-    let platform = own(unit.version).ok_or_else(|| {
-        Failure::run(format!(
-            "units have no folder for {ARCH} on {OS}: --sources-only makes one without a library"
-        ))
-    })?;
     let compiler = match named {
         Some(named) => named.to_owned(),
         None => std::env::var("CC").unwrap_or_else(|_| "cc".into()),
     };
+    // A compiler of its own for each target, or one that is told which.
+    let option = target.map(|target| format!("--target={target}"));
+    let is_named = compiler.contains("{}");
+    let compiler = compiler.replace("{}", target.unwrap_or_default());
     let mut words = compiler.split_whitespace();
     let program = words
         .next()
@@ -63,6 +138,7 @@ pub fn library(
     let library = format!("{}.{}", unit.identifier, platform.ending);
     let mut command = Command::new(program);
     command.args(words);
+    command.args(option.filter(|_| !is_named));
     // Paths are relative, so that no name of the folder is in the library.
     command.current_dir(folder.path());
     command.args(["-std=c99", "-O2", "-fPIC", "-shared", "-s"]);

@@ -8,6 +8,7 @@ use lagrangian_program::{Program, Role};
 
 use super::Report;
 use super::html::{self, Cell, text as safe};
+use super::live::{self, Live};
 use super::samples::Samples;
 use super::scene::Scene;
 use crate::contacts::{Found, other_events};
@@ -37,6 +38,7 @@ pub fn text(
     samples: &Samples,
     data: &serde_json::Value,
     kinematics: &str,
+    live: Option<&Live>,
 ) -> String {
     let model = &report.compiled.model;
     let name = safe(&model.name);
@@ -45,6 +47,8 @@ pub fn text(
         "docs" => introduction(&model.docs),
         "alert" => alert(report, samples),
         "omitted" => omitted(&scene.picture.omitted),
+        "live" => live.map_or_else(String::new, |_| live::SECTION.to_owned()),
+        "live_data" => live.map_or_else(String::new, |live| live.data(report)),
         "parameters" => parameters(report),
         "start" => start(report),
         "energy" => energy(report),
@@ -55,7 +59,13 @@ pub fn text(
         // The page's own comes last: its colours follow the button, too.
         "style" => [derivation::STYLE, STYLE].concat(),
         "data" => html::json(data),
-        "script" => [kinematics, &DRAWING.concat(), PLAYER].join("\n"),
+        "script" => {
+            let page = [kinematics, &DRAWING.concat(), PLAYER].join("\n");
+            match live {
+                Some(_) => [live::machine(report).as_str(), &page, live::SCRIPT].join("\n"),
+                None => page,
+            }
+        }
         _ => String::new(),
     })
 }

@@ -22,6 +22,7 @@ class Curve {
     this.name = description.name;
     this.motion = motion;
     this.shown = true;
+    this.live = description.live;
     const { coordinate, rate } = description;
     if (coordinate !== undefined || rate !== undefined) {
       this.index = coordinate ?? rate;

@@ -388,3 +388,177 @@ fn every_function_places_a_body() {
     let spec = Scratch::new("functions.machine", text);
     check(spec.path(), &["1"]);
 }
+
+/// The end of a run by the command, coordinates and rates.
+fn end_of(spec: &str, until: f64, tolerance: f64, options: &[String]) -> Vec<f64> {
+    let until = format!("{until:?}");
+    let tolerance = format!("{tolerance:?}");
+    let call = [
+        "simulate",
+        spec,
+        "--until",
+        &until,
+        "--tolerance",
+        &tolerance,
+        "--json",
+    ];
+    let options = options.iter().map(String::as_str);
+    let all: Vec<&str> = call.into_iter().chain(options).collect();
+    let output = crate::support::lagrangian(&all);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{spec}: {said}");
+    let end: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let numbers = |of: &str| -> Vec<f64> {
+        let values = end[of].as_object().expect("numbers").values();
+        values.map(|x| x.as_f64().expect("a number")).collect()
+    };
+    [numbers("q"), numbers("v")].concat()
+}
+
+/// A page that computes: a slider moves, the curve changes, and what it shows are the command's numbers. Both keep the tolerance in
+/// each step, so they differ by no more than all these errors together, each grown as nearby motions part: by how much is seen
+/// from runs of the command whose starts are a millionth off.
+#[test]
+#[ignore = "needs Chromium"]
+fn a_page_runs_its_machine_again() {
+    for (spec, until, changes) in [
+        (
+            "machines/double_pendulum.machine",
+            "2",
+            &[("m1", 1.7), ("g", 3.7), ("theta1", 0.9)][..],
+        ),
+        (
+            "machines/cart_pole.machine",
+            "1",
+            &[("push", 2.5), ("der(x)", 0.3)],
+        ),
+        // Driven at 100 rad/s.
+        ("machines/vibrating_crusher.machine", "0.5", &[("m", 620.0)]),
+    ] {
+        let page = Page::of(spec, &["--tolerance", "1e-11", "--until", until, "--live"]);
+        let table = |names: &[&str]| -> Vec<String> {
+            let data = page.html.split_once("id=\"live-data\">").expect("data").1;
+            let data = data.split_once("</script>").expect("its end").0;
+            let data: Value = serde_json::from_str(data).expect("JSON");
+            let all = names
+                .iter()
+                .flat_map(|name| data[*name].as_array().expect("a list").clone());
+            all.filter_map(|one| Some(one["name"].as_str()?.to_owned()))
+                .collect()
+        };
+        let states = table(&["states"]);
+        let asked: serde_json::Map<String, Value> = changes
+            .iter()
+            .map(|(name, x)| ((*name).to_owned(), Value::from(*x)))
+            .collect();
+        let script = format!(
+            "<script type=\"application/json\" id=\"asked\">{}</script>\n<script type=\"module\">{}</script>",
+            serde_json::json!([asked]),
+            include_str!("browser/live.js")
+        );
+        let verdict = verdict(&page, &script);
+        assert_eq!(verdict["wrong"], serde_json::json!([]), "{spec}");
+        assert_eq!(verdict["moved"], true, "{spec}");
+        let run = &verdict["runs"][0];
+        let status = run["status"].as_str().expect("words");
+        assert_eq!(run["changed"], true, "{spec}: {status}");
+        let steps = status
+            .strip_prefix("Run again in this page: ")
+            .expect("it ran");
+        let steps: f64 = steps
+            .split(' ')
+            .next()
+            .expect("a count")
+            .parse()
+            .expect("a number");
+        let numbers = |of: &Value| -> Vec<f64> {
+            let list = of.as_array().expect("numbers").iter();
+            list.map(|x| x.as_f64().expect("a number")).collect()
+        };
+        let n = states.len() / 2;
+        let options: Vec<String> = changes
+            .iter()
+            .flat_map(|(name, x)| {
+                let option = match states.iter().position(|state| state == name) {
+                    None => format!("--set\n{name}={x:?}"),
+                    Some(i) if i < n => format!("--start\n{name}={x:?}"),
+                    Some(i) => format!("--rate\n{}={x:?}", states[i - n]),
+                };
+                option.split('\n').map(str::to_owned).collect::<Vec<_>>()
+            })
+            .collect();
+        let (found, times) = (numbers(&run["states"]), numbers(&run["times"]));
+        let begin = &found[..2 * n];
+        for k in [times.len() / 2, times.len() - 1] {
+            let known = end_of(spec, times[k], 1e-11, &options);
+            let size = known.iter().fold(1.0f64, |most, x| most.max(x.abs()));
+            let mut growth = 1.0f64;
+            for i in 0..2 * n {
+                let (option, name) = match i < n {
+                    true => ("--start", &states[i]),
+                    false => ("--rate", &states[i - n]),
+                };
+                let mut moved: Vec<String> = options.clone();
+                let mark = format!("{name}=");
+                // Options and their values take turns.
+                let mut pairs = moved.chunks(2);
+                let said = pairs.position(|pair| pair[0] == option && pair[1].starts_with(&mark));
+                if let Some(at) = said {
+                    moved.drain(2 * at..2 * at + 2);
+                }
+                moved.extend([option.to_owned(), format!("{name}={:?}", begin[i] + 1e-6)]);
+                let parted = end_of(spec, times[k], 1e-11, &moved);
+                let most = parted.iter().zip(&known).map(|(x, y)| (x - y).abs());
+                growth += most.fold(0.0, f64::max) / 1e-6;
+            }
+            let bound = 2.0 * steps * 1e-11 * (1.0 + size) * growth;
+            for (x, y) in found[2 * n * k..][..2 * n].iter().zip(&known) {
+                assert!(
+                    (x - y).abs() <= bound,
+                    "{spec}, at {}: {x} {y}, bound {bound:e}",
+                    times[k]
+                );
+            }
+            println!("{spec}, at {} s: bound {bound:e}", times[k]);
+        }
+        // As it was: the first run, which the page holds in single precision.
+        let back = numbers(&verdict["back"]);
+        assert_eq!(back.len(), found.len());
+        let end = end_of(spec, times[times.len() - 1], 1e-11, &[]);
+        for (x, y) in back[back.len() - 2 * n..].iter().zip(&end) {
+            assert!((x - y).abs() <= 1e-6 * (1.0 + y.abs()), "{spec}: {x} {y}");
+        }
+    }
+}
+
+/// What a page cannot run is refused, with the reason; a page without `--live` holds nothing of it.
+#[test]
+fn pages_that_compute_are_of_machines_that_they_can_run() {
+    for (spec, options, words) in [
+        (
+            "machines/four_bar.machine",
+            &["--report", "x.html", "--live"][..],
+            "is a constraint",
+        ),
+        (
+            "machines/block_on_incline.machine",
+            &["--report", "x.html", "--live"],
+            "sticks or slides",
+        ),
+        ("machines/double_pendulum.machine", &["--live"], "--report"),
+        (
+            "machines/double_pendulum.machine",
+            &["--report", "x.html", "--live", "--method", "radau5"],
+            "the page has explicit methods",
+        ),
+    ] {
+        let all = [&["simulate", spec, "--until", "0.1"], options].concat();
+        let output = crate::support::lagrangian(&all);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{spec}: {said}");
+        assert!(said.contains(words), "{spec}: {said}");
+        assert!(!root().join("x.html").exists());
+    }
+    let page = Page::of("machines/simple_pendulum.machine", &["--until", "0.1"]);
+    assert!(!page.html.contains("sliders") && !page.html.contains("Integrator"));
+}

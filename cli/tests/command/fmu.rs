@@ -339,7 +339,7 @@ fn the_same_machine_is_the_same_unit() {
     let other = Scratch::new("Pendulum.fmu", "");
     let said = unit(spec, &other, &["--set", "m1=2", "--sources-only"]);
     assert_ne!(said["token"].to_string(), tokens[0]);
-    assert_eq!(said["platform"], Value::Null);
+    assert_eq!(said["platforms"], json!([]));
     let files = files(&other.0);
     assert!(files.keys().all(|name| !name.starts_with("binaries")));
     let description = text(&files, "modelDescription.xml");
@@ -601,4 +601,80 @@ fn a_description_tells_what_depends_on_what() {
     let acceleration = of(5).expect("an acceleration");
     let on: Vec<&str> = acceleration.split(' ').collect();
     assert!(!on.contains(&"1") && on.contains(&"2"), "{acceleration}");
+}
+
+/// Libraries for other platforms, by compilers that are told the target or named by it; each in its folder.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_unit_has_libraries_for_the_targets_that_are_asked_for() {
+    // Writes what it was asked for where a compiler writes its library.
+    let script = "#!/bin/sh\nout=\nfor word; do [ \"$before\" = -o ] && out=$word; before=$word; done\nprintf '%s ' \"$@\" > \"$out\"\n";
+    let compiler = Scratch::new("compiler", script);
+    run(Command::new("chmod").args(["+x", compiler.path()]), "");
+    let named = Scratch::new("arm64-apple-darwin-cc", script);
+    run(Command::new("chmod").args(["+x", named.path()]), "");
+    let by_name = named.path().replace("arm64-apple-darwin", "{}");
+    let spec = "machines/simple_pendulum.machine";
+    let at = Scratch::new("Swing.fmu", "");
+    let options = [
+        "--cc",
+        compiler.path(),
+        "--target",
+        "x86_64-w64-mingw32,aarch64-linux-gnu",
+    ];
+    let said = unit(spec, &at, &options);
+    assert_eq!(
+        said["platforms"],
+        json!(["x86_64-windows", "aarch64-linux"])
+    );
+    let files_of = files(&at.0);
+    for (name, target) in [
+        (
+            "binaries/x86_64-windows/Swing.dll",
+            "--target=x86_64-w64-mingw32 ",
+        ),
+        (
+            "binaries/aarch64-linux/Swing.so",
+            "--target=aarch64-linux-gnu ",
+        ),
+    ] {
+        let told = text(&files_of, name);
+        assert!(
+            told.starts_with(target) && told.contains(" fmi3.c "),
+            "{told}"
+        );
+    }
+    let options = [
+        "--fmi",
+        "2",
+        "--cc",
+        &by_name,
+        "--target",
+        "arm64-apple-darwin",
+    ];
+    unit(spec, &at, &options);
+    let told = text(&files(&at.0), "binaries/darwin64/Swing.dylib");
+    assert!(
+        !told.contains("--target") && told.contains(" fmi2.c "),
+        "{told}"
+    );
+    for (target, words) in [
+        ("riscv64-linux-gnu", "units have folders for"),
+        ("x86_64-linux-gnu,x86_64-unknown-linux-musl", "already"),
+    ] {
+        let arguments = [
+            "fmu",
+            spec,
+            "--out",
+            at.path(),
+            "--cc",
+            compiler.path(),
+            "--target",
+            target,
+        ];
+        let output = lagrangian(&arguments);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains(words), "{said}");
+    }
 }

@@ -7,6 +7,7 @@ mod command_line;
 mod compliance;
 mod constraints;
 mod contacts;
+mod exported;
 mod fit;
 mod fmu;
 mod impacts;

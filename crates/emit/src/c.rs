@@ -10,7 +10,7 @@ use lagrangian_symbolic::{self as symbolic, Rational};
 use super::body::{self, Binding, Expression, Language, Rounded};
 use super::cut::{self, Cut, Piece, Place};
 use super::layout::{Writer, width};
-use super::names::{Field, Scope, fields, flat, snake_case};
+use super::names::{Field, Scope, ascii, fields, flat, snake_case};
 use lagrangian_mechanics::Proved;
 use lagrangian_program::{Function, Guard, Op, Program, Reads, Role, Shape, Slot, Source};
 use lagrangian_units::{rate_unit, state_of};
@@ -758,35 +758,6 @@ fn comment(writer: &mut Writer, text: &str, formulas: &[String]) {
 /// A text that does not end the comment it stands in.
 fn harmless(text: &str) -> String {
     text.replace("*/", "* /").replace("/*", "/ *")
-}
-
-/// A name in the letters that every C compiler takes.
-fn ascii(name: &str) -> String {
-    name.chars()
-        .map(|c| match c {
-            c if c.is_ascii_alphanumeric() || c == '_' => c.to_string(),
-            c => greek(c).map_or_else(|| format!("u{:x}", c as u32), str::to_owned),
-        })
-        .collect()
-}
-
-/// The name of a Greek letter.
-fn greek(letter: char) -> Option<&'static str> {
-    const NAMES: [&str; 25] = [
-        "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa",
-        "lambda", "mu", "nu", "xi", "omicron", "pi", "rho", "sigma", "sigma", "tau", "upsilon",
-        "phi", "chi", "psi", "omega",
-    ];
-    const CAPITALS: [&str; 25] = [
-        "Alpha", "Beta", "Gamma", "Delta", "Epsilon", "Zeta", "Eta", "Theta", "Iota", "Kappa",
-        "Lambda", "Mu", "Nu", "Xi", "Omicron", "Pi", "Rho", "Sigma", "Sigma", "Tau", "Upsilon",
-        "Phi", "Chi", "Psi", "Omega",
-    ];
-    let index = |first: char| (letter as usize).checked_sub(first as usize);
-    index('α')
-        .and_then(|i| NAMES.get(i))
-        .or_else(|| index('Α').and_then(|i| CAPITALS.get(i)))
-        .copied()
 }
 
 /// The names of the fields of a struct, none twice.

@@ -53,6 +53,35 @@ pub fn flat(name: &Name) -> String {
     }
 }
 
+/// A name in the letters that every compiler takes.
+pub fn ascii(name: &str) -> String {
+    name.chars()
+        .map(|c| match c {
+            c if c.is_ascii_alphanumeric() || c == '_' => c.to_string(),
+            c => greek(c).map_or_else(|| format!("u{:x}", c as u32), str::to_owned),
+        })
+        .collect()
+}
+
+/// The name of a Greek letter.
+fn greek(letter: char) -> Option<&'static str> {
+    const NAMES: [&str; 25] = [
+        "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa",
+        "lambda", "mu", "nu", "xi", "omicron", "pi", "rho", "sigma", "sigma", "tau", "upsilon",
+        "phi", "chi", "psi", "omega",
+    ];
+    const CAPITALS: [&str; 25] = [
+        "Alpha", "Beta", "Gamma", "Delta", "Epsilon", "Zeta", "Eta", "Theta", "Iota", "Kappa",
+        "Lambda", "Mu", "Nu", "Xi", "Omicron", "Pi", "Rho", "Sigma", "Sigma", "Tau", "Upsilon",
+        "Phi", "Chi", "Psi", "Omega",
+    ];
+    let index = |first: char| (letter as usize).checked_sub(first as usize);
+    index('α')
+        .and_then(|i| NAMES.get(i))
+        .or_else(|| index('Α').and_then(|i| CAPITALS.get(i)))
+        .copied()
+}
+
 /// Hands out names, none twice.
 #[derive(Clone, Debug, Default)]
 pub struct Scope {

@@ -1,0 +1,218 @@
+// The machine itself, in the page: sliders change its parameters and its start, and it runs again, by the method of the command.
+
+/** An explicit pair of Runge–Kutta, by its published coefficients. */
+class Integrator {
+  constructor(method, tolerance, mostSteps) {
+    Object.assign(this, { method, tolerance, mostSteps });
+    this.steps = 0;
+  }
+
+  /** How large a vector is that is divided by the tolerances of the state before and after. */
+  norm(vector, before, after) {
+    let sum = 0;
+    for (let i = 0; i < vector.length; i++) {
+      const scale = this.tolerance * (1 + Math.max(Math.abs(before[i]), Math.abs(after[i])));
+      sum += (vector[i] / scale) ** 2;
+    }
+    return Math.sqrt(sum / Math.max(1, vector.length));
+  }
+
+  /** Brings the state `y` from time `t` to each of the times in turn, and tells each; what stops it is thrown. */
+  run(f, y, times, tell) {
+    const { a, c, error, coarse, power, stages, change: [least, most] } = this.method;
+    const forward = times[times.length - 1] >= times[0] ? 1 : -1;
+    const slopes = Array.from({ length: stages + 1 }, () => new Float64Array(y.length));
+    let t = times[0];
+    let h = 0;
+    tell(y, 0);
+    f(t, y, slopes[0]);
+    const next = new Float64Array(y.length);
+    const part = new Float64Array(y.length);
+    const sum = (weights, count) => {
+      for (let i = 0; i < y.length; i++) {
+        let value = 0;
+        for (let k = 0; k < count; k++) value += weights[k] * slopes[k][i];
+        part[i] = value;
+      }
+      return part;
+    };
+    for (let index = 1; index < times.length; index++) {
+      const until = times[index];
+      while ((until - t) * forward > 0) {
+        const left = Math.abs(until - t);
+        if (h === 0) {
+          // As if by Euler's method: a hundredth of the state, or a millionth of the way.
+          const [size, rate] = [this.norm(y, y, y), this.norm(slopes[0], y, y)];
+          h = size > 1e-5 && rate > 1e-5 ? Math.min(0.01 * (size / rate), left) : Math.min(1e-6, left);
+        }
+        const last = 1.01 * h >= left;
+        const step = (last ? left : h) * forward;
+        for (let stage = 1; stage <= stages; stage++) {
+          sum(a[stage], stage);
+          for (let i = 0; i < y.length; i++) next[i] = y[i] + step * part[i];
+          if (stage < stages) f(t + c[stage] * step, next, slopes[stage]);
+        }
+        // Some pairs look at the slope of the new point, too.
+        if (error.length > stages) f(t + step, next, slopes[stages]);
+        let off = this.norm(sum(error, error.length), y, next);
+        if (coarse && off > 0) {
+          const other = this.norm(sum(coarse, coarse.length), y, next);
+          off = (off * off) / Math.sqrt(off * off + 0.01 * other * other);
+        }
+        off *= Math.abs(step);
+        if (++this.steps > this.mostSteps) throw new Error(`more than ${this.mostSteps} steps, at t = ${t} s`);
+        const factor = off > 0 ? 0.9 * off ** (-1 / power) : most;
+        if (off <= 1) {
+          t = last ? until : t + step;
+          y.set(next);
+          f(t, y, slopes[0]);
+          const longer = Math.abs(step) * Math.min(Math.max(factor, least), most);
+          if (!last || longer > h) h = longer;
+        } else {
+          h = Math.abs(step) * (factor > 0 ? Math.min(Math.max(factor, least), 0.9) : 0.1);
+          if (!(h > 1e-15 * (Math.abs(t) + 1e-3))) throw new Error(`steps become too short at t = ${t} s`);
+        }
+      }
+      tell(y, index);
+    }
+  }
+}
+
+class Live {
+  constructor(player, data) {
+    Object.assign(this, { player, data, motion: player.motion, wanted: false });
+    this.parameters = Float64Array.from(data.parameters);
+    this.inputs = Float64Array.from(data.inputs);
+    // Start values that somebody has said; the others follow the parameters.
+    this.said = data.start.slice();
+    const list = byId('sliders');
+    const add = (group, name, unit, value, set) => {
+      const range = html('input', { type: 'range', step: 'any', 'aria-label': name });
+      const number = html('input', { type: 'number', step: 'any', 'aria-label': `${name}, as a number` });
+      const reset = () => {
+        const size = value === 0 ? 1 : Math.abs(value);
+        range.min = value > 0 ? 0 : value - size;
+        range.max = value < 0 ? 0 : value + size;
+        range.value = value;
+        number.value = value;
+      };
+      const changed = (text) => {
+        const x = Number(text);
+        if (text === '' || !Number.isFinite(x)) return;
+        range.value = x;
+        if (number.value !== text) number.value = String(x);
+        set(x);
+        this.ask();
+      };
+      range.addEventListener('input', () => changed(range.value));
+      number.addEventListener('change', () => changed(number.value));
+      reset();
+      list.append(html('label', { class: 'slider', 'data-group': group, 'data-name': name },
+        html('code', {}, name), range, number, html('span', { class: 'unit' }, unit)));
+      return reset;
+    };
+    const resets = [
+      ...machine.parameters.map((name, i) => add('parameter', name, machine.parameter_units[i], data.parameters[i],
+        (x) => { this.parameters[i] = x; })),
+      ...machine.inputs.map((name, i) => add('input', name, machine.input_units[i], data.inputs[i],
+        (x) => { this.inputs[i] = x; })),
+      ...data.states.map(({ name, unit, value }, i) => add('start', name, unit, value, (x) => { this.said[i] = x; })),
+    ];
+    byId('again').addEventListener('click', () => {
+      this.parameters.set(data.parameters);
+      this.inputs.set(data.inputs);
+      this.said = data.start.slice();
+      resets.forEach((reset) => reset());
+      this.ask();
+    });
+  }
+
+  /** Runs before the next picture, once, however often a slider has moved. */
+  ask() {
+    if (this.wanted) return;
+    this.wanted = true;
+    requestAnimationFrame(() => {
+      this.wanted = false;
+      this.run();
+    });
+  }
+
+  run() {
+    const { motion, data, player } = this;
+    const { n } = motion;
+    const before = performance.now();
+    const integrator = new Integrator(data.method, data.tolerance, data.steps);
+    const status = byId('live-status');
+    try {
+      const p = machine.prepare(this.parameters);
+      const start = machine.start(this.parameters);
+      const y = Float64Array.from({ length: 2 * n }, (_, i) => this.said[i] ?? start[i] ?? 0);
+      const times = Array.from({ length: motion.count }, (_, k) => motion.time(k));
+      const states = new Float64Array(2 * n * motion.count);
+      const u = this.inputs;
+      const f = (t, state, slopes) => {
+        const v = state.subarray(n);
+        const a = machine.accelerations(p, t, state, v, u);
+        for (let i = 0; i < n; i++) {
+          if (!Number.isFinite(a[i])) throw new Error(`the acceleration of ${machine.coordinates[i]} is no number at t = ${t} s`);
+          slopes[i] = v[i];
+          slopes[n + i] = a[i];
+        }
+      };
+      integrator.run(f, y, times, (state, k) => states.set(state, 2 * n * k));
+      motion.states = states;
+      motion.parameters.set(this.parameters);
+      player.plots.forEach((plot) => plot.curves.forEach((curve) => this.refresh(curve, p, times, states)));
+      const took = performance.now() - before;
+      status.textContent = `Run again in this page: ${integrator.steps} steps in ${took.toFixed(0)} ms. `
+        + 'The tables below are those of the command.';
+      status.className = '';
+    } catch (reason) {
+      status.textContent = `It does not run with these values: ${reason.message}. What is shown is the run before.`;
+      status.className = 'alert';
+    }
+    player.layOut();
+    player.dirty = true;
+  }
+
+  /** What a curve with points of its own is now; nothing, where the page cannot say. */
+  refresh(curve, p, times, states) {
+    if (!curve.times) return;
+    const { n } = this.motion;
+    const u = this.inputs;
+    const { live } = curve;
+    const value = (k) => {
+      const q = states.subarray(2 * n * k, 2 * n * k + n);
+      const v = states.subarray(2 * n * k + n, 2 * n * (k + 1));
+      const t = times[k];
+      if (live?.output !== undefined) {
+        const a = machine.accelerations(p, t, q, v, u);
+        return machine.functions_of_outputs[live.output](p, t, q, v, u, a);
+      }
+      const kinetic = () => machine.kinetic_energy(p, t, q, v);
+      const potential = () => machine.potential_energy(p, t, q, u);
+      if (live?.energy === 'kinetic') return kinetic();
+      if (live?.energy === 'potential') return potential();
+      if (live?.energy === 'total') return kinetic() + potential();
+      if (live?.input !== undefined) return u[live.input];
+      return NaN;
+    };
+    curve.times = Float64Array.from(times);
+    curve.values = Float64Array.from(times, (_, k) => value(k));
+  }
+}
+
+const live = new Live(player, JSON.parse(byId('live-data').textContent));
+
+// For those who want to drive it: by the names and numbers of the sliders, as `canvas.live.set('l1', 2)`.
+player.canvas.live = Object.freeze({
+  set: (name, value) => {
+    const label = [...document.querySelectorAll('#sliders label')].find((one) => one.dataset.name === name);
+    const number = label.querySelector('input[type=number]');
+    number.value = String(value);
+    number.dispatchEvent(new Event('change'));
+  },
+  /** The stored states, in double precision: coordinates and rates, one instant after the other. */
+  get states() { return player.motion.states; },
+  get times() { return Array.from({ length: player.motion.count }, (_, k) => player.motion.time(k)); },
+});

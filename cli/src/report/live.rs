@@ -1,0 +1,136 @@
+//! A page that computes: the machine's program as JavaScript, and sliders that run it again.
+
+use std::collections::BTreeMap;
+
+use lagrangian::methods::Method;
+use lagrangian::{Machine, System};
+use lagrangian_emit::script::{self, Dialect};
+use lagrangian_program::Program;
+use lagrangian_units::{rate_name, state_of};
+use serde_json::{Value, json};
+
+use super::Report;
+use super::html;
+
+/// What runs and shows it.
+pub const SCRIPT: &str = include_str!("live.js");
+
+/// The place of the sliders.
+pub const SECTION: &str = r#"<section id="live" aria-labelledby="live-title">
+<style>
+#sliders { display: grid; grid-template-columns: repeat(auto-fill, minmax(22rem, 1fr)); gap: 0.3rem 1.5rem; }
+.slider { display: grid; grid-template-columns: 7rem 1fr 7rem 4rem; gap: 0.5rem; align-items: center; }
+.slider input { min-width: 0; }
+@media print { #live { display: none; } }
+</style>
+<h2 id="live-title">Run it again</h2>
+<p class="note">The machine is in this page: a slider, or a number beside it, runs it again from the start, by the same method and tolerance. Start values that nobody has moved follow the parameters.</p>
+<div id="sliders"></div>
+<div><button type="button" id="again">As it was</button> <span id="live-status" role="status"></span></div>
+</section>
+"#;
+
+/// The methods that a page has: pairs of Runge-Kutta, whose stages follow each other.
+const EXPLICIT: [&str; 3] = ["dop853", "dopri5", "bs32"];
+
+/// Why a page cannot run a machine; `None` where it can.
+pub fn objection(program: &Program, method: &Method, is_driven: bool) -> Option<String> {
+    let what = if let Some(constraint) = program.constraints.first() {
+        format!(
+            "`{}` is a constraint, on which the page does not hold its states; write the machine with as many coordinates as it has degrees of freedom",
+            constraint.name
+        )
+    } else if let Some(contact) = program.contacts.first() {
+        format!("`{contact}` of `sliding` sticks or slides, which the page does not decide")
+    } else if let Some(contact) = program.unilateral.first() {
+        format!(
+            "whether `{}` of `contacts` is closed is nothing that the page decides",
+            contact.name
+        )
+    } else if let Some(state) = program
+        .coordinates
+        .iter()
+        .find_map(|slot| state_of(&slot.name.to_string()))
+    {
+        format!("`{state}` of `states` is of first order, which the page does not show")
+    } else if is_driven {
+        "the page holds inputs at constant values: leave out --input".to_owned()
+    } else if !EXPLICIT.contains(&method.tableau.name) {
+        format!(
+            "the page has explicit methods, and `{}` is none: --method dop853",
+            method.tableau.name
+        )
+    } else {
+        return None;
+    };
+    Some(format!("--live: {what}"))
+}
+
+/// How a page integrates.
+pub struct Live {
+    /// Of a step, relative and absolute.
+    pub tolerance: f64,
+    /// How many steps a run may take.
+    pub most_steps: usize,
+}
+
+/// The machine, as a script. Names of the spec stand in it: nothing in it may end the element.
+pub fn machine(report: &Report<'_, '_>) -> String {
+    let program = &report.compiled.program;
+    let text = script::file(program, Dialect::JavaScript, &[], &BTreeMap::new());
+    text.replace("</", "<\\/").replace("<!--", "<\\!--")
+}
+
+impl Live {
+    /// The element with what the script reads.
+    pub fn data(&self, report: &Report<'_, '_>) -> String {
+        let program = &report.compiled.program;
+        let tableau = &report.method.tableau;
+        let start = report.run.start;
+        let own = report.machine.start();
+        // What the call says stays; the rest follows from the parameters.
+        let pairs = || {
+            let values = start.q.values.iter().chain(&start.v.values);
+            values.zip(own.q.values.iter().chain(&own.v.values))
+        };
+        let said: Vec<Option<f64>> = pairs()
+            .map(|(value, usual)| (value.to_bits() != usual.to_bits()).then_some(*value))
+            .collect();
+        let names = program
+            .coordinates
+            .iter()
+            .map(|slot| (slot.name.to_string(), slot.unit.to_string()));
+        let rates = program.coordinates.iter().map(|slot| {
+            (
+                rate_name(&slot.name.to_string(), ""),
+                slot.unit.rate().to_string(),
+            )
+        });
+        let states: Vec<Value> = names
+            .chain(rates)
+            .zip(pairs())
+            .map(|((name, unit), (value, _))| json!({ "name": name, "unit": unit, "value": value }))
+            .collect();
+        let value = json!({
+            "parameters": report.machine.parameter_values(),
+            "inputs": report.machine.prepare().default_inputs().values,
+            "start": said,
+            "states": states,
+            "tolerance": self.tolerance,
+            "steps": self.most_steps,
+            "method": {
+                "stages": tableau.stages,
+                "a": tableau.a,
+                "c": tableau.c,
+                "error": tableau.error,
+                "coarse": tableau.coarse_error,
+                "power": tableau.error_power,
+                "change": [tableau.step_change.0, tableau.step_change.1],
+            },
+        });
+        format!(
+            "<script type=\"application/json\" id=\"live-data\">{}</script>",
+            html::json(&value)
+        )
+    }
+}

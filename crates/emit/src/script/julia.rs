@@ -1,0 +1,172 @@
+//! Julia: one module. Numbers may be of any type that has the functions.
+
+use lagrangian_symbolic::Function;
+
+use super::{Entries, Syntax, Table, helper, quoted};
+use crate::body::{Expression, Rounded};
+use crate::layout::Writer;
+
+pub struct Julia;
+
+impl Syntax for Julia {
+    fn comment(&self) -> &'static str {
+        "#"
+    }
+
+    fn reserved(&self) -> &'static [&'static str] {
+        &[
+            "baremodule",
+            "begin",
+            "break",
+            "catch",
+            "const",
+            "continue",
+            "do",
+            "else",
+            "elseif",
+            "end",
+            "export",
+            "false",
+            "finally",
+            "for",
+            "function",
+            "global",
+            "if",
+            "import",
+            "let",
+            "local",
+            "macro",
+            "module",
+            "quote",
+            "return",
+            "struct",
+            "true",
+            "try",
+            "using",
+            "while",
+            "in",
+            "isa",
+            "where",
+            "pi",
+            "sin",
+            "cos",
+            "tan",
+            "asin",
+            "acos",
+            "atan",
+            "sinh",
+            "cosh",
+            "tanh",
+            "exp",
+            "log",
+            "sqrt",
+            "abs",
+            "sign",
+            "min",
+            "max",
+            "fma",
+            "error",
+        ]
+    }
+
+    fn begin(&self, writer: &mut Writer, name: &str, tables: &[Table], _: &[String]) {
+        writer.line(format!("module {}", camel(name)));
+        writer.gap();
+        for table in tables {
+            let value = match &table.entries {
+                Entries::Texts(texts) => {
+                    let texts: Vec<String> = texts.iter().map(|text| literal(text)).collect();
+                    format!("String[{}]", texts.join(", "))
+                }
+                Entries::Numbers(numbers) => {
+                    let one = |x: &f64| match x.is_nan() {
+                        true => "NaN".to_owned(),
+                        false => format!("{x:?}"),
+                    };
+                    let numbers: Vec<String> = numbers.iter().map(one).collect();
+                    format!("Float64[{}]", numbers.join(", "))
+                }
+            };
+            writer.line(format!("const {} = {value}", table.name));
+        }
+        writer.gap();
+        writer.line("# What rounding took from a*b and from a + b.");
+        writer.line("product_error(a, b) = fma(a, b, -(a * b))");
+        writer.open("function sum_error(a, b)");
+        writer.line("s = a + b");
+        writer.line("b_kept = s - a");
+        writer.line("return (a - (s - b_kept)) + (b - b_kept)");
+        writer.close("end");
+    }
+
+    fn end(&self, writer: &mut Writer, _: &[Table], _: &[String]) {
+        writer.gap();
+        writer.line("end");
+    }
+
+    fn function(&self, name: &str, arguments: &[&str]) -> String {
+        format!("function {name}({})", arguments.join(", "))
+    }
+
+    fn function_end(&self) -> &'static str {
+        "end"
+    }
+
+    fn result(&self, value: &str) -> String {
+        format!("return {value}")
+    }
+
+    fn assign(&self, name: &str, value: &str) -> String {
+        format!("{name} = {value}")
+    }
+
+    fn element(&self, list: &str, index: usize) -> String {
+        format!("{list}[{}]", index + 1)
+    }
+
+    fn list(&self, entries: &[String]) -> String {
+        format!("[{}]", entries.join(", "))
+    }
+
+    fn matrix(&self, rows: &[Vec<String>]) -> String {
+        let rows: Vec<String> = rows.iter().map(|row| row.join(" ")).collect();
+        format!("[{}]", rows.join("; "))
+    }
+
+    fn pi(&self) -> &'static str {
+        "pi"
+    }
+
+    fn call(&self, function: Function) -> &'static str {
+        use Function::*;
+        match function {
+            Ln => "log",
+            Atan2 => "atan",
+            Pow => "^",
+            other => other.name(),
+        }
+    }
+
+    fn error(&self, of: Rounded, a: &Expression, b: &Expression) -> Expression {
+        helper(of, a, b)
+    }
+
+    fn guard(&self, writer: &mut Writer, pivot: &str, limit: &str, message: &str) {
+        writer.line(format!("{pivot} > {limit} || error({})", literal(message)));
+    }
+}
+
+/// A text in which `$` means itself.
+fn literal(text: &str) -> String {
+    quoted(text).replace('$', "\\$")
+}
+
+/// `double_pendulum` as the name of a module.
+fn camel(name: &str) -> String {
+    let words = name.split('_').map(|word| {
+        let mut letters = word.chars();
+        let first = letters.next().map(|c| c.to_ascii_uppercase());
+        first.into_iter().chain(letters).collect::<String>()
+    });
+    words.collect()
+}
