@@ -543,10 +543,7 @@ fn sigmas(
     classes: &[Class],
     experiments: &[Experiment],
 ) -> Result<(Sigmas, Vec<f64>), Failure> {
-    let is_auto = call
-        .sigmas
-        .iter()
-        .any(|sigma| *sigma == SigmaOption::Estimated);
+    let is_auto = call.sigmas.contains(&SigmaOption::Estimated);
     if is_auto && call.sigmas.len() > 1 {
         return Err(Failure::Call(
             "--sigma auto estimates all standard deviations: no other --sigma stands beside it"

@@ -633,7 +633,7 @@ fn unknown_methods_are_told_the_known() {
     assert!(Method::named("rk4").is_none());
     let message = Error::UnknownMethod { name: "rk4".into() }.to_string();
     assert!(
-        message.ends_with("there are `dop853`, `dopri5`, `bs32`, `radau5`, `taylor`"),
+        message.ends_with("there are `dop853`, `dopri5`, `bs32`, `radau5`, `taylor`, `moreau`"),
         "{message}"
     );
 }

@@ -348,6 +348,10 @@ fn ended(
 /// What a step of the free numbers could take away of the residuals, relative to the rest of them, each by degree of freedom:
 /// [`Options::offset`]. None where all of them could be taken away.
 fn offset(at: &Minimum, free: &[usize], scale: &[f64], exact: f64) -> Option<f64> {
+    // All numbers are at their bounds.
+    if free.is_empty() {
+        return Some(0.0);
+    }
     let parts = Parts::of(at, free, scale, &at.residuals, exact);
     let along: f64 = parts.along.iter().map(|b| b * b).sum();
     let rest = at.residuals.len().checked_sub(parts.kept)?;

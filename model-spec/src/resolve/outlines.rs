@@ -21,7 +21,7 @@ impl<'d> Outline<'d> {
     pub fn of((index, body): (usize, &Body<'d>)) -> Option<Outline<'d>> {
         (!body.outline.is_empty()).then(|| Outline {
             body: index,
-            rotation: body.rotation.clone(),
+            rotation: body.rotation,
             corners: body.outline.clone(),
         })
     }

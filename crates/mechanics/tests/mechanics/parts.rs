@@ -227,7 +227,11 @@ fn same_constraints(text: &str, elements: &str, written: &str) {
         .replace("WRITTEN", written);
     resolved(&both, |model| {
         let all = constraints(model);
-        assert!(all.len() % 2 == 0 && !all.is_empty(), "{}", all.len());
+        assert!(
+            all.len().is_multiple_of(2) && !all.is_empty(),
+            "{}",
+            all.len()
+        );
         for one in &all {
             let Some(name) = one.name.strip_prefix("by_hand_") else {
                 continue;
