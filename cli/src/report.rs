@@ -1,7 +1,7 @@
 //! A run as a page to look at: one HTML file that needs nothing else.
 //!
-//! The page holds the motion ([`samples`]), the geometry as a function of it ([`scene`] and [`script`]), the curves that do
-//! not follow from it, and text ([`page`]). So a position on the page is the model's own expression at interpolated
+//! The page holds the motion (`samples`), the geometry as a function of it (`scene` and `script`), the curves that do
+//! not follow from it, and text (`page`). So a position on the page is the model's own expression at interpolated
 //! coordinates, explicit time included, and the size of the file does not depend on how much is drawn. What draws and plays
 //! is hand-written and stands in the files beside this one, as a browser gets it.
 

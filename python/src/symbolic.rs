@@ -12,12 +12,12 @@ use crate::program::Program;
 /// term, the power of a factor.
 type Shown = (&'static str, String, Vec<(usize, String)>);
 
+/// A quantity: its name, and the places of its entries among the nodes.
+type Quantity = (&'static str, Vec<usize>);
+
 /// The nodes of the equations, operands first, and what is made of them: names of quantities with the places of their entries.
 #[pyfunction]
-pub fn symbolic(
-    py: Python<'_>,
-    program: &Program,
-) -> PyResult<(Vec<Shown>, Vec<(&'static str, Vec<usize>)>)> {
+pub fn symbolic(py: Python<'_>, program: &Program) -> PyResult<(Vec<Shown>, Vec<Quantity>)> {
     let made = py.detach(|| {
         program.derived.with_model(|model, report| {
             let equations = Equations::derive(&model, report)?;
@@ -28,10 +28,7 @@ pub fn symbolic(
     made.ok_or_else(|| PyRuntimeError::new_err("it was derived before, and is not now"))
 }
 
-fn shown<'d>(
-    model: &Model<'d>,
-    equations: &Equations<'d>,
-) -> (Vec<Shown>, Vec<(&'static str, Vec<usize>)>) {
+fn shown<'d>(model: &Model<'d>, equations: &Equations<'d>) -> (Vec<Shown>, Vec<Quantity>) {
     let n = model.coordinates.len();
     let mass = (0..n * n).map(|k| *equations.mass_matrix.get(k / n, k % n));
     let constraints = || equations.constraints.iter();
