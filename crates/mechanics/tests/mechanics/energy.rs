@@ -9,7 +9,7 @@ fn energy_changes_by_work_less_dissipation() {
     for (name, text) in all_machines() {
         derived(&text, |model, equations| {
             let oracle = Oracle::derive(model);
-            let energy = oracle.kinetic_energy + oracle.potential_energy;
+            let energy = oracle.kinetic_energy + oracle.potential_energy + equations.state_energy;
             let change = total(model).of(energy);
             let balance = equations.work_rate - equations.dissipation_rate;
             for values in residues(model, equations, &[change, balance], true) {

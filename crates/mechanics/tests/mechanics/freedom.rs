@@ -205,25 +205,25 @@ fn contradicting_constraints_are_named_with_their_residuals() {
         // At x = 3/2 both are off by the same.
         (
             "one: x = 1, two: x = 2",
-            "`two` contradicts `one` near the start: 5.00e-1 m",
+            "`two` contradicts `one` near the start: its residual is 5.00e-1 m",
         ),
         // A circle of radius 1 and the line x = 2, rows measured at (1, 0.3): their lengths are 2 √1.09 and 1. The minimum
         // of (x² − 1)²/4.36 + (x − 2)² has 2 x³ − 2 x + 4.36 (x − 2) = 0: x = 1.394885.
         (
             "rod: x^2 + y^2 = 1, wall: x = 2",
-            "`wall` contradicts `rod` near the start: 6.05e-1 m",
+            "`wall` contradicts `rod` near the start: its residual is 6.05e-1 m",
         ),
         (
             "alone: x^2 + y^2 = -1",
-            "`alone` cannot be met near the start: 1.00e0 m^2",
+            "`alone` cannot be met near the start: its residual is 1.00e0 m^2",
         ),
         (
             "held: x = 1, moved: der(x) = 2",
-            "`moved` contradicts `held` near the start: 1.00e0 m/s",
+            "`moved` contradicts `held` near the start: its residual is 1.00e0 m/s",
         ),
         (
             "a: der(x) = 1, b: 2*der(x) = 4",
-            "`b` contradicts `a` near the start: 1.00e0 m/s",
+            "`b` contradicts `a` near the start: its residual is 1.00e0 m/s",
         ),
     ] {
         let told = told(&particle(constraints));
