@@ -5,14 +5,15 @@
 //! cargo bench --bench ensemble -- --ends FOLDER
 //! ```
 //!
-//! The second runs 256 double pendulums to many tolerances, and writes where they end, for `benches/peers/ensembles.py`.
+//! The second runs 256 double pendulums and 256 crushers to many tolerances, and writes where they end, for
+//! `benches/peers/ensembles.py`.
 
 mod timing;
 
 use std::hint::black_box;
 
 use lagrangian::{Batched, Ensemble, Machine, Method, Stepper, System, Trajectory};
-use lagrangian_machines::{CartPole, DoublePendulum, VibratingCrusher};
+use lagrangian_machines::{CartPole, Crusher9, DoublePendulum, VibratingCrusher};
 
 /// Trajectories of one kind, of several lengths and starts.
 fn trajectories<M: Machine>(machine: &M, end: f64) -> Vec<Trajectory<M::System>>
@@ -74,56 +75,86 @@ where
     );
 }
 
-/// Double pendulums from a grid of angles at rest, for 5 s: for each tolerance a line of JSON with the processor's seconds, the best of
-/// nine times, and a file of the ends, θ1, θ2 and their rates for each, as 64-bit numbers in little-endian order.
-fn ends(folder: &str) {
-    const SIDE: u32 = 16;
-    const END: f64 = 5.0;
-    let machine = DoublePendulum::default();
-    let start = Trajectory::of(&machine, END);
-    let trajectories: Vec<_> = (0..SIDE * SIDE)
-        .map(|i| {
-            let mut trajectory = start.clone();
-            let at = |k: u32| 0.1 + 0.9 * f64::from(k) / f64::from(SIDE - 1);
-            trajectory.start.q.theta1 = at(i / SIDE);
-            trajectory.start.q.theta2 = at(i % SIDE);
-            (trajectory.start.v.theta1, trajectory.start.v.theta2) = (0.0, 0.0);
-            trajectory
-        })
-        .collect();
-    for power in 4..=13 {
-        let tolerance = 10_f64.powi(-power);
-        let ensemble = Ensemble::<8>::new()
-            .method(Method::DOP853)
-            .tolerance(tolerance);
-        let mut ends = vec![[f64::NAN; 4]; trajectories.len()];
-        let times = (0..9).map(|_| {
-            let run = || {
-                ensemble.run(trajectories.iter().cloned(), |i, arrived: Result<_, _>| {
-                    if let Ok(lagrangian::Arrival { end, .. }) = arrived {
-                        let (q, v) = (end.q, end.v);
-                        ends[i] = [q.theta1, q.theta2, v.theta1, v.theta2];
-                    }
-                });
-            };
-            timing::seconds(run).0
-        });
-        let seconds = times.fold(f64::INFINITY, f64::min);
-        let file = format!("{folder}/lagrangian-{power}.bin");
-        let bytes: Vec<u8> = ends
-            .iter()
-            .flatten()
-            .flat_map(|x| x.to_le_bytes())
-            .collect();
-        std::fs::write(&file, bytes).expect("the folder takes files");
-        println!("{{\"tolerance\": {tolerance:e}, \"seconds\": {seconds}, \"file\": \"{file}\"}}");
+/// Runs to many tolerances, by each method: a line of JSON with the processor's seconds, the best of nine times, and a file of the
+/// ends, coordinates and then rates of each, as 64-bit numbers in little-endian order.
+fn ends<M: Machine, const W: usize>(
+    folder: &str,
+    name: &str,
+    trajectories: &[Trajectory<M::System>],
+) where
+    M::System: Batched<W> + 'static,
+{
+    for method in [Method::DOP853, Method::TAYLOR] {
+        for power in 4..=13 {
+            let tolerance = 10_f64.powi(-power);
+            let ensemble = Ensemble::<W>::new().method(method).tolerance(tolerance);
+            let mut ends = vec![Vec::<f64>::new(); trajectories.len()];
+            let times = (0..9).map(|_| {
+                let run = || {
+                    ensemble.run(trajectories.iter().cloned(), |i, arrived: Result<_, _>| {
+                        let arrival: lagrangian::Arrival<_> = arrived.expect("a run");
+                        let system = &trajectories[i].system;
+                        let both = [&arrival.end.q, &arrival.end.v].map(|x| system.to_vector(x));
+                        let numbers = both.iter().flat_map(lagrangian::Vector::as_slice);
+                        ends[i].clear();
+                        ends[i].extend(numbers);
+                    });
+                };
+                timing::seconds(run).0
+            });
+            let seconds = times.fold(f64::INFINITY, f64::min);
+            let method = method.tableau.name;
+            let file = format!("{folder}/{name}-{method}-{W}-{power}.bin");
+            let bytes: Vec<u8> = ends
+                .iter()
+                .flatten()
+                .flat_map(|x| x.to_le_bytes())
+                .collect();
+            std::fs::write(&file, bytes).expect("the folder takes files");
+            println!(
+                "{{\"machine\": \"{name}\", \"method\": \"{method}, {W} lanes\", \"tolerance\": {tolerance:e}, \
+                 \"seconds\": {seconds}, \"file\": \"{file}\"}}"
+            );
+        }
     }
+}
+
+/// 16 by 16 parts of 1.
+fn grid() -> impl Iterator<Item = [f64; 2]> {
+    const SIDE: u32 = 16;
+    (0..SIDE * SIDE).map(|i| [i / SIDE, i % SIDE].map(|k| f64::from(k) / f64::from(SIDE - 1)))
+}
+
+/// The runs that `benches/peers/ensembles.py` compares: double pendulums at rest from a grid of angles, for 5 s, and crushers from a
+/// grid of distances, for 0.5 s.
+fn all_ends(folder: &str) {
+    let pendulum = Trajectory::of(&DoublePendulum::default(), 5.0);
+    let pendulums = grid().map(|[i, k]| {
+        let mut trajectory = pendulum.clone();
+        let start = &mut trajectory.start;
+        (start.q.theta1, start.q.theta2) = (0.1 + 0.9 * i, 0.1 + 0.9 * k);
+        (start.v.theta1, start.v.theta2) = (0.0, 0.0);
+        trajectory
+    });
+    let pendulums: Vec<_> = pendulums.collect();
+    ends::<DoublePendulum, 4>(folder, "pendulum", &pendulums);
+    ends::<DoublePendulum, 8>(folder, "pendulum", &pendulums);
+    let crusher = Trajectory::of(&Crusher9::default(), 0.5);
+    let crushers = grid().map(|[i, k]| {
+        let mut trajectory = crusher.clone();
+        let start = &mut trajectory.start;
+        (start.q.s1, start.q.s2) = (0.14 + 0.02 * i, 0.09 + 0.02 * k);
+        trajectory
+    });
+    let crushers: Vec<_> = crushers.collect();
+    ends::<Crusher9, 4>(folder, "crusher", &crushers);
+    ends::<Crusher9, 8>(folder, "crusher", &crushers);
 }
 
 fn main() {
     let mut arguments = std::env::args().skip_while(|argument| argument != "--ends");
     if let Some(folder) = arguments.nth(1) {
-        return ends(&folder);
+        return all_ends(&folder);
     }
     println!("| machine | method | tolerance | one by one | 4 at a time | 8 at a time | gain |");
     println!("| --- | --- | --: | --: | --: | --: | --: |");
@@ -132,4 +163,7 @@ fn main() {
         compare(&CartPole::default(), 2.0, method, tolerance);
         compare(&VibratingCrusher::default(), 0.2, method, tolerance);
     }
+    compare(&DoublePendulum::default(), 2.0, Method::TAYLOR, 1e-9);
+    compare(&Crusher9::default(), 0.2, Method::TAYLOR, 1e-9);
+    compare(&Crusher9::default(), 0.2, Method::DOP853, 1e-9);
 }

@@ -8,7 +8,7 @@ use crate::tolerance::Tolerance;
 use crate::{Vector, math};
 
 /// Goes through the stages of a step of length `h` from `before`. `evaluate(stage, (t, q, v), a)` finds the accelerations of each;
-/// where it fails, the stages after it are left out. `q` and `v` are room for the states.
+/// where it fails, the stages after it are left out. The states are made in `q` and `v`.
 #[inline(always)]
 pub(crate) fn go_through_stages<N: StepNumber, V: Vector<N>, E>(
     method: &Method,
@@ -155,8 +155,11 @@ pub(crate) fn not_finite<N: StepNumber, V: Vector<N>>(
 #[inline(always)]
 pub(crate) fn are_finite<N: StepNumber, V: Vector<N>>(one: &V, other: &V) -> N::Each<bool> {
     // The sum of what is not finite is not finite, and one test is cheaper than many.
-    let numbers = one.as_slice().iter().chain(other.as_slice());
-    let fine = numbers.fold(N::NOTHING, |sum, x| sum + *x).are_finite();
+    let mut sum = N::NOTHING;
+    for (one, other) in one.as_slice().iter().zip(other.as_slice()) {
+        sum = sum + *one + *other;
+    }
+    let fine = sum.are_finite();
     if !fine.as_ref().contains(&false) {
         return fine;
     }

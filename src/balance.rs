@@ -38,6 +38,12 @@ pub trait Quadratures<S: System>: Clone + sealed::Sealed {
     #[doc(hidden)]
     fn retreat(&mut self, b: &[f64]);
 
+    /// The integrals of the energy balance, to be changed.
+    #[doc(hidden)]
+    fn integrals_mut(&mut self) -> Option<&mut EnergyIntegrals> {
+        None
+    }
+
     /// The integrals of the energy balance, if it is kept.
     fn integrals(&self) -> Option<&EnergyIntegrals>;
 }
@@ -77,13 +83,15 @@ impl<S: System> Quadratures<S> for NoBalance {
 }
 
 /// The integrals over time of the powers of a machine, by the same method and steps as its motion.
-/// They have no part in the choice of steps.
+/// They have no part in the choice of steps; a run whose step is too long for them integrates them again along it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct EnergyIntegrals {
     /// Work rate, its absolute value, and dissipation rate at each stage.
     rates: [[f64; 3]; MAX_STAGES],
     sums: [Sum; 3],
     sums_before: [Sum; 3],
+    /// By how much the last step added to the sums.
+    last: [f64; 3],
 }
 
 impl EnergyIntegrals {
@@ -101,6 +109,21 @@ impl EnergyIntegrals {
     /// Energy lost in dampers and by friction so far, in J.
     pub fn dissipated(&self) -> f64 {
         self.sums[2].high
+    }
+
+    /// Work rate, its absolute value, and dissipation rate at a stage of the last step, in W.
+    #[cfg(feature = "std")]
+    pub(crate) fn rates(&self, stage: usize) -> [f64; 3] {
+        self.rates[stage]
+    }
+
+    /// Puts other integrals over the last step in the place of those by the weights of the method, in J.
+    #[cfg(feature = "std")]
+    pub(crate) fn replace_last(&mut self, by: [f64; 3]) {
+        for ((sum, last), by) in self.sums.iter_mut().zip(&mut self.last).zip(by) {
+            *sum = sum.plus(by - *last);
+            *last = by;
+        }
     }
 }
 
@@ -144,7 +167,8 @@ impl<S: System> Quadratures<S> for EnergyIntegrals {
                 .zip(&self.rates)
                 .map(|(weight, rate)| weight * rate[i])
                 .sum();
-            *sum = sum.plus(h * mean);
+            self.last[i] = h * mean;
+            *sum = sum.plus(self.last[i]);
         }
         self.rates.swap(0, b.len());
     }
@@ -155,6 +179,10 @@ impl<S: System> Quadratures<S> for EnergyIntegrals {
     }
 
     fn integrals(&self) -> Option<&EnergyIntegrals> {
+        Some(self)
+    }
+
+    fn integrals_mut(&mut self) -> Option<&mut EnergyIntegrals> {
         Some(self)
     }
 }
@@ -205,6 +233,10 @@ impl<S: System> Quadratures<S> for Option<EnergyIntegrals> {
 
     fn integrals(&self) -> Option<&EnergyIntegrals> {
         self.as_ref()
+    }
+
+    fn integrals_mut(&mut self) -> Option<&mut EnergyIntegrals> {
+        self.as_mut()
     }
 }
 

@@ -16,7 +16,7 @@ macro_rules! copied {
     ($(#[$docs:meta])* $name:ident, $function:path) => {
         $(#[$docs])*
         pub(crate) trait $name<'a, M: Machine>: $function + Send {
-            /// The same function, with a state of its own.
+            /// A copy of the function, with a state of its own.
             fn copy(&self) -> Box<dyn $name<'a, M> + 'a>;
         }
 

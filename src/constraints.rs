@@ -40,7 +40,7 @@ pub(crate) const RESIDUAL: f64 = 1e-13;
 /// Residuals above this are reduced: so what depends on several rows keeps the bound as well.
 const WORKED_OFF: f64 = 0.25 * RESIDUAL;
 
-/// The same bound where rows depend on others, or nearly so: which of them are chosen changes on the way, and the residual of
+/// The bound of residuals where rows depend on others, or nearly so: which of them are chosen changes on the way, and the residual of
 /// those that are not must be as small. Newton's method goes on until rounding stops it.
 const WORKED_OFF_REDUNDANT: f64 = 4.0 * f64::EPSILON;
 
@@ -48,7 +48,7 @@ const WORKED_OFF_REDUNDANT: f64 = 4.0 * f64::EPSILON;
 /// to a constraint.
 const ROUNDOFF: f64 = 8.0 * f64::EPSILON;
 
-/// A row depends on others if less than this is left of it beside them, relative to its length.
+/// A row depends on others if its part that is orthogonal to them is shorter than this, relative to its length.
 /// States are on the constraints to [`RESIDUAL`], so rows that depend on each other there do so to
 /// about a hundred times that; and a multiplier that is held by less has lost ten of its digits.
 const INDEPENDENT: f64 = 1e-10;
@@ -60,7 +60,7 @@ const INDEPENDENT_AGAIN: f64 = 1e-6;
 /// Rows once chosen may come closer to each other before they have to be chosen anew.
 const STILL_INDEPENDENT: f64 = 1e-2 * INDEPENDENT;
 
-/// Rows that depend on others are left out, and contradict those if more than this is left of them.
+/// Rows that depend on others are left out, and contradict those if their residual is larger than this.
 const CONSISTENT: f64 = 1e-9;
 
 /// Residuals from which whole steps are taken: a step of an integrator is never farther off.
@@ -125,7 +125,7 @@ pub(crate) struct Constraints<V> {
     /// The residuals of the chosen rows at the last state, of positions and rates, relative to their
     /// scale.
     left: [f64; 2],
-    /// The same at the end of the last step: it is not an error of the next one.
+    /// These residuals at the end of the last step: they are not an error of the next one.
     left_before: [f64; 2],
     /// How much of the move made up for what the step itself was off by; the rest is older.
     pub share: [f64; 2],
@@ -247,7 +247,7 @@ impl<V: Vector> Constraints<V> {
         })
     }
 
-    /// The same on some levels, whatever it leaves of the rows that were not chosen.
+    /// Projects on some levels, whatever the residuals of the rows that were not chosen.
     fn approach<S: System<Vector = V>>(
         &mut self,
         system: &S,

@@ -1,14 +1,23 @@
 //! What emitted code names, under one path. It is no interface for others: it changes with the compiler, whose code is made for
 //! the runtime of the same version.
 
+mod implement;
+mod pivots;
 pub mod series;
+mod values;
 
 pub use crate::constraints::constraint_workspace;
 pub use crate::friction::{
     accelerations_with_friction, contact_workspace, multipliers_with_friction,
 };
+pub use crate::implement_machine as implement;
 pub use crate::{
     Assumption, Batched, Compliance, Constraint, Differentiate, ImpactLaw, ImpactOrder, Lanes,
     Linearize, Machine, MachineIn, Number, Painleve, Quantity, Real, Scalar, Singular, Staged,
     State, System, SystemIn, UnilateralContact, scalar,
+};
+pub use pivots::Pivots;
+pub use values::{
+    ConstraintRow, PreparedField, constraint, facts, fill, fill_ranges, rounded, side_by_side,
+    values,
 };

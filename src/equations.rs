@@ -228,7 +228,7 @@ fn solve<S: System>(
 }
 
 /// How much elimination may enlarge rounding, of the mass matrix and of the constraints: the inverse
-/// squares of the least that is left of a row of unit length beside those before it.
+/// squares of the shortest part of a row of unit length that is orthogonal to those before it.
 fn conditions(mass: &[f64], inertia: &[f64], matrix: &[f64]) -> [f64; 2] {
     let n = inertia.len();
     // Something has no inertia of its own: the constraints hold it, in a way that is not looked into.
@@ -262,7 +262,7 @@ fn conditions(mass: &[f64], inertia: &[f64], matrix: &[f64]) -> [f64; 2] {
         }
         let length = |y: &[f64]| sqrt(y.iter().map(|y| y * y).sum());
         let whole = length(&y);
-        // Twice: a direction that little is left of has lost its right angles.
+        // Twice: a short remainder is orthogonal to fewer digits.
         for known in basis.iter().chain(&basis) {
             let along: f64 = known.iter().zip(&y).map(|(e, y)| e * y).sum();
             y.iter_mut().zip(known).for_each(|(y, e)| *y -= along * e);

@@ -398,9 +398,11 @@ impl Error {
             StepError::NoLength { .. } => Self::InvalidSetting {
                 setting: "longest_step",
                 value: f64::INFINITY,
-                needed: "the length of the steps of the method `moreau`, in s",
+                needed: "the length of the steps, in s: the method takes steps of a fixed length",
             },
             StepError::NotExplicit { .. }
+            | StepError::Unsuited { .. }
+            | StepError::NotSolved { .. }
             | StepError::FewDigits { .. }
             | StepError::NotFree { .. }
             | StepError::TooManySteps { .. } => Self::Stepper {
@@ -847,6 +849,20 @@ pub enum Warning {
         /// How many impacts did so.
         impacts: usize,
     },
+    /// Unilateral contacts met too often for each instant to be found, and the run went on by time stepping, whose error nothing bounds.
+    HandedOver {
+        /// When it did so first, in s.
+        t: f64,
+        /// The length of the steps then, in s.
+        step: f64,
+        /// At how many instants contacts had changed last, and within how long, in s; none where they did not settle at one
+        /// instant.
+        crowd: Option<(usize, f64)>,
+        /// How often it did so.
+        times: usize,
+        /// When it found every event again for good, in s, if it did.
+        back_at: Option<f64>,
+    },
     /// A constraint follows from others at the start, so multipliers are not determined: those of
     /// least norm are given, and the motion does not depend on the choice.
     RedundantConstraint {
@@ -894,6 +910,38 @@ impl Display for Warning {
                  Newton's law may with friction; `law: stronge` never does",
                 t = Short(*t)
             ),
+            Self::HandedOver {
+                t,
+                step,
+                crowd,
+                times,
+                back_at,
+            } => {
+                match crowd {
+                    Some((count, within)) => write!(
+                        f,
+                        "contacts changed at {count} instants within {within:.1e} s"
+                    )?,
+                    None => write!(f, "contacts did not settle at one instant")?,
+                }
+                write!(
+                    f,
+                    " up to t = {t} s: from there the run went on by time stepping in steps of {step:.1e} s, whose error nothing bounds; \
+                     a shorter longest step shows how great it is",
+                    t = Short(*t)
+                )?;
+                if *times > 1 {
+                    write!(f, "; it did so {times} times")?;
+                }
+                match back_at {
+                    Some(t) => write!(
+                        f,
+                        "; from t = {t} s it found every event again",
+                        t = Short(*t)
+                    ),
+                    None => Ok(()),
+                }
+            }
             Self::RedundantConstraint { constraint, with } if with.is_empty() => write!(
                 f,
                 "the constraint `{constraint}` holds nothing at the start"

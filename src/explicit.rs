@@ -5,6 +5,8 @@
 //! how long the next one is. A trajectory whose step was not good tries again while others go on.
 
 mod ensemble;
+#[cfg(feature = "std")]
+mod in_series;
 mod stepper;
 
 pub use ensemble::{Arrival, Ensemble, Trajectory};
@@ -81,31 +83,23 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
     /// One trajectory at a state, in numbers that hold one: with its accelerations.
     ///
     /// # Errors
-    /// Where it has none, or for a method that is not for these numbers.
+    /// Where it has none.
     pub fn begin(
         method: &'static Method,
         tolerance: Tolerance<V>,
         (t, q, v): (N, V, V),
         machine: &impl Accelerate<N, V>,
     ) -> Result<Self, StepError> {
-        let mut track = Self::resting(method, tolerance, (t, q, v))?;
+        let mut track = Self::resting(method, tolerance, (t, q, v));
         track.look(machine)?;
         Ok(track)
     }
 
     /// Trajectories that stand still.
-    ///
-    /// # Errors
-    /// For a method that is not for these numbers.
-    pub fn resting(
-        method: &'static Method,
-        tolerance: Tolerance<V>,
-        (t, q, v): (N, V, V),
-    ) -> Result<Self, StepError> {
-        check::<N>(method, t.rounded().as_ref()[0])?;
+    pub fn resting(method: &'static Method, tolerance: Tolerance<V>, (t, q, v): (N, V, V)) -> Self {
         let zeros = q.zeros_like();
         let now = Point::new(t, q, v);
-        Ok(Self {
+        Self {
             method,
             tolerance: Tolerance {
                 relative: tolerance.relative.max(10.0 * N::EPSILON),
@@ -123,7 +117,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
                 is_after_step: false,
                 control: Control::new(),
             }),
-        })
+        }
     }
 
     pub fn set_longest_step(&mut self, step: f64) {
@@ -266,7 +260,9 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         })
     }
 
-    /// One try of every trajectory that is not at its end.
+    /// One try of every trajectory that is not at its end. Inlined with all that is done for each of them, since a caller may be
+    /// compiled for wide registers.
+    #[inline(always)]
     pub fn attempt(&mut self, machine: &impl Accelerate<N, V>) -> N::Each<Outcome> {
         let mut outcomes = N::each(|_| Outcome::Idle);
         self.begin_steps();
@@ -284,6 +280,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
     }
 
     /// Makes now the beginning of a step, but where the last one is tried again.
+    #[inline(always)]
     fn begin_steps(&mut self) {
         let lanes = self.lanes.as_mut();
         let begins = N::each(|lane| !lanes[lane].control.is_retry);
@@ -298,6 +295,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
     }
 
     /// The lengths of the next steps, 0 where there is none, and whether they are the last ones.
+    #[inline(always)]
     fn choose_lengths(&mut self, outcomes: &mut N::Each<Outcome>) -> (N, N::Each<bool>) {
         let left = (self.end - self.before.t) - self.before.t_low;
         let mut lengths = N::each(|_| 0.0);
@@ -333,6 +331,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
 
     /// Tries steps of lengths `h` from `before`, to `now`, which stays at `before` where a step is not good. Returns their errors,
     /// 1 being just tolerable.
+    #[inline(always)]
     fn try_steps(
         &mut self,
         (h, is_last): (N, &N::Each<bool>),
@@ -498,6 +497,7 @@ impl<N: Real, V: Vector<N>> Track<N, V> {
 
 /// Accelerations of the trajectories that are trying. One that has none tries no more; its accelerations are 0, so that those of
 /// others are not disturbed by what is no number.
+#[inline(always)]
 fn evaluate<N: StepNumber, V: Vector<N>>(
     machine: &impl Accelerate<N, V>,
     (t, q, v): (N, &V, &V),
@@ -507,7 +507,10 @@ fn evaluate<N: StepNumber, V: Vector<N>>(
 ) {
     let none = machine.accelerate(t, q, v, a).err();
     // The sum of what is not finite is not finite, and one test is cheaper than many.
-    let sum = a.as_slice().iter().fold(N::NOTHING, |sum, a| sum + *a);
+    let mut sum = N::NOTHING;
+    for a in a.as_slice() {
+        sum = sum + *a;
+    }
     let mut fine = sum.are_finite();
     if none.is_none() && !fine.as_ref().contains(&false) {
         return;
@@ -532,6 +535,7 @@ fn evaluate<N: StepNumber, V: Vector<N>>(
 }
 
 /// Copies a vector, in the trajectories for which `condition` holds.
+#[inline(always)]
 fn choose<N: StepNumber, V: Vector<N>>(condition: &N::Each<bool>, to: &mut V, from: &V) {
     for (to, from) in to.as_mut_slice().iter_mut().zip(from.as_slice()) {
         *to = from.where_true(condition, *to);
@@ -539,6 +543,7 @@ fn choose<N: StepNumber, V: Vector<N>>(condition: &N::Each<bool>, to: &mut V, fr
 }
 
 /// Copies a state, in the trajectories for which `condition` holds.
+#[inline(always)]
 fn choose_point<N: StepNumber, V: Vector<N>>(
     condition: &N::Each<bool>,
     to: &mut Point<V, N>,
@@ -553,6 +558,7 @@ fn choose_point<N: StepNumber, V: Vector<N>>(
 }
 
 /// Keeps a state in the trajectories for which `condition` holds, and puts `otherwise` in its place in all others.
+#[inline(always)]
 fn keep_where<N: StepNumber, V: Vector<N>>(
     condition: &N::Each<bool>,
     state: &mut Point<V, N>,

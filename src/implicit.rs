@@ -11,29 +11,29 @@
 //!
 //! `A` and `A²` have the same eigenvectors, `w A = μ w`, so this is for each eigenvalue a system of only
 //! as many unknowns as coordinates, `(I − h μ a_v − h² μ² a_q) (w Δk) = w r`: a real one, and a complex
-//! one that stands for two. (They are never put together to one of twice as many, for `q` and `v`.) E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, 2nd ed.,
+//! one that stands for two, in methods of higher orders several. (They are never put together to one of twice as many, for `q` and `v`.) E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, 2nd ed.,
 //! 1996, section IV.8, of which the rules for convergence, errors and steps are, too.
 //!
 //! One case has to be treated apart. Where the direction `n` of a stiff spring turns within a step, by an
 //! angle δ, what the derivatives at the beginning leave of the spring's force, `h² k/m δ` across `n`, is
 //! beyond all measure for a stiff spring: the rounds do not contract, unless h ~ k^(−1/3) (C. Lubich,
 //! *Integration of stiff mechanical systems by Runge–Kutta methods*, ZAMP 44 (1993) 1022–1053, section 5).
-//! Then the derivatives are taken at each stage, and the three stages are solved for together.
+//! Then the derivatives are taken at each stage, and all stages are solved for together.
 
-mod jacobian;
-mod lu;
+pub(crate) mod jacobian;
+pub(crate) mod lu;
 mod newton;
 
 use crate::compensated::Sum;
 use crate::math::{rough_power, sqrt};
-use crate::methods::{MAX_STAGES, Method, Row, Spectrum};
+use crate::methods::{Conjugates, MAX_STAGES, Method, Row, Spectrum};
 use crate::stages::{Point, weigh};
 use crate::step_error::StepError;
 use crate::tolerance::{SAFETY, Tolerance};
 use crate::{System, Vector};
 use jacobian::Jacobian;
 use lu::{Complex, Lu};
-use newton::{Apart, ROUNDS};
+use newton::{Apart, ROUNDS, ROUNDS_OF_PAIR};
 use std::boxed::Box;
 use std::vec::Vec;
 
@@ -54,21 +54,21 @@ pub(crate) struct Implicit {
     n: usize,
     jacobian: Jacobian,
     age: Age,
-    /// `I − h μ a_v − h² μ² a_q` of both eigenvalues, and the `h` for which they are; 0 for none.
+    /// `I − h μ a_v − h² μ² a_q` of all eigenvalues, and the `h` for which they are; 0 for none.
     real: Lu<f64>,
-    complex: Lu<Complex>,
+    complex: Vec<Lu<Complex>>,
     factored: f64,
     in_real: Vec<f64>,
-    in_complex: Vec<Complex>,
+    in_complex: Vec<Vec<Complex>>,
     /// The residuals of the stages, then their changes.
-    change: [Vec<f64>; 3],
+    change: Vec<Vec<f64>>,
     /// What it takes to treat stages apart, once that was needed; and for how many steps more.
     apart: Option<Box<Apart>>,
     steps_apart: usize,
 
     /// Accelerations at the stages of the last step that was solved, its beginning and its length; 0 for
     /// none.
-    known: [Vec<f64>; 3],
+    known: Vec<Vec<f64>>,
     known_from: Sum,
     known_length: f64,
 
@@ -114,24 +114,26 @@ enum Solved {
 }
 
 impl Implicit {
-    /// All room that a run needs.
+    /// All memory that a run needs.
     pub fn new<S: System>(system: &S, spectrum: Spectrum) -> Self {
         let n = system.coordinates().len();
         let zeros = || std::vec![0.0; n];
+        let stages = spectrum.left_of_real.len();
+        let pairs = spectrum.pairs.len();
         Self {
             spectrum,
             n,
             jacobian: Jacobian::new(system),
             age: Age::None,
             real: Lu::new(n),
-            complex: Lu::new(n),
+            complex: std::vec![Lu::new(n); pairs],
             factored: 0.0,
             in_real: zeros(),
-            in_complex: std::vec![Complex::default(); n],
-            change: [zeros(), zeros(), zeros()],
+            in_complex: std::vec![std::vec![Complex::default(); n]; pairs],
+            change: std::vec![zeros(); stages],
             apart: None,
             steps_apart: 0,
-            known: [zeros(), zeros(), zeros()],
+            known: std::vec![zeros(); stages],
             known_from: Sum::default(),
             known_length: 0.0,
             left: 1.0,
@@ -152,7 +154,7 @@ impl Implicit {
         self.left = 1.0;
     }
 
-    /// Solves for the accelerations `k` of the stages of a step. `room` is for a state;
+    /// Solves for the accelerations `k` of the stages of a step. `scratch` holds a state;
     /// `accelerations(t, q, v, a)` are those of the machine. Says whether they are found; if not, the
     /// step is too long.
     ///
@@ -169,9 +171,9 @@ impl Implicit {
                 let [.., here, there] = k;
                 q.clone_from(&task.before.q);
                 v.clone_from(&task.before.v);
-                let room = [&mut *q, &mut *v, here, there];
+                let scratch = [&mut *q, &mut *v, here, there];
                 let at = (task.before.t, task.h);
-                self.jacobian.find(at, room, &mut accelerations)?;
+                self.jacobian.find(at, scratch, &mut accelerations)?;
                 self.age = Age::Fresh;
                 self.factored = 0.0;
             }
@@ -205,7 +207,12 @@ impl Implicit {
         }
     }
 
-    /// Makes both matrices for a step of length `h`.
+    /// Newton's method has converged by so many rounds, or the step is too long for it.
+    fn most_rounds(&self) -> usize {
+        ROUNDS + ROUNDS_OF_PAIR * (self.spectrum.pairs.len() - 1)
+    }
+
+    /// Makes all matrices for a step of length `h`.
     fn factor(&mut self, h: f64) -> bool {
         if self.factored == h {
             return true;
@@ -223,14 +230,17 @@ impl Implicit {
             let at = i * n + j;
             one(i, j) - step * (by_rates[at] + step * by_coordinates[at])
         });
-        let [re, im] = self.spectrum.complex.map(|part| h * part);
-        let complex = self.complex.factor(|i, j| {
-            let (by_q, by_v) = (by_coordinates[i * n + j], by_rates[i * n + j]);
-            Complex {
-                re: one(i, j) - re * by_v - (re * re - im * im) * by_q,
-                im: -im * by_v - 2.0 * re * im * by_q,
-            }
-        });
+        let factor = |(matrix, pair): (&mut Lu<Complex>, &Conjugates)| {
+            let [re, im] = pair.value.map(|part| h * part);
+            matrix.factor(|i, j| {
+                let (by_q, by_v) = (by_coordinates[i * n + j], by_rates[i * n + j]);
+                Complex {
+                    re: one(i, j) - re * by_v - (re * re - im * im) * by_q,
+                    im: -im * by_v - 2.0 * re * im * by_q,
+                }
+            })
+        };
+        let complex = self.complex.iter_mut().zip(self.spectrum.pairs).all(factor);
         if real && complex {
             self.factored = h;
         }
@@ -262,12 +272,14 @@ impl Implicit {
             v.as_mut_slice()[i] = before.v.as_slice()[i] + self.error[1][i];
         }
         let start = self.spectrum.real * task.h;
-        let (k_known, room) = k.split_at_mut(MAX_STAGES - 1);
-        if accelerations(before.t, q, v, &mut room[0]).is_err() {
+        let (k_known, scratch) = k.split_at_mut(MAX_STAGES - 1);
+        if accelerations(before.t, q, v, &mut scratch[0]).is_err() {
             return error;
         }
-        let [moved_q, moved_v, _] = &mut self.change;
-        let pairs = room[0].as_slice().iter().zip(k_known[0].as_slice());
+        let [moved_q, moved_v, ..] = &mut self.change[..] else {
+            return error;
+        };
+        let pairs = scratch[0].as_slice().iter().zip(k_known[0].as_slice());
         for (moved, (there, here)) in moved_v.iter_mut().zip(pairs) {
             *moved = start * (there - here);
         }
@@ -286,7 +298,7 @@ impl Implicit {
         self.estimate_again(row, h, k);
     }
 
-    /// The same with `change[0]` and `change[1]` added to the estimate before it is filtered:
+    /// The estimate of the error with `change[0]` and `change[1]` added to the estimate before it is filtered:
     /// `(I − h μ J)⁻¹ e` for `J` of the system of first order, `x_v = (I − h μ a_v − h² μ² a_q)⁻¹ (e_v + h
     /// μ a_q e_q)`, `x_q = e_q + h μ x_v`.
     fn estimate_again<V: Vector>(&mut self, row: &Row, h: f64, k: &[V; MAX_STAGES]) {
@@ -340,7 +352,7 @@ impl Implicit {
     ///
     /// The more rounds it took, the more careful.
     fn step_factor(&self, error: f64, exponent: f64) -> f64 {
-        let most = 2 * ROUNDS;
+        let most = 2 * self.most_rounds();
         let care = (1 + most) as f64 / (self.rounds + most) as f64;
         SAFETY * care * rough_power(error, -exponent)
     }

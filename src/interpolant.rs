@@ -7,7 +7,7 @@ use crate::step_number::{Real, StepNumber};
 use crate::{Vector, compensated::Sum};
 
 /// The most coefficients that a polynomial has: four of the cubic, and those of the method.
-const MAX_COEFFICIENTS: usize = 8;
+const MAX_COEFFICIENTS: usize = 9;
 
 /// The motion from one end of a step to the other, as polynomials in time.
 ///
@@ -112,6 +112,48 @@ impl<N: StepNumber, V: Vector<N>> Interpolant<V, N> {
 }
 
 impl<V: Vector> Interpolant<V> {
+    /// The quintic through both ends of a step, their rates and the accelerations `a`; rates are its derivative.
+    pub(crate) fn quintic(ends: &Ends<'_, V>, [a0, a1]: [&V; 2]) -> Self {
+        let &Ends {
+            start,
+            h,
+            q: [q0, q1],
+            v: [v0, v1],
+        } = ends;
+        let zeros = q0.zeros_like();
+        let mut curve = Stages {
+            length: 6,
+            q: core::array::from_fn(|_| zeros.clone()),
+            v: core::array::from_fn(|_| zeros.clone()),
+        };
+        for i in 0..zeros.as_slice().len() {
+            let at = |vector: &V| vector.as_slice()[i];
+            let (slopes, bends) = ([h * at(v0), h * at(v1)], [h * at(a0), h * at(a1)]);
+            let mut q = [0.0; 6];
+            q[..4].copy_from_slice(&cubic([at(q0), at(q1)], slopes));
+            let [_, rise, bend, twist, c4, c5] = &mut q;
+            // Second derivatives of the cubic are −2 bend + 2 twist and −2 bend − 4 twist.
+            *c4 = 0.5 * h * bends[0] + *bend - *twist;
+            *c5 = 0.5 * h * bends[1] + *bend + 2.0 * *twist - *c4;
+            // The integral of rates is the rise. That of θ² (1 − θ)² is 1/30.
+            let of_cubic = 0.5 * (slopes[0] + slopes[1]) + h * (bends[0] - bends[1]) / 12.0;
+            let of_rate = 30.0 * (*rise - of_cubic) / h;
+            let v = cubic([at(v0), at(v1)], bends);
+            for (row, q) in curve.q.iter_mut().zip(q) {
+                row.as_mut_slice()[i] = q;
+            }
+            for (row, v) in curve.v.iter_mut().zip(v) {
+                row.as_mut_slice()[i] = v;
+            }
+            curve.v[4].as_mut_slice()[i] = of_rate;
+        }
+        Self {
+            start,
+            h,
+            curve: Curve::Stages(curve),
+        }
+    }
+
     /// The motion in a step of length `h`, by its Taylor coefficients.
     #[cfg(feature = "std")]
     pub(crate) fn of_series(start: Sum, h: f64, coefficients: &[V]) -> Self {

@@ -135,7 +135,7 @@ impl InterpretedMachine {
         }
     }
 
-    /// The same with the Taylor series of its motion, or with the reason why it has none: what
+    /// This machine with the Taylor series of its motion, or with the reason why it has none: what
     /// [`TAYLOR`](crate::TAYLOR) needs.
     ///
     /// ```
@@ -302,6 +302,22 @@ impl InterpretedSystem {
     /// output does not depend on accelerations.
     pub fn output(&self, index: usize, t: f64, q: &[f64], v: &[f64], a: &[f64], u: &[f64]) -> f64 {
         self.number(Role::Output(index), Arguments { t, q, v, u, a })
+    }
+
+    /// The numbers of a quantity of the program ([`program`](Self::program)), to the bits of compiled machines.
+    ///
+    /// # Errors
+    /// Where the machine is singular, if the quantity depends on accelerations.
+    ///
+    /// # Panics
+    /// If an argument that the quantity depends on, or `results`, has another length than the program says.
+    pub fn quantity(
+        &self,
+        role: Role,
+        arguments: Arguments<'_, f64>,
+        results: &mut [f64],
+    ) -> Result<(), Singular> {
+        self.call(role, arguments, results)
     }
 
     /// A function that yields one number, and whose value exists at every state.
@@ -644,6 +660,7 @@ impl System for InterpretedSystem {
                     model::Compliance::Layer => Compliance::Layer,
                 }),
                 rubs: contact.rubs,
+                rolls: contact.rolls,
             })
     }
 
@@ -887,8 +904,8 @@ impl Differentiate for InterpretedSystem {
             a[i] = row[0];
             by_coordinates[i * n..][..n].copy_from_slice(&row[1..][..n]);
             by_rates[i * n..][..n].copy_from_slice(&row[1 + n..][..n]);
-            let room = by_variables.iter_mut().skip(i * others);
-            for (to, from) in room.zip(&row[1 + 2 * n..]) {
+            let places = by_variables.iter_mut().skip(i * others);
+            for (to, from) in places.zip(&row[1 + 2 * n..]) {
                 *to = *from;
             }
         }
@@ -897,7 +914,7 @@ impl Differentiate for InterpretedSystem {
 }
 
 impl InterpretedSystem {
-    /// The same where the description asks for no derivatives: the accelerations over dual numbers,
+    /// The derivatives where the description asks for none: the accelerations over dual numbers,
     /// once for each coordinate and each rate.
     fn linearize_by_duals(
         &self,

@@ -2,8 +2,10 @@
 
 use core::fmt::{self, Display};
 
-use lagrangian_native::Lanes;
+use lagrangian_native::{Lanes, Number};
 
+use crate::scalar::Kernel;
+use crate::system::SERIES_ROWS;
 use crate::{Singular, System, Vector};
 
 /// `N` systems of one kind, evaluated at once, in the lanes of the processor's registers: for
@@ -35,7 +37,7 @@ use crate::{Singular, System, Vector};
 #[derive(Clone, Copy, Debug)]
 pub struct Batch<S: Batched<N>, const N: usize> {
     equations: S::Batch,
-    /// The same, for where one of them stops the others.
+    /// The systems by themselves, for where one of them stops the others.
     systems: [S; N],
     /// The lanes that have no accelerations at all, where there are any.
     singular: Option<[bool; N]>,
@@ -77,7 +79,7 @@ impl<S: Batched<N>, const N: usize> Batch<S, N> {
         }
     }
 
-    /// The same system in every lane.
+    /// One system in every lane.
     pub fn of(system: &S) -> Self {
         Batch::new([system; N])
     }
@@ -139,6 +141,63 @@ impl<S: Batched<N>, const N: usize> Batch<S, N> {
         }
     }
 
+    /// The Taylor series of the motion of every lane through its state, as [`System::series`] has it, with 24 rows at the most. The
+    /// time is the sum of two numbers. To be asked for only where [`System::check_series`] is fine.
+    ///
+    /// # Errors
+    /// If there are lanes that have none. All others have got theirs.
+    #[inline]
+    pub fn series(
+        &self,
+        t: [Lanes<N>; 2],
+        q: &S::Vectors,
+        v: &S::Vectors,
+        u: &S::BatchInputs,
+        coefficients: &mut [S::Vectors],
+    ) -> Result<(), SomeSingular<N>> {
+        match S::batch_series(&self.equations, t, q, v, u, coefficients) {
+            Ok(()) if self.singular.is_none() => Ok(()),
+            _ => self.series_one_by_one(t, (q, v, u), coefficients),
+        }
+    }
+
+    /// The series of all lanes, each by itself.
+    #[cold]
+    fn series_one_by_one(
+        &self,
+        t: [Lanes<N>; 2],
+        (q, v, u): (&S::Vectors, &S::Vectors, &S::BatchInputs),
+        coefficients: &mut [S::Vectors],
+    ) -> Result<(), SomeSingular<N>> {
+        let mut singular = [None; N];
+        for (lane, system) in self.systems.iter().enumerate() {
+            let (q, v) = (q.lane(lane), v.lane(lane));
+            let u = S::inputs_of_lane(u, lane);
+            let mut own: [S::Vector; SERIES_ROWS] = core::array::from_fn(|_| q.zeros_like());
+            let count = coefficients.len().min(SERIES_ROWS);
+            let t = t.map(|t| t[lane]);
+            singular[lane] = match self.singular {
+                Some(which) if which[lane] => {
+                    let mut a = q.zeros_like();
+                    system.accelerations(t[0], &q, &v, &u, &mut a).err()
+                }
+                _ => system.series(t, &q, &v, &u, &mut own[..count]).err(),
+            };
+            for (rows, own) in coefficients.iter_mut().zip(&own) {
+                for (row, number) in rows.as_mut().iter_mut().zip(own.as_slice()) {
+                    row[lane] = match singular[lane] {
+                        Some(_) => f64::NAN,
+                        None => *number,
+                    };
+                }
+            }
+        }
+        match singular.iter().any(Option::is_some) {
+            true => Err(SomeSingular { lanes: singular }),
+            false => Ok(()),
+        }
+    }
+
     /// A vector for each lane, side by side.
     pub fn vectors(&self, vectors: [&S::Vector; N]) -> S::Vectors {
         let mut rows = S::Vectors::ZEROS;
@@ -192,6 +251,19 @@ pub trait Batched<const N: usize>: System + Copy {
         u: &Self::BatchInputs,
         a: &mut Self::Vectors,
     ) -> Result<(), Singular>;
+
+    /// [`System::series`] of every lane, with 24 rows at the most, or of none if one of them has none. To be asked for only where
+    /// [`System::check_series`] is fine.
+    fn batch_series(
+        _several: &Self::Batch,
+        _t: [Lanes<N>; 2],
+        _q: &Self::Vectors,
+        _v: &Self::Vectors,
+        _u: &Self::BatchInputs,
+        _coefficients: &mut [Self::Vectors],
+    ) -> Result<(), Singular> {
+        Ok(())
+    }
 }
 
 /// `[Lanes<N>; D]`: a row of `N` lanes for each of D coordinates.
@@ -206,14 +278,25 @@ pub trait LaneVector<const N: usize>:
 
     /// The numbers of a lane, which is less than N.
     fn lane(&self, lane: usize) -> Self::Vector;
+
+    /// Runs a computation on lanes in the widest registers that the processor has: [`Number::run`].
+    fn run<K: Kernel<Lanes<N>>>(kernel: K) -> K::Output;
 }
 
-impl<const N: usize, const D: usize> LaneVector<N> for [Lanes<N>; D] {
+impl<const N: usize, const D: usize> LaneVector<N> for [Lanes<N>; D]
+where
+    Lanes<N>: Number,
+{
     type Vector = [f64; D];
 
     const ZEROS: Self = [Lanes::splat(0.0); D];
 
     fn lane(&self, lane: usize) -> [f64; D] {
         self.map(|row| row[lane])
+    }
+
+    #[inline(always)]
+    fn run<K: Kernel<Lanes<N>>>(kernel: K) -> K::Output {
+        <Lanes<N> as Number>::run(kernel)
     }
 }

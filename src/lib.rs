@@ -141,7 +141,7 @@ pub use inputs::AnyInputs;
 pub use inputs::{DefaultInputs, HeldInputs, InputFunction, InputLaw, InputLawIn};
 pub use interpolant::Interpolant;
 pub use lanes::{Batch, Batched, LaneVector, SomeSingular};
-pub use methods::{METHODS, MOREAU, Method, TAYLOR};
+pub use methods::{FIXED_STEP_METHODS, METHODS, MOREAU, Method, RADAU_OF_HIGH_ORDER, TAYLOR};
 pub use piece::{NoPiece, Piece};
 pub use step_error::StepError;
 pub use step_number::{Real, StepNumber};
@@ -184,7 +184,7 @@ pub use settings::Progress;
 #[cfg(feature = "std")]
 pub use simulation::Simulation;
 #[cfg(feature = "std")]
-pub use solution::{Ending, Solution, Statistics};
+pub use solution::{Ending, Handover, Solution, Statistics};
 #[cfg(feature = "std")]
 pub use table::{Between, Beyond, Table, TableError, TableInputs};
 

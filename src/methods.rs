@@ -9,9 +9,15 @@ mod check;
 mod digits;
 mod dormand_prince_5;
 mod dormand_prince_8;
+mod gauss;
+pub(crate) mod generalized_alpha;
 mod moreau;
 mod radau_5;
+mod radau_9_13;
+mod rattle;
+mod rk4;
 mod scheme;
+mod semi_implicit_euler;
 mod taylor;
 
 pub use check::{MethodError, Tree, Weights};
@@ -28,6 +34,13 @@ pub static METHODS: [Method; 4] = [
     Method::new(radau_5::TABLEAU),
 ];
 
+/// `radau9` and `radau13`, of orders 9 and 13: as `radau5`, for stiff machines at tolerances finer than about 1e-7 and 1e-10, where steps of order 5
+/// are many.
+pub static RADAU_OF_HIGH_ORDER: [Method; 2] = [
+    Method::new(radau_9_13::NINTH),
+    Method::new(radau_9_13::THIRTEENTH),
+];
+
 /// Steps by the Taylor series of the motion, for machines that have one
 /// ([`System::check_series`](crate::System::check_series)): to fine tolerances the fastest method of smooth machines.
 ///
@@ -37,10 +50,7 @@ pub static METHODS: [Method; 4] = [
 ///
 /// It is no Runge–Kutta method, so it is not among [`METHODS`]; its [`Tableau`] holds the nodes and weights by which work and
 /// dissipation are integrated along the motion.
-pub static TAYLOR: Method = Method {
-    kind: Kind::Series,
-    ..Method::new(taylor::TABLEAU)
-};
+pub static TAYLOR: Method = Method::of_kind(taylor::TABLEAU, Kind::Series);
 
 /// Moreau's time stepping, for machines with many contacts that open and close
 /// ([`System::unilateral_contacts`](crate::System::unilateral_contacts)): piles, and whatever chatters.
@@ -49,10 +59,62 @@ pub static TAYLOR: Method = Method {
 /// in each which impulses they give, by the law `newton` with rates of the middle of the step; no instant of an impact is looked for. The
 /// error after an impact is of order 1 in the length of steps, and of order 2 where nothing touches. It is a method of
 /// [`Simulation`](crate::Simulation)s.
-pub static MOREAU: Method = Method {
-    kind: Kind::Impulses,
-    ..Method::new(moreau::TABLEAU)
+pub static MOREAU: Method = Method::of_kind(moreau::TABLEAU, Kind::Impulses);
+
+/// Methods whose steps have the fixed length [`longest_step`](crate::Simulation::longest_step), and no part in which a tolerance decides.
+/// Nothing bounds the error of their steps: halve the length to see it.
+///
+/// * `rk4`, of order 4, and `semi-implicit-euler`, of order 1: so many evaluations in each step, for loops of a fixed rate. They
+///   need no allocator.
+/// * `gauss4`, `gauss6`, `gauss8`, of orders 4, 6 and 8, and `rattle`, of order 2, which keeps constraints of positions as well:
+///   symplectic and symmetric, so that the energy of a machine that loses nothing does not drift, however long the run.
+/// * `generalized-alpha`, of order 2: as structural dynamics has it, implicit, damping what is too fast for the step.
+pub static FIXED_STEP_METHODS: [Method; 7] = [
+    Method::of_kind(rk4::TABLEAU, Kind::Fixed(Rule::Explicit)),
+    Method::of_kind(
+        semi_implicit_euler::TABLEAU,
+        Kind::Fixed(Rule::SemiImplicitEuler),
+    ),
+    gauss::FOURTH,
+    gauss::SIXTH,
+    gauss::EIGHTH,
+    Method::of_kind(rattle::TABLEAU, Kind::Fixed(Rule::Rattle)),
+    Method::of_kind(
+        generalized_alpha::TABLEAU,
+        Kind::Fixed(Rule::GeneralizedAlpha),
+    ),
+];
+
+/// Nodes and weights of the midpoint rule, for the work and the dissipation in steps that have no stages.
+const AT_MIDDLE: Tableau = Tableau {
+    name: "",
+    title: "",
+    order: 0,
+    error_power: 1,
+    dense_order: 0,
+    stages: 2,
+    c: &[0.0, 0.5, 1.0],
+    a: &[&[], &[0.5], &[0.0, 1.0]],
+    error: &[],
+    coarse_error: None,
+    dense: &[],
+    step_change: (1.0, 1.0),
+    smoothing: 0.0,
+    stability: None,
+    spectrum: None,
 };
+
+/// How a step of fixed length is taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Rule {
+    /// The stages of an explicit method.
+    Explicit,
+    SemiImplicitEuler,
+    /// Stages in momenta that depend on each other.
+    Gauss,
+    Rattle,
+    GeneralizedAlpha,
+}
 
 /// What the steps of a method are made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,6 +125,8 @@ pub(crate) enum Kind {
     Series,
     /// Impulses of contacts, in steps of a fixed length.
     Impulses,
+    /// Steps of a fixed length.
+    Fixed(Rule),
 }
 
 /// A method of integration, ready to run.
@@ -165,7 +229,15 @@ impl Method {
         }
     }
 
-    /// The same, where it is known what the `f64` of nodes and rows leave out of what is published.
+    /// Prepares a tableau of another kind than Runge and Kutta's.
+    const fn of_kind(tableau: Tableau, kind: Kind) -> Self {
+        Self {
+            kind,
+            ..Self::new(tableau)
+        }
+    }
+
+    /// Prepares a tableau of which the difference between its published coefficients and their `f64` is known.
     const fn wide(tableau: Tableau, beyond: digits::Beyond) -> Self {
         let scheme = Scheme::new(&tableau, Some(beyond));
         Self {
@@ -174,17 +246,40 @@ impl Method {
         }
     }
 
-    /// Every method that has a name, [`TAYLOR`] and [`MOREAU`] behind the [`METHODS`] of Runge and Kutta.
+    /// Every method that has a name: the [`METHODS`] of Runge and Kutta, [`TAYLOR`], [`MOREAU`], the
+    /// [`FIXED_STEP_METHODS`] and [`RADAU_OF_HIGH_ORDER`].
     pub fn all() -> impl Iterator<Item = &'static Self> {
-        METHODS.iter().chain([&TAYLOR, &MOREAU])
+        let others = [&TAYLOR, &MOREAU];
+        let fixed = FIXED_STEP_METHODS.iter();
+        let high = RADAU_OF_HIGH_ORDER.iter();
+        METHODS.iter().chain(others).chain(fixed).chain(high)
     }
 
     /// Whether its steps have a fixed length, and not one that a tolerance asks for.
     pub fn has_fixed_steps(&self) -> bool {
+        matches!(self.kind, Kind::Impulses | Kind::Fixed(_))
+    }
+
+    /// Whether its steps need no memory beyond that of every stepper.
+    #[cfg(not(feature = "std"))]
+    pub(crate) fn needs_no_allocator(&self) -> bool {
+        let plain = [Rule::Explicit, Rule::SemiImplicitEuler].map(Kind::Fixed);
+        self.kind == Kind::RungeKutta || plain.contains(&self.kind)
+    }
+
+    /// Whether the motion within a step is the quintic through both ends, and not the cubic and what stages add to it.
+    pub(crate) fn is_quintic(&self) -> bool {
+        matches!(self.kind, Kind::Fixed(_)) && self.tableau.dense_order > 3
+    }
+
+    /// Whether its steps ask contacts for impulses, so that no instant of an impact is looked for.
+    #[cfg(feature = "std")]
+    pub(crate) fn is_by_impulses(&self) -> bool {
         self.kind == Kind::Impulses
     }
 
-    /// The method of that short name: `dop853`, `dopri5`, `bs32`, `radau5`, `taylor`, `moreau`.
+    /// The method of that short name: `dop853`, `dopri5`, `bs32`, `radau5`, `taylor`, `moreau`, `rk4`, `semi-implicit-euler`, `gauss4`,
+    /// `gauss6`, `gauss8`, `rattle`, `generalized-alpha`, `radau9`, `radau13`.
     pub fn named(name: &str) -> Option<&'static Self> {
         Self::all().find(|method| method.tableau.name == name)
     }
@@ -205,7 +300,7 @@ impl Default for &'static Method {
 /// `stages` of them make a step, the row of `a` after those holds the weights `b` of the new point,
 /// and its `k` is the first of the next step (first same as last). Rows after that are stages that
 /// only dense output needs. In explicit methods a stage depends on those before it; in implicit ones,
-/// which have a [`spectrum`](Self::spectrum), three stages after the first depend on each other, and
+/// which have a [`spectrum`](Self::spectrum), all stages after the first depend on each other, and
 /// the new point is the last of them.
 #[derive(Debug)]
 pub struct Tableau {
@@ -248,7 +343,7 @@ pub struct Tableau {
     pub spectrum: Option<Spectrum>,
 }
 
-/// Eigenvalues `μ` of the matrix `A` of three stages that depend on each other, one real and two
+/// Eigenvalues `μ` of the matrix `A` of the stages that depend on each other, one real and pairs that are
 /// conjugate, with left and right eigenvectors `w A = μ w`, `A u = μ u`, `w u = 1`.
 ///
 /// With them the linear systems of Newton's method for all stages fall apart into one for each
@@ -259,14 +354,21 @@ pub struct Spectrum {
     /// The real eigenvalue. Estimates of the error go through `(I − h μ J)⁻¹` with it, `J` the
     /// derivatives of `f`: so they are bounded however stiff the machine is.
     pub real: f64,
-    /// The eigenvalue with the positive imaginary part.
-    pub complex: [f64; 2],
-    /// `w` of the real one.
-    pub left_of_real: [f64; 3],
+    /// `w` of the real one, a number for each stage.
+    pub left_of_real: &'static [f64],
     /// `u` of the real one.
-    pub right_of_real: [f64; 3],
-    /// `w` of the complex one.
-    pub left_of_complex: [[f64; 2]; 3],
-    /// `u` of the complex one.
-    pub right_of_complex: [[f64; 2]; 3],
+    pub right_of_real: &'static [f64],
+    /// The complex ones, of each pair that with the positive imaginary part.
+    pub pairs: &'static [Conjugates],
+}
+
+/// An eigenvalue that is not real, with its eigenvectors: those of its conjugate are theirs.
+#[derive(Clone, Copy, Debug)]
+pub struct Conjugates {
+    /// The eigenvalue.
+    pub value: [f64; 2],
+    /// `w`, a number for each stage.
+    pub left: &'static [[f64; 2]],
+    /// `u`.
+    pub right: &'static [[f64; 2]],
 }

@@ -2,6 +2,7 @@
 
 pub(crate) mod contacts;
 mod explained;
+mod handing_over;
 pub(crate) mod sampled;
 mod stepping;
 
@@ -18,13 +19,14 @@ use crate::event::{self, Crossing, Event, Terminal, Triple, made, state};
 use crate::friction::{Change, Contacts, Motion};
 use crate::inputs::{Held, InputLaw};
 use crate::interpolant::Interpolant;
+use crate::methods::Kind;
 use crate::names::rate_name;
 use crate::observation::{Known, Sight};
 use crate::phases::Kept;
 use crate::piece::Piece;
 use crate::roots;
 use crate::settings::{Callbacks, Of, Progress, Settings, Task};
-use crate::solution::{Ending, Solution, Statistics, Steps, is_beyond};
+use crate::solution::{Ending, Handover, Solution, Statistics, Steps, handover, is_beyond};
 use crate::stages::Point;
 use crate::step_error::StepError;
 use crate::stepper::{Stepper, Whose};
@@ -34,6 +36,7 @@ use crate::{
     Warning,
 };
 use explained::Explained;
+use handing_over::Pace;
 
 /// Makes the run of a simulation; with an error if something ended it early.
 ///
@@ -78,7 +81,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
     let (mut start, mut of_start) = (start, Vec::new());
     if <M::System as System>::MAY_BE_CONSTRAINED && system.constraints().len() != 0 {
         let kept = settings.kept(&system, goes_on)?;
-        of_start = bring_start(&system, start.t, &mut q, &mut v, kept)?;
+        of_start = project_start(&system, start.t, &mut q, &mut v, kept)?;
         start = state(&system, (start.t, q.clone(), v.clone()));
     }
     let ended = resumed.filter(|resumed| resumed.t == start.t);
@@ -143,6 +146,10 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         stop: until,
         sampling,
         next_step: None,
+        pace: Pace::new(
+            settings.hands_over && settings.method.kind == Kind::RungeKutta,
+            system.unilateral_contacts().len(),
+        ),
         record: Record {
             held: held.map(|held| (start.t, held)).into_iter().collect(),
             pieces: (piece != Piece::ALL).then_some(piece).into_iter().collect(),
@@ -152,8 +159,10 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
             energies: Vec::new(),
             contacts: Vec::new(),
             unilateral: Kept::default(),
+            handovers: Vec::new(),
             kinetic_energy: 0.0,
             explained: Explained::default(),
+            is_unexplained: false,
         },
     };
     let contacts = run.stepper.contacts().iter().cloned();
@@ -188,8 +197,10 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         energies,
         contacts,
         unilateral,
+        handovers,
         explained,
         kinetic_energy,
+        ..
     } = record;
     let end = state(
         &system,
@@ -202,7 +213,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         stream.end(&end);
     }
     let work = stepper.work();
-    let has_fixed_steps = settings.method.has_fixed_steps();
+    let has_fixed_steps = settings.method.has_fixed_steps() || !handovers.is_empty();
     let balance = balance(
         &stepper,
         &energies,
@@ -212,6 +223,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
     let mut warnings = warnings(&settings, &stepper, of_start);
     if <M::System as System>::MAY_COLLIDE {
         warnings.extend(unilateral.warning(&system));
+        warnings.extend(handover::warning(&handovers));
     }
     if let Some(balance) = &balance
         && error.is_none()
@@ -239,6 +251,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         constraints: stepper.constraints().clone(),
         contacts,
         unilateral,
+        handovers,
         held,
         pieces,
         start,
@@ -273,6 +286,8 @@ struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
     sampling: Option<Sampling<Inputs<M>>>,
     /// The length of the step that an event ended.
     next_step: Option<f64>,
+    /// How often contacts meet.
+    pace: Pace,
     record: Record<M>,
 }
 
@@ -290,10 +305,14 @@ struct Record<M: Machine> {
     contacts: Vec<(f64, Contacts)>,
     /// What unilateral contacts did.
     unilateral: Kept<Coordinates<M>, VectorOf<M>>,
+    /// When the run went on by time stepping, and back.
+    handovers: Vec<Handover>,
     /// The greatest so far, in J.
     kinetic_energy: f64,
     /// What tolerance and rounding explain of the energy balance's residual.
     explained: Explained,
+    /// Whether a step had a residual that remains unexplained.
+    is_unexplained: bool,
 }
 
 type VectorOf<M> = <<M as Machine>::System as System>::Vector;
@@ -342,6 +361,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     .explain(error, self.stepper.q(), self.stepper.v()));
             }
 
+            if self.is_stepped() && self.is_roused() {
+                continue;
+            }
             let mut interpolant = None;
             if <M::System as System>::MAY_SLIDE
                 && pending.is_none()
@@ -358,7 +380,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             }
             if <M::System as System>::MAY_COLLIDE
                 && self.stepper.touching().is_some()
-                && !self.settings.method.has_fixed_steps()
+                && !self.stepper.is_by_impulses()
             {
                 let (looks, changes) = (ending.is_ok(), &mut last_change);
                 let next = self.follow_contacts(&mut meeting, &mut interpolant, looks, changes)?;
@@ -385,6 +407,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             self.keep(&mut interpolant)?;
             if self.shall_stop() {
                 return Ok(Ending::Stopped);
+            }
+            if self.is_stepped() {
+                self.go_on_after_step()?;
             }
             if <M::System as System>::MAY_SLIDE && self.stepper.is_done() {
                 self.change(&mut pending, &mut last_change)?;
@@ -634,10 +659,14 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     fn keep(&mut self, interpolant: &mut LastInterpolant<M>) -> Result<(), Error> {
         self.keep_samples(interpolant)?;
         self.show(interpolant)?;
-        if <M::System as System>::MAY_COLLIDE && self.settings.method.has_fixed_steps() {
+        if self.is_stepped() {
             self.note_step();
         }
-        self.enter_energies();
+        let before = self.record.energies.last().copied();
+        let explained = self.enter_energies();
+        if let Some(before) = before {
+            self.explain_residual(&before, explained, interpolant);
+        }
         if let Some(steps) = &mut self.record.steps {
             steps.push(&self.stepper);
         }
@@ -720,34 +749,21 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         Ok(state(system, (t, q, v)))
     }
 
-    /// Enters the energies of now, if their balance is kept.
-    fn enter_energies(&mut self) {
+    /// Enters the energies of now, if their balance is kept. Returns what tolerance and rounding explain of the residual of the last
+    /// step, in J.
+    fn enter_energies(&mut self) -> f64 {
+        let Some(energies) = self.energies_now() else {
+            return f64::INFINITY;
+        };
+        let stored = self.stored_now();
         let Self {
             model,
             stepper,
             record,
             ..
         } = self;
-        let Some(integrals) = stepper.quadratures().integrals() else {
-            return;
-        };
-        let (t, q, v) = (stepper.t(), stepper.q(), stepper.v());
-        let kinetic = model.system.kinetic_energy(t, q, v);
-        record.kinetic_energy = record.kinetic_energy.max(kinetic);
-        let energies = Energies {
-            t,
-            kinetic,
-            potential: model.system.potential_energy(t, q, &model.inputs(t, q, v)),
-            work: integrals.work(),
-            dissipated: integrals.dissipated(),
-        };
-        record.explained.take(model.system, stepper, &energies);
-        let mut stored = model.system.state_energy(t, q, v);
-        if <M::System as System>::MAY_COLLIDE
-            && let Some(touching) = stepper.touching()
-        {
-            stored += touching.stored(model.system, t, q, v);
-        }
+        record.kinetic_energy = record.kinetic_energy.max(energies.kinetic);
+        let explained = record.explained.take(model.system, stepper, &energies);
         if !self.settings.keep_energies
             && record.energies.len() > 1
             && record.energies.last().is_some_and(Energies::are_finite)
@@ -758,6 +774,71 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             potential: energies.potential + stored,
             ..energies
         });
+        explained
+    }
+
+    /// Whether the last step was one of time stepping, whose length no error has chosen.
+    fn is_stepped(&self) -> bool {
+        <M::System as System>::MAY_COLLIDE && self.stepper.is_by_impulses()
+    }
+
+    /// Integrates work and losses again along the last step where its balance has a residual that nothing explains, since the step may
+    /// be too long for them: the motion alone has chosen it. Not in steps of implicit methods, which are longer than whatever is fast
+    /// and has died away, and whose dense output knows nothing of that.
+    fn explain_residual(
+        &mut self,
+        before: &Energies,
+        explained: f64,
+        interpolant: &mut LastInterpolant<M>,
+    ) {
+        let is_unexplained =
+            |now: &Energies| now.are_finite() && now.residual_since(before).abs() > explained;
+        if self.record.is_unexplained
+            || self.settings.method.has_fixed_steps()
+            || self.is_stepped()
+            || self.stepper.is_implicit()
+            || !self.record.energies.last().is_some_and(is_unexplained)
+        {
+            return;
+        }
+        let bound = 0.1 * explained;
+        let known = made(interpolant, &mut self.stepper, self.model.system)
+            .is_ok_and(|of_step| matches!(self.stepper.integrate_along(of_step, bound), Ok(true)));
+        // Where it did not help once, it is not tried again: the residual stays, and the run tells of it.
+        self.record.is_unexplained = !known;
+        if known
+            && let Some(integrals) = self.stepper.quadratures().integrals()
+            && let Some(now) = self.record.energies.last_mut()
+        {
+            (now.work, now.dissipated) = (integrals.work(), integrals.dissipated());
+        }
+    }
+
+    /// Kinetic and potential energy now, and the integrals so far, if their balance is kept; without [`stored_now`](Self::stored_now).
+    fn energies_now(&self) -> Option<Energies> {
+        let Self { model, stepper, .. } = self;
+        let integrals = stepper.quadratures().integrals()?;
+        let (t, q, v) = (stepper.t(), stepper.q(), stepper.v());
+        Some(Energies {
+            t,
+            kinetic: model.system.kinetic_energy(t, q, v),
+            potential: model.system.potential_energy(t, q, &model.inputs(t, q, v)),
+            work: integrals.work(),
+            dissipated: integrals.dissipated(),
+        })
+    }
+
+    /// What states of first order and contacts that yield store now, in J.
+    fn stored_now(&self) -> f64 {
+        let Self { model, stepper, .. } = self;
+        let (t, q, v) = (stepper.t(), stepper.q(), stepper.v());
+        let mut stored = model.system.state_energy(t, q, v);
+        if <M::System as System>::MAY_COLLIDE
+            && let Some(touching) = stepper.touching()
+        {
+            stored += touching.stored(model.system, t, q, v);
+        }
+        stored
     }
 
     fn shall_stop(&mut self) -> bool {
@@ -1010,7 +1091,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
 
 /// Brings the start of a run onto the constraints. What the user should know of that: how far each
 /// number was moved, and which constraints are redundant.
-fn bring_start<S: System>(
+fn project_start<S: System>(
     system: &S,
     t: f64,
     q: &mut S::Vector,
@@ -1020,8 +1101,8 @@ fn bring_start<S: System>(
     let given = [q.clone(), v.clone()];
     let mut known = Constraints::new(system, q, v);
     let mut start = Point::new(t, q.clone(), v.clone());
-    let mut brought = known.begin(system, &mut start.place(), kept.clone());
-    if let (Err(_), Some(kept)) = (&brought, kept) {
+    let mut projected = known.begin(system, &mut start.place(), kept.clone());
+    if let (Err(_), Some(kept)) = (&projected, kept) {
         start = Point::new(t, q.clone(), v.clone());
         let misses = closest(system, &mut start.place(), &kept);
         if let Some(error) = contradicts_kept(system, &start, &kept, &misses) {
@@ -1029,9 +1110,9 @@ fn bring_start<S: System>(
         }
         // From here it is near.
         known = Constraints::new(system, q, v);
-        brought = known.begin(system, &mut start.place(), Some(kept));
+        projected = known.begin(system, &mut start.place(), Some(kept));
     }
-    brought.map_err(|error| match error {
+    projected.map_err(|error| match error {
         // At rest where rows depend on each other that do not beside the start.
         StepError::Singular { singular, t } => match singular.at {
             Pivot::Constraint(row) => Error::Fork {
@@ -1107,7 +1188,7 @@ fn number_name(coordinate: &str, level: usize) -> String {
     }
 }
 
-/// A run that is stopped where less than this is left of a constraint is stopped by that: rounding in
+/// A run that stops where the independent part of a constraint is shorter than this is stopped by that: rounding in
 /// the residual of positions grows as its inverse square in the rates, to ten digits here.
 const NEAR_FORK: f64 = 1e-2;
 

@@ -36,8 +36,9 @@ use crate::{
 /// own steps are others, by as much as the tolerance allows. Its absolute part is the same number
 /// for all; [`absolute_of`](crate::Simulation::absolute_of) sets it for one of them, `"theta by l"`.
 ///
-/// Machines with constraints are refused: their start obeys the constraints, and would have to change
-/// with parameters as these do.
+/// Machines with constraints are refused unless the caller knows how their start changes
+/// ([`with_start_on_constraints`](Self::with_start_on_constraints)): it obeys the constraints, and changes with
+/// parameters as these do.
 ///
 /// The machine's system must know its derivatives: a description with `derivatives { coordinates,
 /// rates, … }`, which names the parameters and `inputs` too if they are varied; or the interpreter.
@@ -79,6 +80,8 @@ pub struct Sensitive<'m, M> {
     /// Parameters and inputs whose derivatives there are.
     known: usize,
     names: Vec<(String, String)>,
+    /// Whether the derivatives of the start are those on the constraints.
+    is_on_constraints: bool,
 }
 
 impl<M> Clone for Sensitive<'_, M> {
@@ -88,6 +91,7 @@ impl<M> Clone for Sensitive<'_, M> {
             variables: self.variables.clone(),
             known: self.known,
             names: self.names.clone(),
+            is_on_constraints: self.is_on_constraints,
         }
     }
 }
@@ -125,7 +129,21 @@ impl<'m, M: Machine<System: Differentiate>> Sensitive<'m, M> {
             names: coordinates
                 .map(|Quantity { name, unit }| (name.to_string(), unit.to_string()))
                 .collect(),
+            is_on_constraints: false,
         }
+    }
+
+    /// Takes a machine with constraints too. [`start_from`](Self::start_from) still gives the derivatives of numbers that are
+    /// free; the caller replaces them by those of a start that stays on the constraints as the variable changes: for a
+    /// constraint g(q, t; s) = 0 of positions, `∂g/∂q y + ∂g/∂s = 0`, and for a rate φ(q, v, t; s) = 0,
+    /// `∂φ/∂q y + ∂φ/∂v ẏ + ∂φ/∂s = 0`.
+    ///
+    /// Along such a motion both sides stay 0, because the accelerations of the machine keep the second derivatives of its
+    /// constraints 0. Nothing is projected in such a run: what its steps err by stays in it, and grows with time as errors of
+    /// positions do that accelerations alone hold.
+    pub fn with_start_on_constraints(mut self) -> Self {
+        self.is_on_constraints = true;
+        self
     }
 
     /// By the start value of a coordinate, `"s1"`, or `"q[3]"` in a family.
@@ -239,8 +257,10 @@ impl<'m, M: Machine<System: Differentiate>> Sensitive<'m, M> {
             .next()
             .map(|constraint| constraint.name.to_string());
         match first {
-            Some(constraint) => Err(Error::ConstrainedSensitivity { constraint }),
-            None => Ok(()),
+            Some(constraint) if !self.is_on_constraints => {
+                Err(Error::ConstrainedSensitivity { constraint })
+            }
+            _ => Ok(()),
         }
     }
 
@@ -378,6 +398,9 @@ impl<S: Differentiate> System for SensitiveSystem<S> {
     type Coordinates = Varied<S::Coordinates>;
     type Inputs = S::Inputs;
     type Outputs = S::Outputs;
+    // Nothing of what handles contacts is compiled for it.
+    const MAY_SLIDE: bool = false;
+    const MAY_COLLIDE: bool = false;
 
     fn coordinates(&self) -> impl ExactSizeIterator<Item = Quantity<'_>> {
         let names = self.names.iter();

@@ -67,6 +67,8 @@ pub(crate) struct Settings {
     pub keep_energies: bool,
     /// Whether both tolerances were given as one.
     pub one_tolerance: bool,
+    /// Whether contacts that meet too often go on by time stepping.
+    pub hands_over: bool,
 }
 
 /// What a simulation was told, in functions.

@@ -72,6 +72,7 @@ impl<'a, M: Machine> Simulation<'a, M> {
                 energy_balance: false,
                 keep_energies: true,
                 one_tolerance: true,
+                hands_over: false,
             },
             callbacks: Callbacks::default(),
         }
@@ -179,7 +180,7 @@ impl<M: Machine<System: Clone>, L: Clone> Clone for Simulation<'_, M, L> {
 }
 
 impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
-    /// The same run, of a type that does not say how the inputs are set: for what is decided while the program runs.
+    /// This run, of a type that does not say how the inputs are set: for laws that are chosen while the program runs.
     ///
     /// ```
     /// # mod by_hand { include!("../tests/by_hand/toy.rs"); }
@@ -259,6 +260,22 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     /// The method of integration, one of [`METHODS`](crate::METHODS).
     pub fn method(mut self, method: &'static Method) -> Self {
         self.settings.method = method;
+        self
+    }
+
+    /// Goes on by [time stepping](Method::MOREAU) where unilateral contacts meet too often for each instant to be found, and finds
+    /// every event again where they have become quiet: [`Solution::handovers`] and a [`Warning`](crate::Warning) say when.
+    ///
+    /// It hands over where at least three contacts changed at the last 128 instants of events and these followed each other, in the mean,
+    /// within a step of time stepping, or where contacts do not settle at one instant. A step is a 256th of the time in which the
+    /// forces of that instant would stop the fastest rate at which any gap closed, and no longer than the longest step. Nothing bounds the error
+    /// of time stepping, whose order is 1; it is smaller where [`longest_step`](Self::longest_step) is. Where everything rests steps
+    /// become longer. Events are looked for again after 64 steps in which no contact changed, and after twice as many each time that this did
+    /// not last, where each force among the closed contacts is the only one: in piles, which share loads in several ways, events cost more.
+    ///
+    /// For the explicit methods and those of Radau; contacts whose law time stepping does not know are followed as before.
+    pub fn hand_over(mut self) -> Self {
+        self.settings.hands_over = true;
         self
     }
 
@@ -368,8 +385,8 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self.watch(name, crossing, None, of_state::<M>(function))
     }
 
-    /// The same of what can be observed: outputs, accelerations, multipliers, forces of contacts. Costs an evaluation at each
-    /// look, four times a step.
+    /// Finds the instants at which a function of observed quantities changes its sign: outputs, accelerations, multipliers,
+    /// forces of contacts. Costs an evaluation at each look, four times a step.
     ///
     #[cfg_attr(feature = "macros", doc = "```")]
     #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
@@ -533,7 +550,8 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self
     }
 
-    /// The same, where what is set begins to act `delay` seconds after the look: the time that the computer takes, or its line.
+    /// A controller like [`sampled`](Self::sampled) whose inputs begin to act `delay` seconds after it has read the state, as
+    /// computation and transmission take.
     /// It may be longer than the period. Until then the inputs have their defaults.
     pub fn sampled_with_delay(
         self,

@@ -1,17 +1,22 @@
 //! What comes out of a run.
 
+pub(crate) mod handover;
+mod steps;
+
+pub use handover::Handover;
+pub(crate) use steps::Steps;
+
 use core::fmt::{self, Debug};
 use std::string::String;
 use std::vec::Vec;
 
-use crate::compensated::Sum;
 use crate::constraints::Constraints;
 use crate::contact::Mode;
 use crate::event::{Event, state};
 use crate::friction::Contacts;
 use crate::inputs::{DefaultInputs, InputLaw};
-use crate::interpolant::{Ends, Interpolant};
-use crate::methods::{Kind, MAX_STAGES, Method};
+use crate::interpolant::Interpolant;
+use crate::methods::{Kind, Method};
 use crate::observation::{Known, Observation};
 use crate::phases::{Kept, Phase};
 use crate::piece::Piece;
@@ -19,8 +24,8 @@ use crate::settings::Settings;
 use crate::step_error::StepError;
 use crate::stepper::project;
 use crate::{
-    ContactEvent, Coordinates, Energies, EnergyBalance, Error, Inputs, Machine, Quadratures, State,
-    Stepper, System, Vector, Warning,
+    ContactEvent, Coordinates, Energies, EnergyBalance, Error, Inputs, Machine, State, System,
+    Vector, Warning,
 };
 
 /// A run: where the machine was at every instant of it, and what happened.
@@ -54,6 +59,8 @@ pub struct Solution<M: Machine, L = DefaultInputs> {
     pub(crate) pieces: Vec<Piece>,
     /// What unilateral contacts did.
     pub(crate) unilateral: Kept<Coordinates<M>, VectorOf<M>>,
+    /// When the run went on by time stepping, and back.
+    pub(crate) handovers: Vec<Handover>,
 }
 
 impl<M: Machine<System: Clone>, L: Clone> Clone for Solution<M, L> {
@@ -79,6 +86,7 @@ impl<M: Machine<System: Clone>, L: Clone> Clone for Solution<M, L> {
             held: self.held.clone(),
             pieces: self.pieces.clone(),
             unilateral: self.unilateral.clone(),
+            handovers: self.handovers.clone(),
         }
     }
 }
@@ -110,7 +118,7 @@ pub struct Statistics {
     /// Evaluations of the accelerations.
     pub evaluations: usize,
     /// The greatest residual of the constraints after any step, relative to the size of their
-    /// terms: see [`Stepper::constraint_residual`].
+    /// terms: see [`Stepper::constraint_residual`](crate::Stepper::constraint_residual).
     pub constraint_residual: f64,
     /// When the motion was first seen to be stiff, in s: when steps were held short by the stability of
     /// the method and not by its accuracy. Never, if the method is implicit or has no test for it.
@@ -350,6 +358,12 @@ impl<M: Machine, L> Solution<M, L> {
         modes.map(|mode| *mode != Mode::Open).collect()
     }
 
+    /// When the run went on by time stepping, and when it found every event again, in turn; none where
+    /// [`hand_over`](crate::Simulation::hand_over) was not asked for, or not needed.
+    pub fn handovers(&self) -> &[Handover] {
+        &self.handovers
+    }
+
     /// For each unilateral contact the energy that its impacts took, in J.
     pub fn impact_losses(&self) -> &[f64] {
         &self.unilateral.losses
@@ -560,149 +574,6 @@ const GAUSS: [(f64, f64); 5] = [
     (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
     (0.906_179_845_938_664, 0.236_926_885_056_189_1),
 ];
-
-/// The steps of a run: what dense output is made of, when somebody asks for it.
-#[derive(Clone, Debug)]
-pub(crate) struct Steps<V> {
-    /// Beginning and length of each step.
-    times: Vec<(Sum, f64)>,
-    /// For each step, `q` and `v` at its beginning, and the accelerations at those of its stages
-    /// that dense output needs, its beginning first; after the last step, the same three at its
-    /// end.
-    vectors: Vec<V>,
-    /// The stages whose accelerations are kept; the first is the beginning.
-    kept: Vec<usize>,
-    /// In steps by series their coefficients, so many for each.
-    coefficients: Vec<V>,
-    of_step: usize,
-}
-
-impl<V: Vector> Steps<V> {
-    pub fn new(method: &Method) -> Self {
-        let scheme = &method.scheme;
-        let stages = method.tableau.stages;
-        let extra = scheme.rows[..scheme.length].iter().skip(stages + 1);
-        let rows: Vec<_> = extra.chain(&scheme.dense[..scheme.dense_length]).collect();
-        let kept =
-            (0..stages).filter(|&stage| stage == 0 || rows.iter().any(|row| row.uses(stage)));
-        Self {
-            times: Vec::new(),
-            vectors: Vec::new(),
-            kept: kept.collect(),
-            coefficients: Vec::new(),
-            of_step: 0,
-        }
-    }
-
-    /// Adds the last step.
-    pub fn push<S: System<Vector = V>, L: InputLaw<S>, A: Quadratures<S>>(
-        &mut self,
-        stepper: &Stepper<'_, S, L, A>,
-    ) {
-        self.vectors.truncate(self.times.len() * self.stride());
-        self.times.push((stepper.beginning(), stepper.last_step()));
-        if let Some(coefficients) = stepper.coefficients() {
-            self.of_step = coefficients.len();
-            self.coefficients.extend_from_slice(coefficients);
-        }
-        self.vectors.push(stepper.q_before().clone());
-        self.vectors.push(stepper.v_before().clone());
-        for &stage in &self.kept {
-            self.vectors.push(stepper.stages()[stage].clone());
-        }
-        for end in [stepper.q(), stepper.v(), stepper.a()] {
-            self.vectors.push(end.clone());
-        }
-    }
-
-    /// Notes that the accelerations jump now: a step of no length, that keeps the end of the last one
-    /// apart from the beginning of the next.
-    pub fn jump<S: System<Vector = V>, L: InputLaw<S>, A: Quadratures<S>>(
-        &mut self,
-        stepper: &Stepper<'_, S, L, A>,
-    ) {
-        let Some(last) = self.vectors.last().cloned() else {
-            return;
-        };
-        let now = Sum {
-            high: stepper.t(),
-            low: 0.0,
-        };
-        self.times
-            .push((now, 0.0_f64.copysign(stepper.last_step())));
-        if self.of_step != 0 {
-            // Of a step by series, all that there is of its motion: place and velocity.
-            let zeros = stepper.q().zeros_like();
-            let state = [stepper.q().clone(), stepper.v().clone()];
-            self.coefficients.extend(state);
-            let count = self.times.len() * self.of_step;
-            self.coefficients.resize(count, zeros);
-        }
-        self.vectors.resize(self.times.len() * self.stride(), last);
-    }
-
-    /// How many vectors a step has.
-    fn stride(&self) -> usize {
-        2 + self.kept.len()
-    }
-
-    fn count(&self) -> usize {
-        self.times.len()
-    }
-
-    fn beginning(&self, step: usize) -> (&V, &V) {
-        let at = step * self.stride();
-        (&self.vectors[at], &self.vectors[at + 1])
-    }
-
-    /// The step that `t`, which is within the run, is in.
-    fn index(&self, t: f64) -> usize {
-        let after = self.times.partition_point(|&(start, h)| {
-            if h.is_sign_positive() {
-                start.high <= t
-            } else {
-                start.high >= t
-            }
-        });
-        after.saturating_sub(1)
-    }
-
-    fn interpolant(
-        &self,
-        step: usize,
-        method: &Method,
-        accelerations: impl FnMut(f64, &V, &V, &mut V) -> Result<(), StepError>,
-    ) -> Result<Interpolant<V>, StepError> {
-        let (start, h) = self.times[step];
-        if self.of_step != 0 {
-            let coefficients = &self.coefficients[step * self.of_step..][..self.of_step];
-            return Ok(Interpolant::of_series(start, h, coefficients));
-        }
-        let stride = self.stride();
-        let [q0, v0, stages @ ..] = &self.vectors[step * stride..][..stride] else {
-            unreachable!("a step has at least three vectors");
-        };
-        let [q1, v1, a1] = &self.vectors[(step + 1) * stride..][..3] else {
-            unreachable!("every step is followed by its end");
-        };
-        let mut k: [V; MAX_STAGES] = core::array::from_fn(|_| q0.zeros_like());
-        for (&stage, a) in self.kept.iter().zip(stages) {
-            k[stage].clone_from(a);
-        }
-        k[method.tableau.stages].clone_from(a1);
-        Interpolant::new(
-            method,
-            &Ends {
-                start,
-                h,
-                q: [q0, q1],
-                v: [v0, v1],
-            },
-            &mut k,
-            accelerations,
-        )
-    }
-}
 
 /// Whether a finite time is another one but for roundoff.
 fn is_near(one: f64, other: f64) -> bool {

@@ -127,8 +127,11 @@ pub(crate) fn weigh<const B: usize, N: StepNumber, V: Vector<N>>(
 /// `B` numbers from `start`.
 #[inline(always)]
 pub(crate) fn block<const B: usize, N: Copy, V: Vector<N>>(vector: &V, start: usize) -> [N; B] {
+    // No closure: what is called for each number is not inlined into code for wide registers.
     let slice = &vector.as_slice()[start..start + B];
-    core::array::from_fn(|i| slice[i])
+    let mut block = [slice[0]; B];
+    block.copy_from_slice(slice);
+    block
 }
 
 #[inline(always)]
@@ -147,8 +150,11 @@ pub(crate) fn stage_state<N: StepNumber, V: Vector<N>>(
     in_blocks!(q0.as_slice().len(), |start, B| {
         let [position, velocity] = weigh::<B, N, V>(row, k, start);
         let (q0, v0) = (block::<B, N, V>(q0, start), block::<B, N, V>(v0, start));
-        let q_stage = core::array::from_fn(|i| q0[i] + (ch * v0[i] + h * h * position[i]));
-        let v_stage = core::array::from_fn(|i| v0[i] + h * velocity[i]);
+        let (mut q_stage, mut v_stage) = (q0, v0);
+        for i in 0..B {
+            q_stage[i] = q0[i] + (ch * v0[i] + h * h * position[i]);
+            v_stage[i] = v0[i] + h * velocity[i];
+        }
         set_block::<B, N, V>(q, start, q_stage);
         set_block::<B, N, V>(v, start, v_stage);
     });
@@ -197,12 +203,16 @@ pub(crate) fn squared_errors<N: StepNumber, V: Vector<N>>(
 ) -> N::Each<f64> {
     let mut sums = N::each(|_| 0.0);
     in_blocks!(now.q.as_slice().len(), |start, B| {
-        let [position, velocity] = weigh::<B, N, V>(row, k, start);
+        let [mut position, mut velocity] = weigh::<B, N, V>(row, k, start);
+        for i in 0..B {
+            position[i] = h * h * position[i];
+            velocity[i] = h * velocity[i];
+        }
         let absolute = block::<B, N, V>(absolute, start);
         let mut of_block = N::each(|_| 0.0);
         let errors = [
-            (position.map(|x| h * h * x), [&before.q, &now.q]),
-            (velocity.map(|x| h * x), [&before.v, &now.v]),
+            (position, [&before.q, &now.q]),
+            (velocity, [&before.v, &now.v]),
         ];
         for (errors, [before, now]) in errors {
             let (before, now) = (

@@ -87,6 +87,20 @@ pub enum StepError {
         /// Time, in s.
         t: f64,
     },
+    /// The method cannot follow such a machine.
+    Unsuited {
+        /// Why not, as the end of a sentence that begins with the machine: `it has contacts`.
+        reason: &'static str,
+        /// Time, in s.
+        t: f64,
+    },
+    /// The equations of a step of fixed length have no solution that is found: the step is too long for the machine.
+    NotSolved {
+        /// Time at the beginning of the step, in s.
+        t: f64,
+        /// Its length, in s.
+        step: f64,
+    },
     /// The method is implicit or by series, and the stepper takes explicit ones only.
     NotExplicit {
         /// Time, in s.
@@ -172,6 +186,15 @@ impl Display for StepError {
                 "at t = {t:e} s, unilateral contact number {}: {}",
                 contact + 1,
                 trouble.words()
+            ),
+            Self::Unsuited { reason, t } => write!(
+                f,
+                "the method cannot follow this machine at t = {t:e} s: {reason}"
+            ),
+            Self::NotSolved { t, step } => write!(
+                f,
+                "the equations of a step of {step:e} s cannot be solved at t = {t:e} s: take shorter steps, or `radau5` where the \
+                 machine is stiff"
             ),
             Self::NotExplicit { t } => write!(
                 f,

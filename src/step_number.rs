@@ -190,6 +190,7 @@ impl<N: Scalar + StepNumber<Each<f64> = [f64; 1]>> StepNumber for Dual<N> {
     }
 }
 
+// Loops and no closures: what is called for each lane is not inlined into code for wide registers.
 impl<const W: usize> StepNumber for Lanes<W> {
     type Each<T: Copy + Debug> = [T; W];
 
@@ -201,8 +202,12 @@ impl<const W: usize> StepNumber for Lanes<W> {
     const TOLERANCE: f64 = 1e-9;
 
     #[inline(always)]
-    fn each<T: Copy + Debug>(of: impl FnMut(usize) -> T) -> [T; W] {
-        core::array::from_fn(of)
+    fn each<T: Copy + Debug>(mut of: impl FnMut(usize) -> T) -> [T; W] {
+        let mut each = [of(0); W];
+        for (lane, one) in each.iter_mut().enumerate().skip(1) {
+            *one = of(lane);
+        }
+        each
     }
 
     #[inline(always)]
@@ -217,36 +222,47 @@ impl<const W: usize> StepNumber for Lanes<W> {
 
     #[inline(always)]
     fn weighted(self, coefficient: f64, _beyond: f64) -> Self {
-        Lanes(self.0.map(|x| coefficient * x))
+        let mut product = self;
+        for lane in &mut product.0 {
+            *lane *= coefficient;
+        }
+        product
     }
 
     #[inline(always)]
     fn are_finite(self) -> [bool; W] {
-        self.0.map(f64::is_finite)
+        let mut finite = [false; W];
+        for (finite, lane) in finite.iter_mut().zip(&self.0) {
+            *finite = lane.is_finite();
+        }
+        finite
     }
 
     #[inline(always)]
     fn are_same(self, other: Self) -> [bool; W] {
-        core::array::from_fn(|lane| self[lane] == other[lane])
+        let mut same = [false; W];
+        for (same, (one, other)) in same.iter_mut().zip(self.0.iter().zip(&other.0)) {
+            *same = one == other;
+        }
+        same
     }
 
     #[inline(always)]
     fn where_true(self, condition: &[bool; W], other: Self) -> Self {
-        Lanes(core::array::from_fn(|lane| match condition[lane] {
-            true => self[lane],
-            false => other[lane],
-        }))
+        let mut chosen = other;
+        for ((chosen, one), condition) in chosen.0.iter_mut().zip(self.0).zip(condition) {
+            *chosen = if *condition { one } else { *chosen };
+        }
+        chosen
     }
 
     #[inline(always)]
     fn squared_error(self, [before, now]: [Self; 2], absolute: Self, relative: f64) -> [f64; W] {
-        core::array::from_fn(|lane| {
-            squared(
-                self[lane],
-                [before[lane], now[lane]],
-                absolute[lane],
-                relative,
-            )
-        })
+        let mut squares = [0.0; W];
+        for (lane, square) in squares.iter_mut().enumerate() {
+            let sizes = [before.0[lane], now.0[lane]];
+            *square = squared(self.0[lane], sizes, absolute.0[lane], relative);
+        }
+        squares
     }
 }

@@ -1,6 +1,10 @@
 //! One step after another: the core that every run goes through. It allocates nothing, and needs no
-//! standard library; methods whose stages depend on each other have their room from an allocator.
+//! standard library; methods whose stages depend on each other have their memory from an allocator.
 
+#[cfg(feature = "std")]
+mod along_dense_output;
+#[cfg(feature = "std")]
+mod handing_over;
 #[cfg(feature = "std")]
 mod implicitly;
 #[cfg(feature = "std")]
@@ -9,6 +13,7 @@ mod in_impulses;
 mod in_series;
 #[cfg(feature = "std")]
 mod meeting;
+mod of_fixed_length;
 mod owned;
 #[cfg(feature = "std")]
 pub(crate) use meeting::{Cause, Happened};
@@ -43,6 +48,8 @@ use crate::tolerance::{LEAST_RELATIVE_TOLERANCE, Tolerance};
 use crate::{ContactTrouble, System, Vector};
 #[cfg(feature = "std")]
 use in_impulses::InImpulses;
+#[cfg(feature = "std")]
+use of_fixed_length::Fixed;
 #[cfg(feature = "std")]
 use std::boxed::Box;
 
@@ -93,6 +100,9 @@ pub struct Stepper<'s, S: System, L = DefaultInputs, A = NoBalance> {
     /// None in methods other than time stepping.
     #[cfg(feature = "std")]
     impulses: Option<Box<InImpulses<S::Vector>>>,
+    /// None in methods whose steps have no fixed length, and in those that need no memory of their own.
+    #[cfg(feature = "std")]
+    fixed: Option<Box<Fixed<S::Vector, S::Matrix>>>,
 }
 
 /// The equations of motion with their inputs.
@@ -167,7 +177,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             spectrum.map(|spectrum| Box::new(Implicit::new(system.get(), spectrum)))
         };
         #[cfg(not(feature = "std"))]
-        if method.tableau.spectrum.is_some() || method.kind != Kind::RungeKutta {
+        if method.tableau.spectrum.is_some() || !method.needs_no_allocator() {
             return Err(StepError::NoWorkspace { t });
         }
         #[cfg(feature = "std")]
@@ -217,7 +227,13 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             taylor: None,
             #[cfg(feature = "std")]
             impulses: None,
+            #[cfg(feature = "std")]
+            fixed: None,
         };
+        #[cfg(feature = "std")]
+        if let Kind::Fixed(rule) = method.kind {
+            stepper.begin_fixed(rule)?;
+        }
         #[cfg(feature = "std")]
         if method.kind == Kind::Impulses {
             let Point { q, v, .. } = &stepper.now;
@@ -436,6 +452,10 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         if let Some(implicit) = &mut self.implicit {
             implicit.forget();
         }
+        #[cfg(feature = "std")]
+        if let Some(fixed) = &mut self.fixed {
+            fixed.forget();
+        }
         Ok(())
     }
 
@@ -533,7 +553,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         self.model.law = law;
     }
 
-    /// The same as [`set_law`](Self::set_law) at once, the inputs having jumped: with the accelerations that follow, what sticks and slides decided anew,
+    /// [`set_law`](Self::set_law) at a jump of the inputs: with the accelerations that follow, what sticks and slides decided anew,
     /// and the work that the jump does on the potential energy.
     #[cfg(feature = "std")]
     pub(crate) fn jump_inputs(&mut self, law: L) -> Result<(), StepError> {
@@ -579,6 +599,10 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             {
                 self.model.touching = Some(before);
             }
+            #[cfg(feature = "std")]
+            if let Some(fixed) = &mut self.fixed {
+                fixed.retreat();
+            }
             self.quadratures.retreat(self.method.tableau.a[stages]);
             self.control.work.steps -= 1;
             // It was short enough.
@@ -613,6 +637,10 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         if let Some(implicit) = &mut self.implicit {
             implicit.forget();
         }
+        #[cfg(feature = "std")]
+        if let Some(fixed) = &mut self.fixed {
+            fixed.forget();
+        }
         self.changed = false;
         #[cfg(feature = "std")]
         if self.taylor.is_some() {
@@ -632,6 +660,9 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         #[cfg(feature = "std")]
         if self.impulses.is_some() {
             return self.step_in_impulses();
+        }
+        if let Kind::Fixed(rule) = self.method.kind {
+            return self.step_of_fixed_length(rule);
         }
         #[cfg(feature = "std")]
         if self.taylor.is_some() {
@@ -704,20 +735,19 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         if self.changed && self.method.dense_needs_evaluations() {
             return Err(StepError::Changed { t: self.now.t });
         }
-        Interpolant::new(
-            self.method,
-            &Ends {
-                start: self.before.time(),
-                h: self.control.last_step,
-                q: [&self.before.q, &self.now.q],
-                v: [&self.before.v, &self.now.v],
-            },
-            &mut self.k,
-            |t, q, v, a| {
-                let work = &mut self.control.work;
-                self.model.accelerations(t, q, v, a, work)
-            },
-        )
+        let ends = Ends {
+            start: self.before.time(),
+            h: self.control.last_step,
+            q: [&self.before.q, &self.now.q],
+            v: [&self.before.v, &self.now.v],
+        };
+        if self.method.is_quintic() {
+            return Ok(Interpolant::quintic(&ends, [self.a_before(), self.a()]));
+        }
+        Interpolant::new(self.method, &ends, &mut self.k, |t, q, v, a| {
+            let work = &mut self.control.work;
+            self.model.accelerations(t, q, v, a, work)
+        })
     }
 
     /// Projects a state within the last step onto the constraints of the machine, by the least move in
@@ -759,8 +789,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             ..
         } = self;
         let stages = method.tableau.stages;
-        let room = [&mut stage.0, &mut stage.1];
-        attempt::go_through_stages(method, (before, h), k, room, |i, (t, q, v), a| {
+        let scratch = [&mut stage.0, &mut stage.1];
+        attempt::go_through_stages(method, (before, h), k, scratch, |i, (t, q, v), a| {
             model.accelerations(t, q, v, a, work)?;
             model.take_rates(quadratures, i, (t, q, v, a));
             Ok(())
@@ -875,8 +905,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         error
     }
 
-    /// The same where constraints are about to depend on each other: of what goes across them, which they
-    /// take away again, only what is not rounding there counts.
+    /// The error of the step just tried where constraints are about to depend on each other: of its part across them, which
+    /// the projection removes, only what exceeds rounding counts.
     fn error_along(&self, constraints: &Constraints<S::Vector>, h: f64) -> f64 {
         let scheme = &self.method.scheme;
         let mut sums = [0.0, 0.0];

@@ -8,6 +8,9 @@ use core::fmt::{self, Debug, Display};
 
 use crate::{UnilateralContact, Vector};
 
+/// The most coefficients of each coordinate that emitted code computes in [`System::series`].
+pub(crate) const SERIES_ROWS: usize = 24;
+
 /// The most guided contacts of a machine.
 pub const MOST_CONTACTS: usize = 6;
 
@@ -355,11 +358,11 @@ pub trait System {
     #[doc(hidden)]
     const MAY_BE_CONSTRAINED: bool = true;
 
-    /// The same of guided contacts with friction.
+    /// Whether there may be guided contacts with friction; `false` leaves out what handles them.
     #[doc(hidden)]
     const MAY_SLIDE: bool = true;
 
-    /// The same of unilateral contacts.
+    /// Whether there may be unilateral contacts; `false` leaves out what handles them.
     #[doc(hidden)]
     const MAY_COLLIDE: bool = true;
 
@@ -688,7 +691,7 @@ pub trait Differentiate: Linearize {
     fn variables(&self) -> impl ExactSizeIterator<Item = Quantity<'_>>;
 
     /// [`linearize`](Linearize::linearize), and row after row the derivatives by the
-    /// [`variables`](Self::variables). What has no room in `by_variables` is left out.
+    /// [`variables`](Self::variables). What has no place in `by_variables` is left out.
     #[expect(
         clippy::too_many_arguments,
         reason = "a state, and the four things that are asked of it"
@@ -798,13 +801,13 @@ pub enum Pivot {
 }
 
 impl Singular {
-    /// What elimination stopped at: the pivot that was left of a diagonal element.
+    /// Elimination stopped at a coordinate: the pivot, and the diagonal element that it came from.
     #[cold]
     pub fn new(coordinate: usize, pivot: f64, diagonal: f64) -> Self {
         Self::at(Pivot::Coordinate(coordinate), pivot, diagonal)
     }
 
-    /// The same, where elimination stopped at a constraint.
+    /// Elimination stopped at a constraint: the pivot, and the diagonal element that it came from.
     #[cold]
     pub fn constraint(constraint: usize, pivot: f64, diagonal: f64) -> Self {
         Self::at(Pivot::Constraint(constraint), pivot, diagonal)
@@ -826,7 +829,7 @@ impl Singular {
     }
 
     fn at(at: Pivot, pivot: f64, diagonal: f64) -> Self {
-        // Nothing is left of nothing.
+        // A diagonal element of 0 has a pivot of 0: the ratio 0/0 is told as 0.
         let ratio = if pivot == 0.0 { 0.0 } else { pivot / diagonal };
         Self { at, ratio }
     }

@@ -161,7 +161,7 @@ impl Table {
         Self::new(Between::Cubic, Beyond::Hold, times, values)
     }
 
-    /// The same table with something else before its first row and behind its last.
+    /// This table with another rule before its first row and behind its last.
     ///
     /// # Errors
     /// If it is to be repeated and cannot.
@@ -243,7 +243,7 @@ impl Table {
         Ok(table)
     }
 
-    /// The same under a name, for messages: `the table drive.csv of input u`.
+    /// This table under a name, for messages: `the table drive.csv of input u`.
     #[must_use]
     pub fn named(self, name: impl Into<String>) -> Self {
         Self {

@@ -13,7 +13,7 @@ use crate::compensated::two_sum;
 use crate::math::{rough_exp2, rough_log2};
 use crate::stages::{Point, in_blocks};
 use crate::tolerance::Tolerance;
-use crate::{Real, Singular, System, Vector};
+use crate::{Real, Scalar, Singular, System, Vector};
 
 /// Coefficients of the accelerations for tolerances down to [`FINE`], and below.
 const ORDERS: [usize; 2] = [12, 20];
@@ -21,6 +21,11 @@ const ORDERS: [usize; 2] = [12, 20];
 /// Below this tolerance the higher order takes less time: products of series grow with the square of the order, the rest of a step
 /// with the order itself, and steps of fine tolerances are longer by more than that.
 const FINE: f64 = 1e-5;
+
+/// How many coefficients of a coordinate are asked for by the sum of relative and least absolute tolerance.
+pub(crate) fn rows(tolerance: f64) -> usize {
+    ORDERS[usize::from(tolerance <= FINE)] + 2
+}
 
 /// The coefficients of the motion through the beginning of the last step and through its end.
 #[derive(Clone, Debug)]
@@ -40,10 +45,9 @@ impl<V: Vector> Taylor<V> {
         let zeros = tolerance.absolute.zeros_like();
         let absolute = tolerance.absolute.as_slice().iter();
         let least = absolute.fold(f64::INFINITY, |least, &x| least.min(x));
-        let is_fine = least + tolerance.relative <= FINE;
-        let order = ORDERS[usize::from(is_fine)];
+        let rows = rows(least + tolerance.relative);
         Self {
-            coefficients: [(); 2].map(|()| std::vec![zeros.clone(); order + 2]),
+            coefficients: [(); 2].map(|()| std::vec![zeros.clone(); rows]),
             beginning: 0,
             is_taken: false,
             length: None,
@@ -138,49 +142,19 @@ impl<V: Vector> Taylor<V> {
         let rows = powers.map(|j| coefficients[j].as_slice());
         for (i, absolute) in tolerance.absolute.as_slice().iter().enumerate() {
             let size = q[i].abs().max(v[i].abs());
-            let tolerable = absolute + tolerance.relative * size;
-            let bound = match 1.0 + size {
-                whole if tolerable > 1e-8 * whole => 0.1 * tolerable,
-                whole if tolerable < 1e-14 * whole => 0.01 * tolerable,
-                _ => tolerable,
-            };
-            // v = Σ (j + 1) cⱼ₊₁ τʲ
-            let over = 1.0 / bound;
+            let over = 1.0 / bound(size, *absolute, tolerance.relative);
             for (worst, (row, j)) in worst.iter_mut().zip(rows.iter().zip(powers)) {
-                let ratio = match row[i] {
-                    0.0 => 0.0,
-                    c => (j as f64 * c.abs()) * over,
-                };
-                // What is no number must not pass for none.
-                *worst = if ratio > *worst || ratio.is_nan() {
-                    ratio
-                } else {
-                    *worst
-                };
+                *worst = worse(*worst, row[i], j as f64, over);
             }
         }
-        // The logarithm of the length.
-        let mut length = f64::INFINITY;
-        for (worst, j) in worst.into_iter().zip(powers) {
-            if worst == f64::INFINITY {
-                return 0.0;
-            } else if worst > 0.0 {
-                length = length.min(rough_log2(worst) / (1.0 - j as f64));
-            } else if worst.is_nan() {
-                return f64::NAN;
-            }
-        }
-        match length {
-            f64::INFINITY => length,
-            _ => rough_exp2(length),
-        }
+        length(worst, powers)
     }
 
     /// The state at the end of a step of length `h`, as compensated sums.
     pub fn advance(&self, h: f64, before: &Point<V>, now: &mut Point<V>) {
         let coefficients = self.of_step();
         in_blocks!(before.q.as_slice().len(), |start, B| {
-            let [q, v] = rises::<B, _, V>(coefficients, start, h);
+            let [q, v] = rises::<B, f64>(&Rows(coefficients), start, h);
             for k in 0..B {
                 let i = start + k;
                 let low = before.v_low.as_slice()[i];
@@ -194,41 +168,128 @@ impl<V: Vector> Taylor<V> {
     }
 }
 
-/// By how much `B` coordinates from `start` on and their rates change in a time `tau`: side by side, so that the
-/// processor has several sums to work at.
+/// The greatest last terms of a step, in a coordinate and a rate of this size, for which errors are tolerable.
 #[inline(always)]
-fn rises<const B: usize, N: Real, V: Vector<N>>(
-    coefficients: &[V],
+pub(crate) fn bound(size: f64, absolute: f64, relative: f64) -> f64 {
+    let tolerable = absolute + relative * size;
+    match 1.0 + size {
+        whole if tolerable > 1e-8 * whole => 0.1 * tolerable,
+        whole if tolerable < 1e-14 * whole => 0.01 * tolerable,
+        _ => tolerable,
+    }
+}
+
+/// The greater of `worst` and a term's size over its bound: that of the rate, v = Σ (j + 1) cⱼ₊₁ τʲ, in a step of 1 s.
+#[inline(always)]
+pub(crate) fn worse(worst: f64, c: f64, j: f64, over_bound: f64) -> f64 {
+    let ratio = if c == 0.0 {
+        0.0
+    } else {
+        (j * c.abs()) * over_bound
+    };
+    // What is no number must not pass for none.
+    if ratio > worst || ratio.is_nan() {
+        ratio
+    } else {
+        worst
+    }
+}
+
+/// The length of a step in which the terms of these two powers are their bounds at the most, from what they are in a step of 1 s;
+/// infinite where both are 0.
+#[inline(always)]
+pub(crate) fn length(worst: [f64; 2], powers: [usize; 2]) -> f64 {
+    // The logarithm of the length.
+    let mut length = f64::INFINITY;
+    for (worst, j) in worst.into_iter().zip(powers) {
+        if worst == f64::INFINITY {
+            return 0.0;
+        } else if worst > 0.0 {
+            length = length.min(rough_log2(worst) / (1.0 - j as f64));
+        } else if worst.is_nan() {
+            return f64::NAN;
+        }
+    }
+    match length {
+        f64::INFINITY => length,
+        _ => rough_exp2(length),
+    }
+}
+
+/// [`length`] where both terms are positive and finite: the same arithmetic without questions, for several at once.
+#[inline(always)]
+pub(crate) fn usual_length(worst: [f64; 2], powers: [usize; 2]) -> f64 {
+    let [one, other] = [0, 1].map(|k| rough_log2(worst[k]) / (1.0 - powers[k] as f64));
+    rough_exp2(one.min(other))
+}
+
+/// Coefficients of coordinates that [`rises`] reads.
+pub(crate) trait Coefficients<N> {
+    /// How many there are of each coordinate.
+    fn count(&self) -> usize;
+    /// Those of order `j`, of `B` coordinates from `start` on. Inlined always: a closure need not be, into code for registers that
+    /// only some processors have.
+    fn block<const B: usize>(&self, j: usize, start: usize) -> [N; B];
+}
+
+/// Those of one trajectory.
+struct Rows<'a, V>(&'a [V]);
+
+impl<N: Real, V: Vector<N>> Coefficients<N> for Rows<'_, V> {
+    #[inline(always)]
+    fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    #[inline(always)]
+    fn block<const B: usize>(&self, j: usize, start: usize) -> [N; B] {
+        let row = self.0[j].as_slice().get(start..start + B);
+        row.and_then(|row| row.first_chunk::<B>())
+            .copied()
+            .unwrap_or([N::from_f64(f64::NAN); B])
+    }
+}
+
+/// One more term of Horner's rule.
+#[inline(always)]
+fn add_term<const B: usize, N: Scalar>(
+    coefficients: &impl Coefficients<N>,
+    [j, start]: [usize; 2],
+    square: N,
+    q: &mut [N; B],
+    v: &mut [N; B],
+) {
+    let (row, power) = (coefficients.block::<B>(j, start), N::from_f64(j as f64));
+    for k in 0..B {
+        q[k] = q[k] * square + row[k];
+        v[k] = v[k] * square + power * row[k];
+    }
+}
+
+/// By how much `B` coordinates from `start` on and their rates change in a time `tau`: side by side, so that the processor has
+/// several sums to work at.
+#[inline(always)]
+pub(crate) fn rises<const B: usize, N: Scalar>(
+    coefficients: &impl Coefficients<N>,
     start: usize,
     tau: N,
 ) -> [[N; B]; 2] {
     // Terms of even and of odd powers by Horner's rule each, which do not wait for each other.
     let zeros = [N::ZERO; B];
     let (mut q, mut v) = ([zeros; 2], [zeros; 2]);
-    let block = |j: usize| {
-        let row = coefficients[j].as_slice().get(start..start + B);
-        row.and_then(|row| row.first_chunk::<B>())
-            .copied()
-            .unwrap_or([N::from_f64(f64::NAN); B])
-    };
     let square = tau * tau;
-    let mut add = |j: usize, parity: usize| {
-        let (row, power) = (block(j), N::from_f64(j as f64));
-        for (k, c) in row.into_iter().enumerate() {
-            q[parity][k] = q[parity][k] * square + c;
-            v[parity][k] = v[parity][k] * square + power * c;
-        }
-    };
-    let mut end = coefficients.len();
+    let mut end = coefficients.count();
     if end % 2 == 1 {
         end -= 1;
-        add(end, 0);
+        add_term(coefficients, [end, start], square, &mut q[0], &mut v[0]);
     }
-    for j in (1..end / 2).rev() {
-        add(2 * j + 1, 1);
-        add(2 * j, 0);
+    let ([q_even, q_odd], [v_even, v_odd]) = (&mut q, &mut v);
+    while end > 2 {
+        end -= 2;
+        add_term(coefficients, [end + 1, start], square, q_odd, v_odd);
+        add_term(coefficients, [end, start], square, q_even, v_even);
     }
-    let first = block(1);
+    let first = coefficients.block::<B>(1, start);
     let (mut by_q, mut by_v) = (zeros, zeros);
     for k in 0..B {
         by_q[k] = (first[k] + (q[0][k] + q[1][k] * tau) * tau) * tau;
@@ -241,7 +302,7 @@ fn rises<const B: usize, N: Real, V: Vector<N>>(
 pub(crate) fn state<N: Real, V: Vector<N>>(coefficients: &[V], tau: N) -> (V, V) {
     let (mut q, mut v) = (coefficients[0].clone(), coefficients[1].clone());
     in_blocks!(q.as_slice().len(), |start, B| {
-        let [by_q, by_v] = rises::<B, _, V>(coefficients, start, tau);
+        let [by_q, by_v] = rises::<B, N>(&Rows(coefficients), start, tau);
         for k in 0..B {
             let i = start + k;
             q.as_mut_slice()[i] = q.as_slice()[i] + by_q[k];

@@ -15,6 +15,10 @@ pub struct UnilateralContact<'a> {
     pub compliance: Option<Compliance>,
     /// Whether there is friction; without it the slip is 0.
     pub rubs: bool,
+    /// Whether it is the rolling of the contact before it, on which it leans: it has the gap and the normal force of that contact,
+    /// its slip is how fast one body turns relative to the other, in rad/s, its friction the torque that resists this, in N m,
+    /// `|τ| ≤ ρ λₙ`, and its coefficient of friction the length ρ, in m.
+    pub rolls: bool,
 }
 
 /// Whether contacts that are closed take part in one impact.

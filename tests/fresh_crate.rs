@@ -24,7 +24,7 @@ impl Crate {
         Self::with(name, "")
     }
 
-    /// The same with further settings of the dependency: `, default-features = false`.
+    /// A crate with further settings of the dependency: `, default-features = false`.
     fn with(name: &str, settings: &str) -> Crate {
         let alone = CARGO
             .lock()

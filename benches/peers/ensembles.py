@@ -3,8 +3,9 @@
     python benches/peers/ensembles.py [--ours PROGRAM]
 
 256 double pendulums (two bobs of 1 kg on rods of 1 m, 9.81 m/s²) start at rest from a grid of angles between 0.1 and 1 rad and run for
-5 s, on one core. The error of an ensemble is the greatest difference of an angle or a rate at the end from a reference: heyoka's
-Taylor method in 80-bit numbers at 1e-19. Each tool runs with several tolerances or steps, and what it takes at one error is
+5 s, and 256 crushers (`machines/crusher9.machine`) from a grid of distances of mortar and pestle for 0.5 s, on one core. The error of an
+ensemble is the greatest difference of a coordinate or a rate at the end from a reference: heyoka's Taylor method in 80-bit numbers
+at 1e-19. Each tool runs with several tolerances or steps, and what it takes at one error is
 interpolated between them, logarithm against logarithm. Times are the processor's own, the best of several.
 
 Ours is `cargo bench --bench ensemble -- --ends FOLDER`, or a program that was built of it.
@@ -19,6 +20,7 @@ import time
 from pathlib import Path
 
 import heyoka as hy
+import motions
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -42,34 +44,43 @@ def clock(work, times):
     return best, result
 
 
-def equations():
-    """By hand, for absolute angles and equal bobs and rods: solved by the determinant of the mass matrix."""
-    a, b, v, w = hy.make_vars("a", "b", "v", "w")
-    c, s = hy.cos(a - b), hy.sin(a - b)
-    f = -s * w**2 - 2.0 * GRAVITY * hy.sin(a)
-    g = s * v**2 - GRAVITY * hy.sin(b)
-    determinant = 2.0 - c**2
-    return [(a, v), (b, w), (v, (f - c * g) / determinant), (w, (2.0 * g - c * f) / determinant)]
+def crushers():
+    system, _, _, _, _ = motions.crusher()
+    start = np.zeros(18)
+    start[[2, 4, 7]] = 0.01, 0.4, 1.3
+    first = np.tile(start, (SIDE**2, 1))
+    part = np.arange(SIDE) / (SIDE - 1)
+    one, two = np.meshgrid(part, part, indexing="ij")
+    first[:, 3], first[:, 6] = 0.14 + 0.02 * one.ravel(), 0.09 + 0.02 * two.ravel()
+    return system, first, 0.5
 
 
-def reference():
+def pendulums():
+    """By hand, for absolute angles and equal bobs and rods."""
+    system, _, _, _, _ = motions.pendulum()
+    return system, starts(), END
+
+
+def reference(system, first, until):
     number = np.longdouble
-    runner = hy.taylor_adaptive(equations(), np.zeros(4, number), tol=number(1e-19), fp_type=number)
-    ends = np.empty((SIDE**2, 4))
-    for i, start in enumerate(starts()):
+    size = first.shape[1]
+    runner = hy.taylor_adaptive(system, np.zeros(size, number), tol=number(1e-19), fp_type=number)
+    ends = np.empty(first.shape)
+    for i, start in enumerate(first):
         runner.time = number(0)
         runner.state[:] = start.astype(number)
-        runner.propagate_until(number(END))
+        runner.propagate_until(number(until))
         ends[i] = runner.state.astype(float)
     return ends
 
 
-def of_heyoka(batch):
+def of_heyoka(batch, system, first, until):
+    size = first.shape[1]
     for tolerance in (1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12):
-        zeros = np.zeros((4, batch) if batch > 1 else 4)
+        zeros = np.zeros((size, batch) if batch > 1 else size)
         make = hy.taylor_adaptive_batch if batch > 1 else hy.taylor_adaptive
-        runner = make(equations(), zeros, tol=tolerance)
-        begin = np.ascontiguousarray(starts().reshape(-1, batch, 4).swapaxes(1, 2))
+        runner = make(system, zeros, tol=tolerance)
+        begin = np.ascontiguousarray(first.reshape(-1, batch, size).swapaxes(1, 2))
 
         def run():
             ends = np.empty_like(begin)
@@ -80,9 +91,9 @@ def of_heyoka(batch):
                 else:
                     runner.time = 0.0
                     runner.state[:] = start[:, 0]
-                runner.propagate_until(END)
-                ends[i] = runner.state.reshape(4, batch)
-            return ends.swapaxes(1, 2).reshape(-1, 4)
+                runner.propagate_until(until)
+                ends[i] = runner.state.reshape(size, batch)
+            return ends.swapaxes(1, 2).reshape(-1, size)
 
         yield clock(run, 5)
 
@@ -124,34 +135,23 @@ def of_scipy():
 
 
 def of_ours(program):
+    """Seconds and ends of every run, by machine and method."""
     with tempfile.TemporaryDirectory() as folder:
         call = [program] if program else ["cargo", "bench", "--bench", "ensemble", "--"]
         said = subprocess.run([*call, "--ends", folder], cwd=ROOT, capture_output=True, text=True, check=True)
+        runs = {}
         for line in said.stdout.splitlines():
             one = json.loads(line)
-            yield one["seconds"], np.fromfile(one["file"]).reshape(-1, 4)
+            ends = np.fromfile(one["file"]).reshape(SIDE**2, -1)
+            runs.setdefault((one["machine"], one["method"]), []).append((one["seconds"], ends))
+        return runs
 
 
-def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--ours", help="a program that `cargo bench --bench ensemble` has built")
-    given = parser.parse_args()
-    exact = reference()
-    tools = {
-        "lagrangian, dop853, 8 lanes": of_ours(given.ours),
-        "heyoka, batches of 4": of_heyoka(4),
-        "heyoka, one by one": of_heyoka(1),
-        "MuJoCo, rollout, RK4": of_mujoco(),
-        "SciPy, DOP853": of_scipy(),
-    }
-    print("| | " + " | ".join(f"at {error:.0e}" for error in ERRORS) + " |")
+def table(title, tools, exact):
+    print(f"| {title} | " + " | ".join(f"at {error:.0e}" for error in ERRORS) + " |")
     print("| --- |" + " --: |" * len(ERRORS))
     for name, runs in tools.items():
-        found = []
-        for seconds, ends in runs:
-            error = np.abs(ends - exact).max()
-            found.append((error, seconds))
-        found.sort()
+        found = sorted((np.abs(ends - exact).max(), seconds) for seconds, ends in runs)
         errors, seconds = np.array(found).T
         cells = []
         for error in ERRORS:
@@ -159,6 +159,25 @@ def main():
             at = math.exp(np.interp(math.log(error), np.log(errors), np.log(seconds)))
             cells.append(f"{SIDE**2 / at:.0f}" if inside else "–")
         print(f"| {name} | " + " | ".join(cells) + " |", flush=True)
+    print()
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--ours", help="a program that `cargo bench --bench ensemble` has built")
+    parser.add_argument("--ours-and-heyoka", action="store_true", help="leave the others out")
+    given = parser.parse_args()
+    ours = of_ours(given.ours)
+    for title, of in {"pendulum": pendulums, "crusher": crushers}.items():
+        task = of()
+        tools = {
+            **{f"lagrangian, {of}": runs for (name, of), runs in ours.items() if name == title},
+            "heyoka, batches of 4": of_heyoka(4, *task),
+            "heyoka, one by one": of_heyoka(1, *task),
+        }
+        if title == "pendulum" and not given.ours_and_heyoka:
+            tools |= {"MuJoCo, rollout, RK4": of_mujoco(), "SciPy, DOP853": of_scipy()}
+        table(title, tools, reference(*task))
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 mod orbit;
 mod runs;
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -64,7 +65,7 @@ pub enum Command {
     Fit(Box<Fit>),
     /// Find the fastest motion from rest at one place to another, under control forces that do no work.
     Brachistochrone(Brachistochrone),
-    /// Write the spec of a robot from its file of URDF.
+    /// Write the spec of a robot from its file of URDF or MJCF.
     Import(Import),
 }
 
@@ -91,6 +92,56 @@ impl Command {
             Command::Fit(call) => &call.spec,
             Command::Brachistochrone(call) => &call.spec,
         })
+    }
+
+    /// The spec of the call, to be changed.
+    fn spec_mut(&mut self) -> Option<&mut Spec> {
+        Some(match self {
+            Command::Check(call) => &mut call.spec,
+            Command::Derive(call) => &mut call.spec,
+            Command::Library(call) => &mut call.spec,
+            Command::Fmu(call) => &mut call.spec,
+            Command::Evaluate(call) => &mut call.spec,
+            Command::Simulate(call) => &mut call.spec,
+            Command::Sweep(call) => &mut call.spec,
+            Command::Orbit(call) => &mut call.spec,
+            Command::Sensitivities(call) => &mut call.spec,
+            Command::Map(_) | Command::Import(_) => return None,
+            Command::Compare(_)
+            | Command::Spectrum(_)
+            | Command::Peaks(_)
+            | Command::Section(_) => return None,
+            Command::Modes(call) => &mut call.spec,
+            Command::Linearize(call) => &mut call.spec,
+            Command::Fit(call) => &mut call.spec,
+            Command::Brachistochrone(call) => &mut call.spec,
+        })
+    }
+
+    /// The names that it gives values, or that it varies or seeks: a parameter of such a name does not follow from others.
+    fn given(&self) -> Result<Vec<String>, String> {
+        let sets = ["--set", "--set-second"];
+        let named = self.named().into_iter();
+        let named = named.filter(|(option, _)| sets.contains(option));
+        let mut given: Vec<String> = named.map(|(_, name)| name.to_owned()).collect();
+        let along = match self {
+            Command::Modes(call) => call.vary.as_ref(),
+            Command::Linearize(call) => call.along.as_ref(),
+            Command::Orbit(call) => call.along.as_ref(),
+            _ => None,
+        };
+        given.extend(along.map(|along| along.name.clone()));
+        match self {
+            Command::Sweep(call) => {
+                let ends = ['=', '~'];
+                let names = call.vary.iter().filter_map(|text| text.split(ends).next());
+                given.extend(names.map(|name| name.trim().to_owned()));
+            }
+            Command::Fit(call) => given.extend(names_of(&call.sought)?),
+            Command::Sensitivities(call) => given.extend(names_of(&call.by)?),
+            _ => {}
+        }
+        Ok(given)
     }
 
     /// Whether its result is to be JSON.
@@ -208,6 +259,22 @@ impl Command {
 }
 
 impl Call {
+    /// Reads the words of a call, of which the first is the name of the program.
+    ///
+    /// # Errors
+    /// If they are no call; the message is to be printed, and may be the help that was asked for.
+    pub fn read<T: Into<OsString> + Clone>(
+        words: impl IntoIterator<Item = T>,
+    ) -> Result<Call, clap::Error> {
+        let mut call = Call::try_parse_from(words)?;
+        // A list that cannot be read is refused where its names are needed.
+        let given = call.command.given().unwrap_or_default();
+        if let Some(spec) = call.command.spec_mut() {
+            spec.given = given;
+        }
+        Ok(call)
+    }
+
     /// Whether nothing is said twice: neither of two values would be the one that is meant.
     ///
     /// # Errors
@@ -246,6 +313,9 @@ pub struct Spec {
     /// Derive the machine with another value of a constant, as in `--const N=8`.
     #[arg(long = "const", value_name = "NAME=VALUE", value_parser = constant)]
     pub constants: Vec<(String, Rational)>,
+    /// The parameters to which the call gives values: none of them follows from others.
+    #[arg(skip)]
+    pub given: Vec<String>,
     /// Print the result as one JSON document on standard output, and nothing else there.
     #[arg(long)]
     pub json: bool,
@@ -314,6 +384,9 @@ pub struct Check {
     /// Exit with status 1 where a published formula differs from the derived one.
     #[arg(long)]
     pub strict: bool,
+    /// Say how exact the program of the machine is, held against numbers of 30 digits.
+    #[arg(long)]
+    pub accuracy: bool,
 }
 
 /// Arguments of `derive`.
@@ -394,6 +467,10 @@ pub struct Fmu {
     /// Which variables are outputs, as in `--outputs theta1,energy.kinetic`: in place of those of the spec, or of the coordinates.
     #[arg(long, value_name = "NAME,…", value_parser = names)]
     pub outputs: Option<Names>,
+    /// By which method the unit integrates in co-simulation: `dop853` of order 8, or `dopri5` of order 5, whose steps are cheaper, for
+    /// points of communication that are close together.
+    #[arg(long, value_enum, default_value_t = UnitMethod::Dop853)]
+    pub method: UnitMethod,
     /// Relative and absolute tolerance of co-simulation, unless the importer gives one.
     #[arg(long, default_value_t = 1e-9, value_parser = tolerance, allow_hyphen_values = true)]
     pub tolerance: f64,
@@ -495,10 +572,19 @@ pub struct Evaluate {
     pub at: Option<PathBuf>,
 }
 
+/// How a unit integrates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum UnitMethod {
+    /// Dormand and Prince's method of order 8.
+    Dop853,
+    /// Theirs of order 5.
+    Dopri5,
+}
+
 /// Arguments of `import`.
 #[derive(Debug, Args)]
 pub struct Import {
-    /// The robot, a file of URDF with the ending `.urdf`.
+    /// The robot, a file of URDF with the ending `.urdf`, or a model of MuJoCo with the ending `.xml` or `.mjcf`.
     #[arg(value_name = "ROBOT")]
     pub path: PathBuf,
     /// Write the spec to a file instead of standard output.
@@ -598,11 +684,12 @@ pub struct Simulate {
     /// Relative and absolute tolerance of each step.
     #[arg(long, default_value_t = 1e-9, value_parser = tolerance, allow_hyphen_values = true)]
     pub tolerance: f64,
-    /// The integration method: dop853, dopri5, bs32, radau5 for stiff machines, taylor for smooth ones, or moreau for many contacts
-    /// that open and close, which needs --longest-step.
-    #[arg(long, value_name = "NAME", default_value = "dop853")]
+    /// The integration method: auto, which is dop853, and moreau where contacts meet too often for each instant to be found; dop853, dopri5,
+    /// bs32, radau5, radau9 and radau13 for stiff machines, taylor for smooth ones; with steps of --longest-step moreau for many contacts that
+    /// open and close, rk4, semi-implicit-euler, gauss4, gauss6, gauss8, rattle or generalized-alpha.
+    #[arg(long, value_name = "NAME", default_value = "auto")]
     pub method: String,
-    /// The longest step, in s; the length of the steps of `moreau`, which has no tolerance.
+    /// The longest step, in s; the length of all steps of methods that have no tolerance.
     #[arg(long, value_name = "SECONDS", value_parser = interval, allow_hyphen_values = true)]
     pub longest_step: Option<f64>,
     /// How many steps the run may take.
@@ -675,7 +762,7 @@ pub struct Sweep {
     /// Watch for changes of sign of a formula, as in `--event top=theta-pi`.
     #[arg(long = "event", value_name = "NAME=FORMULA", value_parser = assignment, allow_hyphen_values = true)]
     pub events: Vec<Assignment>,
-    /// The same, and end the run there.
+    /// Find the instants at which a formula changes its sign, and end the run at the first.
     #[arg(long = "until-event", value_name = "NAME=FORMULA", value_parser = assignment, allow_hyphen_values = true)]
     pub ends: Vec<Assignment>,
     /// What of the motion is recorded beside its end: `at=0.5,1` states at these times; `every=0.01` samples in a second file, or

@@ -1,6 +1,8 @@
 //! `lagrangian check`: everything that is wrong with a spec, and printed equations against the
 //! derived ones.
 
+mod accuracy;
+
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::{Freedom, Independent, contradictions, freedom as freedom_of};
 use lagrangian_print::compare::{self, Comparison, Quoted};
@@ -76,12 +78,19 @@ pub fn run(call: &call::Check) -> Result<(), Failure> {
         .into_iter()
         .map(|comparison| Published::new(comparison, &reading.sources))
         .collect();
+    let accuracy = compiled.as_ref().filter(|_| call.accuracy);
+    let accuracy = accuracy.map(|compiled| (compiled, accuracy::look(compiled)));
     if call.spec.json {
         let entries = diagnostics::entries(&reading.report, &reading.sources);
-        output::line(format_args!(
-            "{:#}",
-            json!({ "diagnostics": entries, "freedom": freedom.map(Degrees::new), "published": published })
-        ));
+        let mut all = json!({
+            "diagnostics": entries,
+            "freedom": freedom.map(Degrees::new),
+            "published": published,
+        });
+        if let Some((compiled, found)) = &accuracy {
+            all["accuracy"] = found.json(&compiled.program);
+        }
+        output::line(format_args!("{all:#}"));
     } else {
         diagnostics::print(&reading.report, &reading.sources);
         if let (Some(compiled), Some(freedom)) = (&compiled, freedom) {
@@ -90,6 +99,9 @@ pub fn run(call: &call::Check) -> Result<(), Failure> {
         for block in published.chunk_by(|a, b| a.block == b.block) {
             block.iter().for_each(print);
             conclude(block);
+        }
+        if let Some((compiled, found)) = &accuracy {
+            found.print(&compiled.program);
         }
     }
     let differs = published.iter().any(|formula| !formula.agrees);

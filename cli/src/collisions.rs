@@ -17,6 +17,8 @@ struct Account {
     /// Whether it yields, and the work that has crushed its layer, if it is one.
     yields: bool,
     crushing_work: Option<f64>,
+    /// Whether it is the rolling of another.
+    rolls: bool,
     /// When it closed last, with by how much that time may be off, and whether it is closed at the end.
     closed_at: Option<(f64, f64)>,
     is_closed: bool,
@@ -39,6 +41,7 @@ fn accounts(run: &Run) -> Vec<Account> {
             impacts: of_kind(ContactEventKind::Impact).count(),
             loss: run.impact_losses().get(k).copied().unwrap_or(0.0),
             yields: contact.compliance.is_some(),
+            rolls: contact.rolls,
             crushing_work: (contact.compliance == Some(Compliance::Layer))
                 .then(|| crushing.get(k).copied().unwrap_or(0.0)),
             closed_at: closes.map(|event| (event.state.t, event.time_error)),
@@ -67,12 +70,14 @@ pub fn lines(run: &Run) -> Vec<String> {
             loss,
             yields,
             crushing_work,
+            rolls,
             closed_at,
             is_closed,
         } = account;
         let mut line = match (impacts, crushing_work) {
             (_, Some(work)) => format!("{name}: crushed by {work:.6e} J"),
             _ if yields => format!("{name}: yields"),
+            _ if rolls => return format!("{name}: impacts took {loss:.6e} J"),
             (1, _) => format!("{name}: 1 impact, which took {loss:.6e} J"),
             _ => format!("{name}: {impacts} impacts, which took {loss:.6e} J"),
         };
@@ -122,6 +127,13 @@ pub fn fields(run: &Run) -> Vec<(&'static str, Value)> {
         ("unilateral_contacts", accounts.into()),
         ("impact_loss", lost.into()),
     ];
+    if !run.handovers().is_empty() {
+        let handovers = run.handovers().iter().map(|handover| match handover.step {
+            Some(step) => json!({ "t": handover.t, "to": "moreau", "step": step }),
+            None => json!({ "t": handover.t, "to": "events" }),
+        });
+        fields.push(("handovers", handovers.collect()));
+    }
     if let Some(balance) = run.energy_balance() {
         fields.push(("work", balance.work.into()));
         fields.push(("dissipated", balance.dissipated.into()));

@@ -162,7 +162,7 @@ impl Contacts {
         simulation
     }
 
-    /// The same with inputs that change, which the run knows.
+    /// Watches a run with inputs that change, which the run knows.
     fn watch_driven<'a>(
         &'a self,
         simulation: Simulation<'a, InterpretedMachine, Signals>,
@@ -362,7 +362,7 @@ impl Found {
         format!("{}: {needs}", self.name)
     }
 
-    /// The same as JSON: what pulls needs more friction than any.
+    /// The summary as JSON: a contact that pulls needs more friction than any coefficient gives.
     pub fn json(&self) -> Value {
         let greatest = self.greatest.filter(|_| self.pulls.is_none());
         json!({

@@ -127,7 +127,7 @@ fn at(
     if call.keep.names.is_empty() {
         return numbers(&machine.prepare(), &state);
     }
-    // A run without length does no more than to bring its start onto the constraints.
+    // A run without length does no more than to project its start onto the constraints.
     let simulation = Simulation::new(&machine).until(state.t);
     let run = reading::keep(simulation, &call.keep).run(state);
     let state = run.map_err(|error| error.to_string())?.start().clone();

@@ -11,10 +11,11 @@ use std::sync::Arc;
 use lagrangian::Machine;
 use lagrangian::interpreted::{InterpretedMachine, Named, Signals};
 use lagrangian_fit::least_squares::Trouble;
-use lagrangian_fit::motion::{Experiment, Fit, Found, Quantity, Running, Sought, Subject};
+use lagrangian_fit::motion::{Experiment, Fit, Found, Held, Quantity, Running, Sought, Subject};
 use lagrangian_fit::searches::{Failed, Search, Sigmas, search};
 use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::{Severity, nearest};
+use lagrangian_spec::unit::{self, integral_name, state_of};
 use lagrangian_sweep::plan::Law;
 use lagrangian_sweep::signals::{self, Written};
 use lagrangian_symbolic::Dag;
@@ -26,7 +27,7 @@ use crate::inputs;
 use crate::interrupt;
 use crate::output::{self, Destination, MACHINE, SVG, TABLE, keep_apart};
 use crate::progress;
-use crate::reading::{self, Reading};
+use crate::reading::{self, Reading, places};
 use crate::simulate;
 use crate::table;
 use data::{Class, Given};
@@ -152,6 +153,7 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
         },
         refusal: &refusal,
         runs: [0, 0],
+        held: Held::default(),
     };
     let measured = data::count(&fit.experiments);
     if measured < fit.sought.len() {
@@ -304,9 +306,22 @@ fn sought(
         let of_start = of_start.or_else(|| inside("rate").map(|q| (q, false)));
         let mut found = match of_start {
             Some((coordinate, is_start)) => {
-                let places = places(&start.q, coordinate);
+                // The start of a state is that of the rate of its integral.
+                let states = places(&start.q, &integral_name(coordinate));
+                let is_state = is_start && !states.is_empty();
+                let is_start = is_start && !is_state;
+                let mut places = match is_state {
+                    true => states,
+                    false => places(&start.q, coordinate),
+                };
+                let names: Vec<&str> = start.q.iter().map(|(name, _)| name).collect();
+                places.retain(|k| state_of(names[*k]).is_some() == is_state);
                 if places.is_empty() {
-                    let known: Vec<String> = start.q.iter().map(|(n, _)| n.to_owned()).collect();
+                    let known = names.iter().map(|name| state_of(name));
+                    let known = known
+                        .zip(&names)
+                        .map(|(state, name)| state.unwrap_or((*name).to_owned()));
+                    let known: Vec<String> = known.collect();
                     return Err(unknown(name, "coordinate", coordinate, &known));
                 }
                 of_starts(&start.q, &places, is_start, given, experiments)
@@ -379,12 +394,12 @@ fn of_parameters(
         .parameters()
         .map(|(of, _)| of.name.to_owned())
         .collect();
-    let meant =
+    let is_meant =
         |own: &String| own == name || own.split_once('[').is_some_and(|(base, _)| base == name);
-    let places: Vec<usize> = (0..parameters.len())
-        .filter(|i| meant(&parameters[*i]))
+    let meant: Vec<usize> = (0..parameters.len())
+        .filter(|i| is_meant(&parameters[*i]))
         .collect();
-    if places.is_empty() {
+    if meant.is_empty() {
         let is_input = compiled
             .model
             .inputs
@@ -395,9 +410,9 @@ fn of_parameters(
             .and_then(|rest| rest.strip_suffix(')'));
         let help = if is_input {
             "it is an input, which may be driven by a formula in a parameter that is fitted: --input".to_owned()
-        } else if !self::places(coordinates, name).is_empty() {
+        } else if !places(coordinates, name).is_empty() {
             format!("it is a coordinate, whose start is fitted as start({name})")
-        } else if let Some(rate) = rate.filter(|rate| !self::places(coordinates, rate).is_empty()) {
+        } else if let Some(rate) = rate.filter(|rate| !places(coordinates, rate).is_empty()) {
             format!("the rate with which it starts is fitted as rate({rate})")
         } else if let Some(coordinate) = name.strip_suffix("(start)") {
             format!("the start of a coordinate is fitted as start({coordinate})")
@@ -418,7 +433,7 @@ fn of_parameters(
             bounds: [f64::NEG_INFINITY, f64::INFINITY],
         }
     };
-    Ok(places.into_iter().map(sought).collect())
+    Ok(meant.into_iter().map(sought).collect())
 }
 
 /// Starts of coordinates, in each experiment. Where one is measured at the beginning the search begins with that.
@@ -450,6 +465,10 @@ fn of_starts(
                     1,
                     start.v.values[place],
                 ),
+            };
+            let (name, word, unit) = match state_of(name) {
+                Some(state) => (state, "start", unit::rate_unit(name, own)),
+                None => (name.to_owned(), word, unit),
             };
             let quantity = match is_start {
                 true => Quantity::Coordinate(place),
@@ -494,18 +513,6 @@ fn ends(bounds: &Bounds, unit: &str) -> Result<[f64; 2], Failure> {
             "--bounds {}: from {low} to {high} there is nothing between",
             bounds.name
         ))),
-    }
-}
-
-/// Which of some numbers a name means: one, or a family.
-fn places(numbers: &Named, name: &str) -> Vec<usize> {
-    let mut probe = numbers.clone();
-    probe.values.fill(0.0);
-    match probe.set(name, 1.0) {
-        Ok(()) => (0..probe.values.len())
-            .filter(|k| probe.values[*k] != 0.0)
-            .collect(),
-        Err(_) => Vec::new(),
     }
 }
 

@@ -15,7 +15,7 @@ mod xml;
 use std::path::Path;
 
 use lagrangian::interpreted::InterpretedMachine;
-use lagrangian::{Machine, System};
+use lagrangian::{Machine, Simulation, System, Warning};
 use lagrangian_emit::c::uniform::{self, Derivatives};
 use lagrangian_mechanics::{Compiled, Unproved};
 use lagrangian_program::Program;
@@ -23,7 +23,7 @@ use lagrangian_spec::diagnostic::nearest;
 use lagrangian_symbolic::Dag;
 use serde_json::json;
 
-use crate::call::{self, Engine, Running, UnitKind};
+use crate::call::{self, Engine, Running, UnitKind, UnitMethod};
 use crate::evaluate::set_start;
 use crate::failure::Failure;
 use crate::output::{self, Destination, UNIT, keep_apart, keep_document_apart};
@@ -94,6 +94,16 @@ impl Version {
     }
 }
 
+impl UnitMethod {
+    /// Its stages and coefficients, as a file of C.
+    fn tableau(self) -> &'static str {
+        match self {
+            UnitMethod::Dop853 => include_str!("fmu/c/dop853.c"),
+            UnitMethod::Dopri5 => include_str!("fmu/c/dopri5.c"),
+        }
+    }
+}
+
 /// What the unit is made of.
 struct Unit<'a> {
     version: Version,
@@ -106,6 +116,7 @@ struct Unit<'a> {
     /// For each state, behind the coordinates the rates, where it starts, and whether the call says so.
     start: Vec<(f64, bool)>,
     tolerance: f64,
+    method: UnitMethod,
     /// What the library and the archive are called, as an identifier of C.
     identifier: String,
     variables: Variables,
@@ -141,6 +152,7 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
     let machine = reading::machine(&compiled, &given)?;
     let start = start(&machine, &given)?;
     check_defaults(&compiled.program, &machine)?;
+    check_constraints(&machine, &given, &call.spec.path)?;
     let variables = Variables::new(&compiled.program);
     let variables = match &call.outputs {
         None => variables,
@@ -156,13 +168,14 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
         inputs: machine.prepare().default_inputs().values,
         start,
         tolerance: call.tolerance,
+        method: call.method,
         identifier: identifier(&call.out),
         variables,
         has_derivatives: derivatives.is_some(),
         token: String::new(),
     };
     let tables = tables::text(&unit);
-    unit.token = tables::token(&[&text, &tables]);
+    unit.token = tables::token(&[&text, &tables, unit.method.tableau()]);
     let sources = sources(&unit, &format!("{text}{tables}"));
     let libraries = match call.sources_only {
         true => Vec::new(),
@@ -282,6 +295,37 @@ fn check_defaults(program: &Program, machine: &InterpretedMachine) -> Result<(),
     }
 }
 
+/// Refuses constraints that others imply: their multipliers are not determined, and a unit solves for all of them.
+fn check_constraints(
+    machine: &InterpretedMachine,
+    given: &call::Start,
+    spec: &Path,
+) -> Result<(), Failure> {
+    if machine.prepare().constraints().len() == 0 {
+        return Ok(());
+    }
+    let mut start = machine.start();
+    set_start(&mut start, given)?;
+    let simulation = Simulation::new(machine).until(start.t);
+    // What else is wrong at the start the unit says itself, when it is initialized.
+    let Ok(run) = simulation.run(start) else {
+        return Ok(());
+    };
+    let mut redundant = run.warnings().iter().filter_map(|warning| match warning {
+        Warning::RedundantConstraint { constraint, .. } => Some((constraint, warning)),
+        _ => None,
+    });
+    let Some((constraint, warning)) = redundant.next() else {
+        return Ok(());
+    };
+    let file = spec.file_name().unwrap_or_default().to_string_lossy();
+    Err(Failure::run(format!(
+        "there is no unit of this machine: {warning}; a unit solves for the multipliers of all constraints, so where the others imply it everywhere, leave it out in a variant: \
+         `machine {}Unit extends \"{file}\" {{ remove constraints.{constraint}; }}`",
+        machine.name()
+    )))
+}
+
 /// Where the states start, and which of them the call says.
 fn start(machine: &InterpretedMachine, given: &call::Start) -> Result<Vec<(f64, bool)>, Failure> {
     let usual = machine.start();
@@ -355,7 +399,8 @@ fn sources(unit: &Unit<'_>, machine: &str) -> Vec<(&'static str, String)> {
         "{machine}\n/* Which machine this is. */\n#define TOKEN \"{}\"\n",
         unit.token
     );
-    let files = unit.version.files().into_iter();
+    let method = ("method.c", unit.method.tableau());
+    let files = unit.version.files().into_iter().chain([method]);
     let files = files.map(|(name, text)| (name, text.to_owned()));
     [("machine.c", own)].into_iter().chain(files).collect()
 }
@@ -377,6 +422,79 @@ fn identifier(path: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The numbers of an array of C, rows one after the other as they are written.
+    fn array(text: &str, name: &str) -> Vec<Vec<f64>> {
+        let (_, rest) = text.split_once(&format!(" {name}[")).expect(name);
+        let (_, rest) = rest.split_once("= {").expect(name);
+        let (inside, _) = rest.split_once("};").expect(name);
+        let rows = match inside.contains('{') {
+            true => inside.split('{').skip(1).collect(),
+            false => vec![inside],
+        };
+        let number = |word: &str| {
+            let parts: Vec<f64> = word
+                .split('/')
+                .map(|part| part.trim().parse().expect(word))
+                .collect();
+            parts[0] / parts.get(1).unwrap_or(&1.0)
+        };
+        let row = |row: &str| {
+            let words = row.trim_end_matches(['}', ',', ' ', '\n']).split(',');
+            let words = words.map(str::trim).filter(|word| !word.is_empty());
+            words
+                .map(|word| number(word.trim_matches(['{', '}'])))
+                .collect()
+        };
+        rows.into_iter().map(row).collect()
+    }
+
+    /// The conditions of Butcher for tall trees and bushy ones: Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations I*,
+    /// section II.1. A wrong digit breaks one of them.
+    #[test]
+    fn methods_have_their_orders() {
+        for (method, order) in [(UnitMethod::Dop853, 8), (UnitMethod::Dopri5, 5)] {
+            let text = method.tableau();
+            let nodes = array(text, "NODES").remove(0);
+            let rows = array(text, "COEFFICIENTS");
+            assert_eq!(rows.len(), nodes.len() + 1);
+            for (row, node) in rows.iter().zip(&nodes) {
+                // Twelve roundings of numbers up to 44.
+                assert!((row.iter().sum::<f64>() - node).abs() < 1e-13, "{node}");
+            }
+            let weights = &rows[nodes.len()];
+            let along = |row: &[f64], values: &[f64]| -> f64 {
+                row.iter().zip(values).map(|(a, x)| a * x).sum()
+            };
+            let powers = |power: i32| -> Vec<f64> { nodes.iter().map(|c| c.powi(power)).collect() };
+            for power in 0..order {
+                let sum = along(weights, &powers(power));
+                assert!((sum * f64::from(power + 1) - 1.0).abs() < 1e-13, "{power}");
+            }
+            // 1/n! for the tallest tree with n nodes.
+            let mut tall = vec![1.0; nodes.len()];
+            let mut factorial = 1.0;
+            for nodes_of_tree in 1..=order {
+                factorial *= f64::from(nodes_of_tree);
+                let sum = along(weights, &tall);
+                assert!((sum * factorial - 1.0).abs() < 1e-11, "{nodes_of_tree}");
+                tall = rows[..nodes.len()]
+                    .iter()
+                    .map(|row| along(row, &tall))
+                    .collect();
+            }
+            // Errors are those of another method of this kind: they vanish for what both do exactly.
+            for name in ["ERROR_WEIGHTS", "COARSE_ERROR_WEIGHTS"] {
+                let errors = array(text, name).remove(0);
+                for power in 0..3 {
+                    assert!(
+                        along(&errors, &powers(power)).abs() < 1e-14,
+                        "{name} {power}"
+                    );
+                }
+            }
+        }
+    }
 
     #[test]
     fn a_file_name_becomes_an_identifier() {

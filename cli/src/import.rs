@@ -1,13 +1,17 @@
 //! `lagrangian import`: a robot's file as a spec.
 
+mod faults;
 mod machine;
+mod mjcf;
 mod names;
 mod number;
+mod robot;
 mod steps;
 mod tensor;
 mod text;
 mod tree;
 mod urdf;
+mod xml;
 
 use std::fs::File;
 use std::io::Read;
@@ -26,11 +30,14 @@ use crate::output::{
     self, Destination, Endings, MACHINE, ending_is_one_of, keep_apart, keep_document_apart,
 };
 use crate::progress;
+use faults::Faults;
 use machine::Machine;
-use urdf::Faults;
 
 /// What is read.
-const ROBOT: Endings = &["urdf"];
+const ROBOT: Endings = &["urdf", "xml", "mjcf"];
+
+/// The ending of one of the formats.
+const URDF: Endings = &["urdf"];
 
 /// The largest file that is read, in bytes.
 const LARGEST: u64 = 16 << 20;
@@ -48,8 +55,22 @@ pub fn run(call: &call::Import) -> Result<(), Failure> {
     let shown = call.path.display().to_string();
     let file = call.path.file_name().unwrap_or_default().to_string_lossy();
     let mut faults = Faults::new(&shown, &text);
-    let machine = urdf::read(&text, &call.ignore, &mut faults)
-        .and_then(|robot| machine::written(&robot, &file, call, &mut faults));
+    let robot = match ending_is_one_of(&call.path, URDF) {
+        true => urdf::read(&text, &call.ignore, &mut faults),
+        false => {
+            let folder = call.path.parent().unwrap_or_else(|| Path::new(""));
+            let included = |path: &Path| bytes_of(path).map_err(Failure::message);
+            mjcf::read(&text, folder, &included, &call.ignore, &mut faults)
+        }
+    };
+    if let (Some(_), call::Base::Floating, false) =
+        (&robot, call.base, ending_is_one_of(&call.path, URDF))
+    {
+        let message =
+            "--base floating: a file of MJCF says itself which bodies float, by `freejoint`";
+        return Err(Failure::Call(message.to_owned()));
+    }
+    let machine = robot.and_then(|robot| machine::written(&robot, &file, call, &mut faults));
     let Some(machine) = machine.filter(|_| faults.is_empty()) else {
         return Err(Failure::Run(faults.told()));
     };
@@ -69,9 +90,25 @@ fn read(path: &Path) -> Result<String, Failure> {
     let shown = path.display();
     if !ending_is_one_of(path, ROBOT) {
         return Err(Failure::Call(format!(
-            "{shown}: what is read are robots of URDF, with the ending `.urdf`"
+            "{shown}: what is read are robots of URDF, with the ending `.urdf`, and of MJCF, with the ending `.xml` or `.mjcf`"
         )));
     }
+    text_of(path)
+}
+
+/// The text of any file.
+fn text_of(path: &Path) -> Result<String, Failure> {
+    let shown = path.display();
+    String::from_utf8(bytes_of(path)?).map_err(|error| {
+        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
+        Failure::Run(format!("{shown}:{line}: the text is not UTF-8"))
+    })
+}
+
+/// What is in a file.
+fn bytes_of(path: &Path) -> Result<Vec<u8>, Failure> {
+    let shown = path.display();
     let cannot =
         |error: &dyn std::fmt::Display| Failure::Call(format!("cannot read {shown}: {error}"));
     let mut bytes = Vec::new();
@@ -86,11 +123,7 @@ fn read(path: &Path) -> Result<String, Failure> {
         );
         return Err(Failure::Run(message));
     }
-    String::from_utf8(bytes).map_err(|error| {
-        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
-        Failure::Run(format!("{shown}:{line}: the text is not UTF-8"))
-    })
+    Ok(bytes)
 }
 
 /// Whether the text is a spec in which nothing is wrong, as every other command will read it.

@@ -48,8 +48,6 @@ mod table;
 use std::ffi::OsString;
 use std::io;
 
-use clap::Parser;
-
 use call::{Call, Command};
 use failure::Failure;
 
@@ -61,7 +59,7 @@ const CLOSED_PIPE: u8 = 141;
 /// Is the command `lagrangian`, called with these arguments, of which the first is its name: it writes to the standard streams of the
 /// process and takes its Ctrl-C. The exit status.
 pub fn command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    let status = match Call::try_parse_from(arguments) {
+    let status = match Call::read(arguments) {
         Ok(call) => {
             // The result of `evaluate` is JSON in any case.
             let json = call.command.json() || matches!(call.command, Command::Evaluate(_));

@@ -9,7 +9,7 @@ use std::io::{self, Write as _};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use lagrangian::native::text::{CIRCULAR, LANES, REGISTER, SINCOS, VECTOR, X86};
+use lagrangian::native::text::{CIRCULAR, LANES, PLAIN, REGISTER, SINCOS, VECTOR, X86};
 use lagrangian::scalar::text::{KERNEL, LIB, REAL, SERIES};
 use lagrangian_emit as emit;
 use lagrangian_mechanics::Proved;
@@ -149,6 +149,7 @@ fn source(program: &Proved, lanes: &[u8], is_straight: bool) -> Result<String, F
         ("series", SERIES.to_owned()),
         ("real", real),
         ("lanes", lanes_of_c),
+        ("plain", PLAIN.to_owned()),
         ("circular", CIRCULAR.to_owned()),
         ("register", REGISTER.to_owned()),
         ("sincos", SINCOS.to_owned()),

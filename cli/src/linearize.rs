@@ -27,7 +27,7 @@ use crate::evaluate::set_start;
 use crate::failure::Failure;
 use crate::modes::{self, OPTIONS, number};
 use crate::output;
-use crate::reading;
+use crate::reading::{self, places};
 use files::Files;
 
 /// Matrices of more columns are not printed.
@@ -95,7 +95,7 @@ fn about_start(
     let mut start = machine.start();
     set_start(&mut start, &search.start)?;
     if machine.prepare().constraints().len() > 0 {
-        // A run without length does no more than to bring its start onto the constraints.
+        // A run without length does no more than to project its start onto the constraints.
         let simulation = Simulation::new(machine).until(start.t);
         let run = reading::keep(simulation, &search.keep).run(start);
         start = run.map_err(Failure::run)?.start().clone();
@@ -147,18 +147,6 @@ fn about_motion(
     let modes::Reached { q, wanted, motion } = &reached;
     let text = modes::text_of_place(&names, &units, q, wanted, motion);
     Ok((model, text))
-}
-
-/// Which of some numbers a name means: one, or a family.
-fn places(numbers: &Named, name: &str) -> Vec<usize> {
-    let mut probe = numbers.clone();
-    probe.values.fill(0.0);
-    match probe.set(name, 1.0) {
-        Ok(()) => (0..probe.values.len())
-            .filter(|k| probe.values[*k] != 0.0)
-            .collect(),
-        Err(_) => Vec::new(),
-    }
 }
 
 /// What the model of a call is to have.

@@ -158,7 +158,7 @@ pub fn compiled<'d, 'a>(
     compiled_with(Reading::open(spec)?, dag, files, what, |_| Ok(()))
 }
 
-/// The same of a spec that was opened, whose model is changed before it is derived.
+/// Compiles a spec that was opened, whose model is changed before it is derived.
 pub fn compiled_with<'d, 'a>(
     mut reading: Reading,
     dag: &'d Dag,

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use lagrangian::interpreted::{InterpretedMachine, Named};
+use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Machine, Simulation, State, System};
 use lagrangian_linear::DMatrix;
 use lagrangian_linear::orbit::{
@@ -11,7 +11,7 @@ use lagrangian_linear::orbit::{
 use lagrangian_mechanics::Compiled;
 use lagrangian_spec::model::{Variable, stage};
 use lagrangian_symbolic::Dag;
-use lagrangian_units::rate_name;
+use lagrangian_units::{integral_name, rate_name, rate_unit, state_of};
 use serde_json::{Value, json};
 
 use crate::call;
@@ -21,9 +21,9 @@ use crate::failure::Failure;
 use crate::linearize::arrays::{Array, Content};
 use crate::linearize::{mat, npz};
 use crate::modes::{self, number};
-use crate::numbers::{by_name, shortest};
+use crate::numbers::{self, by_name, shortest};
 use crate::output::{self, Destination, ORBIT, SVG, TABLE, keep_apart};
-use crate::reading::{self, Reading};
+use crate::reading::{self, Reading, places};
 use crate::recording::Run;
 use crate::runs::{self, header};
 use crate::{inputs, plot, progress, simulate, table};
@@ -94,6 +94,7 @@ fn said(none: &NoOrbit, call: &call::Orbit) -> Failure {
         }
         NoOrbit::Driven(_) => "; --period gives it, as in --period 2*pi/omega",
         NoOrbit::NoReturn => " (--near)",
+        NoOrbit::Constraints => " (--keep, --start)",
         NoOrbit::Lost(..) => " (--start, --rate, --settle)",
         NoOrbit::Rest => " (--start, --keep)",
         NoOrbit::OtherPlace(_) => "; --advance is to be whole turns of what the machine depends on",
@@ -142,21 +143,6 @@ fn ready<'d>(
         ))
     })?;
     reading::check_kept(&machine.start(), &call.keep)?;
-    let mut states = compiled.model.coordinates.iter();
-    if let Some(state) = states.find(|c| c.rate.is_some()) {
-        return Err(Failure::Run(format!(
-            "the machine has the state of first order `{}`, whose integral over time comes back after no period: orbits are found \
-             of machines without `states`",
-            rate_name(&state.name.to_string(), "")
-        )));
-    }
-    if let Some(constraint) = machine.prepare().constraints().next() {
-        return Err(Failure::Run(format!(
-            "the start of a machine with constraints moves along them, and so it has no variational equations here (`{}`): say the \
-             machine in coordinates that are independent",
-            constraint.name
-        )));
-    }
     let period = call
         .period
         .clone()
@@ -194,6 +180,13 @@ fn sought(call: &call::Orbit, ready: &Ready<'_>) -> Result<Sought, Failure> {
     let mut advance = start.q.clone();
     advance.values.fill(0.0);
     for set in &call.advance {
+        if !places(&start.q, &integral_name(&set.name)).is_empty() || state_of(&set.name).is_some()
+        {
+            return Err(Failure::Call(format!(
+                "--advance {}: a state of first order comes back to its value; what goes on are coordinates",
+                set.name
+            )));
+        }
         let unit = advance.unit(&set.name).unwrap_or("1").to_owned();
         reading::assign(&mut advance, set, "--advance", &unit)?;
     }
@@ -205,6 +198,9 @@ fn sought(call: &call::Orbit, ready: &Ready<'_>) -> Result<Sought, Failure> {
         let shift = if rate.is_some() { n } else { 0 };
         for place in places(&start.q, rate.unwrap_or(name)) {
             kept[shift + place] = true;
+        }
+        for place in places(&start.q, &integral_name(name)) {
+            kept[n + place] = true;
         }
     }
     let mut sought = Sought {
@@ -242,18 +238,6 @@ fn settled(machine: &InterpretedMachine, sought: &mut Sought, time: f64) -> Resu
     Ok(())
 }
 
-/// Which of some numbers a name means: one, or a family.
-pub fn places(numbers: &Named, name: &str) -> Vec<usize> {
-    let mut probe = numbers.clone();
-    probe.values.fill(0.0);
-    match probe.set(name, 1.0) {
-        Ok(()) => (0..probe.values.len())
-            .filter(|k| probe.values[*k] != 0.0)
-            .collect(),
-        Err(_) => Vec::new(),
-    }
-}
-
 /// One period of the motion.
 fn motion(machine: &InterpretedMachine, orbit: &Orbit, call: &call::Orbit) -> Result<Run, Failure> {
     let start = orbit.start.clone();
@@ -271,12 +255,13 @@ fn motion(machine: &InterpretedMachine, orbit: &Orbit, call: &call::Orbit) -> Re
     run.map_err(Failure::run)
 }
 
-/// Names of coordinates, then of rates.
-fn states(machine: &InterpretedMachine) -> Vec<String> {
+/// Names of the coordinates and rates that the monodromy matrix is of.
+fn states(machine: &InterpretedMachine, orbit: &Orbit) -> Vec<String> {
     let system = machine.prepare();
     let names: Vec<String> = system.coordinates().map(|q| q.name.to_owned()).collect();
-    let rates = names.iter().map(|name| format!("der({name})"));
-    names.iter().cloned().chain(rates).collect()
+    let rates = names.iter().map(|name| rate_name(name, ""));
+    let all: Vec<String> = names.iter().cloned().chain(rates).collect();
+    orbit.states.iter().map(|k| all[*k].clone()).collect()
 }
 
 fn arrays(machine: &InterpretedMachine, orbit: &Orbit) -> Vec<Array> {
@@ -299,7 +284,7 @@ fn arrays(machine: &InterpretedMachine, orbit: &Orbit) -> Vec<Array> {
         vector("multipliers_error", of(|one| one.error)),
         Array {
             name: "states",
-            content: Content::Text(states(machine)),
+            content: Content::Text(states(machine, orbit)),
         },
     ]
 }
@@ -323,11 +308,19 @@ fn multiplier_json(one: &Multiplier) -> Value {
 
 fn as_json(machine: &InterpretedMachine, orbit: &Orbit) -> Value {
     let multipliers: Vec<Value> = orbit.multipliers.iter().map(multiplier_json).collect();
+    let mut at = json!({
+        "t": orbit.start.t,
+        "q": by_name(&orbit.start.q),
+        "v": by_name(&orbit.start.v),
+    });
+    if let Some(states) = numbers::states(&orbit.start.v) {
+        at["states"] = states;
+    }
     json!({
         "period": orbit.period,
-        "at": {"t": orbit.start.t, "q": by_name(&orbit.start.q), "v": by_name(&orbit.start.v)},
+        "at": at,
         "autonomous": orbit.is_autonomous,
-        "states": states(machine),
+        "states": states(machine, orbit),
         "monodromy": rows(&orbit.monodromy),
         "multipliers": multipliers,
         "stability": orbit.stability().name(),
@@ -358,10 +351,18 @@ fn text(orbit: &Orbit) -> String {
     let width = start
         .q
         .iter()
-        .map(|(name, _)| name.chars().count())
+        .map(|(name, _)| state_of(name).as_deref().unwrap_or(name).chars().count())
         .max()
         .unwrap_or(0);
     for ((name, q), v) in start.q.iter().zip(&start.v.values) {
+        if let Some(state) = state_of(name) {
+            let unit = match rate_unit(name, start.q.unit(name).unwrap_or("s")).as_str() {
+                "1" => String::new(),
+                unit => format!(" {unit}"),
+            };
+            let _ = writeln!(text, "  {state:width$} = {}{unit}", shortest(*v));
+            continue;
+        }
         let unit = match start.q.unit(name) {
             None | Some("1") => String::new(),
             Some(unit) => format!(" {unit}"),
@@ -546,15 +547,15 @@ fn columns(machine: &InterpretedMachine, trace: &Trace, label: &str) -> Vec<(Str
     ];
     let system = machine.prepare();
     for (k, coordinate) in system.coordinates().enumerate() {
+        if state_of(coordinate.name).is_some() {
+            continue;
+        }
         let name = header(coordinate.name, Some(coordinate.unit));
         columns.push(column(&name, &|row| row.1.start.q.values[k]));
     }
     for (k, coordinate) in system.coordinates().enumerate() {
-        let unit = match coordinate.unit {
-            "1" => "1/s".to_owned(),
-            unit => format!("{unit}/s"),
-        };
-        let name = header(&format!("der({})", coordinate.name), Some(&unit));
+        let unit = rate_unit(coordinate.name, coordinate.unit);
+        let name = header(&rate_name(coordinate.name, ""), Some(&unit));
         columns.push(column(&name, &|row| row.1.start.v.values[k]));
     }
     columns

@@ -166,7 +166,7 @@ pub fn range(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
     range_beyond(0.0, values)
 }
 
-/// The same, where what spans no more than rounding does is a constant.
+/// The range of finite values with a margin, where values that span no more than rounding are a constant.
 fn range_beyond(rounding: f64, values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
     let Some([low, high]) = extent(values) else {
         return 0.0..1.0;

@@ -26,6 +26,8 @@ pub struct Reading {
     name: String,
     text: String,
     constants: Vec<(String, Rational)>,
+    /// The parameters to which the call gives values.
+    given: Vec<String>,
     /// Formulas of the call beside those of the spec: the option that has each, its text and the unit that it is to have, if any.
     formulas: Vec<(String, String, Option<String>)>,
     /// The texts that messages point into.
@@ -50,6 +52,7 @@ impl Reading {
             name: path.into_owned(),
             text,
             constants: spec.constants.clone(),
+            given: spec.given.clone(),
             formulas: Vec::new(),
             sources: Sources::new(),
             report: Report::new(),
@@ -93,6 +96,7 @@ impl Reading {
             name,
             text,
             constants,
+            given,
             formulas,
             sources,
             report,
@@ -106,6 +110,7 @@ impl Reading {
         });
         let asked: Vec<Formula<'_>> = asked.collect();
         let spec = lagrangian_spec::parse(sources, name, text, report);
+        let spec = spec.with_given(given.iter().cloned());
         Model::resolve_with(spec, dag, constants, &asked, &mut Specs, sources, report)
     }
 
@@ -159,7 +164,7 @@ impl Reading {
         self.compile_beside(dag, [])
     }
 
-    /// The same for a command that writes files, which must not be among those that are read.
+    /// Reads for a command that writes files, which must not be among those that are read.
     ///
     /// # Errors
     /// If the spec is wrong, or the call.
@@ -310,6 +315,18 @@ pub fn assign(
     numbers.set(&set.name, value).map_err(unknown)
 }
 
+/// Which of some numbers a name means: one, or a family.
+pub fn places(numbers: &Named, name: &str) -> Vec<usize> {
+    let mut probe = numbers.clone();
+    probe.values.fill(0.0);
+    match probe.set(name, 1.0) {
+        Ok(()) => (0..probe.values.len())
+            .filter(|k| probe.values[*k] != 0.0)
+            .collect(),
+        Err(_) => Vec::new(),
+    }
+}
+
 /// Whether everything that `--keep` names is there.
 ///
 /// # Errors
@@ -319,6 +336,9 @@ pub fn check_kept(start: &State<Named>, keep: &call::Keep) -> Result<(), Failure
     for name in kept_names(keep).unwrap_or_default() {
         let rate = name.strip_prefix("der(");
         let rate = rate.and_then(|rate| rate.strip_suffix(')'));
+        if rate.is_none() && state_named(&start.v, name).is_some() {
+            continue;
+        }
         let mut numbers = start.q.clone();
         if let Err(unknown) = numbers.set(rate.unwrap_or(name), 0.0) {
             let Failure::Call(said) = name_error("coordinate", &unknown) else {
@@ -385,7 +405,7 @@ pub fn name_error(what: &str, unknown: &UnknownName) -> Failure {
     unknown_name(what, unknown, None)
 }
 
-/// The same; or with what is known of the name.
+/// The failure of a name that is unknown; or with what is known of the name elsewhere.
 fn unknown_name(what: &str, unknown: &UnknownName, other: Option<&str>) -> Failure {
     let name = &unknown.name;
     let known = || unknown.known.iter().map(String::as_str);

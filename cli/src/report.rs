@@ -167,6 +167,7 @@ impl Report<'_, '_> {
                 if is_live {
                     curve["live"] = match kind {
                         Kind::Output => json!({ "output": index }),
+                        Kind::Multiplier => json!({ "multiplier": index }),
                         Kind::Energy => json!({ "energy": column.name.split(' ').next() }),
                         _ => Value::Null,
                     };

@@ -338,6 +338,12 @@ pub fn spec(
     let spec = call::Spec {
         path: options.path.clone(),
         constants: runs.constants.clone(),
+        given: options
+            .start
+            .parameters
+            .iter()
+            .map(|set| set.name.clone())
+            .collect(),
         json: runs.json,
     };
     let dag = Dag::new();

@@ -3,10 +3,12 @@
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
 use lagrangian::methods::TAYLOR;
 use lagrangian::{Machine, Sensitive, Simulation, State, System, Varied};
+use lagrangian_linear::starts::{self, Cause, Change};
 use lagrangian_program::{Arguments, Interpreter, Role};
 use lagrangian_scalar::Dual;
 use lagrangian_spec::diagnostic::nearest;
 use lagrangian_spec::model::Variable;
+use lagrangian_spec::unit::{self, integral_name, state_of};
 use lagrangian_sweep::verdict;
 use lagrangian_symbolic::Dag;
 use serde_json::{Value, json};
@@ -16,9 +18,9 @@ use crate::drawing::{self, Curve, Pane};
 use crate::evaluate::set_start;
 use crate::failure::Failure;
 use crate::modes::{self, number};
-use crate::orbit::{differentiate, places};
+use crate::orbit::differentiate;
 use crate::output::{self, Destination, SVG, TABLE, keep_apart};
-use crate::reading::{self, Reading};
+use crate::reading::{self, Reading, places};
 use crate::runs::{header, warn};
 use crate::{progress, simulate, table};
 
@@ -37,7 +39,19 @@ enum By {
     StartRate(usize),
 }
 
-/// The same, with its name and unit.
+impl By {
+    /// What a start depends on.
+    fn cause(&self) -> Cause {
+        match self {
+            By::Parameter(index) => Cause::Parameter(*index),
+            By::Input(_) => Cause::Input,
+            By::Start(k) => Cause::Start(*k),
+            By::StartRate(k) => Cause::Rate(*k),
+        }
+    }
+}
+
+/// A quantity that a motion is differentiated by, with its name and unit.
 struct Variation {
     by: By,
     name: String,
@@ -51,7 +65,7 @@ enum Of {
     Output(usize),
 }
 
-/// The same, with its name and unit.
+/// A quantity that is differentiated, with its name and unit.
 struct Observed {
     of: Of,
     name: String,
@@ -105,6 +119,7 @@ pub fn run(call: &call::Sensitivities) -> Result<(), Failure> {
     })?;
     let mut start = machine.start();
     set_start(&mut start, &call.start)?;
+    reading::check_kept(&start, &call.keep)?;
     let variations = variations(&machine, &start, &wanted)?;
     let observed = observed(&machine, &start, &call.of)?;
     let (times, columns) = made(call, &machine, &start, &variations, &observed)?;
@@ -180,13 +195,22 @@ fn variations(
         };
         let member = format!("{name}[");
         let is_meant = |own: &str| own == name || own.starts_with(&member);
-        if let Some(coordinate) = inner("start") {
+        let state = inner("start").map(integral_name);
+        let of_state = state.map_or_else(Vec::new, |integral| places(&start.q, &integral));
+        if !of_state.is_empty() {
+            // A state is the rate of its integral.
+            all.extend(of_state.into_iter().map(|k| Variation {
+                by: By::StartRate(k),
+                name: format!("start({})", shown_rate(&coordinates[k].0)),
+                unit: unit::rate_unit(&coordinates[k].0, &coordinates[k].1),
+            }));
+        } else if let Some(coordinate) = inner("start").filter(|name| !is_integral(name)) {
             all.extend(places(&start.q, coordinate).into_iter().map(|k| Variation {
                 by: By::Start(k),
                 name: format!("start({})", coordinates[k].0),
                 unit: coordinates[k].1.clone(),
             }));
-        } else if let Some(coordinate) = inner("rate") {
+        } else if let Some(coordinate) = inner("rate").filter(|name| !is_integral(name)) {
             all.extend(places(&start.q, coordinate).into_iter().map(|k| Variation {
                 by: By::StartRate(k),
                 name: format!("rate({})", coordinates[k].0),
@@ -216,7 +240,10 @@ fn variations(
                 .chain(
                     coordinates
                         .iter()
-                        .flat_map(|(name, _)| [format!("start({name})"), format!("rate({name})")]),
+                        .flat_map(|(name, _)| match state_of(name) {
+                            Some(state) => vec![format!("start({state})")],
+                            None => vec![format!("start({name})"), format!("rate({name})")],
+                        }),
                 )
                 .collect();
             let help = match nearest(name, known.iter().map(String::as_str)) {
@@ -255,8 +282,16 @@ fn observed(
     };
     let rate = |k: usize| Observed {
         of: Of::Rate(k),
-        name: format!("der({})", coordinates[k].0),
-        unit: rate_unit(&coordinates[k].1),
+        name: shown_rate(&coordinates[k].0),
+        unit: match is_integral(&coordinates[k].0) {
+            true => unit::rate_unit(&coordinates[k].0, &coordinates[k].1),
+            false => rate_unit(&coordinates[k].1),
+        },
+    };
+    // Of a state itself, and not its integral, which nothing depends on.
+    let shown = |k: usize| match is_integral(&coordinates[k].0) {
+        true => rate(k),
+        false => coordinate(k),
     };
     let output = |k: usize| Observed {
         of: Of::Output(k),
@@ -266,7 +301,7 @@ fn observed(
     let wanted = call::names_of(lists).map_err(Failure::Call)?;
     if wanted.is_empty() {
         return Ok(match outputs.is_empty() {
-            true => (0..coordinates.len()).map(coordinate).collect(),
+            true => (0..coordinates.len()).map(shown).collect(),
             false => (0..outputs.len()).map(output).collect(),
         });
     }
@@ -285,7 +320,11 @@ fn observed(
                 .and_then(|inner| inner.strip_suffix(')'))
             {
                 Some(inner) => all.extend(places(&start.q, inner.trim()).into_iter().map(rate)),
-                None => all.extend(places(&start.q, name).into_iter().map(coordinate)),
+                None => {
+                    let states = places(&start.q, &integral_name(name));
+                    all.extend(states.into_iter().map(rate));
+                    all.extend(places(&start.q, name).into_iter().map(coordinate));
+                }
             }
         }
         if all.len() == before {
@@ -295,7 +334,10 @@ fn observed(
                 .chain(
                     coordinates
                         .iter()
-                        .flat_map(|(name, _)| [name.clone(), format!("der({name})")]),
+                        .flat_map(|(name, _)| match state_of(name) {
+                            Some(state) => vec![state],
+                            None => vec![name.clone(), format!("der({name})")],
+                        }),
                 )
                 .collect();
             let help = match nearest(name, known.iter().map(String::as_str)) {
@@ -308,6 +350,16 @@ fn observed(
         }
     }
     Ok(all)
+}
+
+/// Whether a coordinate is the integral of a state of first order.
+fn is_integral(coordinate: &str) -> bool {
+    state_of(coordinate).is_some()
+}
+
+/// What the rate of a coordinate is called: `der(x)`, or the name of a state.
+fn shown_rate(coordinate: &str) -> String {
+    state_of(coordinate).unwrap_or_else(|| format!("der({coordinate})"))
 }
 
 /// The unit of the rate of what is measured in a unit.
@@ -347,7 +399,11 @@ fn made(
         .coordinates()
         .map(|q| q.name.to_owned())
         .collect();
+    let is_held = machine.prepare().constraints().len() > 0;
     let mut sensitive = Sensitive::new(machine);
+    if is_held {
+        sensitive = sensitive.with_start_on_constraints();
+    }
     for variation in variations {
         sensitive = match variation.by {
             By::Parameter(_) | By::Input(_) => sensitive.by(&variation.name),
@@ -356,9 +412,26 @@ fn made(
         }
         .map_err(Failure::run)?;
     }
+    let start = match is_held {
+        true => {
+            let start = start_on_constraints(call, machine, start.clone())?;
+            if let Some(constraint) = starts::dependent_constraint(machine, &start) {
+                return Err(Failure::Run(format!(
+                    "the constraint `{constraint}` follows from others, and accelerations have no derivatives then: leave it out"
+                )));
+            }
+            start
+        }
+        false => start.clone(),
+    };
     let mut from = sensitive.start_from(start.clone());
-    // A start that the spec computes from a parameter changes with it, where the call does not say another.
     for (k, variation) in variations.iter().enumerate() {
+        if is_held {
+            [from.q.by[k].values, from.v.by[k].values] =
+                change_of_start(call, machine, &start, variation)?;
+            continue;
+        }
+        // A start that the spec computes from a parameter changes with it, where the call does not say another.
         if let By::Parameter(index) = variation.by {
             let (q, v) = start_by(machine, index);
             let mut is_set = vec![false; 2 * coordinates.len()];
@@ -397,6 +470,9 @@ fn made(
         .run(from)
         .map_err(|error| Failure::Run(verdict::said(&error)))?;
     warn(&run);
+    if is_held {
+        check_drift(machine, run.end(), variations)?;
+    }
     let states = match run.samples() {
         [] => std::slice::from_ref(run.start()),
         states => states,
@@ -430,6 +506,65 @@ fn made(
         }
     }
     Ok((states.iter().map(|state| state.t).collect(), columns))
+}
+
+/// The start of a run from a state, which the constraints move.
+fn start_on_constraints(
+    call: &call::Sensitivities,
+    machine: &InterpretedMachine,
+    start: State<Named>,
+) -> Result<State<Named>, Failure> {
+    let simulation = Simulation::new(machine).until(start.t);
+    let run = reading::keep(simulation, &call.keep).run(start);
+    Ok(run.map_err(Failure::run)?.start().clone())
+}
+
+/// How the start on the constraints changes with what is varied.
+fn change_of_start(
+    call: &call::Sensitivities,
+    machine: &InterpretedMachine,
+    start: &State<Named>,
+    variation: &Variation,
+) -> Result<Change, Failure> {
+    let from = |machine: &InterpretedMachine| {
+        let mut from = machine.start();
+        // What the call says was set before, under the same names and units.
+        let _ = set_start(&mut from, &call.start);
+        from
+    };
+    let brought = |machine: &InterpretedMachine, from: State<Named>| {
+        start_on_constraints(call, machine, from).map_err(|failure| match failure {
+            Failure::Call(said) | Failure::Run(said) => said,
+            _ => "there is no start".to_owned(),
+        })
+    };
+    starts::change(machine, start, variation.by.cause(), from, brought)
+        .map_err(|why| Failure::Run(format!("--by {}: {why}", variation.name)))
+}
+
+/// Whether steps have moved the motion or its derivatives off the constraints.
+fn check_drift(
+    machine: &InterpretedMachine,
+    end: &State<Varied<Named>>,
+    variations: &[Variation],
+) -> Result<(), Failure> {
+    let at = State {
+        t: end.t,
+        q: end.q.value.clone(),
+        v: end.v.value.clone(),
+    };
+    let changes = variations.iter().enumerate().map(|(k, variation)| {
+        let change = [end.q.by[k].values.clone(), end.v.by[k].values.clone()];
+        (variation.by.cause(), change)
+    });
+    match starts::drifted(machine, &at, changes) {
+        None => Ok(()),
+        Some((k, off)) => Err(Failure::Run(format!(
+            "errors of steps have moved the motion and its derivative by {} off the constraints, by {off:.1e} of its numbers: a \
+             smaller --tolerance holds them closer",
+            variations[k].name
+        ))),
+    }
 }
 
 /// What a parameter does to the start of the spec.

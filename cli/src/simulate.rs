@@ -34,6 +34,9 @@ const SAMPLES: f64 = 1000.0;
 /// More rows than this are a slip of the hand: at nine coordinates they fill a gigabyte.
 const MOST_SAMPLES: f64 = 5e6;
 
+/// The method that is chosen by the machine: the default one, and time stepping where contacts meet too often.
+const AUTO: &str = "auto";
+
 /// The files that a call asks for.
 struct Files {
     out: Option<Destination>,
@@ -97,7 +100,11 @@ impl Trouble<'_> {
 /// # Errors
 /// If the spec, the run or the call is at fault. What there is of a run that ends early is written and summarized first.
 pub fn run(call: &call::Simulate) -> Result<(), Failure> {
-    let mut method = method(&call.method)?;
+    let is_auto = call.method == AUTO;
+    let mut method = match is_auto {
+        true => <&Method>::default(),
+        false => method_or(&call.method, &[AUTO])?,
+    };
     let written = inputs::written(&call.inputs)?;
     let files = Files::new(call, &written)?;
     let dag = Dag::new();
@@ -128,8 +135,12 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         machine = machine.with_series(series);
     }
     if call.live
-        && let Some(objection) =
-            report::live::objection(&compiled.program, method, !laws.is_empty())
+        && let Some(objection) = report::live::objection(
+            &compiled.program,
+            method,
+            !laws.is_empty(),
+            &call.keep.names,
+        )
     {
         return Err(Failure::Call(objection));
     }
@@ -189,6 +200,9 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         simulation = simulation.every(interval / f64::from(finer));
     }
     simulation = reading::keep(simulation, &call.keep);
+    if is_auto {
+        simulation = simulation.hand_over();
+    }
     let simulation = contacts.watch(simulation, !signals.is_empty());
     let (run, error) = simulation.run_as_far_as_possible(start).map_err(cause)?;
     let mut trouble = Trouble {
@@ -215,6 +229,8 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
                 error: error.as_ref().map(ToString::to_string),
                 is_interrupted: trouble.is_interrupted,
             };
+            let mut warnings = run.warnings().iter();
+            let redundant = warnings.find(|it| matches!(it, Warning::RedundantConstraint { .. }));
             let page = match call.live {
                 true => report.page_that_runs(&Live {
                     tolerance: call.tolerance,
@@ -222,8 +238,15 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
                 }),
                 false => report.page(),
             };
-            let written = file.write_text(&page);
-            trouble.other.extend(written.err().map(Failure::message));
+            match redundant.filter(|_| call.live) {
+                Some(warning) => trouble.other.push(format!(
+                    "--live: {warning}; the page solves for the multipliers of all constraints"
+                )),
+                None => {
+                    let written = file.write_text(&page);
+                    trouble.other.extend(written.err().map(Failure::message));
+                }
+            }
         }
     }
     let interruption = trouble.interruption(&run, call.until);
@@ -267,8 +290,14 @@ fn asked(call: &call::Simulate) -> Asked {
 }
 
 pub fn method(name: &str) -> Result<&'static Method, Failure> {
+    method_or(name, &[])
+}
+
+/// The method of a name, where the call may name `others` too.
+fn method_or(name: &str, others: &[&'static str]) -> Result<&'static Method, Failure> {
     Method::named(name).ok_or_else(|| {
-        let names = || Method::all().map(|method| method.tableau.name);
+        let methods = || Method::all().map(|method| method.tableau.name);
+        let names = || others.iter().copied().chain(methods());
         let help = match nearest(name, names()) {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("there are: {}", names().collect::<Vec<_>>().join(", ")),
@@ -285,8 +314,7 @@ fn cause(error: Error) -> Failure {
             value: f64::INFINITY,
             ..
         } => Failure::Call(
-            "the method `moreau` takes steps of a fixed length: give it, as in --longest-step 1e-3"
-                .into(),
+            "the method takes steps of a fixed length: give it, as in --longest-step 1e-3".into(),
         ),
         // What the options have let pass.
         Error::InvalidSetting {

@@ -382,10 +382,10 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
     let mut disk = Disk;
     let mut files = lagrangian_sweep::plan::Recorded::new(&mut disk);
     let constants = &call.spec.constants;
-    let model = lagrangian_spec::model(
+    let spec = lagrangian_spec::parse(&mut sources, &path, &text, &mut report);
+    let model = Model::resolve(
+        spec.with_given(call.spec.given.iter().cloned()),
         &dag,
-        &path,
-        &text,
         constants,
         &mut files,
         &mut sources,
@@ -435,6 +435,7 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
             text,
             files: read,
             constants: constants.collect(),
+            given: Vec::new(),
         },
         set,
         start: starts,

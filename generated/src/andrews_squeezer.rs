@@ -137,105 +137,6 @@ pub struct AndrewsSqueezer<S = f64> {
     pub mom: S,
 }
 
-impl Default for AndrewsSqueezer {
-    fn default() -> Self {
-        Self {
-            m1: 0.04325,
-            m2: 0.00365,
-            m3: 0.02373,
-            m4: 0.00706,
-            m5: 0.0705,
-            m6: 0.00706,
-            m7: 0.05498,
-            I1: 2.194e-6,
-            I2: 4.41e-7,
-            I3: 5.255e-6,
-            I4: 5.667e-7,
-            I5: 1.169e-5,
-            I6: 5.667e-7,
-            I7: 1.912e-5,
-            xa: -0.06934,
-            ya: -0.00227,
-            xb: -0.03635,
-            yb: 0.03273,
-            xc: 0.014,
-            yc: 0.072,
-            d: 0.028,
-            da: 0.0115,
-            e: 0.02,
-            ea: 0.01421,
-            zf: 0.02,
-            fa: 0.01421,
-            rr: 0.007,
-            ra: 0.00092,
-            ss: 0.035,
-            sa: 0.01874,
-            sb: 0.01043,
-            sc: 0.018,
-            sd: 0.02,
-            zt: 0.04,
-            ta: 0.02308,
-            tb: 0.00916,
-            u: 0.04,
-            ua: 0.01228,
-            ub: 0.00449,
-            c0: 4530.0,
-            l0: 0.07785,
-            mom: 0.033,
-        }
-    }
-}
-
-impl<S> AndrewsSqueezer<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> AndrewsSqueezer<R> {
-        AndrewsSqueezer {
-            m1: f(self.m1),
-            m2: f(self.m2),
-            m3: f(self.m3),
-            m4: f(self.m4),
-            m5: f(self.m5),
-            m6: f(self.m6),
-            m7: f(self.m7),
-            I1: f(self.I1),
-            I2: f(self.I2),
-            I3: f(self.I3),
-            I4: f(self.I4),
-            I5: f(self.I5),
-            I6: f(self.I6),
-            I7: f(self.I7),
-            xa: f(self.xa),
-            ya: f(self.ya),
-            xb: f(self.xb),
-            yb: f(self.yb),
-            xc: f(self.xc),
-            yc: f(self.yc),
-            d: f(self.d),
-            da: f(self.da),
-            e: f(self.e),
-            ea: f(self.ea),
-            zf: f(self.zf),
-            fa: f(self.fa),
-            rr: f(self.rr),
-            ra: f(self.ra),
-            ss: f(self.ss),
-            sa: f(self.sa),
-            sb: f(self.sb),
-            sc: f(self.sc),
-            sd: f(self.sd),
-            zt: f(self.zt),
-            ta: f(self.ta),
-            tb: f(self.tb),
-            u: f(self.u),
-            ua: f(self.ua),
-            ub: f(self.ub),
-            c0: f(self.c0),
-            l0: f(self.l0),
-            mom: f(self.mom),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> AndrewsSqueezer<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -301,17 +202,7 @@ impl<S: ::lagrangian::emitted::Scalar> AndrewsSqueezer<S> {
         let k54 = self.ss * k43;
         let k55 = self.e * k23;
         let k56 = self.zf * k27;
-        let singular = if vanishes(k9, k9, 1.1546319456101628e-14) {
-            Some(singular(5, k9, k9))
-        } else if vanishes(k7, k7, 1.1546319456101628e-14) {
-            Some(singular(3, k7, k7))
-        } else if vanishes(k5, k5, 1.1546319456101628e-14) {
-            Some(singular(1, k5, k5))
-        } else if vanishes(k31, k31, 1.1546319456101628e-14) {
-            Some(singular(2, k31, k31))
-        } else {
-            None
-        };
+        let pivots = [(5, k9, k9), (3, k7, k7), (1, k5, k5), (2, k31, k31)];
         Prepared {
             m2: self.m2,
             m3: self.m3,
@@ -401,7 +292,7 @@ impl<S: ::lagrangian::emitted::Scalar> AndrewsSqueezer<S> {
             k54,
             k55,
             k56,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -441,47 +332,6 @@ pub struct Coordinates<S = f64> {
     pub Omega: S,
     /// `epsilon`. Unit: `rad`.
     pub epsilon: S,
-}
-
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 7] {
-        [
-            self.beta,
-            self.Theta,
-            self.gamma,
-            self.Phi,
-            self.delta,
-            self.Omega,
-            self.epsilon,
-        ]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 7]) -> Self {
-        Self {
-            beta: q[0],
-            Theta: q[1],
-            gamma: q[2],
-            Phi: q[3],
-            delta: q[4],
-            Omega: q[5],
-            epsilon: q[6],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            beta: f(self.beta),
-            Theta: f(self.Theta),
-            gamma: f(self.gamma),
-            Phi: f(self.Phi),
-            delta: f(self.delta),
-            Omega: f(self.Omega),
-            epsilon: f(self.epsilon),
-        }
-    }
 }
 
 /// What can be set while a [`AndrewsSqueezer`] runs.
@@ -674,6 +524,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 7,
+    tolerance: 1.1546319456101628e-14,
+};
 
 /// Mass matrix `M`.
 ///
@@ -1323,26 +1180,29 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let delta_ddot = t60.mul_sub(t174, t61.mul_add(t171, t125));
         let Omega_ddot = t97.mul_add(t170, t134.mul_sub(t169, t127 * n(p.k27)));
         let epsilon_ddot = -t81.mul_add(t170, t120.mul_sub(t169, t128));
-        let sound = t55.exceeds(N::from_f64(1.1546319456101628e-14) * t55)
-            & t37.exceeds(N::from_f64(1.1546319456101628e-14) * t37)
-            & t35.exceeds(N::from_f64(1.1546319456101628e-14) * t35)
-            & t73.exceeds(N::from_f64(1.1546319456101628e-14) * t73)
-            & t93.exceeds(N::from_f64(1.1546319456101628e-14) * t75)
-            & t117.exceeds(N::from_f64(1.1546319456101628e-14) * t76)
-            & t141.exceeds(N::from_f64(1.1546319456101628e-14) * t80)
-            & t161.exceeds(N::from_f64(1.1546319456101628e-14) * t107)
-            & t168.exceeds(N::from_f64(1.1546319456101628e-14) * t151)
+        let sound = PIVOTS.hold(t55, t55)
+            & PIVOTS.hold(t37, t37)
+            & PIVOTS.hold(t35, t35)
+            & PIVOTS.hold(t73, t73)
+            & PIVOTS.hold(t93, t75)
+            & PIVOTS.hold(t117, t76)
+            & PIVOTS.hold(t141, t80)
+            & PIVOTS.hold(t161, t107)
+            & PIVOTS.hold(t168, t151)
             & gamma_ddot.is_finite();
         if !sound {
-            check(t55, t55, 1.1546319456101628e-14, 6)?;
-            check(t37, t37, 1.1546319456101628e-14, 4)?;
-            check(t35, t35, 1.1546319456101628e-14, 0)?;
-            check(t73, t73, 1.1546319456101628e-14, 7)?;
-            check(t93, t75, 1.1546319456101628e-14, 8)?;
-            check(t117, t76, 1.1546319456101628e-14, 9)?;
-            check(t141, t80, 1.1546319456101628e-14, 10)?;
-            check(t161, t107, 1.1546319456101628e-14, 11)?;
-            check(t168, t151, 1.1546319456101628e-14, 12)?;
+            let pivots = [
+                (6, t55, t55),
+                (4, t37, t37),
+                (0, t35, t35),
+                (7, t73, t73),
+                (8, t93, t75),
+                (9, t117, t76),
+                (10, t141, t80),
+                (11, t161, t107),
+                (12, t168, t151),
+            ];
+            PIVOTS.check(pivots)?;
         }
         let accelerations = [
             beta_ddot.store(),
@@ -1596,26 +1456,29 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let lambda4 = -t172;
         let lambda5 = -t171;
         let lambda6 = -t170;
-        let sound = t57.exceeds(N::from_f64(1.1546319456101628e-14) * t57)
-            & t35.exceeds(N::from_f64(1.1546319456101628e-14) * t35)
-            & t33.exceeds(N::from_f64(1.1546319456101628e-14) * t33)
-            & t69.exceeds(N::from_f64(1.1546319456101628e-14) * t69)
-            & t97.exceeds(N::from_f64(1.1546319456101628e-14) * t71)
-            & t119.exceeds(N::from_f64(1.1546319456101628e-14) * t74)
-            & t138.exceeds(N::from_f64(1.1546319456101628e-14) * t84)
-            & t162.exceeds(N::from_f64(1.1546319456101628e-14) * t113)
-            & t169.exceeds(N::from_f64(1.1546319456101628e-14) * t152)
+        let sound = PIVOTS.hold(t57, t57)
+            & PIVOTS.hold(t35, t35)
+            & PIVOTS.hold(t33, t33)
+            & PIVOTS.hold(t69, t69)
+            & PIVOTS.hold(t97, t71)
+            & PIVOTS.hold(t119, t74)
+            & PIVOTS.hold(t138, t84)
+            & PIVOTS.hold(t162, t113)
+            & PIVOTS.hold(t169, t152)
             & lambda1.is_finite();
         if !sound {
-            check(t57, t57, 1.1546319456101628e-14, 6)?;
-            check(t35, t35, 1.1546319456101628e-14, 4)?;
-            check(t33, t33, 1.1546319456101628e-14, 0)?;
-            check(t69, t69, 1.1546319456101628e-14, 7)?;
-            check(t97, t71, 1.1546319456101628e-14, 8)?;
-            check(t119, t74, 1.1546319456101628e-14, 9)?;
-            check(t138, t84, 1.1546319456101628e-14, 10)?;
-            check(t162, t113, 1.1546319456101628e-14, 11)?;
-            check(t169, t152, 1.1546319456101628e-14, 12)?;
+            let pivots = [
+                (6, t57, t57),
+                (4, t35, t35),
+                (0, t33, t33),
+                (7, t69, t69),
+                (8, t97, t71),
+                (9, t119, t74),
+                (10, t138, t84),
+                (11, t162, t113),
+                (12, t169, t152),
+            ];
+            PIVOTS.check(pivots)?;
         }
         let multipliers = [
             lambda1.store(),
@@ -1702,497 +1565,103 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 7]) 
     beta_dot * p.mom
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 42] = [
-    ("m1", "kg"),
-    ("m2", "kg"),
-    ("m3", "kg"),
-    ("m4", "kg"),
-    ("m5", "kg"),
-    ("m6", "kg"),
-    ("m7", "kg"),
-    ("I1", "kg*m^2"),
-    ("I2", "kg*m^2"),
-    ("I3", "kg*m^2"),
-    ("I4", "kg*m^2"),
-    ("I5", "kg*m^2"),
-    ("I6", "kg*m^2"),
-    ("I7", "kg*m^2"),
-    ("xa", "m"),
-    ("ya", "m"),
-    ("xb", "m"),
-    ("yb", "m"),
-    ("xc", "m"),
-    ("yc", "m"),
-    ("d", "m"),
-    ("da", "m"),
-    ("e", "m"),
-    ("ea", "m"),
-    ("zf", "m"),
-    ("fa", "m"),
-    ("rr", "m"),
-    ("ra", "m"),
-    ("ss", "m"),
-    ("sa", "m"),
-    ("sb", "m"),
-    ("sc", "m"),
-    ("sd", "m"),
-    ("zt", "m"),
-    ("ta", "m"),
-    ("tb", "m"),
-    ("u", "m"),
-    ("ua", "m"),
-    ("ub", "m"),
-    ("c0", "N/m"),
-    ("l0", "m"),
-    ("mom", "N*m"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 7] = [
-    ("beta", "rad"),
-    ("Theta", "rad"),
-    ("gamma", "rad"),
-    ("Phi", "rad"),
-    ("delta", "rad"),
-    ("Omega", "rad"),
-    ("epsilon", "rad"),
-];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 0] = [];
-
-/// Names, units, units of multipliers, whether positions are constrained.
-const CONSTRAINTS: [(&str, &str, &str, bool); 6] = [
-    ("x3", "m", "N", true),
-    ("y3", "m", "N", true),
-    ("x4", "m", "N", true),
-    ("y4", "m", "N", true),
-    ("x6", "m", "N", true),
-    ("y6", "m", "N", true),
-];
-
-impl ::lagrangian::emitted::Machine for AndrewsSqueezer {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "AndrewsSqueezer"
+::lagrangian::emitted::implement! {
+    machine AndrewsSqueezer "AndrewsSqueezer" over S, R;
+    parameters {
+        m1, m2, m3, m4, m5, m6, m7, I1, I2, I3, I4, I5, I6, I7, xa, ya, xb, yb, xc, yc, d, da, e,
+        ea, zf, fa, rr, ra, ss, sa, sb, sc, sd, zt, ta, tb, u, ua, ub, c0, l0, mom,
+    } [
+        m1: "m1" "kg" = 0.04325;
+        m2: "m2" "kg" = 0.00365;
+        m3: "m3" "kg" = 0.02373;
+        m4: "m4" "kg" = 0.00706;
+        m5: "m5" "kg" = 0.0705;
+        m6: "m6" "kg" = 0.00706;
+        m7: "m7" "kg" = 0.05498;
+        I1: "I1" "kg*m^2" = 2.194e-6;
+        I2: "I2" "kg*m^2" = 4.41e-7;
+        I3: "I3" "kg*m^2" = 5.255e-6;
+        I4: "I4" "kg*m^2" = 5.667e-7;
+        I5: "I5" "kg*m^2" = 1.169e-5;
+        I6: "I6" "kg*m^2" = 5.667e-7;
+        I7: "I7" "kg*m^2" = 1.912e-5;
+        xa: "xa" "m" = -0.06934;
+        ya: "ya" "m" = -0.00227;
+        xb: "xb" "m" = -0.03635;
+        yb: "yb" "m" = 0.03273;
+        xc: "xc" "m" = 0.014;
+        yc: "yc" "m" = 0.072;
+        d: "d" "m" = 0.028;
+        da: "da" "m" = 0.0115;
+        e: "e" "m" = 0.02;
+        ea: "ea" "m" = 0.01421;
+        zf: "zf" "m" = 0.02;
+        fa: "fa" "m" = 0.01421;
+        rr: "rr" "m" = 0.007;
+        ra: "ra" "m" = 0.00092;
+        ss: "ss" "m" = 0.035;
+        sa: "sa" "m" = 0.01874;
+        sb: "sb" "m" = 0.01043;
+        sc: "sc" "m" = 0.018;
+        sd: "sd" "m" = 0.02;
+        zt: "zt" "m" = 0.04;
+        ta: "ta" "m" = 0.02308;
+        tb: "tb" "m" = 0.00916;
+        u: "u" "m" = 0.04;
+        ua: "ua" "m" = 0.01228;
+        ub: "ub" "m" = 0.00449;
+        c0: "c0" "N/m" = 4530.0;
+        l0: "l0" "m" = 0.07785;
+        mom: "mom" "N*m" = 0.033;
+    ]
+    coordinates 7 Coordinates { beta, Theta, gamma, Phi, delta, Omega, epsilon } [
+        beta: "beta" "rad";
+        Theta: "Theta" "rad";
+        gamma: "gamma" "rad";
+        Phi: "Phi" "rad";
+        delta: "delta" "rad";
+        Omega: "Omega" "rad";
+        epsilon: "epsilon" "rad";
+    ]
+    inputs Inputs {} []
+    outputs Outputs {} []
+    prepared Prepared {
+        m2, m3, m4, m6, I1, I2, I3, I4, I5, I6, I7, xa, ya, xb, yb, xc, yc, d, da, e, zf, rr, ss,
+        sa, sb, sc, sd, zt, u, l0, mom, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13,
+        k14, k15, k16, k17, k18, k19, k20, k21, k22, k23, k24, k25, k26, k27, k28, k29, k30, k31,
+        k32, k33, k34, k35, k36, k37, k38, k39, k40, k41, k42, k43, k44, k45, k46, k47, k48, k49,
+        k50, k51, k52, k53, k54, k55, k56,
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [
-            self.m1, self.m2, self.m3, self.m4, self.m5, self.m6, self.m7, self.I1, self.I2,
-            self.I3, self.I4, self.I5, self.I6, self.I7, self.xa, self.ya, self.xb, self.yb,
-            self.xc, self.yc, self.d, self.da, self.e, self.ea, self.zf, self.fa, self.rr, self.ra,
-            self.ss, self.sa, self.sb, self.sc, self.sd, self.zt, self.ta, self.tb, self.u,
-            self.ua, self.ub, self.c0, self.l0, self.mom,
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q);
+        vector forces(p, t, q, v, u) = forces(p, q, v);
+        numbers constraint_positions(p, t, q) = constraint_positions(p, q);
+        numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
+        numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
+        numbers constraint_drift(p, t, q, v) = constraint_drift(p, q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u) = work_rate(p, v);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = Outputs {};
+        constraints constraints(p) = [
+            ("x3", "m", "N", true),
+            ("y3", "m", "N", true),
+            ("x4", "m", "N", true),
+            ("y4", "m", "N", true),
+            ("x6", "m", "N", true),
+            ("y6", "m", "N", true),
         ];
-        quantities(&PARAMETERS, values)
+        solved multipliers(p, t, q, v, u) = multipliers(p, q, v);
+        workspace with_workspace(p) = ::lagrangian::emitted::constraint_workspace(7, 6);
     }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.m1),
-            1 => Some(&mut self.m2),
-            2 => Some(&mut self.m3),
-            3 => Some(&mut self.m4),
-            4 => Some(&mut self.m5),
-            5 => Some(&mut self.m6),
-            6 => Some(&mut self.m7),
-            7 => Some(&mut self.I1),
-            8 => Some(&mut self.I2),
-            9 => Some(&mut self.I3),
-            10 => Some(&mut self.I4),
-            11 => Some(&mut self.I5),
-            12 => Some(&mut self.I6),
-            13 => Some(&mut self.I7),
-            14 => Some(&mut self.xa),
-            15 => Some(&mut self.ya),
-            16 => Some(&mut self.xb),
-            17 => Some(&mut self.yb),
-            18 => Some(&mut self.xc),
-            19 => Some(&mut self.yc),
-            20 => Some(&mut self.d),
-            21 => Some(&mut self.da),
-            22 => Some(&mut self.e),
-            23 => Some(&mut self.ea),
-            24 => Some(&mut self.zf),
-            25 => Some(&mut self.fa),
-            26 => Some(&mut self.rr),
-            27 => Some(&mut self.ra),
-            28 => Some(&mut self.ss),
-            29 => Some(&mut self.sa),
-            30 => Some(&mut self.sb),
-            31 => Some(&mut self.sc),
-            32 => Some(&mut self.sd),
-            33 => Some(&mut self.zt),
-            34 => Some(&mut self.ta),
-            35 => Some(&mut self.tb),
-            36 => Some(&mut self.u),
-            37 => Some(&mut self.ua),
-            38 => Some(&mut self.ub),
-            39 => Some(&mut self.c0),
-            40 => Some(&mut self.l0),
-            41 => Some(&mut self.mom),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 7];
-    type Matrix = [f64; 49];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 7]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 7] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 7],
-        v: &[f64; 7],
-        _: &Inputs,
-        result: &mut [f64; 7],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, q: &[f64; 7], matrix: &mut [f64; 49]) {
-        let rows = mass_matrix(self, q);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, q: &[f64; 7], v: &[f64; 7], result: &mut [f64; 7]) {
-        *result = bias(self, q, v);
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 7], _: &[f64; 7], _: &Inputs, result: &mut [f64; 7]) {
-        *result = applied(self, q);
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 7], v: &[f64; 7], _: &Inputs, result: &mut [f64; 7]) {
-        *result = forces(self, q, v);
-    }
-
-    fn constraint_positions(&self, _: f64, q: &[f64; 7], to: &mut [f64]) {
-        fill(to, &constraint_positions(self, q));
-    }
-
-    fn constraint_rates(&self, _: f64, q: &[f64; 7], v: &[f64; 7], to: &mut [f64]) {
-        fill(to, &constraint_rates(self, q, v));
-    }
-
-    fn constraint_matrix(&self, _: f64, q: &[f64; 7], to: &mut [f64]) {
-        fill(to, &constraint_matrix(self, q));
-    }
-
-    fn constraint_drift(&self, _: f64, q: &[f64; 7], v: &[f64; 7], to: &mut [f64]) {
-        fill(to, &constraint_drift(self, q, v));
-    }
-
-    fn kinetic_energy(&self, _: f64, q: &[f64; 7], v: &[f64; 7]) -> f64 {
-        kinetic_energy(self, q, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 7], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 7], _: &[f64; 7], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 7], v: &[f64; 7], _: &[f64; 7], _: &Inputs) -> f64 {
-        work_rate(self, v)
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 7], _: &[f64; 7], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, _: &[f64; 7], _: &[f64; 7], _: &[f64; 7], _: &Inputs) -> Outputs {
-        Outputs {}
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        _: &[f64; 7],
-        _: &[f64; 7],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        ::core::iter::empty()
-    }
-
-    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Constraint<'_>> {
-        CONSTRAINTS.iter().map(constraint)
-    }
-
-    fn multipliers(
-        &self,
-        _: f64,
-        q: &[f64; 7],
-        v: &[f64; 7],
-        _: &Inputs,
-        to: &mut [f64],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        fill(to, &multipliers(self, q, v)?);
-        Ok(())
-    }
-
-    fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::emitted::constraint_workspace(7, 6)];
-        work(room.get_mut(..length))
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 7];
-    type BatchInputs = Inputs;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            m2: lanes(|p| p.m2),
-            m3: lanes(|p| p.m3),
-            m4: lanes(|p| p.m4),
-            m6: lanes(|p| p.m6),
-            I1: lanes(|p| p.I1),
-            I2: lanes(|p| p.I2),
-            I3: lanes(|p| p.I3),
-            I4: lanes(|p| p.I4),
-            I5: lanes(|p| p.I5),
-            I6: lanes(|p| p.I6),
-            I7: lanes(|p| p.I7),
-            xa: lanes(|p| p.xa),
-            ya: lanes(|p| p.ya),
-            xb: lanes(|p| p.xb),
-            yb: lanes(|p| p.yb),
-            xc: lanes(|p| p.xc),
-            yc: lanes(|p| p.yc),
-            d: lanes(|p| p.d),
-            da: lanes(|p| p.da),
-            e: lanes(|p| p.e),
-            zf: lanes(|p| p.zf),
-            rr: lanes(|p| p.rr),
-            ss: lanes(|p| p.ss),
-            sa: lanes(|p| p.sa),
-            sb: lanes(|p| p.sb),
-            sc: lanes(|p| p.sc),
-            sd: lanes(|p| p.sd),
-            zt: lanes(|p| p.zt),
-            u: lanes(|p| p.u),
-            l0: lanes(|p| p.l0),
-            mom: lanes(|p| p.mom),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            k9: lanes(|p| p.k9),
-            k10: lanes(|p| p.k10),
-            k11: lanes(|p| p.k11),
-            k12: lanes(|p| p.k12),
-            k13: lanes(|p| p.k13),
-            k14: lanes(|p| p.k14),
-            k15: lanes(|p| p.k15),
-            k16: lanes(|p| p.k16),
-            k17: lanes(|p| p.k17),
-            k18: lanes(|p| p.k18),
-            k19: lanes(|p| p.k19),
-            k20: lanes(|p| p.k20),
-            k21: lanes(|p| p.k21),
-            k22: lanes(|p| p.k22),
-            k23: lanes(|p| p.k23),
-            k24: lanes(|p| p.k24),
-            k25: lanes(|p| p.k25),
-            k26: lanes(|p| p.k26),
-            k27: lanes(|p| p.k27),
-            k28: lanes(|p| p.k28),
-            k29: lanes(|p| p.k29),
-            k30: lanes(|p| p.k30),
-            k31: lanes(|p| p.k31),
-            k32: lanes(|p| p.k32),
-            k33: lanes(|p| p.k33),
-            k34: lanes(|p| p.k34),
-            k35: lanes(|p| p.k35),
-            k36: lanes(|p| p.k36),
-            k37: lanes(|p| p.k37),
-            k38: lanes(|p| p.k38),
-            k39: lanes(|p| p.k39),
-            k40: lanes(|p| p.k40),
-            k41: lanes(|p| p.k41),
-            k42: lanes(|p| p.k42),
-            k43: lanes(|p| p.k43),
-            k44: lanes(|p| p.k44),
-            k45: lanes(|p| p.k45),
-            k46: lanes(|p| p.k46),
-            k47: lanes(|p| p.k47),
-            k48: lanes(|p| p.k48),
-            k49: lanes(|p| p.k49),
-            k50: lanes(|p| p.k50),
-            k51: lanes(|p| p.k51),
-            k52: lanes(|p| p.k52),
-            k53: lanes(|p| p.k53),
-            k54: lanes(|p| p.k54),
-            k55: lanes(|p| p.k55),
-            k56: lanes(|p| p.k56),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(_: [&Inputs; N]) -> Self::BatchInputs {
-        Inputs {}
-    }
-
-    fn inputs_of_lane(_: &Self::BatchInputs, _: usize) -> Inputs {
-        Inputs {}
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        _: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q, v },
-            result,
-        )
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// A constraint, as it is called.
-fn constraint<'a>(
-    &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
-) -> ::lagrangian::emitted::Constraint<'a> {
-    ::lagrangian::emitted::Constraint {
-        name,
-        unit,
-        multiplier_unit,
-        holonomic,
-    }
-}
-
-/// Writes numbers where there is room for them.
-fn fill(to: &mut [f64], from: &[f64]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = *from;
-    }
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    if let Some(constraint) = coordinate.checked_sub(7) {
-        return ::lagrangian::emitted::Singular::constraint(constraint, pivot, diagonal);
-    }
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers []
 }

@@ -73,29 +73,6 @@ pub struct AsymmetricTop<S = f64> {
     pub C: S,
 }
 
-impl Default for AsymmetricTop {
-    fn default() -> Self {
-        Self {
-            m: 2.0,
-            A: 0.02,
-            B: 0.04,
-            C: 0.03,
-        }
-    }
-}
-
-impl<S> AsymmetricTop<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> AsymmetricTop<R> {
-        AsymmetricTop {
-            m: f(self.m),
-            A: f(self.A),
-            B: f(self.B),
-            C: f(self.C),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> AsymmetricTop<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -109,11 +86,7 @@ impl<S: ::lagrangian::emitted::Scalar> AsymmetricTop<S> {
         let k7 = -self.A;
         let k8 = S::ONE / self.A;
         let k9 = k0 * k0;
-        let singular = if vanishes(self.A, self.A, 2.6645352591003757e-15) {
-            Some(singular(2, self.A, self.A))
-        } else {
-            None
-        };
+        let pivots = [(2, self.A, self.A)];
         Prepared {
             A: self.A,
             B: self.B,
@@ -128,7 +101,7 @@ impl<S: ::lagrangian::emitted::Scalar> AsymmetricTop<S> {
             k7,
             k8,
             k9,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -156,31 +129,6 @@ pub struct Coordinates<S = f64> {
     pub pitch: S,
     /// `roll`. Unit: `rad`.
     pub roll: S,
-}
-
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 3] {
-        [self.yaw, self.pitch, self.roll]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 3]) -> Self {
-        Self {
-            yaw: q[0],
-            pitch: q[1],
-            roll: q[2],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            yaw: f(self.yaw),
-            pitch: f(self.pitch),
-            roll: f(self.roll),
-        }
-    }
 }
 
 /// What can be set while a [`AsymmetricTop`] runs.
@@ -233,6 +181,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 3,
+    tolerance: 2.6645352591003757e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -393,12 +348,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let pitch_ddot = -yaw_ddot.mul_add(t19 * t13, t20);
         let roll_ddot = sin_pitch.mul_add(yaw_ddot, n(p.k8) * t18);
         let t26 = t11.mul_add(t6, t21);
-        let sound = t10.exceeds(N::from_f64(2.6645352591003757e-15) * t10)
-            & t23.exceeds(N::from_f64(2.6645352591003757e-15) * t26)
-            & pitch_ddot.is_finite();
+        let sound = PIVOTS.hold(t10, t10) & PIVOTS.hold(t23, t26) & pitch_ddot.is_finite();
         if !sound {
-            check(t10, t10, 2.6645352591003757e-15, 1)?;
-            check(t23, t26, 2.6645352591003757e-15, 0)?;
+            let pivots = [(1, t10, t10), (0, t23, t26)];
+            PIVOTS.check(pivots)?;
         }
         let accelerations = [yaw_ddot.store(), pitch_ddot.store(), roll_ddot.store()];
         Ok(accelerations)
@@ -555,329 +508,44 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
     }
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 4] = [
-    ("m", "kg"),
-    ("A", "kg*m^2"),
-    ("B", "kg*m^2"),
-    ("C", "kg*m^2"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 3] = [("yaw", "rad"), ("pitch", "rad"), ("roll", "rad")];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 4] = [
-    ("momentum_x", "J*s"),
-    ("momentum_y", "J*s"),
-    ("momentum_z", "J*s"),
-    ("upright", "1"),
-];
-
-impl ::lagrangian::emitted::Machine for AsymmetricTop {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "AsymmetricTop"
+::lagrangian::emitted::implement! {
+    machine AsymmetricTop "AsymmetricTop" over S, R;
+    parameters { m, A, B, C } [
+        m: "m" "kg" = 2.0;
+        A: "A" "kg*m^2" = 0.02;
+        B: "B" "kg*m^2" = 0.04;
+        C: "C" "kg*m^2" = 0.03;
+    ]
+    coordinates 3 Coordinates { yaw, pitch, roll } [
+        yaw: "yaw" "rad";
+        pitch: "pitch" "rad";
+        roll: "roll" "rad";
+    ]
+    inputs Inputs {} []
+    outputs Outputs { momentum_x, momentum_y, momentum_z, upright } [
+        momentum_x: "momentum_x" "J*s";
+        momentum_y: "momentum_y" "J*s";
+        momentum_z: "momentum_z" "J*s";
+        upright: "upright" "1";
+    ]
+    prepared Prepared { A, B, C, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9 }
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, q, v);
+        vector applied(p, t, q, v, u);
+        vector forces(p, t, q, v, u) = forces(p, q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
+        number potential_energy(p, t, q, u);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = outputs(p, q, v);
+        facts assumptions(p, t, q, v, u) = [("cos(pitch) > 0", true, assumption_0(q))];
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [self.m, self.A, self.B, self.C];
-        quantities(&PARAMETERS, values)
-    }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.m),
-            1 => Some(&mut self.A),
-            2 => Some(&mut self.B),
-            3 => Some(&mut self.C),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 3];
-    type Matrix = [f64; 9];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_BE_CONSTRAINED: bool = false;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 3]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 3] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 3],
-        v: &[f64; 3],
-        _: &Inputs,
-        result: &mut [f64; 3],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, q: &[f64; 3], matrix: &mut [f64; 9]) {
-        let rows = mass_matrix(self, q);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, q: &[f64; 3], v: &[f64; 3], result: &mut [f64; 3]) {
-        *result = bias(self, q, v);
-    }
-
-    fn applied(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs, result: &mut [f64; 3]) {
-        *result = [0.0; 3];
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 3], v: &[f64; 3], _: &Inputs, result: &mut [f64; 3]) {
-        *result = forces(self, q, v);
-    }
-
-    fn kinetic_energy(&self, _: f64, q: &[f64; 3], v: &[f64; 3]) -> f64 {
-        kinetic_energy(self, q, v)
-    }
-
-    fn potential_energy(&self, _: f64, _: &[f64; 3], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [
-            outputs.momentum_x,
-            outputs.momentum_y,
-            outputs.momentum_z,
-            outputs.upright,
-        ];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, q: &[f64; 3], v: &[f64; 3], _: &[f64; 3], _: &Inputs) -> Outputs {
-        outputs(self, q, v)
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        q: &[f64; 3],
-        _: &[f64; 3],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        let facts = [assumption("cos(pitch) > 0", true, assumption_0(q))];
-        facts.into_iter()
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 3];
-    type BatchInputs = Inputs;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            A: lanes(|p| p.A),
-            B: lanes(|p| p.B),
-            C: lanes(|p| p.C),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            k9: lanes(|p| p.k9),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(_: [&Inputs; N]) -> Self::BatchInputs {
-        Inputs {}
-    }
-
-    fn inputs_of_lane(_: &Self::BatchInputs, _: usize) -> Inputs {
-        Inputs {}
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        _: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q, v },
-            result,
-        )
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for AsymmetricTop<S> {
-    type System = Prepared<S>;
-
-    fn prepare(&self) -> Prepared<S> {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
-        Self::start(self)
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
-    type Vector = [S; 3];
-    type Coordinates = Coordinates<S>;
-    type Inputs = Inputs;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[S; 3]) -> Coordinates<S> {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 3] {
-        coordinates.to_array()
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs {}
-    }
-
-    fn accelerations(
-        &self,
-        _: S,
-        q: &[S; 3],
-        v: &[S; 3],
-        _: &Inputs,
-        result: &mut [S; 3],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <S as ::lagrangian::emitted::Number>::run_in_place(Accelerations { p: self, q, v }, result)
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// A fact and by how much it holds.
-fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::emitted::Assumption<'_> {
-    ::lagrangian::emitted::Assumption {
-        text,
-        margin,
-        strict,
-    }
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_BE_CONSTRAINED MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers [yes]
 }

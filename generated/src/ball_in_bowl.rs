@@ -56,33 +56,6 @@ pub struct BallInBowl<S = f64> {
     pub g: S,
 }
 
-impl Default for BallInBowl {
-    fn default() -> Self {
-        Self {
-            m: 0.3,
-            r: 0.05,
-            J: 0.0003,
-            R: 0.55,
-            Omega: 2.0,
-            g: 9.81,
-        }
-    }
-}
-
-impl<S> BallInBowl<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> BallInBowl<R> {
-        BallInBowl {
-            m: f(self.m),
-            r: f(self.r),
-            J: f(self.J),
-            R: f(self.R),
-            Omega: f(self.Omega),
-            g: f(self.g),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> BallInBowl<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -103,19 +76,13 @@ impl<S: ::lagrangian::emitted::Scalar> BallInBowl<S> {
         let k13 = -k7;
         let k14 = S::ONE / self.J;
         let k15 = S::ONE / self.m;
-        let singular = if vanishes(self.m, self.m, 7.993605777301127e-15) {
-            Some(singular(2, self.m, self.m))
-        } else if vanishes(self.J, self.J, 7.993605777301127e-15) {
-            Some(singular(4, self.J, self.J))
-        } else if vanishes(self.m, self.m, 7.993605777301127e-15) {
-            Some(singular(0, self.m, self.m))
-        } else if vanishes(self.m, self.m, 7.993605777301127e-15) {
-            Some(singular(1, self.m, self.m))
-        } else if vanishes(self.J, self.J, 7.993605777301127e-15) {
-            Some(singular(3, self.J, self.J))
-        } else {
-            None
-        };
+        let pivots = [
+            (2, self.m, self.m),
+            (4, self.J, self.J),
+            (0, self.m, self.m),
+            (1, self.m, self.m),
+            (3, self.J, self.J),
+        ];
         Prepared {
             m: self.m,
             J: self.J,
@@ -136,7 +103,7 @@ impl<S: ::lagrangian::emitted::Scalar> BallInBowl<S> {
             k13,
             k14,
             k15,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -171,37 +138,6 @@ pub struct Coordinates<S = f64> {
     pub b: S,
     /// `c`. Unit: `rad`.
     pub c: S,
-}
-
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 6] {
-        [self.x, self.y, self.z, self.a, self.b, self.c]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 6]) -> Self {
-        Self {
-            x: q[0],
-            y: q[1],
-            z: q[2],
-            a: q[3],
-            b: q[4],
-            c: q[5],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            x: f(self.x),
-            y: f(self.y),
-            z: f(self.z),
-            a: f(self.a),
-            b: f(self.b),
-            c: f(self.c),
-        }
-    }
 }
 
 /// What can be set while a [`BallInBowl`] runs.
@@ -256,6 +192,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 6,
+    tolerance: 7.993605777301127e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -646,16 +589,19 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let a_ddot = t36.mul_sub(t93 - t95, t96);
         let b_ddot = t50.mul_add(t92, t62.mul_add(t91, n(p.k14) * t66));
         let c_ddot = t95 - t93;
-        let sound = t22.exceeds(N::from_f64(7.993605777301127e-15) * t22)
-            & t40.exceeds(N::from_f64(7.993605777301127e-15) * n(p.J))
-            & t67.exceeds(N::from_f64(7.993605777301127e-15) * t65)
-            & t90.exceeds(N::from_f64(7.993605777301127e-15) * t84)
+        let sound = PIVOTS.hold(t22, t22)
+            & PIVOTS.hold(t40, n(p.J))
+            & PIVOTS.hold(t67, t65)
+            & PIVOTS.hold(t90, t84)
             & a_ddot.is_finite();
         if !sound {
-            check(t22, t22, 7.993605777301127e-15, 6)?;
-            check(t40, n(p.J), 7.993605777301127e-15, 5)?;
-            check(t67, t65, 7.993605777301127e-15, 7)?;
-            check(t90, t84, 7.993605777301127e-15, 8)?;
+            let pivots = [
+                (6, t22, t22),
+                (5, t40, n(p.J)),
+                (7, t67, t65),
+                (8, t90, t84),
+            ];
+            PIVOTS.check(pivots)?;
         }
         let accelerations = [
             x_ddot.store(),
@@ -810,16 +756,19 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let lambda2 = t87.neg_mul_add(t91, t71 * t86);
         let lambda1 = t29.mul_add(lambda2, t30.mul_add(t91, t25 * t28));
         let lambda3 = -t91;
-        let sound = t22.exceeds(N::from_f64(7.993605777301127e-15) * t22)
-            & t40.exceeds(N::from_f64(7.993605777301127e-15) * n(p.J))
-            & t67.exceeds(N::from_f64(7.993605777301127e-15) * t65)
-            & t90.exceeds(N::from_f64(7.993605777301127e-15) * t84)
+        let sound = PIVOTS.hold(t22, t22)
+            & PIVOTS.hold(t40, n(p.J))
+            & PIVOTS.hold(t67, t65)
+            & PIVOTS.hold(t90, t84)
             & lambda1.is_finite();
         if !sound {
-            check(t22, t22, 7.993605777301127e-15, 6)?;
-            check(t40, n(p.J), 7.993605777301127e-15, 5)?;
-            check(t67, t65, 7.993605777301127e-15, 7)?;
-            check(t90, t84, 7.993605777301127e-15, 8)?;
+            let pivots = [
+                (6, t22, t22),
+                (5, t40, n(p.J)),
+                (7, t67, t65),
+                (8, t90, t84),
+            ];
+            PIVOTS.check(pivots)?;
         }
         let multipliers = [lambda1.store(), lambda2.store(), lambda3.store()];
         Ok(multipliers)
@@ -898,346 +847,56 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     (a_dot * (t1 + (a_ddot + sin_b * c_ddot)) + t3) * p.J + t4
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 6] = [
-    ("m", "kg"),
-    ("r", "m"),
-    ("J", "kg*m^2"),
-    ("R", "m"),
-    ("Omega", "rad/s"),
-    ("g", "m/s^2"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 6] = [
-    ("x", "m"),
-    ("y", "m"),
-    ("z", "m"),
-    ("a", "rad"),
-    ("b", "rad"),
-    ("c", "rad"),
-];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 0] = [];
-
-/// Names, units, units of multipliers, whether positions are constrained.
-const CONSTRAINTS: [(&str, &str, &str, bool); 3] = [
-    ("touching", "m", "N", true),
-    ("around", "m/s", "N", false),
-    ("down", "m/s", "N", false),
-];
-
-impl ::lagrangian::emitted::Machine for BallInBowl {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "BallInBowl"
+::lagrangian::emitted::implement! {
+    machine BallInBowl "BallInBowl" over S, R;
+    parameters { m, r, J, R, Omega, g } [
+        m: "m" "kg" = 0.3;
+        r: "r" "m" = 0.05;
+        J: "J" "kg*m^2" = 0.0003;
+        R: "R" "m" = 0.55;
+        Omega: "Omega" "rad/s" = 2.0;
+        g: "g" "m/s^2" = 9.81;
+    ]
+    coordinates 6 Coordinates { x, y, z, a, b, c } [
+        x: "x" "m";
+        y: "y" "m";
+        z: "z" "m";
+        a: "a" "rad";
+        b: "b" "rad";
+        c: "c" "rad";
+    ]
+    inputs Inputs {} []
+    outputs Outputs {} []
+    prepared Prepared {
+        m, J, g, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15,
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [self.m, self.r, self.J, self.R, self.Omega, self.g];
-        quantities(&PARAMETERS, values)
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, q, v);
+        vector applied(p, t, q, v, u) = applied(p);
+        vector forces(p, t, q, v, u) = forces(p, q, v);
+        numbers constraint_positions(p, t, q) = constraint_positions(p, q);
+        numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
+        numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
+        numbers constraint_drift(p, t, q, v) = constraint_drift(p, q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u) = work_rate(p, q, v, a);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = Outputs {};
+        constraints constraints(p) = [
+            ("touching", "m", "N", true),
+            ("around", "m/s", "N", false),
+            ("down", "m/s", "N", false),
+        ];
+        solved multipliers(p, t, q, v, u) = multipliers(p, q, v);
+        workspace with_workspace(p) = ::lagrangian::emitted::constraint_workspace(6, 3);
     }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.m),
-            1 => Some(&mut self.r),
-            2 => Some(&mut self.J),
-            3 => Some(&mut self.R),
-            4 => Some(&mut self.Omega),
-            5 => Some(&mut self.g),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 6];
-    type Matrix = [f64; 36];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 6]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 6] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 6],
-        v: &[f64; 6],
-        _: &Inputs,
-        result: &mut [f64; 6],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, q: &[f64; 6], matrix: &mut [f64; 36]) {
-        let rows = mass_matrix(self, q);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, q: &[f64; 6], v: &[f64; 6], result: &mut [f64; 6]) {
-        *result = bias(self, q, v);
-    }
-
-    fn applied(&self, _: f64, _: &[f64; 6], _: &[f64; 6], _: &Inputs, result: &mut [f64; 6]) {
-        *result = applied(self);
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 6], v: &[f64; 6], _: &Inputs, result: &mut [f64; 6]) {
-        *result = forces(self, q, v);
-    }
-
-    fn constraint_positions(&self, _: f64, q: &[f64; 6], to: &mut [f64]) {
-        fill(to, &constraint_positions(self, q));
-    }
-
-    fn constraint_rates(&self, _: f64, q: &[f64; 6], v: &[f64; 6], to: &mut [f64]) {
-        fill(to, &constraint_rates(self, q, v));
-    }
-
-    fn constraint_matrix(&self, _: f64, q: &[f64; 6], to: &mut [f64]) {
-        fill(to, &constraint_matrix(self, q));
-    }
-
-    fn constraint_drift(&self, _: f64, q: &[f64; 6], v: &[f64; 6], to: &mut [f64]) {
-        fill(to, &constraint_drift(self, q, v));
-    }
-
-    fn kinetic_energy(&self, _: f64, q: &[f64; 6], v: &[f64; 6]) -> f64 {
-        kinetic_energy(self, q, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 6], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 6], _: &[f64; 6], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, q: &[f64; 6], v: &[f64; 6], a: &[f64; 6], _: &Inputs) -> f64 {
-        work_rate(self, q, v, a)
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 6], _: &[f64; 6], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, _: &[f64; 6], _: &[f64; 6], _: &[f64; 6], _: &Inputs) -> Outputs {
-        Outputs {}
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        _: &[f64; 6],
-        _: &[f64; 6],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        ::core::iter::empty()
-    }
-
-    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Constraint<'_>> {
-        CONSTRAINTS.iter().map(constraint)
-    }
-
-    fn multipliers(
-        &self,
-        _: f64,
-        q: &[f64; 6],
-        v: &[f64; 6],
-        _: &Inputs,
-        to: &mut [f64],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        fill(to, &multipliers(self, q, v)?);
-        Ok(())
-    }
-
-    fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::emitted::constraint_workspace(6, 3)];
-        work(room.get_mut(..length))
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 6];
-    type BatchInputs = Inputs;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            m: lanes(|p| p.m),
-            J: lanes(|p| p.J),
-            g: lanes(|p| p.g),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            k9: lanes(|p| p.k9),
-            k10: lanes(|p| p.k10),
-            k11: lanes(|p| p.k11),
-            k12: lanes(|p| p.k12),
-            k13: lanes(|p| p.k13),
-            k14: lanes(|p| p.k14),
-            k15: lanes(|p| p.k15),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(_: [&Inputs; N]) -> Self::BatchInputs {
-        Inputs {}
-    }
-
-    fn inputs_of_lane(_: &Self::BatchInputs, _: usize) -> Inputs {
-        Inputs {}
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        _: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q, v },
-            result,
-        )
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// A constraint, as it is called.
-fn constraint<'a>(
-    &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
-) -> ::lagrangian::emitted::Constraint<'a> {
-    ::lagrangian::emitted::Constraint {
-        name,
-        unit,
-        multiplier_unit,
-        holonomic,
-    }
-}
-
-/// Writes numbers where there is room for them.
-fn fill(to: &mut [f64], from: &[f64]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = *from;
-    }
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    if let Some(constraint) = coordinate.checked_sub(6) {
-        return ::lagrangian::emitted::Singular::constraint(constraint, pivot, diagonal);
-    }
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers []
 }

@@ -59,29 +59,6 @@ pub struct Bricard<S = f64> {
     pub g: S,
 }
 
-impl Default for Bricard {
-    fn default() -> Self {
-        Self {
-            l: 1.0,
-            w: 0.1,
-            m: 1.0,
-            g: 9.81,
-        }
-    }
-}
-
-impl<S> Bricard<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Bricard<R> {
-        Bricard {
-            l: f(self.l),
-            w: f(self.w),
-            m: f(self.m),
-            g: f(self.g),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> Bricard<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -195,25 +172,6 @@ pub struct Coordinates<S = f64> {
     pub q: [S; 5],
 }
 
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 5] {
-        [self.q[0], self.q[1], self.q[2], self.q[3], self.q[4]]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 5]) -> Self {
-        Self {
-            q: [q[0], q[1], q[2], q[3], q[4]],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates { q: self.q.map(&f) }
-    }
-}
-
 /// What can be set while a [`Bricard`] runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Inputs {}
@@ -315,6 +273,13 @@ pub struct Prepared<S = f64> {
     /// `-l`
     k35: S,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 5,
+    tolerance: 8.881784197001252e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -1689,28 +1654,31 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let q_2_ddot = t534 - t529;
         let q_3_ddot = -t533;
         let q_5_ddot = -t523;
-        let sound = t41.exceeds(N::from_f64(8.881784197001252e-15) * t41)
-            & t65.exceeds(N::from_f64(8.881784197001252e-15) * t64)
-            & t76.exceeds(N::from_f64(8.881784197001252e-15) * t75)
-            & t86.exceeds(N::from_f64(8.881784197001252e-15) * t84)
-            & t96.exceeds(N::from_f64(8.881784197001252e-15) * n(p.k3))
-            & t131.exceeds(N::from_f64(8.881784197001252e-15) * t131)
-            & t148.exceeds(N::from_f64(8.881784197001252e-15) * t147)
-            & t179.exceeds(N::from_f64(8.881784197001252e-15) * t178)
-            & t206.exceeds(N::from_f64(8.881784197001252e-15) * t204)
-            & t511.exceeds(N::from_f64(8.881784197001252e-15) * t509)
+        let sound = PIVOTS.hold(t41, t41)
+            & PIVOTS.hold(t65, t64)
+            & PIVOTS.hold(t76, t75)
+            & PIVOTS.hold(t86, t84)
+            & PIVOTS.hold(t96, n(p.k3))
+            & PIVOTS.hold(t131, t131)
+            & PIVOTS.hold(t148, t147)
+            & PIVOTS.hold(t179, t178)
+            & PIVOTS.hold(t206, t204)
+            & PIVOTS.hold(t511, t509)
             & q_1_ddot.is_finite();
         if !sound {
-            check(t41, t41, 8.881784197001252e-15, 0)?;
-            check(t65, t64, 8.881784197001252e-15, 1)?;
-            check(t76, t75, 8.881784197001252e-15, 2)?;
-            check(t86, t84, 8.881784197001252e-15, 3)?;
-            check(t96, n(p.k3), 8.881784197001252e-15, 4)?;
-            check(t131, t131, 8.881784197001252e-15, 5)?;
-            check(t148, t147, 8.881784197001252e-15, 6)?;
-            check(t179, t178, 8.881784197001252e-15, 7)?;
-            check(t206, t204, 8.881784197001252e-15, 8)?;
-            check(t511, t509, 8.881784197001252e-15, 9)?;
+            let pivots = [
+                (0, t41, t41),
+                (1, t65, t64),
+                (2, t76, t75),
+                (3, t86, t84),
+                (4, t96, n(p.k3)),
+                (5, t131, t131),
+                (6, t148, t147),
+                (7, t179, t178),
+                (8, t206, t204),
+                (9, t511, t509),
+            ];
+            PIVOTS.check(pivots)?;
         }
         let accelerations = [
             q_1_ddot.store(),
@@ -2293,28 +2261,31 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let lambda2 = t518 - t517;
         let lambda3 = t515 - t514;
         let lambda5 = -t512;
-        let sound = t41.exceeds(N::from_f64(8.881784197001252e-15) * t41)
-            & t65.exceeds(N::from_f64(8.881784197001252e-15) * t64)
-            & t76.exceeds(N::from_f64(8.881784197001252e-15) * t75)
-            & t86.exceeds(N::from_f64(8.881784197001252e-15) * t84)
-            & t96.exceeds(N::from_f64(8.881784197001252e-15) * n(p.k3))
-            & t131.exceeds(N::from_f64(8.881784197001252e-15) * t131)
-            & t148.exceeds(N::from_f64(8.881784197001252e-15) * t147)
-            & t179.exceeds(N::from_f64(8.881784197001252e-15) * t178)
-            & t206.exceeds(N::from_f64(8.881784197001252e-15) * t204)
-            & t511.exceeds(N::from_f64(8.881784197001252e-15) * t509)
+        let sound = PIVOTS.hold(t41, t41)
+            & PIVOTS.hold(t65, t64)
+            & PIVOTS.hold(t76, t75)
+            & PIVOTS.hold(t86, t84)
+            & PIVOTS.hold(t96, n(p.k3))
+            & PIVOTS.hold(t131, t131)
+            & PIVOTS.hold(t148, t147)
+            & PIVOTS.hold(t179, t178)
+            & PIVOTS.hold(t206, t204)
+            & PIVOTS.hold(t511, t509)
             & lambda1.is_finite();
         if !sound {
-            check(t41, t41, 8.881784197001252e-15, 0)?;
-            check(t65, t64, 8.881784197001252e-15, 1)?;
-            check(t76, t75, 8.881784197001252e-15, 2)?;
-            check(t86, t84, 8.881784197001252e-15, 3)?;
-            check(t96, n(p.k3), 8.881784197001252e-15, 4)?;
-            check(t131, t131, 8.881784197001252e-15, 5)?;
-            check(t148, t147, 8.881784197001252e-15, 6)?;
-            check(t179, t178, 8.881784197001252e-15, 7)?;
-            check(t206, t204, 8.881784197001252e-15, 8)?;
-            check(t511, t509, 8.881784197001252e-15, 9)?;
+            let pivots = [
+                (0, t41, t41),
+                (1, t65, t64),
+                (2, t76, t75),
+                (3, t86, t84),
+                (4, t96, n(p.k3)),
+                (5, t131, t131),
+                (6, t148, t147),
+                (7, t179, t178),
+                (8, t206, t204),
+                (9, t511, t509),
+            ];
+            PIVOTS.check(pivots)?;
         }
         let multipliers = [
             lambda1.store(),
@@ -2471,350 +2442,59 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) ->
     }
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 4] = [("l", "m"), ("w", "m"), ("m", "kg"), ("g", "m/s^2")];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 5] = [
-    ("q[1]", "rad"),
-    ("q[2]", "rad"),
-    ("q[3]", "rad"),
-    ("q[4]", "rad"),
-    ("q[5]", "rad"),
-];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 3] = [("x3", "m"), ("y3", "m"), ("z3", "m")];
-
-/// Names, units, units of multipliers, whether positions are constrained.
-const CONSTRAINTS: [(&str, &str, &str, bool); 5] = [
-    ("along", "m", "N", true),
-    ("up", "m", "N", true),
-    ("across", "m", "N", true),
-    ("tips", "1", "N*m", true),
-    ("turns", "1", "N*m", true),
-];
-
-impl ::lagrangian::emitted::Machine for Bricard {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "Bricard"
+::lagrangian::emitted::implement! {
+    machine Bricard "Bricard" over S, R;
+    parameters { l, w, m, g } [
+        l: "l" "m" = 1.0;
+        w: "w" "m" = 0.1;
+        m: "m" "kg" = 1.0;
+        g: "g" "m/s^2" = 9.81;
+    ]
+    coordinates 5 Coordinates { q: [q_1, q_2, q_3, q_4, q_5] } [
+        q_1: "q[1]" "rad";
+        q_2: "q[2]" "rad";
+        q_3: "q[3]" "rad";
+        q_4: "q[4]" "rad";
+        q_5: "q[5]" "rad";
+    ]
+    inputs Inputs {} []
+    outputs Outputs { x3, y3, z3 } [
+        x3: "x3" "m";
+        y3: "y3" "m";
+        z3: "z3" "m";
+    ]
+    prepared Prepared {
+        l, m, g, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16, k17,
+        k18, k19, k20, k21, k22, k23, k24, k25, k26, k27, k28, k29, k30, k31, k32, k33, k34, k35,
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [self.l, self.w, self.m, self.g];
-        quantities(&PARAMETERS, values)
+    accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q);
+        vector forces(p, t, q, v, u) = forces(p, q, v);
+        numbers constraint_positions(p, t, q) = constraint_positions(p, q);
+        numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
+        numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
+        numbers constraint_drift(p, t, q, v) = constraint_drift(p, q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = outputs(p, q);
+        constraints constraints(p) = [
+            ("along", "m", "N", true),
+            ("up", "m", "N", true),
+            ("across", "m", "N", true),
+            ("tips", "1", "N*m", true),
+            ("turns", "1", "N*m", true),
+        ];
+        solved multipliers(p, t, q, v, u) = multipliers(p, q, v);
+        workspace with_workspace(p) = ::lagrangian::emitted::constraint_workspace(5, 5);
     }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.l),
-            1 => Some(&mut self.w),
-            2 => Some(&mut self.m),
-            3 => Some(&mut self.g),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 5];
-    type Matrix = [f64; 25];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 5]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 5] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 5],
-        v: &[f64; 5],
-        _: &Inputs,
-        result: &mut [f64; 5],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, q: &[f64; 5], matrix: &mut [f64; 25]) {
-        let rows = mass_matrix(self, q);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, q: &[f64; 5], v: &[f64; 5], result: &mut [f64; 5]) {
-        *result = bias(self, q, v);
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 5], _: &[f64; 5], _: &Inputs, result: &mut [f64; 5]) {
-        *result = applied(self, q);
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 5], v: &[f64; 5], _: &Inputs, result: &mut [f64; 5]) {
-        *result = forces(self, q, v);
-    }
-
-    fn constraint_positions(&self, _: f64, q: &[f64; 5], to: &mut [f64]) {
-        fill(to, &constraint_positions(self, q));
-    }
-
-    fn constraint_rates(&self, _: f64, q: &[f64; 5], v: &[f64; 5], to: &mut [f64]) {
-        fill(to, &constraint_rates(self, q, v));
-    }
-
-    fn constraint_matrix(&self, _: f64, q: &[f64; 5], to: &mut [f64]) {
-        fill(to, &constraint_matrix(self, q));
-    }
-
-    fn constraint_drift(&self, _: f64, q: &[f64; 5], v: &[f64; 5], to: &mut [f64]) {
-        fill(to, &constraint_drift(self, q, v));
-    }
-
-    fn kinetic_energy(&self, _: f64, q: &[f64; 5], v: &[f64; 5]) -> f64 {
-        kinetic_energy(self, q, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 5], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 5], _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [outputs.x3, outputs.y3, outputs.z3];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, q: &[f64; 5], _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> Outputs {
-        outputs(self, q)
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        _: &[f64; 5],
-        _: &[f64; 5],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        ::core::iter::empty()
-    }
-
-    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Constraint<'_>> {
-        CONSTRAINTS.iter().map(constraint)
-    }
-
-    fn multipliers(
-        &self,
-        _: f64,
-        q: &[f64; 5],
-        v: &[f64; 5],
-        _: &Inputs,
-        to: &mut [f64],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        fill(to, &multipliers(self, q, v)?);
-        Ok(())
-    }
-
-    fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::emitted::constraint_workspace(5, 5)];
-        work(room.get_mut(..length))
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 5];
-    type BatchInputs = Inputs;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            l: lanes(|p| p.l),
-            m: lanes(|p| p.m),
-            g: lanes(|p| p.g),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            k9: lanes(|p| p.k9),
-            k10: lanes(|p| p.k10),
-            k11: lanes(|p| p.k11),
-            k12: lanes(|p| p.k12),
-            k13: lanes(|p| p.k13),
-            k14: lanes(|p| p.k14),
-            k15: lanes(|p| p.k15),
-            k16: lanes(|p| p.k16),
-            k17: lanes(|p| p.k17),
-            k18: lanes(|p| p.k18),
-            k19: lanes(|p| p.k19),
-            k20: lanes(|p| p.k20),
-            k21: lanes(|p| p.k21),
-            k22: lanes(|p| p.k22),
-            k23: lanes(|p| p.k23),
-            k24: lanes(|p| p.k24),
-            k25: lanes(|p| p.k25),
-            k26: lanes(|p| p.k26),
-            k27: lanes(|p| p.k27),
-            k28: lanes(|p| p.k28),
-            k29: lanes(|p| p.k29),
-            k30: lanes(|p| p.k30),
-            k31: lanes(|p| p.k31),
-            k32: lanes(|p| p.k32),
-            k33: lanes(|p| p.k33),
-            k34: lanes(|p| p.k34),
-            k35: lanes(|p| p.k35),
-        }
-    }
-
-    fn batch_inputs(_: [&Inputs; N]) -> Self::BatchInputs {
-        Inputs {}
-    }
-
-    fn inputs_of_lane(_: &Self::BatchInputs, _: usize) -> Inputs {
-        Inputs {}
-    }
-
-    fn is_singular(&self) -> bool {
-        false
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        _: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q, v },
-            result,
-        )
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// A constraint, as it is called.
-fn constraint<'a>(
-    &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
-) -> ::lagrangian::emitted::Constraint<'a> {
-    ::lagrangian::emitted::Constraint {
-        name,
-        unit,
-        multiplier_unit,
-        holonomic,
-    }
-}
-
-/// Writes numbers where there is room for them.
-fn fill(to: &mut [f64], from: &[f64]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = *from;
-    }
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    if let Some(constraint) = coordinate.checked_sub(5) {
-        return ::lagrangian::emitted::Singular::constraint(constraint, pivot, diagonal);
-    }
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers []
 }

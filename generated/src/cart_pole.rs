@@ -57,35 +57,6 @@ pub struct CartPole<S = f64> {
     pub g: S,
 }
 
-impl Default for CartPole {
-    fn default() -> Self {
-        Self {
-            cart: 1.0,
-            pole: 0.1,
-            l: 0.5,
-            J: 0.008333333333333333,
-            rail: 0.05,
-            hinge: 0.001,
-            g: 9.81,
-        }
-    }
-}
-
-impl<S> CartPole<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> CartPole<R> {
-        CartPole {
-            cart: f(self.cart),
-            pole: f(self.pole),
-            l: f(self.l),
-            J: f(self.J),
-            rail: f(self.rail),
-            hinge: f(self.hinge),
-            g: f(self.g),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> CartPole<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -101,11 +72,7 @@ impl<S: ::lagrangian::emitted::Scalar> CartPole<S> {
         let k9 = -k5;
         let k10 = -self.pole;
         let k11 = S::ONE / k7;
-        let singular = if vanishes(k7, k7, 1.7763568394002505e-15) {
-            Some(singular(0, k7, k7))
-        } else {
-            None
-        };
+        let pivots = [(0, k7, k7)];
         Prepared {
             pole: self.pole,
             l: self.l,
@@ -124,7 +91,7 @@ impl<S: ::lagrangian::emitted::Scalar> CartPole<S> {
             k9,
             k10,
             k11,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -151,47 +118,11 @@ pub struct Coordinates<S = f64> {
     pub theta: S,
 }
 
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 2] {
-        [self.x, self.theta]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 2]) -> Self {
-        Self {
-            x: q[0],
-            theta: q[1],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            x: f(self.x),
-            theta: f(self.theta),
-        }
-    }
-}
-
 /// What can be set while a [`CartPole`] runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inputs<S = f64> {
     /// Force of the motor on the cart. Unit: `N`. Default: 0.
     pub push: S,
-}
-
-impl Default for Inputs {
-    fn default() -> Self {
-        Self { push: 0.0 }
-    }
-}
-
-impl<S> Inputs<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Inputs<R> {
-        Inputs { push: f(self.push) }
-    }
 }
 
 /// What can be observed of a [`CartPole`].
@@ -243,6 +174,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 2,
+    tolerance: 1.7763568394002505e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -356,10 +294,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t6 = t3.mul_add(t2, t4) / t5;
         let x_ddot = t3.mul_add(t6, n(p.k11) * t2);
         let theta_ddot = -t6;
-        let sound =
-            t5.exceeds(N::from_f64(1.7763568394002505e-15) * n(p.k8)) & theta_ddot.is_finite();
+        let sound = PIVOTS.hold(t5, n(p.k8)) & theta_ddot.is_finite();
         if !sound {
-            check(t5, n(p.k8), 1.7763568394002505e-15, 1)?;
+            let pivots = [(1, t5, n(p.k8))];
+            PIVOTS.check(pivots)?;
         }
         let accelerations = [x_ddot.store(), theta_ddot.store()];
         Ok(accelerations)
@@ -474,329 +412,45 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
     }
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 7] = [
-    ("cart", "kg"),
-    ("pole", "kg"),
-    ("l", "m"),
-    ("J", "kg*m^2"),
-    ("rail", "N*s/m"),
-    ("hinge", "N*m*s"),
-    ("g", "m/s^2"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 2] = [("x", "m"), ("theta", "rad")];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 1] = [("push", "N")];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 2] = [("tip", "m"), ("hinge_force", "N")];
-
-impl ::lagrangian::emitted::Machine for CartPole {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "CartPole"
+::lagrangian::emitted::implement! {
+    machine CartPole "CartPole" over S, R;
+    parameters { cart, pole, l, J, rail, hinge, g } [
+        cart: "cart" "kg" = 1.0;
+        pole: "pole" "kg" = 0.1;
+        l: "l" "m" = 0.5;
+        J: "J" "kg*m^2" = 0.008333333333333333;
+        rail: "rail" "N*s/m" = 0.05;
+        hinge: "hinge" "N*m*s" = 0.001;
+        g: "g" "m/s^2" = 9.81;
+    ]
+    coordinates 2 Coordinates { x, theta } [
+        x: "x" "m";
+        theta: "theta" "rad";
+    ]
+    inputs Inputs { push } [
+        push: "push" "N" = 0.0;
+    ] over S
+    outputs Outputs { tip, hinge_force } [
+        tip: "tip" "m";
+        hinge_force: "hinge_force" "N";
+    ]
+    prepared Prepared { pole, l, J, rail, hinge, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11 }
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, q, v, u } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q, v, u);
+        vector forces(p, t, q, v, u) = forces(p, q, v, u);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u) = dissipation(p, v);
+        number work_rate(p, t, q, v, a, u) = work_rate(v, u);
+        number dissipation_rate(p, t, q, v, u) = dissipation_rate(p, v);
+        outputs outputs(p, t, q, v, a, u) = outputs(p, q, v, a);
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [
-            self.cart, self.pole, self.l, self.J, self.rail, self.hinge, self.g,
-        ];
-        quantities(&PARAMETERS, values)
-    }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.cart),
-            1 => Some(&mut self.pole),
-            2 => Some(&mut self.l),
-            3 => Some(&mut self.J),
-            4 => Some(&mut self.rail),
-            5 => Some(&mut self.hinge),
-            6 => Some(&mut self.g),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 2];
-    type Matrix = [f64; 4];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_BE_CONSTRAINED: bool = false;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 2]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 2] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 2],
-        v: &[f64; 2],
-        u: &Inputs,
-        result: &mut [f64; 2],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v, u },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, q: &[f64; 2], matrix: &mut [f64; 4]) {
-        let rows = mass_matrix(self, q);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, q: &[f64; 2], v: &[f64; 2], result: &mut [f64; 2]) {
-        *result = bias(self, q, v);
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 2], v: &[f64; 2], u: &Inputs, result: &mut [f64; 2]) {
-        *result = applied(self, q, v, u);
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 2], v: &[f64; 2], u: &Inputs, result: &mut [f64; 2]) {
-        *result = forces(self, q, v, u);
-    }
-
-    fn kinetic_energy(&self, _: f64, q: &[f64; 2], v: &[f64; 2]) -> f64 {
-        kinetic_energy(self, q, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 2], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 2], v: &[f64; 2], _: &Inputs) -> f64 {
-        dissipation(self, v)
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 2], v: &[f64; 2], _: &[f64; 2], u: &Inputs) -> f64 {
-        work_rate(v, u)
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 2], v: &[f64; 2], _: &Inputs) -> f64 {
-        dissipation_rate(self, v)
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        inputs: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [inputs.push];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [outputs.tip, outputs.hinge_force];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, q: &[f64; 2], v: &[f64; 2], a: &[f64; 2], _: &Inputs) -> Outputs {
-        outputs(self, q, v, a)
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        _: &[f64; 2],
-        _: &[f64; 2],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        ::core::iter::empty()
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 2];
-    type BatchInputs = Inputs<::lagrangian::emitted::Lanes<N>>;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            pole: lanes(|p| p.pole),
-            l: lanes(|p| p.l),
-            J: lanes(|p| p.J),
-            rail: lanes(|p| p.rail),
-            hinge: lanes(|p| p.hinge),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            k9: lanes(|p| p.k9),
-            k10: lanes(|p| p.k10),
-            k11: lanes(|p| p.k11),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(inputs: [&Inputs; N]) -> Self::BatchInputs {
-        let lanes = |number: fn(&Inputs) -> f64| ::lagrangian::emitted::Lanes(inputs.map(number));
-        Inputs {
-            push: lanes(|u| u.push),
-        }
-    }
-
-    fn inputs_of_lane(inputs: &Self::BatchInputs, lane: usize) -> Inputs {
-        Inputs {
-            push: inputs.push[lane],
-        }
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        u: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q, v, u },
-            result,
-        )
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for CartPole<S> {
-    type System = Prepared<S>;
-
-    fn prepare(&self) -> Prepared<S> {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
-        Self::start(self)
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
-    type Vector = [S; 2];
-    type Coordinates = Coordinates<S>;
-    type Inputs = Inputs<S>;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[S; 2]) -> Coordinates<S> {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 2] {
-        coordinates.to_array()
-    }
-
-    fn default_inputs(&self) -> Inputs<S> {
-        <Inputs>::default().map(S::from_f64)
-    }
-
-    fn accelerations(
-        &self,
-        _: S,
-        q: &[S; 2],
-        v: &[S; 2],
-        u: &Inputs<S>,
-        result: &mut [S; 2],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <S as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v, u },
-            result,
-        )
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_BE_CONSTRAINED MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers [yes]
 }

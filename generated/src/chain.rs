@@ -44,29 +44,6 @@ pub struct Chain<S = f64> {
     pub g: S,
 }
 
-impl Default for Chain {
-    fn default() -> Self {
-        Self {
-            l: 0.2,
-            m: 0.5,
-            J: 0.0016666666666666668,
-            g: 9.81,
-        }
-    }
-}
-
-impl<S> Chain<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Chain<R> {
-        Chain {
-            l: f(self.l),
-            m: f(self.m),
-            J: f(self.J),
-            g: f(self.g),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> Chain<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -116,11 +93,7 @@ impl<S: ::lagrangian::emitted::Scalar> Chain<S> {
         let k37 = k22 * t4;
         let k38 = self.m * S::from_f64(1.5);
         let k39 = t5 * (k3 * k3);
-        let singular = if vanishes(k19, k19, 7.105427357601002e-15) {
-            Some(singular(7, k19, k19))
-        } else {
-            None
-        };
+        let pivots = [(7, k19, k19)];
         Prepared {
             l: self.l,
             m: self.m,
@@ -166,7 +139,7 @@ impl<S: ::lagrangian::emitted::Scalar> Chain<S> {
             k37,
             k38,
             k39,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -188,27 +161,6 @@ impl<S: ::lagrangian::emitted::Scalar> Chain<S> {
 pub struct Coordinates<S = f64> {
     /// `q`. Unit: `rad`. Members: `q[1]` to `q[8]`.
     pub q: [S; 8],
-}
-
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 8] {
-        [
-            self.q[0], self.q[1], self.q[2], self.q[3], self.q[4], self.q[5], self.q[6], self.q[7],
-        ]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 8]) -> Self {
-        Self {
-            q: [q[0], q[1], q[2], q[3], q[4], q[5], q[6], q[7]],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates { q: self.q.map(&f) }
-    }
 }
 
 /// What can be set while a [`Chain`] runs.
@@ -316,6 +268,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 8,
+    tolerance: 7.105427357601002e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -949,22 +908,25 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let q_6_ddot = t208 - t209;
         let q_7_ddot = t213 - t214;
         let q_8_ddot = t217 * n(p.k37);
-        let sound = t29.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k18))
-            & t59.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k17))
-            & t87.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k16))
-            & t112.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k15))
-            & t140.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k14))
-            & t158.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k13))
-            & t181.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k12))
+        let sound = PIVOTS.hold(t29, n(p.k18))
+            & PIVOTS.hold(t59, n(p.k17))
+            & PIVOTS.hold(t87, n(p.k16))
+            & PIVOTS.hold(t112, n(p.k15))
+            & PIVOTS.hold(t140, n(p.k14))
+            & PIVOTS.hold(t158, n(p.k13))
+            & PIVOTS.hold(t181, n(p.k12))
             & q_8_ddot.is_finite();
         if !sound {
-            check(t29, n(p.k18), 7.105427357601002e-15, 6)?;
-            check(t59, n(p.k17), 7.105427357601002e-15, 5)?;
-            check(t87, n(p.k16), 7.105427357601002e-15, 4)?;
-            check(t112, n(p.k15), 7.105427357601002e-15, 3)?;
-            check(t140, n(p.k14), 7.105427357601002e-15, 2)?;
-            check(t158, n(p.k13), 7.105427357601002e-15, 1)?;
-            check(t181, n(p.k12), 7.105427357601002e-15, 0)?;
+            let pivots = [
+                (6, t29, n(p.k18)),
+                (5, t59, n(p.k17)),
+                (4, t87, n(p.k16)),
+                (3, t112, n(p.k15)),
+                (2, t140, n(p.k14)),
+                (1, t158, n(p.k13)),
+                (0, t181, n(p.k12)),
+            ];
+            PIVOTS.check(pivots)?;
         }
         let accelerations = [
             q_1_ddot.store(),
@@ -1132,344 +1094,49 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8]) ->
     }
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 4] = [("l", "m"), ("m", "kg"), ("J", "kg*m^2"), ("g", "m/s^2")];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 8] = [
-    ("q[1]", "rad"),
-    ("q[2]", "rad"),
-    ("q[3]", "rad"),
-    ("q[4]", "rad"),
-    ("q[5]", "rad"),
-    ("q[6]", "rad"),
-    ("q[7]", "rad"),
-    ("q[8]", "rad"),
-];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 1] = [("end", "m")];
-
-impl ::lagrangian::emitted::Machine for Chain {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "Chain"
+::lagrangian::emitted::implement! {
+    machine Chain "Chain" over S, R;
+    parameters { l, m, J, g } [
+        l: "l" "m" = 0.2;
+        m: "m" "kg" = 0.5;
+        J: "J" "kg*m^2" = 0.0016666666666666668;
+        g: "g" "m/s^2" = 9.81;
+    ]
+    coordinates 8 Coordinates { q: [q_1, q_2, q_3, q_4, q_5, q_6, q_7, q_8] } [
+        q_1: "q[1]" "rad";
+        q_2: "q[2]" "rad";
+        q_3: "q[3]" "rad";
+        q_4: "q[4]" "rad";
+        q_5: "q[5]" "rad";
+        q_6: "q[6]" "rad";
+        q_7: "q[7]" "rad";
+        q_8: "q[8]" "rad";
+    ]
+    inputs Inputs {} []
+    outputs Outputs { end } [
+        end: "end" "m";
+    ]
+    prepared Prepared {
+        l, m, J, g, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16, k17,
+        k18, k19, k20, k21, k22, k23, k24, k25, k26, k27, k28, k29, k30, k31, k32, k33, k34, k35,
+        k36, k37, k38, k39,
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [self.l, self.m, self.J, self.g];
-        quantities(&PARAMETERS, values)
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q);
+        vector forces(p, t, q, v, u) = forces(p, q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = outputs(p, q);
     }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.l),
-            1 => Some(&mut self.m),
-            2 => Some(&mut self.J),
-            3 => Some(&mut self.g),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 8];
-    type Matrix = [f64; 64];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_BE_CONSTRAINED: bool = false;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 8]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 8] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 8],
-        v: &[f64; 8],
-        _: &Inputs,
-        result: &mut [f64; 8],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, q: &[f64; 8], matrix: &mut [f64; 64]) {
-        let rows = mass_matrix(self, q);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, q: &[f64; 8], v: &[f64; 8], result: &mut [f64; 8]) {
-        *result = bias(self, q, v);
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 8], _: &[f64; 8], _: &Inputs, result: &mut [f64; 8]) {
-        *result = applied(self, q);
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 8], v: &[f64; 8], _: &Inputs, result: &mut [f64; 8]) {
-        *result = forces(self, q, v);
-    }
-
-    fn kinetic_energy(&self, _: f64, q: &[f64; 8], v: &[f64; 8]) -> f64 {
-        kinetic_energy(self, q, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 8], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 8], _: &[f64; 8], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 8], _: &[f64; 8], _: &[f64; 8], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 8], _: &[f64; 8], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [outputs.end];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, q: &[f64; 8], _: &[f64; 8], _: &[f64; 8], _: &Inputs) -> Outputs {
-        outputs(self, q)
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        _: &[f64; 8],
-        _: &[f64; 8],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        ::core::iter::empty()
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 8];
-    type BatchInputs = Inputs;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            l: lanes(|p| p.l),
-            m: lanes(|p| p.m),
-            J: lanes(|p| p.J),
-            g: lanes(|p| p.g),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            k9: lanes(|p| p.k9),
-            k10: lanes(|p| p.k10),
-            k11: lanes(|p| p.k11),
-            k12: lanes(|p| p.k12),
-            k13: lanes(|p| p.k13),
-            k14: lanes(|p| p.k14),
-            k15: lanes(|p| p.k15),
-            k16: lanes(|p| p.k16),
-            k17: lanes(|p| p.k17),
-            k18: lanes(|p| p.k18),
-            k19: lanes(|p| p.k19),
-            k20: lanes(|p| p.k20),
-            k21: lanes(|p| p.k21),
-            k22: lanes(|p| p.k22),
-            k23: lanes(|p| p.k23),
-            k24: lanes(|p| p.k24),
-            k25: lanes(|p| p.k25),
-            k26: lanes(|p| p.k26),
-            k27: lanes(|p| p.k27),
-            k28: lanes(|p| p.k28),
-            k29: lanes(|p| p.k29),
-            k30: lanes(|p| p.k30),
-            k31: lanes(|p| p.k31),
-            k32: lanes(|p| p.k32),
-            k33: lanes(|p| p.k33),
-            k34: lanes(|p| p.k34),
-            k35: lanes(|p| p.k35),
-            k36: lanes(|p| p.k36),
-            k37: lanes(|p| p.k37),
-            k38: lanes(|p| p.k38),
-            k39: lanes(|p| p.k39),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(_: [&Inputs; N]) -> Self::BatchInputs {
-        Inputs {}
-    }
-
-    fn inputs_of_lane(_: &Self::BatchInputs, _: usize) -> Inputs {
-        Inputs {}
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        _: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q, v },
-            result,
-        )
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for Chain<S> {
-    type System = Prepared<S>;
-
-    fn prepare(&self) -> Prepared<S> {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
-        Self::start(self)
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
-    type Vector = [S; 8];
-    type Coordinates = Coordinates<S>;
-    type Inputs = Inputs;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[S; 8]) -> Coordinates<S> {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 8] {
-        coordinates.to_array()
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs {}
-    }
-
-    fn accelerations(
-        &self,
-        _: S,
-        q: &[S; 8],
-        v: &[S; 8],
-        _: &Inputs,
-        result: &mut [S; 8],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <S as ::lagrangian::emitted::Number>::run_in_place(Accelerations { p: self, q, v }, result)
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_BE_CONSTRAINED MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers [yes]
 }

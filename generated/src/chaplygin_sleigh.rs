@@ -48,27 +48,6 @@ pub struct ChaplyginSleigh<S = f64> {
     pub a: S,
 }
 
-impl Default for ChaplyginSleigh {
-    fn default() -> Self {
-        Self {
-            m: 1.0,
-            J: 0.05,
-            a: 0.3,
-        }
-    }
-}
-
-impl<S> ChaplyginSleigh<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> ChaplyginSleigh<R> {
-        ChaplyginSleigh {
-            m: f(self.m),
-            J: f(self.J),
-            a: f(self.a),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> ChaplyginSleigh<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -77,15 +56,7 @@ impl<S: ::lagrangian::emitted::Scalar> ChaplyginSleigh<S> {
         let k2 = -k0;
         let k3 = S::ONE / self.m;
         let k4 = S::ONE / self.J;
-        let singular = if vanishes(self.m, self.m, 3.552713678800501e-15) {
-            Some(singular(0, self.m, self.m))
-        } else if vanishes(self.m, self.m, 3.552713678800501e-15) {
-            Some(singular(1, self.m, self.m))
-        } else if vanishes(self.J, k1, 3.552713678800501e-15) {
-            Some(singular(2, self.J, k1))
-        } else {
-            None
-        };
+        let pivots = [(0, self.m, self.m), (1, self.m, self.m), (2, self.J, k1)];
         Prepared {
             m: self.m,
             J: self.J,
@@ -95,7 +66,7 @@ impl<S: ::lagrangian::emitted::Scalar> ChaplyginSleigh<S> {
             k2,
             k3,
             k4,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -122,31 +93,6 @@ pub struct Coordinates<S = f64> {
     pub y: S,
     /// Direction of the blade. Unit: `rad`.
     pub phi: S,
-}
-
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 3] {
-        [self.x, self.y, self.phi]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 3]) -> Self {
-        Self {
-            x: q[0],
-            y: q[1],
-            phi: q[2],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            x: f(self.x),
-            y: f(self.y),
-            phi: f(self.phi),
-        }
-    }
 }
 
 /// What can be set while a [`ChaplyginSleigh`] runs.
@@ -182,6 +128,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 3,
+    tolerance: 3.552713678800501e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -323,9 +276,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let x_ddot = t6.neg_mul_add(t9, t0 * t2);
         let y_ddot = t7.mul_add(t9, t0 * t1);
         let phi_ddot = -(t5 * t9);
-        let sound = t8.exceeds(N::from_f64(3.552713678800501e-15) * t8) & phi_ddot.is_finite();
+        let sound = PIVOTS.hold(t8, t8) & phi_ddot.is_finite();
         if !sound {
-            check(t8, t8, 3.552713678800501e-15, 3)?;
+            let pivots = [(3, t8, t8)];
+            PIVOTS.check(pivots)?;
         }
         let accelerations = [x_ddot.store(), y_ddot.store(), phi_ddot.store()];
         Ok(accelerations)
@@ -373,9 +327,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t2 = n(p.a).mul_add(n(p.a) * (t0 + t1) * n(p.k4), n(p.k3));
         let t3 = t1.mul_add(t2, t0 * t2);
         let lambda1 = cos_phi.mul_add(x_dot, sin_phi * y_dot) * phi_dot / t3;
-        let sound = t3.exceeds(N::from_f64(3.552713678800501e-15) * t3) & lambda1.is_finite();
+        let sound = PIVOTS.hold(t3, t3) & lambda1.is_finite();
         if !sound {
-            check(t3, t3, 3.552713678800501e-15, 3)?;
+            let pivots = [(3, t3, t3)];
+            PIVOTS.check(pivots)?;
         }
         let multipliers = [lambda1.store()];
         Ok(multipliers)
@@ -425,314 +380,46 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(q: &[S; 3], v: &[S; 3]) -> Outp
     }
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 3] = [("m", "kg"), ("J", "kg*m^2"), ("a", "m")];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 3] = [("x", "m"), ("y", "m"), ("phi", "rad")];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 1] = [("along", "m/s")];
-
-/// Names, units, units of multipliers, whether positions are constrained.
-const CONSTRAINTS: [(&str, &str, &str, bool); 1] = [("blade", "m/s", "N", false)];
-
-impl ::lagrangian::emitted::Machine for ChaplyginSleigh {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "ChaplyginSleigh"
+::lagrangian::emitted::implement! {
+    machine ChaplyginSleigh "ChaplyginSleigh" over S, R;
+    parameters { m, J, a } [
+        m: "m" "kg" = 1.0;
+        J: "J" "kg*m^2" = 0.05;
+        a: "a" "m" = 0.3;
+    ]
+    coordinates 3 Coordinates { x, y, phi } [
+        x: "x" "m";
+        y: "y" "m";
+        phi: "phi" "rad";
+    ]
+    inputs Inputs {} []
+    outputs Outputs { along } [
+        along: "along" "m/s";
+    ]
+    prepared Prepared { m, J, a, k0, k1, k2, k3, k4 }
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, q, v);
+        vector applied(p, t, q, v, u);
+        vector forces(p, t, q, v, u) = forces(p, q, v);
+        numbers constraint_positions(p, t, q);
+        numbers constraint_rates(p, t, q, v) = constraint_rates(q, v);
+        numbers constraint_matrix(p, t, q) = constraint_matrix(q);
+        numbers constraint_drift(p, t, q, v) = constraint_drift(q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
+        number potential_energy(p, t, q, u);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = outputs(q, v);
+        constraints constraints(p) = [("blade", "m/s", "N", false)];
+        solved multipliers(p, t, q, v, u) = multipliers(p, q, v);
+        workspace with_workspace(p) = ::lagrangian::emitted::constraint_workspace(3, 1);
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [self.m, self.J, self.a];
-        quantities(&PARAMETERS, values)
-    }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.m),
-            1 => Some(&mut self.J),
-            2 => Some(&mut self.a),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 3];
-    type Matrix = [f64; 9];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 3]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 3] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 3],
-        v: &[f64; 3],
-        _: &Inputs,
-        result: &mut [f64; 3],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, q: &[f64; 3], matrix: &mut [f64; 9]) {
-        let rows = mass_matrix(self, q);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, q: &[f64; 3], v: &[f64; 3], result: &mut [f64; 3]) {
-        *result = bias(self, q, v);
-    }
-
-    fn applied(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs, result: &mut [f64; 3]) {
-        *result = [0.0; 3];
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 3], v: &[f64; 3], _: &Inputs, result: &mut [f64; 3]) {
-        *result = forces(self, q, v);
-    }
-
-    fn constraint_positions(&self, _: f64, _: &[f64; 3], to: &mut [f64]) {
-        to.fill(0.0);
-    }
-
-    fn constraint_rates(&self, _: f64, q: &[f64; 3], v: &[f64; 3], to: &mut [f64]) {
-        fill(to, &constraint_rates(q, v));
-    }
-
-    fn constraint_matrix(&self, _: f64, q: &[f64; 3], to: &mut [f64]) {
-        fill(to, &constraint_matrix(q));
-    }
-
-    fn constraint_drift(&self, _: f64, q: &[f64; 3], v: &[f64; 3], to: &mut [f64]) {
-        fill(to, &constraint_drift(q, v));
-    }
-
-    fn kinetic_energy(&self, _: f64, q: &[f64; 3], v: &[f64; 3]) -> f64 {
-        kinetic_energy(self, q, v)
-    }
-
-    fn potential_energy(&self, _: f64, _: &[f64; 3], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [outputs.along];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, q: &[f64; 3], v: &[f64; 3], _: &[f64; 3], _: &Inputs) -> Outputs {
-        outputs(q, v)
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        _: &[f64; 3],
-        _: &[f64; 3],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        ::core::iter::empty()
-    }
-
-    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Constraint<'_>> {
-        CONSTRAINTS.iter().map(constraint)
-    }
-
-    fn multipliers(
-        &self,
-        _: f64,
-        q: &[f64; 3],
-        v: &[f64; 3],
-        _: &Inputs,
-        to: &mut [f64],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        fill(to, &multipliers(self, q, v)?);
-        Ok(())
-    }
-
-    fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::emitted::constraint_workspace(3, 1)];
-        work(room.get_mut(..length))
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 3];
-    type BatchInputs = Inputs;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            m: lanes(|p| p.m),
-            J: lanes(|p| p.J),
-            a: lanes(|p| p.a),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(_: [&Inputs; N]) -> Self::BatchInputs {
-        Inputs {}
-    }
-
-    fn inputs_of_lane(_: &Self::BatchInputs, _: usize) -> Inputs {
-        Inputs {}
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        _: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q, v },
-            result,
-        )
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// A constraint, as it is called.
-fn constraint<'a>(
-    &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
-) -> ::lagrangian::emitted::Constraint<'a> {
-    ::lagrangian::emitted::Constraint {
-        name,
-        unit,
-        multiplier_unit,
-        holonomic,
-    }
-}
-
-/// Writes numbers where there is room for them.
-fn fill(to: &mut [f64], from: &[f64]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = *from;
-    }
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    if let Some(constraint) = coordinate.checked_sub(3) {
-        return ::lagrangian::emitted::Singular::constraint(constraint, pivot, diagonal);
-    }
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers []
 }

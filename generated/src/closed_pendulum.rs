@@ -3,11 +3,11 @@
 //! Five equal uniform bars that hang in a row between two pins, d apart on one level. Angles are
 //! absolute, from the line through the pins; two constraints leave three degrees of freedom.
 //!
-//! 5 coordinates, 5 parameters. Arithmetic of one call:
+//! 5 coordinates, 4 parameters. Arithmetic of one call:
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 32 | 13 | 2 | 0 | 0 | 47 |
+//! | `prepare` | 35 | 7 | 2 | 0 | 0 | 44 |
 //! | `start` | 2 | 2 | 0 | 0 | 0 | 4 |
 //! | `mass_matrix` | 30 | 10 | 0 | 5 | 0 | 50 |
 //! | `bias` | 42 | 27 | 0 | 5 | 0 | 79 |
@@ -17,7 +17,7 @@
 //! | `constraint_rates` | 12 | 8 | 0 | 5 | 0 | 30 |
 //! | `constraint_matrix` | 10 | 0 | 0 | 5 | 0 | 20 |
 //! | `constraint_drift` | 17 | 8 | 0 | 5 | 0 | 35 |
-//! | `accelerations` | 285 | 179 | 6 | 5 | 0 | 480 |
+//! | `accelerations` | 258 | 179 | 6 | 5 | 0 | 453 |
 //! | `multipliers` | 205 | 125 | 6 | 5 | 0 | 346 |
 //! | `kinetic_energy` | 52 | 26 | 0 | 5 | 0 | 88 |
 //! | `potential_energy` | 10 | 11 | 0 | 5 | 0 | 26 |
@@ -46,92 +46,65 @@ pub struct ClosedPendulum<S = f64> {
     pub l: S,
     /// `m`. Unit: `kg`. Default: 1.
     pub m: S,
-    /// `J`. Unit: `kg*m^2`. Default: 1/12.
-    pub J: S,
     /// `d`. Unit: `m`. Default: 2.
     pub d: S,
     /// `g`. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
 }
 
-impl Default for ClosedPendulum {
-    fn default() -> Self {
-        Self {
-            l: 1.0,
-            m: 1.0,
-            J: 0.08333333333333333,
-            d: 2.0,
-            g: 9.81,
-        }
-    }
-}
-
-impl<S> ClosedPendulum<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> ClosedPendulum<R> {
-        ClosedPendulum {
-            l: f(self.l),
-            m: f(self.m),
-            J: f(self.J),
-            d: f(self.d),
-            g: f(self.g),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> ClosedPendulum<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k3 = self.l * self.m;
-        let t0 = self.l * self.l;
-        let t1 = self.l * k3;
-        let t2 = self.g * k3;
-        let k16 = S::from_f64(0.5) * k3;
-        let k32 = S::from_f64(0.25) * t0;
-        let t3 = t1 * S::from_f64(0.25);
-        let k9 = self.J + t1 * S::from_f64(4.25);
-        let k2 = S::from_f64(0.5) * t2;
-        let k5 = S::from_f64(0.5) * t1;
+        let t0 = self.l * self.m;
+        let t1 = self.l * t0;
+        let t2 = self.g * t0;
+        let k3 = S::from_f64(0.5) * t2;
+        let t3 = S::from_ratio(1, 6);
+        let t4 = S::from_ratio(4, 3);
+        let t5 = S::from_ratio(1, 3);
+        let k13 = t1 * t5;
         let k17 = t2 * S::from_f64(1.5);
         let k18 = t2 * S::from_f64(2.5);
         let k19 = t2 * S::from_f64(3.5);
-        let k13 = self.J + t3;
         let k20 = t2 * S::from_f64(4.5);
-        let k34 = S::ONE / k13;
+        let t6 = self.l * self.l;
+        let t7 = S::ONE / self.l;
+        let k34 = S::ONE / self.m;
+        let t8 = t7 * t7 * k34;
         let k0 = self.l * S::from_f64(0.5);
-        let k1 = self.m * self.g;
-        let k4 = S::from_f64(0.125) * (self.J * S::from_f64(4.0) + t1);
+        let k1 = t1 * S::from_ratio(1, 12);
+        let k2 = self.m * self.g;
+        let k4 = t1 * t3;
+        let k5 = S::from_f64(0.5) * t1;
         let k6 = t1 * S::from_f64(1.5);
         let k7 = t1 * S::from_f64(2.5);
         let k8 = t1 * S::from_f64(3.5);
-        let k10 = self.J + t1 * S::from_f64(3.25);
-        let k11 = self.J + t1 * S::from_f64(2.25);
-        let k12 = self.J + t1 * S::from_f64(1.25);
+        let k9 = t1 * S::from_ratio(13, 3);
+        let k10 = t1 * S::from_ratio(10, 3);
+        let k11 = t1 * S::from_ratio(7, 3);
+        let k12 = t1 * t4;
         let k14 = self.m * S::from_f64(0.5);
-        let k15 = k3 * S::from_f64(0.25);
+        let k15 = t0 * S::from_f64(0.25);
+        let k16 = S::from_f64(0.5) * t0;
         let k21 = -self.l;
         let k22 = -k20;
         let k23 = -k19;
         let k24 = -k18;
         let k25 = -k17;
-        let k26 = -k2;
-        let k27 = t3 * k34;
-        let k28 = self.J - t3;
-        let k29 = k34 * k32;
-        let k30 = S::from_f64(0.5) * t0;
-        let k31 = self.m * self.m;
-        let k33 = k16 * k34;
-        let k35 = k5 * k34;
-        let k36 = S::ONE / k9;
-        let singular = if vanishes(k13, k13, 6.217248937900877e-15) {
-            Some(singular(4, k13, k13))
-        } else {
-            None
-        };
+        let k26 = -k3;
+        let k27 = t3 * t6;
+        let k28 = S::from_f64(0.5) * t6;
+        let k29 = t5 * t6;
+        let k30 = t4 * t6;
+        let k31 = S::from_f64(0.25) * t6;
+        let k32 = S::from_f64(1.5) * t7;
+        let k33 = t8 * S::from_f64(3.0);
+        let k35 = -self.m;
+        let k36 = t8 * S::from_ratio(3, 13);
+        let pivots = [(4, k13, k13)];
         Prepared {
             l: self.l,
             m: self.m,
-            J: self.J,
             d: self.d,
             g: self.g,
             k0,
@@ -171,7 +144,7 @@ impl<S: ::lagrangian::emitted::Scalar> ClosedPendulum<S> {
             k34,
             k35,
             k36,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -199,25 +172,6 @@ pub struct Coordinates<S = f64> {
     pub q: [S; 5],
 }
 
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 5] {
-        [self.q[0], self.q[1], self.q[2], self.q[3], self.q[4]]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 5]) -> Self {
-        Self {
-            q: [q[0], q[1], q[2], q[3], q[4]],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates { q: self.q.map(&f) }
-    }
-}
-
 /// What can be set while a [`ClosedPendulum`] runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Inputs {}
@@ -233,21 +187,19 @@ pub struct Prepared<S = f64> {
     l: S,
     /// `m`
     m: S,
-    /// `J`
-    J: S,
     /// `d`
     d: S,
     /// `g`
     g: S,
     /// `0.5*l`
     k0: S,
-    /// `m*g`
+    /// `(1/12)*l^2*m`
     k1: S,
-    /// `0.5*l*m*g`
+    /// `m*g`
     k2: S,
-    /// `l*m`
+    /// `0.5*l*m*g`
     k3: S,
-    /// `0.125*(l^2*m + 4*J)`
+    /// `(1/6)*l^2*m`
     k4: S,
     /// `0.5*l^2*m`
     k5: S,
@@ -257,15 +209,15 @@ pub struct Prepared<S = f64> {
     k7: S,
     /// `3.5*l^2*m`
     k8: S,
-    /// `J + 4.25*l^2*m`
+    /// `(13/3)*l^2*m`
     k9: S,
-    /// `J + 3.25*l^2*m`
+    /// `(10/3)*l^2*m`
     k10: S,
-    /// `J + 2.25*l^2*m`
+    /// `(7/3)*l^2*m`
     k11: S,
-    /// `J + 1.25*l^2*m`
+    /// `(4/3)*l^2*m`
     k12: S,
-    /// `J + 0.25*l^2*m`
+    /// `(1/3)*l^2*m`
     k13: S,
     /// `0.5*m`
     k14: S,
@@ -293,48 +245,55 @@ pub struct Prepared<S = f64> {
     k25: S,
     /// `-0.5*l*m*g`
     k26: S,
-    /// `0.25*l^2*m/(J + 0.25*l^2*m)`
+    /// `(1/6)*l^2`
     k27: S,
-    /// `J - 0.25*l^2*m`
-    k28: S,
-    /// `0.25*l^2/(J + 0.25*l^2*m)`
-    k29: S,
     /// `0.5*l^2`
+    k28: S,
+    /// `(1/3)*l^2`
+    k29: S,
+    /// `(4/3)*l^2`
     k30: S,
-    /// `m^2`
-    k31: S,
     /// `0.25*l^2`
+    k31: S,
+    /// `1.5/l`
     k32: S,
-    /// `0.5*l*m/(J + 0.25*l^2*m)`
+    /// `3/l^2/m`
     k33: S,
-    /// `1/(J + 0.25*l^2*m)`
+    /// `1/m`
     k34: S,
-    /// `0.5*l^2*m/(J + 0.25*l^2*m)`
+    /// `-m`
     k35: S,
-    /// `1/(J + 4.25*l^2*m)`
+    /// `(3/13)/l^2/m`
     k36: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 5,
+    tolerance: 6.217248937900877e-15,
+};
+
 /// Mass matrix `M`.
 ///
 /// ```text
-/// M[q[1], q[1]] = 17/4*l^2*m + J
+/// M[q[1], q[1]] = 13/3*l^2*m
 /// M[q[2], q[1]] = 7/2*l^2*m*cos(q[2] - q[1])
-/// M[q[2], q[2]] = 13/4*l^2*m + J
+/// M[q[2], q[2]] = 10/3*l^2*m
 /// M[q[3], q[1]] = 5/2*l^2*m*cos(q[3] - q[1])
 /// M[q[3], q[2]] = 5/2*l^2*m*cos(q[3] - q[2])
-/// M[q[3], q[3]] = 9/4*l^2*m + J
+/// M[q[3], q[3]] = 7/3*l^2*m
 /// M[q[4], q[1]] = 3/2*l^2*m*cos(q[4] - q[1])
 /// M[q[4], q[2]] = 3/2*l^2*m*cos(q[4] - q[2])
 /// M[q[4], q[3]] = 3/2*l^2*m*cos(q[4] - q[3])
-/// M[q[4], q[4]] = 5/4*l^2*m + J
+/// M[q[4], q[4]] = 4/3*l^2*m
 /// M[q[5], q[1]] = 1/2*l^2*m*cos(q[5] - q[1])
 /// M[q[5], q[2]] = 1/2*l^2*m*cos(q[5] - q[2])
 /// M[q[5], q[3]] = 1/2*l^2*m*cos(q[5] - q[3])
 /// M[q[5], q[4]] = 1/2*l^2*m*cos(q[5] - q[4])
-/// M[q[5], q[5]] = 1/4*l^2*m + J
+/// M[q[5], q[5]] = 1/3*l^2*m
 /// ```
 pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [[S; 5]; 5] {
     let q_1 = q[0];
@@ -496,7 +455,7 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5], v: 
     let f_q_2 = -(sin_q_2 * (t16 + (t17 + p.k8 * t14)) + t20);
     let f_q_3 = -t23;
     let f_q_4 = -(p.k6 * (sin_q_4 * (t12 + t18) - cos_q_4 * (t7 + t15)) + t21);
-    let f_q_5 = -(p.k5 * (t19 - cos_q_5 * (t15 + (t7 + t0 * sin_q_4))) + cos_q_5 * p.k2);
+    let f_q_5 = -(p.k5 * (t19 - cos_q_5 * (t15 + (t7 + t0 * sin_q_4))) + cos_q_5 * p.k3);
     [f_q_1, f_q_2, f_q_3, f_q_4, f_q_5]
 }
 
@@ -692,193 +651,193 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t2 = q_3_dot * q_3_dot;
         let t3 = q_1_dot * q_1_dot;
         let t4 = q_2_dot * q_2_dot;
-        let t5 = sin_q_5 * cos_q_5;
-        let t6 = sin_q_4 * n(p.l);
-        let t7 = cos_q_4 * n(p.l);
+        let t5 = N::from_f64(0.75) * cos_q_5;
+        let t6 = n(p.l) * sin_q_4;
+        let t7 = n(p.l) * cos_q_4;
         let t8 = n(p.l) * sin_q_3;
         let t9 = n(p.l) * cos_q_3;
         let t10 = cos_q_5 * t0;
-        let t11 = t5 * n(p.k27);
-        let t12 = cos_q_5.neg_mul_add(cos_q_5 * n(p.k27), N::from_f64(1.5));
-        let t13 = sin_q_5.neg_mul_add(sin_q_5 * n(p.k27), N::from_f64(1.5));
-        let t14 = t6 * t1;
-        let t15 = sin_q_5 * t0;
-        let t16 = t7 * t1;
-        let t17 = t7.mul_sub(t12, t11 * t6);
-        let t18 = t13.mul_sub(t6, t11 * t7);
-        let t19 = n(p.l) * sin_q_2;
-        let t20 = n(p.l) * cos_q_2;
-        let t21 = sin_q_5 * n(p.l);
-        let t22 = cos_q_5 * n(p.k33);
-        let t23 = t8 * t2;
-        let t24 = t13.mul_add(t16, t11.mul_add(t14, n(p.k0) * t10));
-        let t25 = t17.mul_add(t7 * n(p.m), n(p.k28));
-        let t26 = t18.mul_add(t6 * n(p.m), t25);
-        let t27 = t21 * t22;
-        let t28 = sin_q_5 * n(p.k33);
-        let t29 = t12.mul_add(t14, t11.mul_add(t16, n(p.k0) * t15));
-        let t30 = t9 * t2;
-        let t31 = N::ONE / t26;
-        let t32 = n(p.l) * sin_q_1;
-        let t33 = n(p.l) * cos_q_1;
-        let t34 = cos_q_2 * (n(p.k30) * cos_q_1);
-        let t35 = t28 * t21;
-        let t36 = t7.mul_sub(t29, t6 * t24);
-        let t37 = sin_q_1 * t3;
-        let t38 = sin_q_2 * n(p.k0);
-        let t39 = cos_q_2 * n(p.k0);
-        let t40 = t33 * t3;
-        let t41 = t6.neg_mul_add(t35, t7.neg_mul_add(t27, t6));
-        let t42 = cos_q_5 * n(p.l);
-        let t43 = t20.mul_add(t4, t40);
-        let t44 = sin_q_2.mul_add(t4, t37);
-        let t45 = t39.mul_add(t4, t40);
-        let t46 = t22 * t42;
-        let t47 = t31.mul_add(t18 * t17, t5 * n(p.k29));
-        let t48 = n(p.m) * t31;
-        let t49 = n(p.l).neg_mul_add(t44, n(p.g));
-        let t50 = n(p.g) - t38.mul_add(t4, n(p.l) * t37);
-        let t51 = t28 * t42;
-        let t52 = n(p.m) * t47;
-        let t53 = t17 * t48;
-        let t54 = t18 * t48;
-        let t55 = t37.neg_mul_add(n(p.k0), n(p.g)) * (cos_q_1 * n(p.k0));
-        let t56 = t6.neg_mul_add(t51, t7.neg_mul_add(t46, t7));
-        let t57 = t17.neg_mul_add(t53, t12 + N::ONE);
-        let t58 = t18.neg_mul_add(t54, t13 + N::ONE);
-        let t59 = t53.mul_add(t41, t27);
-        let t60 = t54.mul_add(t41, t35);
-        let t61 = t9.mul_sub(t57, t52 * t8);
-        let t62 = t58.mul_sub(t8, t52 * t9);
-        let t63 = t32.mul_add(t45, t37 * (cos_q_1 * n(p.k32)));
-        let t64 = t53.mul_add(t56, t46);
-        let t65 = t54.mul_add(t56, t51);
-        let t66 = t58.mul_add(t30, t52.mul_add(t23, t54.mul_add(t36, t24)));
-        let t67 = t52.mul_add(t30, t53.neg_mul_add(t36, t29));
-        let t68 = t57.mul_add(t23, t67);
-        let t69 = t8.neg_mul_add(t60, t9.neg_mul_add(t59, t8));
-        let t70 = t61.mul_add(n(p.m) * t9, n(p.k28));
-        let t71 = t62.mul_add(n(p.m) * t8, t70);
-        let t72 = N::ONE / t71;
-        let t73 = t8.neg_mul_add(t65, t9.neg_mul_add(t64, t9));
-        let t74 = t9.mul_sub(t68, t8 * t66);
-        let t75 = cos_q_3.mul_add(t2, cos_q_2.mul_add(t4, cos_q_1 * t3));
-        let t76 = t15 + sin_q_4.mul_add(t1, sin_q_3.mul_add(t2, t44));
-        let t77 = n(p.m) * t72;
-        let t78 = n(p.m) * t72.mul_add(t62 * t61, t47);
-        let t79 = t61 * t77;
-        let t80 = t62 * t77;
-        let t81 = t61.neg_mul_add(t79, t57 + N::from_f64(0.5));
-        let t82 = t62.neg_mul_add(t80, t58 + N::from_f64(0.5));
-        let t83 = t20.mul_sub(t81, t78 * t19);
-        let t84 = t79.mul_add(t69, t59);
-        let t85 = t82.mul_sub(t19, t78 * t20);
-        let t86 = t80.mul_add(t69, t60);
-        let t87 = t81.mul_sub(t33, t78 * t32);
-        let t88 = t79.mul_add(t73, t64);
-        let t89 = t78.mul_add(t43, t79.neg_mul_add(t74, t68));
-        let t90 = t81.neg_mul_add(t49, t89);
-        let t91 = t78.neg_mul_add(t49, t80.mul_add(t74, t66));
-        let t92 = t82.mul_add(t43, t91);
-        let t93 = t83.mul_add(n(p.m) * t20, n(p.k13));
-        let t94 = t85.mul_add(n(p.m) * t19, t93);
-        let t95 = t83.mul_add(t33, sin_q_2.mul_add(n(p.k30) * sin_q_1, t34));
-        let t96 = t85.mul_add(t32, t95);
-        let t97 = t19.neg_mul_add(t86, t20.neg_mul_add(t84, t19));
-        let t98 = t87.mul_add(n(p.m) * t33, n(p.k12));
-        let t99 = N::ONE / t94;
-        let t100 = t80.mul_add(t73, t65);
-        let t101 = t20.mul_sub(t90, t39.mul_add(t50, t38 * t45));
-        let t102 = t19.neg_mul_add(t92, t101);
-        let t103 = t33.mul_sub(t90, t63 + t33.mul_add(t50, t55));
-        let t104 = t19.neg_mul_add(t100, t20.neg_mul_add(t88, t20));
-        let t105 = t82.mul_sub(t32, t78 * t33).mul_add(n(p.m) * t32, t98);
-        let t106 = t99.neg_mul_add(t96 * (t96 * n(p.k31)), t105);
-        let t107 = n(p.m) * t99;
-        let t108 = N::ONE / t106;
-        let t109 = t96 * t107;
-        let t110 = t32.neg_mul_add(t86, t33.neg_mul_add(t84, t32));
-        let t111 = t32.neg_mul_add(t100, t33.neg_mul_add(t88, t33));
-        let t112 = t108 * t109.neg_mul_add(t97, t110);
-        let t113 = t108 * t109.neg_mul_add(t102, t32.neg_mul_add(t92, t103));
-        let t114 = t108 * t109.neg_mul_add(t104, t111);
-        let t115 = t109.neg_mul_add(t112, t99 * t97);
-        let t116 = n(p.m) * t113;
-        let t117 = t109.neg_mul_add(t114, t99 * t104);
-        let t118 = t19.mul_add(t115, t32 * t112);
-        let t119 = t96.neg_mul_add(t116, t102);
-        let t120 = t20.mul_add(t115, t33 * t112);
-        let t121 = t19.mul_add(t117, t32 * t114);
-        let t122 = t20.mul_add(t117, t33 * t114);
-        let t123 = t107 * t119;
-        let t124 = t113 * n(p.k3);
-        let t125 = t119 * (t99 * n(p.k3));
-        let t126 = t79.neg_mul_add(t120, t80.neg_mul_add(t118, t72 * t69));
-        let t127 = t19.mul_add(t123, t32.mul_add(t116, t43));
-        let t128 = t20.mul_add(t123, t33.mul_add(t116, t49));
-        let t129 = n(p.l) * (t10 + cos_q_4.mul_add(t1, t75));
-        let t130 = t79.neg_mul_add(t122, t80.neg_mul_add(t121, t72 * t73));
-        let t131 = t8.mul_add(t126, t118);
-        let t132 = t9.mul_add(t126, t120);
-        let t133 = sin_q_2.mul_add(t115, sin_q_1 * t112);
-        let t134 = t8.mul_add(t130, t121);
-        let t135 = t9.mul_add(t130, t122);
-        let t136 = cos_q_2.mul_add(t115, cos_q_1 * t112);
-        let t137 = t61.neg_mul_add(t128, t62.neg_mul_add(t127, t74));
-        let t138 = cos_q_1.neg_mul_add(t124, n(p.l) * t76);
-        let t139 = cos_q_2.mul_add(t117, cos_q_1 * t114);
-        let t140 = t53.neg_mul_add(t132, t54.neg_mul_add(t131, t31 * t41));
-        let t141 = t77 * t137;
-        let t142 = t137 * (t72 * n(p.k3));
-        let t143 = t53.neg_mul_add(t135, t54.neg_mul_add(t134, t31 * t56));
-        let t144 = t9.neg_mul_add(t141, t23 - t128);
-        let t145 = t8.mul_add(t141, t30 + t127);
-        let t146 = sin_q_2.mul_add(t125, sin_q_1.mul_add(t124, t129));
-        let t147 = t28.neg_mul_add(t6.mul_add(t140, t131), t21 * n(p.k34));
-        let t148 = t22.neg_mul_add(t7.mul_add(t140, t132), t147);
-        let t149 = t18.neg_mul_add(t145, t17.mul_add(t144, t36));
-        let t150 = t28.neg_mul_add(t6.mul_add(t143, t134), n(p.k34) * t42);
-        let t151 = t22.neg_mul_add(t7.mul_add(t143, t135), t150);
-        let t152 = sin_q_4.mul_add(t140, sin_q_3.mul_add(t126, t133));
-        let t153 = cos_q_4.mul_add(t140, cos_q_3.mul_add(t126, t136));
-        let t154 = t48 * t149;
-        let t155 = t149 * (t31 * n(p.k3));
-        let t156 = cos_q_4.mul_add(t143, cos_q_3.mul_add(t130, t139));
-        let t157 = n(p.l) * sin_q_5.mul_add(t148, t152);
-        let t158 = n(p.l) * cos_q_5.mul_add(t148, t153);
-        let t159 = cos_q_3.neg_mul_add(t142, cos_q_2.neg_mul_add(t125, t138));
-        let t160 = n(p.l) * cos_q_5.mul_add(t151, t156);
-        let t161 = N::ONE / t157;
-        let t162 = cos_q_5 * t7.neg_mul_add(t154, t14 + t144);
-        let t163 = sin_q_5.mul_sub(t6.mul_add(t154, t16 + t145), t162);
-        let t164 = n(p.k35) * t163;
-        let t165 = t161 * t158;
-        let t166 = sin_q_4.mul_add(t155, sin_q_3.mul_add(t142, t146));
-        let t167 = sin_q_5.neg_mul_add(t164, t166);
-        let t168 = t158.neg_mul_add(t165, t160);
-        let t169 = cos_q_5.mul_add(t164, cos_q_4.neg_mul_add(t155, t159));
-        let t170 = t165.mul_add(t167, t169) / t168;
-        let t171 = t165.mul_add(t170, t161 * t167);
-        let t172 = t151.neg_mul_add(t170, n(p.k33) * t163);
-        let q_1_ddot = t112.neg_mul_add(t171, t114.mul_add(t170, t116));
-        let q_2_ddot = t115.neg_mul_add(t171, t117.mul_add(t170, t123));
-        let q_3_ddot = t126.neg_mul_add(t171, t130.mul_add(t170, t141));
-        let q_4_ddot = t140.neg_mul_add(t171, t143.mul_add(t170, t154));
-        let q_5_ddot = -t148.mul_add(t171, t172);
-        let sound = t26.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k12))
-            & t71.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k11))
-            & t94.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k10))
-            & t106.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k9))
-            & t157.exceeds(N::from_f64(6.217248937900877e-15) * t157)
-            & t168.exceeds(N::from_f64(6.217248937900877e-15) * t160)
+        let t11 = sin_q_5 * t0;
+        let t12 = sin_q_5 * t5;
+        let t13 = cos_q_5.neg_mul_add(t5, N::from_f64(1.5));
+        let t14 = N::from_f64(0.75) * sin_q_5;
+        let t15 = sin_q_5.neg_mul_add(t14, N::from_f64(1.5));
+        let t16 = t6 * t1;
+        let t17 = t7 * t1;
+        let t18 = n(p.l) * sin_q_2;
+        let t19 = n(p.l) * cos_q_2;
+        let t20 = t8 * t2;
+        let t21 = t7.mul_sub(t13, t12 * t6);
+        let t22 = t15.mul_sub(t6, t12 * t7);
+        let t23 = t9 * t2;
+        let t24 = n(p.l) * sin_q_1;
+        let t25 = t15.mul_add(t17, t12.mul_add(t16, n(p.k0) * t10));
+        let t26 = t13.mul_add(t16, t12.mul_add(t17, n(p.k0) * t11));
+        let t27 = n(p.l) * sin_q_5;
+        let t28 = cos_q_5 * n(p.k32);
+        let t29 = n(p.l) * cos_q_1;
+        let t30 = sin_q_5 * n(p.k32);
+        let t31 = sin_q_1 * t3;
+        let t32 = t6.mul_add(t22, t7.mul_sub(t21, n(p.k27)));
+        let t33 = sin_q_2 * n(p.k0);
+        let t34 = cos_q_2 * (n(p.k28) * cos_q_1);
+        let t35 = t27 * t28;
+        let t36 = t30 * t27;
+        let t37 = t7.mul_sub(t26, t6 * t25);
+        let t38 = t29 * t3;
+        let t39 = N::ONE / t32;
+        let t40 = cos_q_2 * n(p.k0);
+        let t41 = t19.mul_add(t4, t38);
+        let t42 = sin_q_2.mul_add(t4, t31);
+        let t43 = t40.mul_add(t4, t38);
+        let t44 = t6.neg_mul_add(t36, t7.neg_mul_add(t35, t6));
+        let t45 = n(p.g) - t4.mul_add(t33, t24 * t3);
+        let t46 = n(p.l) * cos_q_5;
+        let t47 = n(p.l).neg_mul_add(t42, n(p.g));
+        let t48 = t28 * t46;
+        let t49 = t30 * t46;
+        let t50 = t31.neg_mul_add(n(p.k0), n(p.g)) * (cos_q_1 * n(p.k0));
+        let t51 = t22 * t39;
+        let t52 = t21 * t39;
+        let t53 = t39 * n(p.k34);
+        let t54 = t24.mul_add(t43, t31 * (cos_q_1 * n(p.k31)));
+        let t55 = t22.neg_mul_add(t51, t15 + N::ONE);
+        let t56 = t22.mul_add(t52, t12);
+        let t57 = t21.neg_mul_add(t52, t13 + N::ONE);
+        let t58 = t52.mul_add(t44, t35);
+        let t59 = t51.mul_add(t44, t36);
+        let t60 = t6.neg_mul_add(t49, t7.neg_mul_add(t48, t7));
+        let t61 = t52.mul_add(t60, t48);
+        let t62 = t56.mul_sub(t9, t55 * t8);
+        let t63 = t9.mul_sub(t57, t8 * t56);
+        let t64 = t51.mul_add(t60, t49);
+        let t65 = t55.mul_add(t23, t56.mul_add(t20, t51.mul_add(t37, t25)));
+        let t66 = t57.mul_add(t20, t52.neg_mul_add(t37, t26));
+        let t67 = t56.mul_add(t23, t66);
+        let t68 = t8.neg_mul_add(t59, t9.neg_mul_add(t58, t8));
+        let t69 = cos_q_3.mul_add(t2, cos_q_2.mul_add(t4, cos_q_1 * t3));
+        let t70 = t8.neg_mul_add(t64, t9.neg_mul_add(t61, t9));
+        let t71 = t9.neg_mul_add(t63, t8.mul_add(t62, n(p.k27)));
+        let t72 = t9.mul_sub(t67, t8 * t65);
+        let t73 = N::ONE / t71;
+        let t74 = t63 * t73;
+        let t75 = t62 * t73;
+        let t76 = t73 * n(p.k34);
+        let t77 = t62.mul_add(t74, t56);
+        let t78 = t63.mul_add(t74, t57 + N::from_f64(0.5));
+        let t79 = t62.mul_add(t75, t55 + N::from_f64(0.5));
+        let t80 = t74.neg_mul_add(t68, t58);
+        let t81 = t75.mul_add(t68, t59);
+        let t82 = t74.neg_mul_add(t70, t61);
+        let t83 = t19.mul_sub(t78, t18 * t77);
+        let t84 = t77.mul_sub(t19, t79 * t18);
+        let t85 = t77.mul_add(t41, t74.mul_add(t72, t67));
+        let t86 = t78.neg_mul_add(t47, t85);
+        let t87 = t79.mul_add(t41, t75.mul_add(t72, t65));
+        let t88 = t77.neg_mul_add(t47, t87);
+        let t89 = t18.neg_mul_add(t81, t19.neg_mul_add(t80, t18));
+        let t90 = t75.mul_add(t70, t64);
+        let t91 = t18.neg_mul_add(t84, t19.mul_add(t83, n(p.k29)));
+        let t92 = t83.mul_add(t29, sin_q_2.mul_add(n(p.k28) * sin_q_1, t34));
+        let t93 = t84.neg_mul_add(t24, t92);
+        let t94 = t29.mul_add(t78.mul_sub(t29, t77 * t24), n(p.k30));
+        let t95 = t19.mul_sub(t86, t40.mul_add(t45, t43 * t33));
+        let t96 = t18.neg_mul_add(t88, t95);
+        let t97 = t29.mul_sub(t86, t54 + t29.mul_add(t45, t50));
+        let t98 = t18.neg_mul_add(t90, t19.neg_mul_add(t82, t19));
+        let t99 = N::ONE / t91;
+        let t100 = t99 * t93;
+        let t101 = t99 * n(p.k34);
+        let t102 = t24.neg_mul_add(t77.mul_sub(t29, t79 * t24), t94);
+        let t103 = t93.neg_mul_add(t100, t102);
+        let t104 = t24.neg_mul_add(t81, t29.neg_mul_add(t80, t24));
+        let t105 = t24.neg_mul_add(t90, t29.neg_mul_add(t82, t29));
+        let t106 = N::ONE / t103;
+        let t107 = t106 * t100.neg_mul_add(t96, t24.neg_mul_add(t88, t97));
+        let t108 = t106 * n(p.k34);
+        let t109 = t108 * t100.neg_mul_add(t89, t104);
+        let t110 = t24 * t107;
+        let t111 = t29 * t107;
+        let t112 = t108 * t100.neg_mul_add(t98, t105);
+        let t113 = t99 * t93.neg_mul_add(t107, t96);
+        let t114 = t100.neg_mul_add(t109, t89 * t101);
+        let t115 = t100.neg_mul_add(t112, t101 * t98);
+        let t116 = t18 * t113;
+        let t117 = t19 * t113;
+        let t118 = t18.mul_add(t114, t24 * t109);
+        let t119 = t19.mul_add(t114, t29 * t109);
+        let t120 = t18.mul_add(t115, t24 * t112);
+        let t121 = t116 + (t41 + t110);
+        let t122 = t117 + (t47 + t111);
+        let t123 = t19.mul_add(t115, t29 * t112);
+        let t124 = t74.neg_mul_add(t119, t75.mul_add(t118, t68 * t76));
+        let t125 = t11 + sin_q_4.mul_add(t1, sin_q_3.mul_add(t2, t42));
+        let t126 = t74.neg_mul_add(t123, t75.mul_add(t120, t76 * t70));
+        let t127 = t8.neg_mul_add(t124, t118);
+        let t128 = t9.neg_mul_add(t124, t119);
+        let t129 = sin_q_2.mul_add(t114, sin_q_1 * t109);
+        let t130 = cos_q_2.mul_add(t114, cos_q_1 * t109);
+        let t131 = t8.neg_mul_add(t126, t120);
+        let t132 = t9.neg_mul_add(t126, t123);
+        let t133 = t73 * t63.neg_mul_add(t122, t62.mul_add(t121, t72));
+        let t134 = n(p.l).mul_add(t10 + cos_q_4.mul_add(t1, t69), t110);
+        let t135 = cos_q_2.mul_add(t115, cos_q_1 * t112);
+        let t136 = t9 * t133;
+        let t137 = t8 * t133;
+        let t138 = t52.neg_mul_add(t128, t51.neg_mul_add(t127, t44 * t53));
+        let t139 = t52.neg_mul_add(t132, t51.neg_mul_add(t131, t53 * t60));
+        let t140 = t136 + (t20 - t122);
+        let t141 = t23 + t121 - t137;
+        let t142 = t30.neg_mul_add(t6.mul_add(t138, t127), t27 * n(p.k33));
+        let t143 = t28.neg_mul_add(t7.mul_add(t138, t128), t142);
+        let t144 = t30.neg_mul_add(t6.mul_add(t139, t131), n(p.k33) * t46);
+        let t145 = t28.neg_mul_add(t7.mul_add(t139, t132), t144);
+        let t146 = t39 * t22.neg_mul_add(t141, t21.mul_add(t140, t37));
+        let t147 = sin_q_4.mul_add(t138, sin_q_3.neg_mul_add(t124, t129));
+        let t148 = cos_q_4.mul_add(t138, cos_q_3.neg_mul_add(t124, t130));
+        let t149 = cos_q_4.mul_add(t139, cos_q_3.neg_mul_add(t126, t135));
+        let t150 = t7 * t146;
+        let t151 = t6 * t146;
+        let t152 = n(p.l) * sin_q_5.mul_add(t143, t147);
+        let t153 = n(p.l) * cos_q_5.mul_add(t143, t148);
+        let t154 = n(p.l) * cos_q_5.mul_add(t145, t149);
+        let t155 = N::ONE / t152;
+        let t156 = cos_q_5 * (t16 + t140 - t150);
+        let t157 = sin_q_5.mul_sub(t151 + (t17 + t141), t156);
+        let t158 = N::from_f64(1.5) * t157;
+        let t159 = t155 * t153;
+        let t160 = sin_q_5.neg_mul_add(t158, t151 + (t116 + t134 - t137));
+        let t161 = t136 + (n(p.l).mul_sub(t125, t111) - t117) - t150;
+        let t162 = t153.neg_mul_add(t159, t154);
+        let t163 = t159.mul_add(t160, cos_q_5.mul_add(t158, t161)) / t162;
+        let t164 = t159.mul_add(t163, t155 * t160);
+        let t165 = t145.neg_mul_add(t163, n(p.k32) * t157);
+        let q_1_ddot = t109.neg_mul_add(t164, t112.mul_add(t163, t107));
+        let q_2_ddot = t114.neg_mul_add(t164, t115.mul_add(t163, t113));
+        let q_3_ddot = t124.mul_sub(t164, t126.mul_add(t163, t133));
+        let q_4_ddot = t138.neg_mul_add(t164, t139.mul_add(t163, t146));
+        let q_5_ddot = -t143.mul_add(t164, t165);
+        let t166 = t32 * n(p.m);
+        let t167 = t71 * n(p.k35);
+        let t168 = t91 * n(p.m);
+        let t169 = t103 * n(p.m);
+        let sound = PIVOTS.hold(t166, n(p.k12))
+            & PIVOTS.hold(t167, n(p.k11))
+            & PIVOTS.hold(t168, n(p.k10))
+            & PIVOTS.hold(t169, n(p.k9))
+            & PIVOTS.hold(t152, t152)
+            & PIVOTS.hold(t162, t154)
             & q_5_ddot.is_finite();
         if !sound {
-            check(t26, n(p.k12), 6.217248937900877e-15, 3)?;
-            check(t71, n(p.k11), 6.217248937900877e-15, 2)?;
-            check(t94, n(p.k10), 6.217248937900877e-15, 1)?;
-            check(t106, n(p.k9), 6.217248937900877e-15, 0)?;
-            check(t157, t157, 6.217248937900877e-15, 5)?;
-            check(t168, t160, 6.217248937900877e-15, 6)?;
+            let pivots = [
+                (3, t166, n(p.k12)),
+                (2, t167, n(p.k11)),
+                (1, t168, n(p.k10)),
+                (0, t169, n(p.k9)),
+                (5, t152, t152),
+                (6, t162, t154),
+            ];
+            PIVOTS.check(pivots)?;
         }
         let accelerations = [
             q_1_ddot.store(),
@@ -1071,22 +1030,25 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t129 = t120.neg_mul_add(t127, t126);
         let lambda2 = t127.mul_add(t124, t128) / t129;
         let lambda1 = t127.mul_add(lambda2, t119 * t124);
-        let sound = n(p.k9).exceeds(N::from_f64(6.217248937900877e-15) * n(p.k9))
-            & t15.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k10))
-            & t46.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k11))
-            & t70.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k12))
-            & t86.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k13))
-            & t113.exceeds(N::from_f64(6.217248937900877e-15) * t113)
-            & t129.exceeds(N::from_f64(6.217248937900877e-15) * t126)
+        let sound = PIVOTS.hold(n(p.k9), n(p.k9))
+            & PIVOTS.hold(t15, n(p.k10))
+            & PIVOTS.hold(t46, n(p.k11))
+            & PIVOTS.hold(t70, n(p.k12))
+            & PIVOTS.hold(t86, n(p.k13))
+            & PIVOTS.hold(t113, t113)
+            & PIVOTS.hold(t129, t126)
             & lambda1.is_finite();
         if !sound {
-            check(n(p.k9), n(p.k9), 6.217248937900877e-15, 0)?;
-            check(t15, n(p.k10), 6.217248937900877e-15, 1)?;
-            check(t46, n(p.k11), 6.217248937900877e-15, 2)?;
-            check(t70, n(p.k12), 6.217248937900877e-15, 3)?;
-            check(t86, n(p.k13), 6.217248937900877e-15, 4)?;
-            check(t113, t113, 6.217248937900877e-15, 5)?;
-            check(t129, t126, 6.217248937900877e-15, 6)?;
+            let pivots = [
+                (0, n(p.k9), n(p.k9)),
+                (1, t15, n(p.k10)),
+                (2, t46, n(p.k11)),
+                (3, t70, n(p.k12)),
+                (4, t86, n(p.k13)),
+                (5, t113, t113),
+                (6, t129, t126),
+            ];
+            PIVOTS.check(pivots)?;
         }
         let multipliers = [lambda1.store(), lambda2.store()];
         Ok(multipliers)
@@ -1138,11 +1100,11 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let t17 = p.k0 * t7 + p.l * t14;
     let t18 = t1 * sin_q_5 + p.l * (t6 + t12);
     let t19 = t1 * cos_q_5 + p.l * (t7 + t14);
-    let t20 = p.m * (t11 * t11 + t9 * t9) + q_2_dot * (q_2_dot * p.J);
-    let t21 = p.m * (t15 * t15 + t13 * t13) + q_3_dot * (q_3_dot * p.J);
+    let t20 = p.m * (t11 * t11 + t9 * t9) + q_2_dot * (q_2_dot * p.k1);
+    let t21 = p.m * (t15 * t15 + t13 * t13) + q_3_dot * (q_3_dot * p.k1);
     let t22 = S::from_f64(0.5) * t20 + q_1_dot * (q_1_dot * p.k4);
-    let t23 = p.m * (t17 * t17 + t16 * t16) + q_4_dot * (q_4_dot * p.J);
-    let t24 = p.m * (t19 * t19 + t18 * t18) + q_5_dot * (q_5_dot * p.J);
+    let t23 = p.m * (t17 * t17 + t16 * t16) + q_4_dot * (q_4_dot * p.k1);
+    let t24 = p.m * (t19 * t19 + t18 * t18) + q_5_dot * (q_5_dot * p.k1);
     let t25 = S::from_f64(0.5) * t23 + (S::from_f64(0.5) * t21 + t22);
     S::from_f64(0.5) * t24 + t25
 }
@@ -1168,366 +1130,54 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let t1 = sin_q_3 + t0;
     let t2 = p.k0 * sin_q_3 + p.l * t0 + (p.k0 * sin_q_2 + p.l * sin_q_1);
     let t3 = p.k0 * sin_q_5 + p.l * (sin_q_4 + t1) + (p.k0 * sin_q_4 + p.l * t1 + t2);
-    t3 * p.k1 + sin_q_1 * p.k2
+    t3 * p.k2 + sin_q_1 * p.k3
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 5] = [
-    ("l", "m"),
-    ("m", "kg"),
-    ("J", "kg*m^2"),
-    ("d", "m"),
-    ("g", "m/s^2"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 5] = [
-    ("q[1]", "rad"),
-    ("q[2]", "rad"),
-    ("q[3]", "rad"),
-    ("q[4]", "rad"),
-    ("q[5]", "rad"),
-];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 0] = [];
-
-/// Names, units, units of multipliers, whether positions are constrained.
-const CONSTRAINTS: [(&str, &str, &str, bool); 2] =
-    [("along", "m", "N", true), ("across", "m", "N", true)];
-
-impl ::lagrangian::emitted::Machine for ClosedPendulum {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "ClosedPendulum"
+::lagrangian::emitted::implement! {
+    machine ClosedPendulum "ClosedPendulum" over S, R;
+    parameters { l, m, d, g } [
+        l: "l" "m" = 1.0;
+        m: "m" "kg" = 1.0;
+        d: "d" "m" = 2.0;
+        g: "g" "m/s^2" = 9.81;
+    ]
+    coordinates 5 Coordinates { q: [q_1, q_2, q_3, q_4, q_5] } [
+        q_1: "q[1]" "rad";
+        q_2: "q[2]" "rad";
+        q_3: "q[3]" "rad";
+        q_4: "q[4]" "rad";
+        q_5: "q[5]" "rad";
+    ]
+    inputs Inputs {} []
+    outputs Outputs {} []
+    prepared Prepared {
+        l, m, d, g, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16, k17,
+        k18, k19, k20, k21, k22, k23, k24, k25, k26, k27, k28, k29, k30, k31, k32, k33, k34, k35,
+        k36,
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [self.l, self.m, self.J, self.d, self.g];
-        quantities(&PARAMETERS, values)
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q);
+        vector forces(p, t, q, v, u) = forces(p, q, v);
+        numbers constraint_positions(p, t, q) = constraint_positions(p, q);
+        numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
+        numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
+        numbers constraint_drift(p, t, q, v) = constraint_drift(p, q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = Outputs {};
+        constraints constraints(p) = [("along", "m", "N", true), ("across", "m", "N", true)];
+        solved multipliers(p, t, q, v, u) = multipliers(p, q, v);
+        workspace with_workspace(p) = ::lagrangian::emitted::constraint_workspace(5, 2);
     }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.l),
-            1 => Some(&mut self.m),
-            2 => Some(&mut self.J),
-            3 => Some(&mut self.d),
-            4 => Some(&mut self.g),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 5];
-    type Matrix = [f64; 25];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 5]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 5] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 5],
-        v: &[f64; 5],
-        _: &Inputs,
-        result: &mut [f64; 5],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, q: &[f64; 5], matrix: &mut [f64; 25]) {
-        let rows = mass_matrix(self, q);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, q: &[f64; 5], v: &[f64; 5], result: &mut [f64; 5]) {
-        *result = bias(self, q, v);
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 5], _: &[f64; 5], _: &Inputs, result: &mut [f64; 5]) {
-        *result = applied(self, q);
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 5], v: &[f64; 5], _: &Inputs, result: &mut [f64; 5]) {
-        *result = forces(self, q, v);
-    }
-
-    fn constraint_positions(&self, _: f64, q: &[f64; 5], to: &mut [f64]) {
-        fill(to, &constraint_positions(self, q));
-    }
-
-    fn constraint_rates(&self, _: f64, q: &[f64; 5], v: &[f64; 5], to: &mut [f64]) {
-        fill(to, &constraint_rates(self, q, v));
-    }
-
-    fn constraint_matrix(&self, _: f64, q: &[f64; 5], to: &mut [f64]) {
-        fill(to, &constraint_matrix(self, q));
-    }
-
-    fn constraint_drift(&self, _: f64, q: &[f64; 5], v: &[f64; 5], to: &mut [f64]) {
-        fill(to, &constraint_drift(self, q, v));
-    }
-
-    fn kinetic_energy(&self, _: f64, q: &[f64; 5], v: &[f64; 5]) -> f64 {
-        kinetic_energy(self, q, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 5], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 5], _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, _: &[f64; 5], _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> Outputs {
-        Outputs {}
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        _: &[f64; 5],
-        _: &[f64; 5],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        ::core::iter::empty()
-    }
-
-    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Constraint<'_>> {
-        CONSTRAINTS.iter().map(constraint)
-    }
-
-    fn multipliers(
-        &self,
-        _: f64,
-        q: &[f64; 5],
-        v: &[f64; 5],
-        _: &Inputs,
-        to: &mut [f64],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        fill(to, &multipliers(self, q, v)?);
-        Ok(())
-    }
-
-    fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::emitted::constraint_workspace(5, 2)];
-        work(room.get_mut(..length))
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 5];
-    type BatchInputs = Inputs;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            l: lanes(|p| p.l),
-            m: lanes(|p| p.m),
-            J: lanes(|p| p.J),
-            d: lanes(|p| p.d),
-            g: lanes(|p| p.g),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            k9: lanes(|p| p.k9),
-            k10: lanes(|p| p.k10),
-            k11: lanes(|p| p.k11),
-            k12: lanes(|p| p.k12),
-            k13: lanes(|p| p.k13),
-            k14: lanes(|p| p.k14),
-            k15: lanes(|p| p.k15),
-            k16: lanes(|p| p.k16),
-            k17: lanes(|p| p.k17),
-            k18: lanes(|p| p.k18),
-            k19: lanes(|p| p.k19),
-            k20: lanes(|p| p.k20),
-            k21: lanes(|p| p.k21),
-            k22: lanes(|p| p.k22),
-            k23: lanes(|p| p.k23),
-            k24: lanes(|p| p.k24),
-            k25: lanes(|p| p.k25),
-            k26: lanes(|p| p.k26),
-            k27: lanes(|p| p.k27),
-            k28: lanes(|p| p.k28),
-            k29: lanes(|p| p.k29),
-            k30: lanes(|p| p.k30),
-            k31: lanes(|p| p.k31),
-            k32: lanes(|p| p.k32),
-            k33: lanes(|p| p.k33),
-            k34: lanes(|p| p.k34),
-            k35: lanes(|p| p.k35),
-            k36: lanes(|p| p.k36),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(_: [&Inputs; N]) -> Self::BatchInputs {
-        Inputs {}
-    }
-
-    fn inputs_of_lane(_: &Self::BatchInputs, _: usize) -> Inputs {
-        Inputs {}
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        _: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q, v },
-            result,
-        )
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// A constraint, as it is called.
-fn constraint<'a>(
-    &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
-) -> ::lagrangian::emitted::Constraint<'a> {
-    ::lagrangian::emitted::Constraint {
-        name,
-        unit,
-        multiplier_unit,
-        holonomic,
-    }
-}
-
-/// Writes numbers where there is room for them.
-fn fill(to: &mut [f64], from: &[f64]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = *from;
-    }
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    if let Some(constraint) = coordinate.checked_sub(5) {
-        return ::lagrangian::emitted::Singular::constraint(constraint, pivot, diagonal);
-    }
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers []
 }

@@ -92,71 +92,6 @@ pub struct Crusher9<S = f64> {
     pub r2: S,
 }
 
-impl Default for Crusher9 {
-    fn default() -> Self {
-        Self {
-            m: 450.0,
-            J: 60.0,
-            m0: 25.0,
-            e: 0.04,
-            x0: 0.1,
-            y0: -0.25,
-            w: 100.0,
-            m1: 120.0,
-            J1: 2.4,
-            m2: 60.0,
-            J2: 0.5,
-            cx: 200000.0,
-            cy: 160000.0,
-            xc: 0.35,
-            yc: -0.05,
-            bx: 400.0,
-            by: 350.0,
-            xb: 0.35,
-            yb: 0.04,
-            k1: 50000.0,
-            d1: 60.0,
-            r1: 0.15,
-            k2: 20000.0,
-            d2: 30.0,
-            r2: 0.1,
-        }
-    }
-}
-
-impl<S> Crusher9<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Crusher9<R> {
-        Crusher9 {
-            m: f(self.m),
-            J: f(self.J),
-            m0: f(self.m0),
-            e: f(self.e),
-            x0: f(self.x0),
-            y0: f(self.y0),
-            w: f(self.w),
-            m1: f(self.m1),
-            J1: f(self.J1),
-            m2: f(self.m2),
-            J2: f(self.J2),
-            cx: f(self.cx),
-            cy: f(self.cy),
-            xc: f(self.xc),
-            yc: f(self.yc),
-            bx: f(self.bx),
-            by: f(self.by),
-            xb: f(self.xb),
-            yb: f(self.yb),
-            k1: f(self.k1),
-            d1: f(self.d1),
-            r1: f(self.r1),
-            k2: f(self.k2),
-            d2: f(self.d2),
-            r2: f(self.r2),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> Crusher9<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -230,23 +165,15 @@ impl<S: ::lagrangian::emitted::Scalar> Crusher9<S> {
         let c35 = self.d2;
         let c36 = -c14;
         let c37 = self.J2;
-        let singular = if vanishes(self.J1, self.J1, 7.993605777301127e-15) {
-            Some(singular(5, self.J1, self.J1))
-        } else if vanishes(self.J2, self.J2, 7.993605777301127e-15) {
-            Some(singular(8, self.J2, self.J2))
-        } else if vanishes(self.m2, self.m2, 7.993605777301127e-15) {
-            Some(singular(6, self.m2, self.m2))
-        } else if vanishes(self.m1, k11, 7.993605777301127e-15) {
-            Some(singular(3, self.m1, k11))
-        } else if vanishes(pivot_1, k14, 7.993605777301127e-15) {
-            Some(singular(1, pivot_1, k14))
-        } else if vanishes(pivot_1, k14, 7.993605777301127e-15) {
-            Some(singular(0, pivot_1, k14))
-        } else if vanishes(pivot_2, k20, 7.993605777301127e-15) {
-            Some(singular(2, pivot_2, k20))
-        } else {
-            None
-        };
+        let pivots = [
+            (5, self.J1, self.J1),
+            (8, self.J2, self.J2),
+            (6, self.m2, self.m2),
+            (3, self.m1, k11),
+            (1, pivot_1, k14),
+            (0, pivot_1, k14),
+            (2, pivot_2, k20),
+        ];
         Prepared {
             m: self.m,
             J: self.J,
@@ -302,7 +229,7 @@ impl<S: ::lagrangian::emitted::Scalar> Crusher9<S> {
             k27,
             k28,
             k29,
-            singular,
+            singular: PIVOTS.vanished(pivots),
             series: [
                 c1, c2, c3, c4, c5, c7, c8, c10, c11, c12, c13, c14, c15, c16, c17, c18, c9, c19,
                 c20, c21, c23, c22, c25, c26, c28, c29, c30, c31, c32, c33, c34, c35, c36, c37,
@@ -349,53 +276,6 @@ pub struct Coordinates<S = f64> {
     pub phi2: S,
     /// `theta2`. Unit: `rad`.
     pub theta2: S,
-}
-
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 9] {
-        [
-            self.x,
-            self.y,
-            self.theta,
-            self.s1,
-            self.phi1,
-            self.theta1,
-            self.s2,
-            self.phi2,
-            self.theta2,
-        ]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 9]) -> Self {
-        Self {
-            x: q[0],
-            y: q[1],
-            theta: q[2],
-            s1: q[3],
-            phi1: q[4],
-            theta1: q[5],
-            s2: q[6],
-            phi2: q[7],
-            theta2: q[8],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            x: f(self.x),
-            y: f(self.y),
-            theta: f(self.theta),
-            s1: f(self.s1),
-            phi1: f(self.phi1),
-            theta1: f(self.theta1),
-            s2: f(self.s2),
-            phi2: f(self.phi2),
-            theta2: f(self.theta2),
-        }
-    }
 }
 
 /// What can be set while a [`Crusher9`] runs.
@@ -522,6 +402,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 9,
+    tolerance: 7.993605777301127e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -887,12 +774,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let phi2_ddot = -t52;
         let t53 = n(p.m1) * t13;
         let t54 = t13 * n(p.k11);
-        let sound = t14.exceeds(N::from_f64(7.993605777301127e-15) * t14)
-            & t53.exceeds(N::from_f64(7.993605777301127e-15) * t54)
-            & phi2_ddot.is_finite();
+        let sound = PIVOTS.hold(t14, t14) & PIVOTS.hold(t53, t54) & phi2_ddot.is_finite();
         if !sound {
-            check(t14, t14, 7.993605777301127e-15, 7)?;
-            check(t53, t54, 7.993605777301127e-15, 4)?;
+            let pivots = [(7, t14, t14), (4, t53, t54)];
+            PIVOTS.check(pivots)?;
         }
         let accelerations = [
             x_ddot.store(),
@@ -1444,9 +1329,9 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
             x296.store(),
             x297.store(),
         ];
-        let mut room298 = x298;
-        let (x, room) = (&mut x298, &mut room298);
-        ::lagrangian::emitted::series::solve::<N>(7, &x288, x, room);
+        let mut scratch298 = x298;
+        let (x, scratch) = (&mut x298, &mut scratch298);
+        ::lagrangian::emitted::series::solve::<N>(7, &x288, x, scratch);
         let x299 = n(x298[0]);
         let x300 = n(x298[1]);
         let x301 = n(x298[2]);
@@ -1535,8 +1420,9 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
         for (row, x) in coefficients.iter_mut().zip([*q, *v, second]) {
             *row = x;
         }
-        let mut a0 = [[N::ZERO.store(); 20]; ::lagrangian::emitted::series::ROWS];
-        a0[2] = [
+        let zeros = [[N::ZERO.store(); 20]; ::lagrangian::emitted::series::ROWS];
+        let mut a0 = ::lagrangian::emitted::series::Aligned(zeros);
+        a0.0[2] = [
             x301.store(),
             x301.store(),
             x303.store(),
@@ -1558,8 +1444,9 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
             x330.store(),
             x319.store(),
         ];
-        let mut b0 = [[N::ZERO.store(); 20]; ::lagrangian::emitted::series::ROWS];
-        b0[2] = [
+        let zeros = [[N::ZERO.store(); 20]; ::lagrangian::emitted::series::ROWS];
+        let mut b0 = ::lagrangian::emitted::series::Aligned(zeros);
+        b0.0[2] = [
             x350.store(),
             x348.store(),
             x354.store(),
@@ -1615,7 +1502,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
         let mut r6 = x304;
         let count = coefficients.len().min(::lagrangian::emitted::series::ROWS);
         for order in 3..count {
-            let w0 = ::lagrangian::emitted::series::sweep::<N, 20>(&a0, &b0, order - 2);
+            let w0 = ::lagrangian::emitted::series::sweep::<N, 20>(&a0.0, &b0.0, order - 2);
             let x375 = y25;
             let x376 = x6 * x375;
             let x377 = N::from_ratio(1, order as i64);
@@ -1792,9 +1679,9 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
                 x552.store(),
                 x553.store(),
             ];
-            let mut room554 = x554;
-            let (x, room) = (&mut x554, &mut room554);
-            ::lagrangian::emitted::series::solve::<N>(7, &x288, x, room);
+            let mut scratch554 = x554;
+            let (x, scratch) = (&mut x554, &mut scratch554);
+            ::lagrangian::emitted::series::solve::<N>(7, &x288, x, scratch);
             let x555 = n(x554[0]);
             let x556 = n(x554[1]);
             let x557 = n(x554[2]);
@@ -1895,7 +1782,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
                     N::ZERO.store(),
                 ];
             }
-            if let Some(kept) = a0.get_mut(order) {
+            if let Some(kept) = a0.0.get_mut(order) {
                 *kept = [
                     x567.store(),
                     x567.store(),
@@ -1919,7 +1806,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
                     x582.store(),
                 ];
             }
-            if let Some(kept) = b0.get_mut(order) {
+            if let Some(kept) = b0.0.get_mut(order) {
                 *kept = [
                     x613.store(),
                     x611.store(),
@@ -1980,454 +1867,92 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
     }
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 25] = [
-    ("m", "kg"),
-    ("J", "kg*m^2"),
-    ("m0", "kg"),
-    ("e", "m"),
-    ("x0", "m"),
-    ("y0", "m"),
-    ("w", "rad/s"),
-    ("m1", "kg"),
-    ("J1", "kg*m^2"),
-    ("m2", "kg"),
-    ("J2", "kg*m^2"),
-    ("cx", "N/m"),
-    ("cy", "N/m"),
-    ("xc", "m"),
-    ("yc", "m"),
-    ("bx", "N*s/m"),
-    ("by", "N*s/m"),
-    ("xb", "m"),
-    ("yb", "m"),
-    ("k1", "N/m"),
-    ("d1", "N*s/m"),
-    ("r1", "m"),
-    ("k2", "N/m"),
-    ("d2", "N*s/m"),
-    ("r2", "m"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 9] = [
-    ("x", "m"),
-    ("y", "m"),
-    ("theta", "rad"),
-    ("s1", "m"),
-    ("phi1", "rad"),
-    ("theta1", "rad"),
-    ("s2", "m"),
-    ("phi2", "rad"),
-    ("theta2", "rad"),
-];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 0] = [];
-
-impl ::lagrangian::emitted::Machine for Crusher9 {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "Crusher9"
+::lagrangian::emitted::implement! {
+    machine Crusher9 "Crusher9" over S, R;
+    parameters {
+        m, J, m0, e, x0, y0, w, m1, J1, m2, J2, cx, cy, xc, yc, bx, by, xb, yb, k1, d1, r1, k2, d2,
+        r2,
+    } [
+        m: "m" "kg" = 450.0;
+        J: "J" "kg*m^2" = 60.0;
+        m0: "m0" "kg" = 25.0;
+        e: "e" "m" = 0.04;
+        x0: "x0" "m" = 0.1;
+        y0: "y0" "m" = -0.25;
+        w: "w" "rad/s" = 100.0;
+        m1: "m1" "kg" = 120.0;
+        J1: "J1" "kg*m^2" = 2.4;
+        m2: "m2" "kg" = 60.0;
+        J2: "J2" "kg*m^2" = 0.5;
+        cx: "cx" "N/m" = 200000.0;
+        cy: "cy" "N/m" = 160000.0;
+        xc: "xc" "m" = 0.35;
+        yc: "yc" "m" = -0.05;
+        bx: "bx" "N*s/m" = 400.0;
+        by: "by" "N*s/m" = 350.0;
+        xb: "xb" "m" = 0.35;
+        yb: "yb" "m" = 0.04;
+        k1: "k1" "N/m" = 50000.0;
+        d1: "d1" "N*s/m" = 60.0;
+        r1: "r1" "m" = 0.15;
+        k2: "k2" "N/m" = 20000.0;
+        d2: "d2" "N*s/m" = 30.0;
+        r2: "r2" "m" = 0.1;
+    ]
+    coordinates 9 Coordinates { x, y, theta, s1, phi1, theta1, s2, phi2, theta2 } [
+        x: "x" "m";
+        y: "y" "m";
+        theta: "theta" "rad";
+        s1: "s1" "m";
+        phi1: "phi1" "rad";
+        theta1: "theta1" "rad";
+        s2: "s2" "m";
+        phi2: "phi2" "rad";
+        theta2: "theta2" "rad";
+    ]
+    inputs Inputs {} []
+    outputs Outputs {} []
+    prepared Prepared {
+        m, J, m0, x0, y0, w, m1, J1, m2, J2, cx, cy, xc, yc, bx, by, xb, yb, k1, d1, r1, k2, d2, r2,
+        k0, k1_, k2_, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16, k17, k18, k19,
+        k20, k21, k22, k23, k24, k25, k26, k27, k28, k29,
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [
-            self.m, self.J, self.m0, self.e, self.x0, self.y0, self.w, self.m1, self.J1, self.m2,
-            self.J2, self.cx, self.cy, self.xc, self.yc, self.bx, self.by, self.xb, self.yb,
-            self.k1, self.d1, self.r1, self.k2, self.d2, self.r2,
-        ];
-        quantities(&PARAMETERS, values)
-    }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.m),
-            1 => Some(&mut self.J),
-            2 => Some(&mut self.m0),
-            3 => Some(&mut self.e),
-            4 => Some(&mut self.x0),
-            5 => Some(&mut self.y0),
-            6 => Some(&mut self.w),
-            7 => Some(&mut self.m1),
-            8 => Some(&mut self.J1),
-            9 => Some(&mut self.m2),
-            10 => Some(&mut self.J2),
-            11 => Some(&mut self.cx),
-            12 => Some(&mut self.cy),
-            13 => Some(&mut self.xc),
-            14 => Some(&mut self.yc),
-            15 => Some(&mut self.bx),
-            16 => Some(&mut self.by),
-            17 => Some(&mut self.xb),
-            18 => Some(&mut self.yb),
-            19 => Some(&mut self.k1),
-            20 => Some(&mut self.d1),
-            21 => Some(&mut self.r1),
-            22 => Some(&mut self.k2),
-            23 => Some(&mut self.d2),
-            24 => Some(&mut self.r2),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 9];
-    type Matrix = [f64; 81];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_BE_CONSTRAINED: bool = false;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 9]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 9] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        t: f64,
-        q: &[f64; 9],
-        v: &[f64; 9],
-        _: &Inputs,
-        result: &mut [f64; 9],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, t, q, v },
-            result,
-        )
-    }
-
-    fn check_series(&self) -> Result<(), &str> {
-        Ok(())
-    }
-
-    fn has_linear_assumptions(&self) -> bool {
-        true
-    }
-
-    fn series(
-        &self,
-        t: [f64; 2],
-        q: &[f64; 9],
-        v: &[f64; 9],
-        _: &Inputs,
-        coefficients: &mut [[f64; 9]],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        let known = ::lagrangian::emitted::series::ROWS;
-        for row in coefficients.iter_mut().skip(known) {
-            *row = [f64::NAN; 9];
-        }
-        let series = Series {
-            p: self,
+    series series
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, t, q, v } }
+    system {
+        series series(p, t, q, v, u, coefficients) = Series {
+            p,
             t,
             q,
             v,
             coefficients,
         };
-        <f64 as ::lagrangian::emitted::Number>::run(series)
-    }
-
-    fn mass_matrix(&self, _: f64, q: &[f64; 9], matrix: &mut [f64; 81]) {
-        let rows = mass_matrix(self, q);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, t: f64, q: &[f64; 9], v: &[f64; 9], result: &mut [f64; 9]) {
-        *result = bias(self, t, q, v);
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 9], v: &[f64; 9], _: &Inputs, result: &mut [f64; 9]) {
-        *result = applied(self, q, v);
-    }
-
-    fn forces(&self, t: f64, q: &[f64; 9], v: &[f64; 9], _: &Inputs, result: &mut [f64; 9]) {
-        *result = forces(self, t, q, v);
-    }
-
-    fn kinetic_energy(&self, t: f64, q: &[f64; 9], v: &[f64; 9]) -> f64 {
-        kinetic_energy(self, t, q, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 9], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 9], v: &[f64; 9], _: &Inputs) -> f64 {
-        dissipation(self, v)
-    }
-
-    fn work_rate(&self, t: f64, q: &[f64; 9], v: &[f64; 9], a: &[f64; 9], _: &Inputs) -> f64 {
-        work_rate(self, t, q, v, a)
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 9], v: &[f64; 9], _: &Inputs) -> f64 {
-        dissipation_rate(self, v)
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, _: &[f64; 9], _: &[f64; 9], _: &[f64; 9], _: &Inputs) -> Outputs {
-        Outputs {}
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        q: &[f64; 9],
-        _: &[f64; 9],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        let facts = [
-            assumption("s1 > 0", true, assumption_0(q)),
-            assumption("s2 > 0", true, assumption_1(q)),
+        boolean has_linear_assumptions(p) = true;
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, t, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q, v);
+        vector forces(p, t, q, v, u) = forces(p, t, q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, t, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u) = dissipation(p, v);
+        number work_rate(p, t, q, v, a, u) = work_rate(p, t, q, v, a);
+        number dissipation_rate(p, t, q, v, u) = dissipation_rate(p, v);
+        outputs outputs(p, t, q, v, a, u) = Outputs {};
+        facts assumptions(p, t, q, v, u) = [
+            ("s1 > 0", true, assumption_0(q)),
+            ("s2 > 0", true, assumption_1(q)),
         ];
-        facts.into_iter()
     }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 9];
-    type BatchInputs = Inputs;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        let member = |i: usize| ::lagrangian::emitted::Lanes(systems.map(|p| p.series[i]));
-        Prepared {
-            m: lanes(|p| p.m),
-            J: lanes(|p| p.J),
-            m0: lanes(|p| p.m0),
-            x0: lanes(|p| p.x0),
-            y0: lanes(|p| p.y0),
-            w: lanes(|p| p.w),
-            m1: lanes(|p| p.m1),
-            J1: lanes(|p| p.J1),
-            m2: lanes(|p| p.m2),
-            J2: lanes(|p| p.J2),
-            cx: lanes(|p| p.cx),
-            cy: lanes(|p| p.cy),
-            xc: lanes(|p| p.xc),
-            yc: lanes(|p| p.yc),
-            bx: lanes(|p| p.bx),
-            by: lanes(|p| p.by),
-            xb: lanes(|p| p.xb),
-            yb: lanes(|p| p.yb),
-            k1: lanes(|p| p.k1),
-            d1: lanes(|p| p.d1),
-            r1: lanes(|p| p.r1),
-            k2: lanes(|p| p.k2),
-            d2: lanes(|p| p.d2),
-            r2: lanes(|p| p.r2),
-            k0: lanes(|p| p.k0),
-            k1_: lanes(|p| p.k1_),
-            k2_: lanes(|p| p.k2_),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            k9: lanes(|p| p.k9),
-            k10: lanes(|p| p.k10),
-            k11: lanes(|p| p.k11),
-            k12: lanes(|p| p.k12),
-            k13: lanes(|p| p.k13),
-            k14: lanes(|p| p.k14),
-            k15: lanes(|p| p.k15),
-            k16: lanes(|p| p.k16),
-            k17: lanes(|p| p.k17),
-            k18: lanes(|p| p.k18),
-            k19: lanes(|p| p.k19),
-            k20: lanes(|p| p.k20),
-            k21: lanes(|p| p.k21),
-            k22: lanes(|p| p.k22),
-            k23: lanes(|p| p.k23),
-            k24: lanes(|p| p.k24),
-            k25: lanes(|p| p.k25),
-            k26: lanes(|p| p.k26),
-            k27: lanes(|p| p.k27),
-            k28: lanes(|p| p.k28),
-            k29: lanes(|p| p.k29),
-            singular: None,
-            series: ::core::array::from_fn(member),
-        }
-    }
-
-    fn batch_inputs(_: [&Inputs; N]) -> Self::BatchInputs {
-        Inputs {}
-    }
-
-    fn inputs_of_lane(_: &Self::BatchInputs, _: usize) -> Inputs {
-        Inputs {}
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        t: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        _: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, t, q, v },
-            result,
-        )
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for Crusher9<S> {
-    type System = Prepared<S>;
-
-    fn prepare(&self) -> Prepared<S> {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
-        Self::start(self)
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
-    type Vector = [S; 9];
-    type Coordinates = Coordinates<S>;
-    type Inputs = Inputs;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[S; 9]) -> Coordinates<S> {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 9] {
-        coordinates.to_array()
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs {}
-    }
-
-    fn accelerations(
-        &self,
-        t: S,
-        q: &[S; 9],
-        v: &[S; 9],
-        _: &Inputs,
-        result: &mut [S; 9],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <S as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, t, q, v },
-            result,
-        )
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// A fact and by how much it holds.
-fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::emitted::Assumption<'_> {
-    ::lagrangian::emitted::Assumption {
-        text,
-        margin,
-        strict,
-    }
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_BE_CONSTRAINED MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    batch_series { (p, t, q, v, u, coefficients) Series {
+        p,
+        t,
+        q,
+        v,
+        coefficients,
+    } }
+    lanes [N]
+    numbers [yes]
 }

@@ -97,71 +97,6 @@ pub struct CrushingCrusher<S = f64> {
     pub whirl2: S,
 }
 
-impl Default for CrushingCrusher {
-    fn default() -> Self {
-        Self {
-            m: 600.0,
-            m0: 40.0,
-            m1: 180.0,
-            m2: 120.0,
-            J: 60.0,
-            J0: 0.2,
-            J1: 9.225,
-            J2: 1.536,
-            e: 0.1,
-            x0: 0.05,
-            y0: 0.03,
-            omega: 157.07963267948966,
-            cx: 300000.0,
-            cy: 300000.0,
-            bx: 1500.0,
-            by: 1500.0,
-            xc: 0.4,
-            yc: 0.3,
-            R: 0.27,
-            r1: 0.25,
-            rho: 0.2,
-            r2: 0.16,
-            delta: 0.01,
-            whirl1: 40.0,
-            whirl2: 25.0,
-        }
-    }
-}
-
-impl<S> CrushingCrusher<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> CrushingCrusher<R> {
-        CrushingCrusher {
-            m: f(self.m),
-            m0: f(self.m0),
-            m1: f(self.m1),
-            m2: f(self.m2),
-            J: f(self.J),
-            J0: f(self.J0),
-            J1: f(self.J1),
-            J2: f(self.J2),
-            e: f(self.e),
-            x0: f(self.x0),
-            y0: f(self.y0),
-            omega: f(self.omega),
-            cx: f(self.cx),
-            cy: f(self.cy),
-            bx: f(self.bx),
-            by: f(self.by),
-            xc: f(self.xc),
-            yc: f(self.yc),
-            R: f(self.R),
-            r1: f(self.r1),
-            rho: f(self.rho),
-            r2: f(self.r2),
-            delta: f(self.delta),
-            whirl1: f(self.whirl1),
-            whirl2: f(self.whirl2),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> CrushingCrusher<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -225,21 +160,14 @@ impl<S: ::lagrangian::emitted::Scalar> CrushingCrusher<S> {
         let k46 = k34 * t6 + (k15 + k32 * t8);
         let k47 = S::ONE / k11;
         let one = S::ONE;
-        let singular = if vanishes(k11, k11, 1.1546319456101628e-14) {
-            Some(singular(0, k11, k11))
-        } else if vanishes(k11, k11, 1.1546319456101628e-14) {
-            Some(singular(1, k11, k11))
-        } else if vanishes(one, one, 1.1546319456101628e-14) {
-            Some(singular(9, one, one))
-        } else if vanishes(pivot_10, pivot_10, 1.1546319456101628e-14) {
-            Some(singular(10, pivot_10, pivot_10))
-        } else if vanishes(one, one, 1.1546319456101628e-14) {
-            Some(singular(11, one, one))
-        } else if vanishes(pivot_12, pivot_12, 1.1546319456101628e-14) {
-            Some(singular(12, pivot_12, pivot_12))
-        } else {
-            None
-        };
+        let pivots = [
+            (0, k11, k11),
+            (1, k11, k11),
+            (9, one, one),
+            (10, pivot_10, pivot_10),
+            (11, one, one),
+            (12, pivot_12, pivot_12),
+        ];
         Prepared {
             m: self.m,
             m0: self.m0,
@@ -308,7 +236,7 @@ impl<S: ::lagrangian::emitted::Scalar> CrushingCrusher<S> {
             k45,
             k46,
             k47,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -373,53 +301,6 @@ pub struct Coordinates<S = f64> {
     pub phi2: S,
     /// `theta2`. Unit: `rad`.
     pub theta2: S,
-}
-
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 9] {
-        [
-            self.x,
-            self.y,
-            self.theta,
-            self.s1,
-            self.phi1,
-            self.theta1,
-            self.s2,
-            self.phi2,
-            self.theta2,
-        ]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 9]) -> Self {
-        Self {
-            x: q[0],
-            y: q[1],
-            theta: q[2],
-            s1: q[3],
-            phi1: q[4],
-            theta1: q[5],
-            s2: q[6],
-            phi2: q[7],
-            theta2: q[8],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            x: f(self.x),
-            y: f(self.y),
-            theta: f(self.theta),
-            s1: f(self.s1),
-            phi1: f(self.phi1),
-            theta1: f(self.theta1),
-            s2: f(self.s2),
-            phi2: f(self.phi2),
-            theta2: f(self.theta2),
-        }
-    }
 }
 
 /// What can be set while a [`CrushingCrusher`] runs.
@@ -570,6 +451,20 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 9,
+    tolerance: 1.1546319456101628e-14,
+};
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS_1: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 9,
+    tolerance: 7.993605777301127e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -1062,14 +957,13 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let zero = N::ZERO;
         let theta1_ddot = -t66.mul_add(n(p.k32), phi1_ddot * n(p.k33));
         let theta2_ddot = -t66.mul_add(n(p.k34), t67);
-        let sound = t29.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k46))
-            & t53.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k44))
-            & t61.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k45))
+        let sound = PIVOTS_1.hold(t29, n(p.k46))
+            & PIVOTS_1.hold(t53, n(p.k44))
+            & PIVOTS_1.hold(t61, n(p.k45))
             & theta2_ddot.is_finite();
         if !sound {
-            check(t29, n(p.k46), 7.993605777301127e-15, 2)?;
-            check(t53, n(p.k44), 7.993605777301127e-15, 4)?;
-            check(t61, n(p.k45), 7.993605777301127e-15, 7)?;
+            let pivots = [(2, t29, n(p.k46)), (4, t53, n(p.k44)), (7, t61, n(p.k45))];
+            PIVOTS_1.check(pivots)?;
         }
         let accelerations = [
             x_ddot.store(),
@@ -1268,34 +1162,37 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t123 = t97.neg_mul_add(lambda4, t57 * t106);
         let lambda1 = t73.mul_add(t122, t82.neg_mul_add(lambda3, t123));
         let lambda2 = -t122;
-        let sound = n(p.J1).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.J1))
-            & n(p.J2).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.J2))
-            & n(p.m2).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.m2))
-            & t15.exceeds(N::from_f64(1.1546319456101628e-14) * t15)
-            & n(p.m1).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k8))
-            & t16.exceeds(N::from_f64(1.1546319456101628e-14) * t16)
-            & n(p.k20).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k11))
-            & n(p.k20).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k11))
-            & n(p.k22).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k15))
-            & t50.exceeds(N::from_f64(1.1546319456101628e-14) * t50)
-            & t78.exceeds(N::from_f64(1.1546319456101628e-14) * t59)
-            & t99.exceeds(N::from_f64(1.1546319456101628e-14) * t87)
-            & t119.exceeds(N::from_f64(1.1546319456101628e-14) * t109)
+        let sound = PIVOTS.hold(n(p.J1), n(p.J1))
+            & PIVOTS.hold(n(p.J2), n(p.J2))
+            & PIVOTS.hold(n(p.m2), n(p.m2))
+            & PIVOTS.hold(t15, t15)
+            & PIVOTS.hold(n(p.m1), n(p.k8))
+            & PIVOTS.hold(t16, t16)
+            & PIVOTS.hold(n(p.k20), n(p.k11))
+            & PIVOTS.hold(n(p.k20), n(p.k11))
+            & PIVOTS.hold(n(p.k22), n(p.k15))
+            & PIVOTS.hold(t50, t50)
+            & PIVOTS.hold(t78, t59)
+            & PIVOTS.hold(t99, t87)
+            & PIVOTS.hold(t119, t109)
             & lambda2.is_finite();
         if !sound {
-            check(n(p.J1), n(p.J1), 1.1546319456101628e-14, 5)?;
-            check(n(p.J2), n(p.J2), 1.1546319456101628e-14, 8)?;
-            check(n(p.m2), n(p.m2), 1.1546319456101628e-14, 6)?;
-            check(t15, t15, 1.1546319456101628e-14, 7)?;
-            check(n(p.m1), n(p.k8), 1.1546319456101628e-14, 3)?;
-            check(t16, t16, 1.1546319456101628e-14, 4)?;
-            check(n(p.k20), n(p.k11), 1.1546319456101628e-14, 1)?;
-            check(n(p.k20), n(p.k11), 1.1546319456101628e-14, 0)?;
-            check(n(p.k22), n(p.k15), 1.1546319456101628e-14, 2)?;
-            check(t50, t50, 1.1546319456101628e-14, 9)?;
-            check(t78, t59, 1.1546319456101628e-14, 10)?;
-            check(t99, t87, 1.1546319456101628e-14, 11)?;
-            check(t119, t109, 1.1546319456101628e-14, 12)?;
+            let pivots = [
+                (5, n(p.J1), n(p.J1)),
+                (8, n(p.J2), n(p.J2)),
+                (6, n(p.m2), n(p.m2)),
+                (7, t15, t15),
+                (3, n(p.m1), n(p.k8)),
+                (4, t16, t16),
+                (1, n(p.k20), n(p.k11)),
+                (0, n(p.k20), n(p.k11)),
+                (2, n(p.k22), n(p.k15)),
+                (9, t50, t50),
+                (10, t78, t59),
+                (11, t99, t87),
+                (12, t119, t109),
+            ];
+            PIVOTS.check(pivots)?;
         }
         let multipliers = [
             lambda1.store(),
@@ -1462,475 +1359,89 @@ pub fn assumption_1<S: ::lagrangian::emitted::Scalar>(q: &[S; 9]) -> S {
     s2
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 25] = [
-    ("m", "kg"),
-    ("m0", "kg"),
-    ("m1", "kg"),
-    ("m2", "kg"),
-    ("J", "kg*m^2"),
-    ("J0", "kg*m^2"),
-    ("J1", "kg*m^2"),
-    ("J2", "kg*m^2"),
-    ("e", "m"),
-    ("x0", "m"),
-    ("y0", "m"),
-    ("omega", "rad/s"),
-    ("cx", "N/m"),
-    ("cy", "N/m"),
-    ("bx", "N*s/m"),
-    ("by", "N*s/m"),
-    ("xc", "m"),
-    ("yc", "m"),
-    ("R", "m"),
-    ("r1", "m"),
-    ("rho", "m"),
-    ("r2", "m"),
-    ("delta", "m"),
-    ("whirl1", "rad/s"),
-    ("whirl2", "rad/s"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 9] = [
-    ("x", "m"),
-    ("y", "m"),
-    ("theta", "rad"),
-    ("s1", "m"),
-    ("phi1", "rad"),
-    ("theta1", "rad"),
-    ("s2", "m"),
-    ("phi2", "rad"),
-    ("theta2", "rad"),
-];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 0] = [];
-
-/// Names, units, units of multipliers, whether positions are constrained.
-const CONSTRAINTS: [(&str, &str, &str, bool); 4] = [
-    ("mortar_in_cylinder.gap", "m", "N", true),
-    ("mortar_in_cylinder.slip", "m/s", "N", false),
-    ("pestle_in_mortar.gap", "m", "N", true),
-    ("pestle_in_mortar.slip", "m/s", "N", false),
-];
-
-impl ::lagrangian::emitted::Machine for CrushingCrusher {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "CrushingCrusher"
+::lagrangian::emitted::implement! {
+    machine CrushingCrusher "CrushingCrusher" over S, R;
+    parameters {
+        m, m0, m1, m2, J, J0, J1, J2, e, x0, y0, omega, cx, cy, bx, by, xc, yc, R, r1, rho, r2,
+        delta, whirl1, whirl2,
+    } [
+        m: "m" "kg" = 600.0;
+        m0: "m0" "kg" = 40.0;
+        m1: "m1" "kg" = 180.0;
+        m2: "m2" "kg" = 120.0;
+        J: "J" "kg*m^2" = 60.0;
+        J0: "J0" "kg*m^2" = 0.2;
+        J1: "J1" "kg*m^2" = 9.225;
+        J2: "J2" "kg*m^2" = 1.536;
+        e: "e" "m" = 0.1;
+        x0: "x0" "m" = 0.05;
+        y0: "y0" "m" = 0.03;
+        omega: "omega" "rad/s" = 157.07963267948966;
+        cx: "cx" "N/m" = 300000.0;
+        cy: "cy" "N/m" = 300000.0;
+        bx: "bx" "N*s/m" = 1500.0;
+        by: "by" "N*s/m" = 1500.0;
+        xc: "xc" "m" = 0.4;
+        yc: "yc" "m" = 0.3;
+        R: "R" "m" = 0.27;
+        r1: "r1" "m" = 0.25;
+        rho: "rho" "m" = 0.2;
+        r2: "r2" "m" = 0.16;
+        delta: "delta" "m" = 0.01;
+        whirl1: "whirl1" "rad/s" = 40.0;
+        whirl2: "whirl2" "rad/s" = 25.0;
+    ]
+    coordinates 9 Coordinates { x, y, theta, s1, phi1, theta1, s2, phi2, theta2 } [
+        x: "x" "m";
+        y: "y" "m";
+        theta: "theta" "rad";
+        s1: "s1" "m";
+        phi1: "phi1" "rad";
+        theta1: "theta1" "rad";
+        s2: "s2" "m";
+        phi2: "phi2" "rad";
+        theta2: "theta2" "rad";
+    ]
+    inputs Inputs {} []
+    outputs Outputs {} []
+    prepared Prepared {
+        m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, R, r1, r2, k0, k1, k2, k3,
+        k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16, k17, k18, k19, k20, k21, k22,
+        k23, k24, k25, k26, k27, k28, k29, k30, k31, k32, k33, k34, k35, k36, k37, k38, k39, k40,
+        k41, k42, k43, k44, k45, k46, k47,
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [
-            self.m,
-            self.m0,
-            self.m1,
-            self.m2,
-            self.J,
-            self.J0,
-            self.J1,
-            self.J2,
-            self.e,
-            self.x0,
-            self.y0,
-            self.omega,
-            self.cx,
-            self.cy,
-            self.bx,
-            self.by,
-            self.xc,
-            self.yc,
-            self.R,
-            self.r1,
-            self.rho,
-            self.r2,
-            self.delta,
-            self.whirl1,
-            self.whirl2,
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, t, q, v } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, t, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q, v);
+        vector forces(p, t, q, v, u) = forces(p, t, q, v);
+        numbers constraint_positions(p, t, q) = constraint_positions(p, q);
+        numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
+        numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
+        numbers constraint_drift(p, t, q, v) = constraint_drift(v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, t, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u) = dissipation(p, v);
+        number work_rate(p, t, q, v, a, u) = work_rate(p, t, q, v, a);
+        number dissipation_rate(p, t, q, v, u) = dissipation_rate(p, v);
+        outputs outputs(p, t, q, v, a, u) = Outputs {};
+        facts assumptions(p, t, q, v, u) = [
+            ("s1 > 0", true, assumption_0(q)),
+            ("s2 > 0", true, assumption_1(q)),
         ];
-        quantities(&PARAMETERS, values)
-    }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.m),
-            1 => Some(&mut self.m0),
-            2 => Some(&mut self.m1),
-            3 => Some(&mut self.m2),
-            4 => Some(&mut self.J),
-            5 => Some(&mut self.J0),
-            6 => Some(&mut self.J1),
-            7 => Some(&mut self.J2),
-            8 => Some(&mut self.e),
-            9 => Some(&mut self.x0),
-            10 => Some(&mut self.y0),
-            11 => Some(&mut self.omega),
-            12 => Some(&mut self.cx),
-            13 => Some(&mut self.cy),
-            14 => Some(&mut self.bx),
-            15 => Some(&mut self.by),
-            16 => Some(&mut self.xc),
-            17 => Some(&mut self.yc),
-            18 => Some(&mut self.R),
-            19 => Some(&mut self.r1),
-            20 => Some(&mut self.rho),
-            21 => Some(&mut self.r2),
-            22 => Some(&mut self.delta),
-            23 => Some(&mut self.whirl1),
-            24 => Some(&mut self.whirl2),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 9];
-    type Matrix = [f64; 81];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 9]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 9] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        t: f64,
-        q: &[f64; 9],
-        v: &[f64; 9],
-        _: &Inputs,
-        result: &mut [f64; 9],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, t, q, v },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, q: &[f64; 9], matrix: &mut [f64; 81]) {
-        let rows = mass_matrix(self, q);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, t: f64, q: &[f64; 9], v: &[f64; 9], result: &mut [f64; 9]) {
-        *result = bias(self, t, q, v);
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 9], v: &[f64; 9], _: &Inputs, result: &mut [f64; 9]) {
-        *result = applied(self, q, v);
-    }
-
-    fn forces(&self, t: f64, q: &[f64; 9], v: &[f64; 9], _: &Inputs, result: &mut [f64; 9]) {
-        *result = forces(self, t, q, v);
-    }
-
-    fn constraint_positions(&self, _: f64, q: &[f64; 9], to: &mut [f64]) {
-        fill(to, &constraint_positions(self, q));
-    }
-
-    fn constraint_rates(&self, _: f64, q: &[f64; 9], v: &[f64; 9], to: &mut [f64]) {
-        fill(to, &constraint_rates(self, q, v));
-    }
-
-    fn constraint_matrix(&self, _: f64, q: &[f64; 9], to: &mut [f64]) {
-        fill(to, &constraint_matrix(self, q));
-    }
-
-    fn constraint_drift(&self, _: f64, _: &[f64; 9], v: &[f64; 9], to: &mut [f64]) {
-        fill(to, &constraint_drift(v));
-    }
-
-    fn kinetic_energy(&self, t: f64, q: &[f64; 9], v: &[f64; 9]) -> f64 {
-        kinetic_energy(self, t, q, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 9], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 9], v: &[f64; 9], _: &Inputs) -> f64 {
-        dissipation(self, v)
-    }
-
-    fn work_rate(&self, t: f64, q: &[f64; 9], v: &[f64; 9], a: &[f64; 9], _: &Inputs) -> f64 {
-        work_rate(self, t, q, v, a)
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 9], v: &[f64; 9], _: &Inputs) -> f64 {
-        dissipation_rate(self, v)
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, _: &[f64; 9], _: &[f64; 9], _: &[f64; 9], _: &Inputs) -> Outputs {
-        Outputs {}
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        q: &[f64; 9],
-        _: &[f64; 9],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        let facts = [
-            assumption("s1 > 0", true, assumption_0(q)),
-            assumption("s2 > 0", true, assumption_1(q)),
+        constraints constraints(p) = [
+            ("mortar_in_cylinder.gap", "m", "N", true),
+            ("mortar_in_cylinder.slip", "m/s", "N", false),
+            ("pestle_in_mortar.gap", "m", "N", true),
+            ("pestle_in_mortar.slip", "m/s", "N", false),
         ];
-        facts.into_iter()
+        solved multipliers(p, t, q, v, u) = multipliers(p, t, q, v);
+        workspace with_workspace(p) = ::lagrangian::emitted::constraint_workspace(9, 4);
     }
-
-    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Constraint<'_>> {
-        CONSTRAINTS.iter().map(constraint)
-    }
-
-    fn multipliers(
-        &self,
-        t: f64,
-        q: &[f64; 9],
-        v: &[f64; 9],
-        _: &Inputs,
-        to: &mut [f64],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        fill(to, &multipliers(self, t, q, v)?);
-        Ok(())
-    }
-
-    fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::emitted::constraint_workspace(9, 4)];
-        work(room.get_mut(..length))
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 9];
-    type BatchInputs = Inputs;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            m: lanes(|p| p.m),
-            m0: lanes(|p| p.m0),
-            m1: lanes(|p| p.m1),
-            m2: lanes(|p| p.m2),
-            J: lanes(|p| p.J),
-            J1: lanes(|p| p.J1),
-            J2: lanes(|p| p.J2),
-            x0: lanes(|p| p.x0),
-            y0: lanes(|p| p.y0),
-            omega: lanes(|p| p.omega),
-            cx: lanes(|p| p.cx),
-            cy: lanes(|p| p.cy),
-            bx: lanes(|p| p.bx),
-            by: lanes(|p| p.by),
-            xc: lanes(|p| p.xc),
-            yc: lanes(|p| p.yc),
-            R: lanes(|p| p.R),
-            r1: lanes(|p| p.r1),
-            r2: lanes(|p| p.r2),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            k9: lanes(|p| p.k9),
-            k10: lanes(|p| p.k10),
-            k11: lanes(|p| p.k11),
-            k12: lanes(|p| p.k12),
-            k13: lanes(|p| p.k13),
-            k14: lanes(|p| p.k14),
-            k15: lanes(|p| p.k15),
-            k16: lanes(|p| p.k16),
-            k17: lanes(|p| p.k17),
-            k18: lanes(|p| p.k18),
-            k19: lanes(|p| p.k19),
-            k20: lanes(|p| p.k20),
-            k21: lanes(|p| p.k21),
-            k22: lanes(|p| p.k22),
-            k23: lanes(|p| p.k23),
-            k24: lanes(|p| p.k24),
-            k25: lanes(|p| p.k25),
-            k26: lanes(|p| p.k26),
-            k27: lanes(|p| p.k27),
-            k28: lanes(|p| p.k28),
-            k29: lanes(|p| p.k29),
-            k30: lanes(|p| p.k30),
-            k31: lanes(|p| p.k31),
-            k32: lanes(|p| p.k32),
-            k33: lanes(|p| p.k33),
-            k34: lanes(|p| p.k34),
-            k35: lanes(|p| p.k35),
-            k36: lanes(|p| p.k36),
-            k37: lanes(|p| p.k37),
-            k38: lanes(|p| p.k38),
-            k39: lanes(|p| p.k39),
-            k40: lanes(|p| p.k40),
-            k41: lanes(|p| p.k41),
-            k42: lanes(|p| p.k42),
-            k43: lanes(|p| p.k43),
-            k44: lanes(|p| p.k44),
-            k45: lanes(|p| p.k45),
-            k46: lanes(|p| p.k46),
-            k47: lanes(|p| p.k47),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(_: [&Inputs; N]) -> Self::BatchInputs {
-        Inputs {}
-    }
-
-    fn inputs_of_lane(_: &Self::BatchInputs, _: usize) -> Inputs {
-        Inputs {}
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        t: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        _: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, t, q, v },
-            result,
-        )
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// A fact and by how much it holds.
-fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::emitted::Assumption<'_> {
-    ::lagrangian::emitted::Assumption {
-        text,
-        margin,
-        strict,
-    }
-}
-
-/// A constraint, as it is called.
-fn constraint<'a>(
-    &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
-) -> ::lagrangian::emitted::Constraint<'a> {
-    ::lagrangian::emitted::Constraint {
-        name,
-        unit,
-        multiplier_unit,
-        holonomic,
-    }
-}
-
-/// Writes numbers where there is room for them.
-fn fill(to: &mut [f64], from: &[f64]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = *from;
-    }
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    if let Some(constraint) = coordinate.checked_sub(9) {
-        return ::lagrangian::emitted::Singular::constraint(constraint, pivot, diagonal);
-    }
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers []
 }

@@ -109,81 +109,6 @@ pub struct CushionedCrusher<S = f64> {
     pub r2: S,
 }
 
-impl Default for CushionedCrusher {
-    fn default() -> Self {
-        Self {
-            m: 600.0,
-            m0: 40.0,
-            m1: 180.0,
-            m2: 120.0,
-            J: 60.0,
-            J0: 0.2,
-            J1: 9.225,
-            J2: 1.536,
-            e: 0.1,
-            x0: 0.05,
-            y0: 0.03,
-            omega: 157.07963267948966,
-            cx: 300000.0,
-            cy: 300000.0,
-            bx: 1500.0,
-            by: 1500.0,
-            xc: 0.4,
-            yc: 0.3,
-            gap1: 0.02,
-            gap2: 0.03,
-            k1: 6000000.0,
-            k2: 4000000.0,
-            d1: 8000.0,
-            d2: 6000.0,
-            drag1: 400.0,
-            drag2: 300.0,
-            R: 0.27,
-            r1: 0.25,
-            rho: 0.2,
-            r2: 0.17,
-        }
-    }
-}
-
-impl<S> CushionedCrusher<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> CushionedCrusher<R> {
-        CushionedCrusher {
-            m: f(self.m),
-            m0: f(self.m0),
-            m1: f(self.m1),
-            m2: f(self.m2),
-            J: f(self.J),
-            J0: f(self.J0),
-            J1: f(self.J1),
-            J2: f(self.J2),
-            e: f(self.e),
-            x0: f(self.x0),
-            y0: f(self.y0),
-            omega: f(self.omega),
-            cx: f(self.cx),
-            cy: f(self.cy),
-            bx: f(self.bx),
-            by: f(self.by),
-            xc: f(self.xc),
-            yc: f(self.yc),
-            gap1: f(self.gap1),
-            gap2: f(self.gap2),
-            k1: f(self.k1),
-            k2: f(self.k2),
-            d1: f(self.d1),
-            d2: f(self.d2),
-            drag1: f(self.drag1),
-            drag2: f(self.drag2),
-            R: f(self.R),
-            r1: f(self.r1),
-            rho: f(self.rho),
-            r2: f(self.r2),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> CushionedCrusher<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -227,23 +152,15 @@ impl<S: ::lagrangian::emitted::Scalar> CushionedCrusher<S> {
         let k34 = -k33;
         let k35 = -(S::ONE / self.J1);
         let k36 = -(t0 / self.J2);
-        let singular = if vanishes(self.J1, self.J1, 7.993605777301127e-15) {
-            Some(singular(5, self.J1, self.J1))
-        } else if vanishes(self.J2, self.J2, 7.993605777301127e-15) {
-            Some(singular(8, self.J2, self.J2))
-        } else if vanishes(self.m2, self.m2, 7.993605777301127e-15) {
-            Some(singular(6, self.m2, self.m2))
-        } else if vanishes(self.m1, k13, 7.993605777301127e-15) {
-            Some(singular(3, self.m1, k13))
-        } else if vanishes(pivot_1, k16, 7.993605777301127e-15) {
-            Some(singular(1, pivot_1, k16))
-        } else if vanishes(pivot_1, k16, 7.993605777301127e-15) {
-            Some(singular(0, pivot_1, k16))
-        } else if vanishes(pivot_2, k21, 7.993605777301127e-15) {
-            Some(singular(2, pivot_2, k21))
-        } else {
-            None
-        };
+        let pivots = [
+            (5, self.J1, self.J1),
+            (8, self.J2, self.J2),
+            (6, self.m2, self.m2),
+            (3, self.m1, k13),
+            (1, pivot_1, k16),
+            (0, pivot_1, k16),
+            (2, pivot_2, k21),
+        ];
         Prepared {
             m: self.m,
             m0: self.m0,
@@ -310,7 +227,7 @@ impl<S: ::lagrangian::emitted::Scalar> CushionedCrusher<S> {
             k34,
             k35,
             k36,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -350,53 +267,6 @@ pub struct Coordinates<S = f64> {
     pub phi2: S,
     /// `theta2`. Unit: `rad`.
     pub theta2: S,
-}
-
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 9] {
-        [
-            self.x,
-            self.y,
-            self.theta,
-            self.s1,
-            self.phi1,
-            self.theta1,
-            self.s2,
-            self.phi2,
-            self.theta2,
-        ]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 9]) -> Self {
-        Self {
-            x: q[0],
-            y: q[1],
-            theta: q[2],
-            s1: q[3],
-            phi1: q[4],
-            theta1: q[5],
-            s2: q[6],
-            phi2: q[7],
-            theta2: q[8],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            x: f(self.x),
-            y: f(self.y),
-            theta: f(self.theta),
-            s1: f(self.s1),
-            phi1: f(self.phi1),
-            theta1: f(self.theta1),
-            s2: f(self.s2),
-            phi2: f(self.phi2),
-            theta2: f(self.theta2),
-        }
-    }
 }
 
 /// What can be set while a [`CushionedCrusher`] runs.
@@ -550,6 +420,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 9,
+    tolerance: 7.993605777301127e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -963,12 +840,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let theta2_ddot = t21 * n(p.k36);
         let t68 = n(p.m1) * t23;
         let t69 = t23 * n(p.k13);
-        let sound = t25.exceeds(N::from_f64(7.993605777301127e-15) * t25)
-            & t68.exceeds(N::from_f64(7.993605777301127e-15) * t69)
-            & phi2_ddot.is_finite();
+        let sound = PIVOTS.hold(t25, t25) & PIVOTS.hold(t68, t69) & phi2_ddot.is_finite();
         if !sound {
-            check(t25, t25, 7.993605777301127e-15, 7)?;
-            check(t68, t69, 7.993605777301127e-15, 4)?;
+            let pivots = [(7, t25, t25), (4, t68, t69)];
+            PIVOTS.check(pivots)?;
         }
         let accelerations = [
             x_ddot.store(),
@@ -1235,452 +1110,86 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
     }
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 30] = [
-    ("m", "kg"),
-    ("m0", "kg"),
-    ("m1", "kg"),
-    ("m2", "kg"),
-    ("J", "kg*m^2"),
-    ("J0", "kg*m^2"),
-    ("J1", "kg*m^2"),
-    ("J2", "kg*m^2"),
-    ("e", "m"),
-    ("x0", "m"),
-    ("y0", "m"),
-    ("omega", "rad/s"),
-    ("cx", "N/m"),
-    ("cy", "N/m"),
-    ("bx", "N*s/m"),
-    ("by", "N*s/m"),
-    ("xc", "m"),
-    ("yc", "m"),
-    ("gap1", "m"),
-    ("gap2", "m"),
-    ("k1", "N/m"),
-    ("k2", "N/m"),
-    ("d1", "N*s/m"),
-    ("d2", "N*s/m"),
-    ("drag1", "N*s/m"),
-    ("drag2", "N*s/m"),
-    ("R", "m"),
-    ("r1", "m"),
-    ("rho", "m"),
-    ("r2", "m"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 9] = [
-    ("x", "m"),
-    ("y", "m"),
-    ("theta", "rad"),
-    ("s1", "m"),
-    ("phi1", "rad"),
-    ("theta1", "rad"),
-    ("s2", "m"),
-    ("phi2", "rad"),
-    ("theta2", "rad"),
-];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 3] = [
-    ("mortar_force", "N"),
-    ("crushing_force", "N"),
-    ("amplitude", "m"),
-];
-
-impl ::lagrangian::emitted::Machine for CushionedCrusher {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "CushionedCrusher"
+::lagrangian::emitted::implement! {
+    machine CushionedCrusher "CushionedCrusher" over S, R;
+    parameters {
+        m, m0, m1, m2, J, J0, J1, J2, e, x0, y0, omega, cx, cy, bx, by, xc, yc, gap1, gap2, k1, k2,
+        d1, d2, drag1, drag2, R, r1, rho, r2,
+    } [
+        m: "m" "kg" = 600.0;
+        m0: "m0" "kg" = 40.0;
+        m1: "m1" "kg" = 180.0;
+        m2: "m2" "kg" = 120.0;
+        J: "J" "kg*m^2" = 60.0;
+        J0: "J0" "kg*m^2" = 0.2;
+        J1: "J1" "kg*m^2" = 9.225;
+        J2: "J2" "kg*m^2" = 1.536;
+        e: "e" "m" = 0.1;
+        x0: "x0" "m" = 0.05;
+        y0: "y0" "m" = 0.03;
+        omega: "omega" "rad/s" = 157.07963267948966;
+        cx: "cx" "N/m" = 300000.0;
+        cy: "cy" "N/m" = 300000.0;
+        bx: "bx" "N*s/m" = 1500.0;
+        by: "by" "N*s/m" = 1500.0;
+        xc: "xc" "m" = 0.4;
+        yc: "yc" "m" = 0.3;
+        gap1: "gap1" "m" = 0.02;
+        gap2: "gap2" "m" = 0.03;
+        k1: "k1" "N/m" = 6000000.0;
+        k2: "k2" "N/m" = 4000000.0;
+        d1: "d1" "N*s/m" = 8000.0;
+        d2: "d2" "N*s/m" = 6000.0;
+        drag1: "drag1" "N*s/m" = 400.0;
+        drag2: "drag2" "N*s/m" = 300.0;
+        R: "R" "m" = 0.27;
+        r1: "r1" "m" = 0.25;
+        rho: "rho" "m" = 0.2;
+        r2: "r2" "m" = 0.17;
+    ]
+    coordinates 9 Coordinates { x, y, theta, s1, phi1, theta1, s2, phi2, theta2 } [
+        x: "x" "m";
+        y: "y" "m";
+        theta: "theta" "rad";
+        s1: "s1" "m";
+        phi1: "phi1" "rad";
+        theta1: "theta1" "rad";
+        s2: "s2" "m";
+        phi2: "phi2" "rad";
+        theta2: "theta2" "rad";
+    ]
+    inputs Inputs {} []
+    outputs Outputs { mortar_force, crushing_force, amplitude } [
+        mortar_force: "mortar_force" "N";
+        crushing_force: "crushing_force" "N";
+        amplitude: "amplitude" "m";
+    ]
+    prepared Prepared {
+        m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, gap1, gap2, k1, k2, d1, d2,
+        drag1, drag2, R, r1, rho, r2, k0, k1_, k2_, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13,
+        k14, k15, k16, k17, k18, k19, k20, k21, k22, k23, k24, k25, k26, k27, k28, k29, k30, k31,
+        k32, k33, k34, k35, k36,
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [
-            self.m, self.m0, self.m1, self.m2, self.J, self.J0, self.J1, self.J2, self.e, self.x0,
-            self.y0, self.omega, self.cx, self.cy, self.bx, self.by, self.xc, self.yc, self.gap1,
-            self.gap2, self.k1, self.k2, self.d1, self.d2, self.drag1, self.drag2, self.R, self.r1,
-            self.rho, self.r2,
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, t, q, v } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, t, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q, v);
+        vector forces(p, t, q, v, u) = forces(p, t, q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, t, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u) = dissipation(p, q, v);
+        number work_rate(p, t, q, v, a, u) = work_rate(p, t, q, v, a);
+        number dissipation_rate(p, t, q, v, u) = dissipation_rate(p, q, v);
+        outputs outputs(p, t, q, v, a, u) = outputs(p, q, v);
+        facts assumptions(p, t, q, v, u) = [
+            ("s1 > 0", true, assumption_0(q)),
+            ("s2 > 0", true, assumption_1(q)),
         ];
-        quantities(&PARAMETERS, values)
     }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.m),
-            1 => Some(&mut self.m0),
-            2 => Some(&mut self.m1),
-            3 => Some(&mut self.m2),
-            4 => Some(&mut self.J),
-            5 => Some(&mut self.J0),
-            6 => Some(&mut self.J1),
-            7 => Some(&mut self.J2),
-            8 => Some(&mut self.e),
-            9 => Some(&mut self.x0),
-            10 => Some(&mut self.y0),
-            11 => Some(&mut self.omega),
-            12 => Some(&mut self.cx),
-            13 => Some(&mut self.cy),
-            14 => Some(&mut self.bx),
-            15 => Some(&mut self.by),
-            16 => Some(&mut self.xc),
-            17 => Some(&mut self.yc),
-            18 => Some(&mut self.gap1),
-            19 => Some(&mut self.gap2),
-            20 => Some(&mut self.k1),
-            21 => Some(&mut self.k2),
-            22 => Some(&mut self.d1),
-            23 => Some(&mut self.d2),
-            24 => Some(&mut self.drag1),
-            25 => Some(&mut self.drag2),
-            26 => Some(&mut self.R),
-            27 => Some(&mut self.r1),
-            28 => Some(&mut self.rho),
-            29 => Some(&mut self.r2),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 9];
-    type Matrix = [f64; 81];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_BE_CONSTRAINED: bool = false;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 9]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 9] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        t: f64,
-        q: &[f64; 9],
-        v: &[f64; 9],
-        _: &Inputs,
-        result: &mut [f64; 9],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, t, q, v },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, q: &[f64; 9], matrix: &mut [f64; 81]) {
-        let rows = mass_matrix(self, q);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, t: f64, q: &[f64; 9], v: &[f64; 9], result: &mut [f64; 9]) {
-        *result = bias(self, t, q, v);
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 9], v: &[f64; 9], _: &Inputs, result: &mut [f64; 9]) {
-        *result = applied(self, q, v);
-    }
-
-    fn forces(&self, t: f64, q: &[f64; 9], v: &[f64; 9], _: &Inputs, result: &mut [f64; 9]) {
-        *result = forces(self, t, q, v);
-    }
-
-    fn kinetic_energy(&self, t: f64, q: &[f64; 9], v: &[f64; 9]) -> f64 {
-        kinetic_energy(self, t, q, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 9], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, q: &[f64; 9], v: &[f64; 9], _: &Inputs) -> f64 {
-        dissipation(self, q, v)
-    }
-
-    fn work_rate(&self, t: f64, q: &[f64; 9], v: &[f64; 9], a: &[f64; 9], _: &Inputs) -> f64 {
-        work_rate(self, t, q, v, a)
-    }
-
-    fn dissipation_rate(&self, _: f64, q: &[f64; 9], v: &[f64; 9], _: &Inputs) -> f64 {
-        dissipation_rate(self, q, v)
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [
-            outputs.mortar_force,
-            outputs.crushing_force,
-            outputs.amplitude,
-        ];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, q: &[f64; 9], v: &[f64; 9], _: &[f64; 9], _: &Inputs) -> Outputs {
-        outputs(self, q, v)
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        q: &[f64; 9],
-        _: &[f64; 9],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        let facts = [
-            assumption("s1 > 0", true, assumption_0(q)),
-            assumption("s2 > 0", true, assumption_1(q)),
-        ];
-        facts.into_iter()
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 9];
-    type BatchInputs = Inputs;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            m: lanes(|p| p.m),
-            m0: lanes(|p| p.m0),
-            m1: lanes(|p| p.m1),
-            m2: lanes(|p| p.m2),
-            J: lanes(|p| p.J),
-            J1: lanes(|p| p.J1),
-            J2: lanes(|p| p.J2),
-            x0: lanes(|p| p.x0),
-            y0: lanes(|p| p.y0),
-            omega: lanes(|p| p.omega),
-            cx: lanes(|p| p.cx),
-            cy: lanes(|p| p.cy),
-            bx: lanes(|p| p.bx),
-            by: lanes(|p| p.by),
-            xc: lanes(|p| p.xc),
-            yc: lanes(|p| p.yc),
-            gap1: lanes(|p| p.gap1),
-            gap2: lanes(|p| p.gap2),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            d1: lanes(|p| p.d1),
-            d2: lanes(|p| p.d2),
-            drag1: lanes(|p| p.drag1),
-            drag2: lanes(|p| p.drag2),
-            R: lanes(|p| p.R),
-            r1: lanes(|p| p.r1),
-            rho: lanes(|p| p.rho),
-            r2: lanes(|p| p.r2),
-            k0: lanes(|p| p.k0),
-            k1_: lanes(|p| p.k1_),
-            k2_: lanes(|p| p.k2_),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            k9: lanes(|p| p.k9),
-            k10: lanes(|p| p.k10),
-            k11: lanes(|p| p.k11),
-            k12: lanes(|p| p.k12),
-            k13: lanes(|p| p.k13),
-            k14: lanes(|p| p.k14),
-            k15: lanes(|p| p.k15),
-            k16: lanes(|p| p.k16),
-            k17: lanes(|p| p.k17),
-            k18: lanes(|p| p.k18),
-            k19: lanes(|p| p.k19),
-            k20: lanes(|p| p.k20),
-            k21: lanes(|p| p.k21),
-            k22: lanes(|p| p.k22),
-            k23: lanes(|p| p.k23),
-            k24: lanes(|p| p.k24),
-            k25: lanes(|p| p.k25),
-            k26: lanes(|p| p.k26),
-            k27: lanes(|p| p.k27),
-            k28: lanes(|p| p.k28),
-            k29: lanes(|p| p.k29),
-            k30: lanes(|p| p.k30),
-            k31: lanes(|p| p.k31),
-            k32: lanes(|p| p.k32),
-            k33: lanes(|p| p.k33),
-            k34: lanes(|p| p.k34),
-            k35: lanes(|p| p.k35),
-            k36: lanes(|p| p.k36),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(_: [&Inputs; N]) -> Self::BatchInputs {
-        Inputs {}
-    }
-
-    fn inputs_of_lane(_: &Self::BatchInputs, _: usize) -> Inputs {
-        Inputs {}
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        t: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        _: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, t, q, v },
-            result,
-        )
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for CushionedCrusher<S> {
-    type System = Prepared<S>;
-
-    fn prepare(&self) -> Prepared<S> {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
-        Self::start(self)
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
-    type Vector = [S; 9];
-    type Coordinates = Coordinates<S>;
-    type Inputs = Inputs;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[S; 9]) -> Coordinates<S> {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 9] {
-        coordinates.to_array()
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs {}
-    }
-
-    fn accelerations(
-        &self,
-        t: S,
-        q: &[S; 9],
-        v: &[S; 9],
-        _: &Inputs,
-        result: &mut [S; 9],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <S as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, t, q, v },
-            result,
-        )
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// A fact and by how much it holds.
-fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::emitted::Assumption<'_> {
-    ::lagrangian::emitted::Assumption {
-        text,
-        margin,
-        strict,
-    }
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_BE_CONSTRAINED MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers [yes]
 }

@@ -54,33 +54,6 @@ pub struct DcMotor<S = f64> {
     pub k: S,
 }
 
-impl Default for DcMotor {
-    fn default() -> Self {
-        Self {
-            J: 0.0002,
-            m: 0.4,
-            b: 0.0001,
-            L: 0.002,
-            R: 0.5,
-            k: 0.05,
-        }
-    }
-}
-
-impl<S> DcMotor<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> DcMotor<R> {
-        DcMotor {
-            J: f(self.J),
-            m: f(self.m),
-            b: f(self.b),
-            L: f(self.L),
-            R: f(self.R),
-            k: f(self.k),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> DcMotor<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -90,13 +63,7 @@ impl<S: ::lagrangian::emitted::Scalar> DcMotor<S> {
         let k3 = self.J * S::from_f64(0.5);
         let k4 = -(S::ONE / self.J);
         let one = S::ONE;
-        let singular = if vanishes(self.J, self.J, 1.7763568394002505e-15) {
-            Some(singular(0, self.J, self.J))
-        } else if vanishes(one, one, 1.7763568394002505e-15) {
-            Some(singular(1, one, one))
-        } else {
-            None
-        };
+        let pivots = [(0, self.J, self.J), (1, one, one)];
         Prepared {
             J: self.J,
             b: self.b,
@@ -107,7 +74,7 @@ impl<S: ::lagrangian::emitted::Scalar> DcMotor<S> {
             k2,
             k3,
             k4,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -134,44 +101,11 @@ pub struct Coordinates<S = f64> {
     pub i: S,
 }
 
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 2] {
-        [self.phi, self.i]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 2]) -> Self {
-        Self { phi: q[0], i: q[1] }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            phi: f(self.phi),
-            i: f(self.i),
-        }
-    }
-}
-
 /// What can be set while a [`DcMotor`] runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inputs<S = f64> {
     /// Voltage at the terminals. Unit: `V`. Default: 12.
     pub U: S,
-}
-
-impl Default for Inputs {
-    fn default() -> Self {
-        Self { U: 12.0 }
-    }
-}
-
-impl<S> Inputs<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Inputs<R> {
-        Inputs { U: f(self.U) }
-    }
 }
 
 /// What can be observed of a [`DcMotor`].
@@ -205,6 +139,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 2,
+    tolerance: 1.7763568394002505e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -365,298 +306,44 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(v: &[S; 2], u: &Inputs<S>) -> O
     }
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 6] = [
-    ("J", "kg*m^2"),
-    ("m", "kg"),
-    ("b", "N*m*s"),
-    ("L", "H"),
-    ("R", "ohm"),
-    ("k", "N*m/A"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 2] = [("phi", "rad"), ("integral(i)", "A*s")];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 1] = [("U", "V")];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 1] = [("supplied", "W")];
-
-impl ::lagrangian::emitted::Machine for DcMotor {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "DcMotor"
+::lagrangian::emitted::implement! {
+    machine DcMotor "DcMotor" over S, R;
+    parameters { J, m, b, L, R, k } [
+        J: "J" "kg*m^2" = 0.0002;
+        m: "m" "kg" = 0.4;
+        b: "b" "N*m*s" = 0.0001;
+        L: "L" "H" = 0.002;
+        R: "R" "ohm" = 0.5;
+        k: "k" "N*m/A" = 0.05;
+    ]
+    coordinates 2 Coordinates { phi, i } [
+        phi: "phi" "rad";
+        i: "integral(i)" "A*s";
+    ]
+    inputs Inputs { U } [
+        U: "U" "V" = 12.0;
+    ] over S
+    outputs Outputs { supplied } [
+        supplied: "supplied" "W";
+    ]
+    prepared Prepared { J, b, R, k, k0, k1, k2, k3, k4 }
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, v, u } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p);
+        vector bias(p, t, q, v);
+        vector applied(p, t, q, v, u) = applied(p, v, u);
+        vector forces(p, t, q, v, u) = forces(p, v, u);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, v);
+        number potential_energy(p, t, q, u);
+        number state_energy(p, t, q, v) = state_energy(p, v);
+        number dissipation(p, t, q, v, u) = dissipation(p, v);
+        number work_rate(p, t, q, v, a, u) = work_rate(p, v, u);
+        number dissipation_rate(p, t, q, v, u) = dissipation_rate(p, v);
+        outputs outputs(p, t, q, v, a, u) = outputs(v, u);
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [self.J, self.m, self.b, self.L, self.R, self.k];
-        quantities(&PARAMETERS, values)
-    }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.J),
-            1 => Some(&mut self.m),
-            2 => Some(&mut self.b),
-            3 => Some(&mut self.L),
-            4 => Some(&mut self.R),
-            5 => Some(&mut self.k),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 2];
-    type Matrix = [f64; 4];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_BE_CONSTRAINED: bool = false;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 2]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 2] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        _: &[f64; 2],
-        v: &[f64; 2],
-        u: &Inputs,
-        result: &mut [f64; 2],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, v, u },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, _: &[f64; 2], matrix: &mut [f64; 4]) {
-        let rows = mass_matrix(self);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, _: &[f64; 2], _: &[f64; 2], result: &mut [f64; 2]) {
-        *result = [0.0; 2];
-    }
-
-    fn applied(&self, _: f64, _: &[f64; 2], v: &[f64; 2], u: &Inputs, result: &mut [f64; 2]) {
-        *result = applied(self, v, u);
-    }
-
-    fn forces(&self, _: f64, _: &[f64; 2], v: &[f64; 2], u: &Inputs, result: &mut [f64; 2]) {
-        *result = forces(self, v, u);
-    }
-
-    fn kinetic_energy(&self, _: f64, _: &[f64; 2], v: &[f64; 2]) -> f64 {
-        kinetic_energy(self, v)
-    }
-
-    fn potential_energy(&self, _: f64, _: &[f64; 2], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn state_energy(&self, _: f64, _: &[f64; 2], v: &[f64; 2]) -> f64 {
-        state_energy(self, v)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 2], v: &[f64; 2], _: &Inputs) -> f64 {
-        dissipation(self, v)
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 2], v: &[f64; 2], _: &[f64; 2], u: &Inputs) -> f64 {
-        work_rate(self, v, u)
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 2], v: &[f64; 2], _: &Inputs) -> f64 {
-        dissipation_rate(self, v)
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        inputs: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [inputs.U];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [outputs.supplied];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, _: &[f64; 2], v: &[f64; 2], _: &[f64; 2], u: &Inputs) -> Outputs {
-        outputs(v, u)
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        _: &[f64; 2],
-        _: &[f64; 2],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        ::core::iter::empty()
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 2];
-    type BatchInputs = Inputs<::lagrangian::emitted::Lanes<N>>;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            J: lanes(|p| p.J),
-            b: lanes(|p| p.b),
-            R: lanes(|p| p.R),
-            k: lanes(|p| p.k),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(inputs: [&Inputs; N]) -> Self::BatchInputs {
-        let lanes = |number: fn(&Inputs) -> f64| ::lagrangian::emitted::Lanes(inputs.map(number));
-        Inputs { U: lanes(|u| u.U) }
-    }
-
-    fn inputs_of_lane(inputs: &Self::BatchInputs, lane: usize) -> Inputs {
-        Inputs { U: inputs.U[lane] }
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        _: &Self::Vectors,
-        v: &Self::Vectors,
-        u: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, v, u },
-            result,
-        )
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for DcMotor<S> {
-    type System = Prepared<S>;
-
-    fn prepare(&self) -> Prepared<S> {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
-        Self::start(self)
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
-    type Vector = [S; 2];
-    type Coordinates = Coordinates<S>;
-    type Inputs = Inputs<S>;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[S; 2]) -> Coordinates<S> {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 2] {
-        coordinates.to_array()
-    }
-
-    fn default_inputs(&self) -> Inputs<S> {
-        <Inputs>::default().map(S::from_f64)
-    }
-
-    fn accelerations(
-        &self,
-        _: S,
-        _: &[S; 2],
-        v: &[S; 2],
-        u: &Inputs<S>,
-        result: &mut [S; 2],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <S as ::lagrangian::emitted::Number>::run_in_place(Accelerations { p: self, v, u }, result)
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_BE_CONSTRAINED MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers [yes]
 }

@@ -48,31 +48,6 @@ pub struct DoublePendulum<S = f64> {
     pub g: S,
 }
 
-impl Default for DoublePendulum {
-    fn default() -> Self {
-        Self {
-            m1: 1.0,
-            m2: 1.0,
-            l1: 1.0,
-            l2: 1.0,
-            g: 9.81,
-        }
-    }
-}
-
-impl<S> DoublePendulum<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> DoublePendulum<R> {
-        DoublePendulum {
-            m1: f(self.m1),
-            m2: f(self.m2),
-            l1: f(self.l1),
-            l2: f(self.l2),
-            g: f(self.g),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> DoublePendulum<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -105,11 +80,7 @@ impl<S: ::lagrangian::emitted::Scalar> DoublePendulum<S> {
         let c8 = -c7;
         let c9 = c5 * c1;
         let c10 = c7 * c3;
-        let singular = if vanishes(pivot_0, pivot_0, 1.7763568394002505e-15) {
-            Some(singular(0, pivot_0, pivot_0))
-        } else {
-            None
-        };
+        let pivots = [(0, pivot_0, pivot_0)];
         Prepared {
             l1: self.l1,
             l2: self.l2,
@@ -126,7 +97,7 @@ impl<S: ::lagrangian::emitted::Scalar> DoublePendulum<S> {
             k10,
             k11,
             k12,
-            singular,
+            singular: PIVOTS.vanished(pivots),
             series: [c0, c2, c1, c3, c4, c6, c8, c9, c7, c10],
         }
     }
@@ -152,29 +123,6 @@ pub struct Coordinates<S = f64> {
     pub theta1: S,
     /// `theta2`. Unit: `rad`.
     pub theta2: S,
-}
-
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 2] {
-        [self.theta1, self.theta2]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 2]) -> Self {
-        Self {
-            theta1: q[0],
-            theta2: q[1],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            theta1: f(self.theta1),
-            theta2: f(self.theta2),
-        }
-    }
 }
 
 /// What can be set while a [`DoublePendulum`] runs.
@@ -223,6 +171,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 2,
+    tolerance: 1.7763568394002505e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -344,10 +299,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t10 = t5.neg_mul_add(t7, t8) / t9;
         let theta1_ddot = t7.mul_sub(t10, n(p.k12) * t5);
         let theta2_ddot = -t10;
-        let sound =
-            t9.exceeds(N::from_f64(1.7763568394002505e-15) * n(p.k6)) & theta2_ddot.is_finite();
+        let sound = PIVOTS.hold(t9, n(p.k6)) & theta2_ddot.is_finite();
         if !sound {
-            check(t9, n(p.k6), 1.7763568394002505e-15, 1)?;
+            let pivots = [(1, t9, n(p.k6))];
+            PIVOTS.check(pivots)?;
         }
         let accelerations = [theta1_ddot.store(), theta2_ddot.store()];
         Ok(accelerations)
@@ -538,8 +493,9 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
         for (row, x) in coefficients.iter_mut().zip([*q, *v, second]) {
             *row = x;
         }
-        let mut a0 = [[N::ZERO.store(); 8]; ::lagrangian::emitted::series::ROWS];
-        a0[2] = [
+        let zeros = [[N::ZERO.store(); 8]; ::lagrangian::emitted::series::ROWS];
+        let mut a0 = ::lagrangian::emitted::series::Aligned(zeros);
+        a0.0[2] = [
             x89.store(),
             x89.store(),
             x93.store(),
@@ -549,8 +505,9 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
             x101.store(),
             x98.store(),
         ];
-        let mut b0 = [[N::ZERO.store(); 8]; ::lagrangian::emitted::series::ROWS];
-        b0[2] = [
+        let zeros = [[N::ZERO.store(); 8]; ::lagrangian::emitted::series::ROWS];
+        let mut b0 = ::lagrangian::emitted::series::Aligned(zeros);
+        b0.0[2] = [
             x111.store(),
             x109.store(),
             x115.store(),
@@ -572,7 +529,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
         let mut z14 = x93;
         let count = coefficients.len().min(::lagrangian::emitted::series::ROWS);
         for order in 3..count {
-            let w0 = ::lagrangian::emitted::series::sweep::<N, 8>(&a0, &b0, order - 2);
+            let w0 = ::lagrangian::emitted::series::sweep::<N, 8>(&a0.0, &b0.0, order - 2);
             let x116 = w0[0];
             let x117 = z5;
             let x118 = x117.mul_add(x10, x116);
@@ -667,7 +624,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
             if let Some(row) = coefficients.get_mut(order) {
                 *row = [x188.store(), x190.store()];
             }
-            if let Some(kept) = a0.get_mut(order) {
+            if let Some(kept) = a0.0.get_mut(order) {
                 *kept = [
                     x187.store(),
                     x187.store(),
@@ -679,7 +636,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
                     x194.store(),
                 ];
             }
-            if let Some(kept) = b0.get_mut(order) {
+            if let Some(kept) = b0.0.get_mut(order) {
                 *kept = [
                     x207.store(),
                     x205.store(),
@@ -706,340 +663,51 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
     }
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 5] = [
-    ("m1", "kg"),
-    ("m2", "kg"),
-    ("l1", "m"),
-    ("l2", "m"),
-    ("g", "m/s^2"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 2] = [("theta1", "rad"), ("theta2", "rad")];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 0] = [];
-
-impl ::lagrangian::emitted::Machine for DoublePendulum {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "DoublePendulum"
-    }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [self.m1, self.m2, self.l1, self.l2, self.g];
-        quantities(&PARAMETERS, values)
-    }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.m1),
-            1 => Some(&mut self.m2),
-            2 => Some(&mut self.l1),
-            3 => Some(&mut self.l2),
-            4 => Some(&mut self.g),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 2];
-    type Matrix = [f64; 4];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_BE_CONSTRAINED: bool = false;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 2]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 2] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 2],
-        v: &[f64; 2],
-        _: &Inputs,
-        result: &mut [f64; 2],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v },
-            result,
-        )
-    }
-
-    fn check_series(&self) -> Result<(), &str> {
-        Ok(())
-    }
-
-    fn series(
-        &self,
-        _: [f64; 2],
-        q: &[f64; 2],
-        v: &[f64; 2],
-        _: &Inputs,
-        coefficients: &mut [[f64; 2]],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        let known = ::lagrangian::emitted::series::ROWS;
-        for row in coefficients.iter_mut().skip(known) {
-            *row = [f64::NAN; 2];
-        }
-        let series = Series {
-            p: self,
+::lagrangian::emitted::implement! {
+    machine DoublePendulum "DoublePendulum" over S, R;
+    parameters { m1, m2, l1, l2, g } [
+        m1: "m1" "kg" = 1.0;
+        m2: "m2" "kg" = 1.0;
+        l1: "l1" "m" = 1.0;
+        l2: "l2" "m" = 1.0;
+        g: "g" "m/s^2" = 9.81;
+    ]
+    coordinates 2 Coordinates { theta1, theta2 } [
+        theta1: "theta1" "rad";
+        theta2: "theta2" "rad";
+    ]
+    inputs Inputs {} []
+    outputs Outputs {} []
+    prepared Prepared { l1, l2, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12 }
+    series series
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
+    system {
+        series series(p, t, q, v, u, coefficients) = Series {
+            p,
             q,
             v,
             coefficients,
         };
-        <f64 as ::lagrangian::emitted::Number>::run(series)
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q);
+        vector forces(p, t, q, v, u) = forces(p, q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = Outputs {};
     }
-
-    fn mass_matrix(&self, _: f64, q: &[f64; 2], matrix: &mut [f64; 4]) {
-        let rows = mass_matrix(self, q);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, q: &[f64; 2], v: &[f64; 2], result: &mut [f64; 2]) {
-        *result = bias(self, q, v);
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 2], _: &[f64; 2], _: &Inputs, result: &mut [f64; 2]) {
-        *result = applied(self, q);
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 2], v: &[f64; 2], _: &Inputs, result: &mut [f64; 2]) {
-        *result = forces(self, q, v);
-    }
-
-    fn kinetic_energy(&self, _: f64, q: &[f64; 2], v: &[f64; 2]) -> f64 {
-        kinetic_energy(self, q, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 2], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> Outputs {
-        Outputs {}
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        _: &[f64; 2],
-        _: &[f64; 2],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        ::core::iter::empty()
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 2];
-    type BatchInputs = Inputs;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        let member = |i: usize| ::lagrangian::emitted::Lanes(systems.map(|p| p.series[i]));
-        Prepared {
-            l1: lanes(|p| p.l1),
-            l2: lanes(|p| p.l2),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            k9: lanes(|p| p.k9),
-            k10: lanes(|p| p.k10),
-            k11: lanes(|p| p.k11),
-            k12: lanes(|p| p.k12),
-            singular: None,
-            series: ::core::array::from_fn(member),
-        }
-    }
-
-    fn batch_inputs(_: [&Inputs; N]) -> Self::BatchInputs {
-        Inputs {}
-    }
-
-    fn inputs_of_lane(_: &Self::BatchInputs, _: usize) -> Inputs {
-        Inputs {}
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        _: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q, v },
-            result,
-        )
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for DoublePendulum<S> {
-    type System = Prepared<S>;
-
-    fn prepare(&self) -> Prepared<S> {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
-        Self::start(self)
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
-    type Vector = [S; 2];
-    type Coordinates = Coordinates<S>;
-    type Inputs = Inputs;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[S; 2]) -> Coordinates<S> {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 2] {
-        coordinates.to_array()
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs {}
-    }
-
-    fn accelerations(
-        &self,
-        _: S,
-        q: &[S; 2],
-        v: &[S; 2],
-        _: &Inputs,
-        result: &mut [S; 2],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <S as ::lagrangian::emitted::Number>::run_in_place(Accelerations { p: self, q, v }, result)
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_BE_CONSTRAINED MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    batch_series { (p, t, q, v, u, coefficients) Series {
+        p,
+        q,
+        v,
+        coefficients,
+    } }
+    lanes [N]
+    numbers [yes]
 }

@@ -60,29 +60,6 @@ pub struct ElasticPendulum<S = f64> {
     pub g: S,
 }
 
-impl Default for ElasticPendulum {
-    fn default() -> Self {
-        Self {
-            m: 1.0,
-            k: 39.24,
-            l0: 0.75,
-            g: 9.81,
-        }
-    }
-}
-
-impl<S> ElasticPendulum<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> ElasticPendulum<R> {
-        ElasticPendulum {
-            m: f(self.m),
-            k: f(self.k),
-            l0: f(self.l0),
-            g: f(self.g),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> ElasticPendulum<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -93,11 +70,7 @@ impl<S: ::lagrangian::emitted::Scalar> ElasticPendulum<S> {
         let k4 = -self.m;
         let k5 = -k1;
         let k6 = S::ONE / self.m;
-        let singular = if vanishes(self.m, self.m, 1.7763568394002505e-15) {
-            Some(singular(0, self.m, self.m))
-        } else {
-            None
-        };
+        let pivots = [(0, self.m, self.m)];
         Prepared {
             m: self.m,
             k: self.k,
@@ -109,7 +82,7 @@ impl<S: ::lagrangian::emitted::Scalar> ElasticPendulum<S> {
             k4,
             k5,
             k6,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -134,29 +107,6 @@ pub struct Coordinates<S = f64> {
     pub r: S,
     /// Angle of the spring from the downward vertical. Unit: `rad`.
     pub theta: S,
-}
-
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 2] {
-        [self.r, self.theta]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 2]) -> Self {
-        Self {
-            r: q[0],
-            theta: q[1],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            r: f(self.r),
-            theta: f(self.theta),
-        }
-    }
 }
 
 /// What can be set while a [`ElasticPendulum`] runs.
@@ -196,6 +146,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 2,
+    tolerance: 1.7763568394002505e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -296,9 +253,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t3 = n(p.k1).mul_add(cos_theta, (n(p.l0) - r) * n(p.k));
         let r_ddot = n(p.k6) * t0.mul_add(theta_dot * theta_dot, t3);
         let theta_ddot = -(sin_theta.mul_add(r * n(p.k1), t2) / t1);
-        let sound = t1.exceeds(N::from_f64(1.7763568394002505e-15) * t1) & theta_ddot.is_finite();
+        let sound = PIVOTS.hold(t1, t1) & theta_ddot.is_finite();
         if !sound {
-            check(t1, t1, 1.7763568394002505e-15, 1)?;
+            let pivots = [(1, t1, t1)];
+            PIVOTS.check(pivots)?;
         }
         let accelerations = [r_ddot.store(), theta_ddot.store()];
         Ok(accelerations)
@@ -371,311 +329,40 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
     }
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 4] = [("m", "kg"), ("k", "N/m"), ("l0", "m"), ("g", "m/s^2")];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 2] = [("r", "m"), ("theta", "rad")];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 1] = [("momentum", "J*s")];
-
-impl ::lagrangian::emitted::Machine for ElasticPendulum {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "ElasticPendulum"
+::lagrangian::emitted::implement! {
+    machine ElasticPendulum "ElasticPendulum" over S, R;
+    parameters { m, k, l0, g } [
+        m: "m" "kg" = 1.0;
+        k: "k" "N/m" = 39.24;
+        l0: "l0" "m" = 0.75;
+        g: "g" "m/s^2" = 9.81;
+    ]
+    coordinates 2 Coordinates { r, theta } [
+        r: "r" "m";
+        theta: "theta" "rad";
+    ]
+    inputs Inputs {} []
+    outputs Outputs { momentum } [
+        momentum: "momentum" "J*s";
+    ]
+    prepared Prepared { m, k, l0, k0, k1, k2, k3, k4, k5, k6 }
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q);
+        vector forces(p, t, q, v, u) = forces(p, q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = outputs(p, q, v);
+        facts assumptions(p, t, q, v, u) = [("r > 0", true, assumption_0(q))];
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [self.m, self.k, self.l0, self.g];
-        quantities(&PARAMETERS, values)
-    }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.m),
-            1 => Some(&mut self.k),
-            2 => Some(&mut self.l0),
-            3 => Some(&mut self.g),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 2];
-    type Matrix = [f64; 4];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_BE_CONSTRAINED: bool = false;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 2]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 2] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 2],
-        v: &[f64; 2],
-        _: &Inputs,
-        result: &mut [f64; 2],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, q: &[f64; 2], matrix: &mut [f64; 4]) {
-        let rows = mass_matrix(self, q);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, q: &[f64; 2], v: &[f64; 2], result: &mut [f64; 2]) {
-        *result = bias(self, q, v);
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 2], _: &[f64; 2], _: &Inputs, result: &mut [f64; 2]) {
-        *result = applied(self, q);
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 2], v: &[f64; 2], _: &Inputs, result: &mut [f64; 2]) {
-        *result = forces(self, q, v);
-    }
-
-    fn kinetic_energy(&self, _: f64, q: &[f64; 2], v: &[f64; 2]) -> f64 {
-        kinetic_energy(self, q, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 2], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [outputs.momentum];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, q: &[f64; 2], v: &[f64; 2], _: &[f64; 2], _: &Inputs) -> Outputs {
-        outputs(self, q, v)
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        q: &[f64; 2],
-        _: &[f64; 2],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        let facts = [assumption("r > 0", true, assumption_0(q))];
-        facts.into_iter()
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 2];
-    type BatchInputs = Inputs;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            m: lanes(|p| p.m),
-            k: lanes(|p| p.k),
-            l0: lanes(|p| p.l0),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(_: [&Inputs; N]) -> Self::BatchInputs {
-        Inputs {}
-    }
-
-    fn inputs_of_lane(_: &Self::BatchInputs, _: usize) -> Inputs {
-        Inputs {}
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        _: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q, v },
-            result,
-        )
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for ElasticPendulum<S> {
-    type System = Prepared<S>;
-
-    fn prepare(&self) -> Prepared<S> {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
-        Self::start(self)
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
-    type Vector = [S; 2];
-    type Coordinates = Coordinates<S>;
-    type Inputs = Inputs;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[S; 2]) -> Coordinates<S> {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 2] {
-        coordinates.to_array()
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs {}
-    }
-
-    fn accelerations(
-        &self,
-        _: S,
-        q: &[S; 2],
-        v: &[S; 2],
-        _: &Inputs,
-        result: &mut [S; 2],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <S as ::lagrangian::emitted::Number>::run_in_place(Accelerations { p: self, q, v }, result)
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// A fact and by how much it holds.
-fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::emitted::Assumption<'_> {
-    ::lagrangian::emitted::Assumption {
-        text,
-        margin,
-        strict,
-    }
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_BE_CONSTRAINED MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers [yes]
 }

@@ -62,33 +62,6 @@ pub struct FlyballGovernor<S = f64> {
     pub g: S,
 }
 
-impl Default for FlyballGovernor {
-    fn default() -> Self {
-        Self {
-            l: 0.2,
-            b: 0.2,
-            m: 0.5,
-            M: 2.0,
-            J: 0.02,
-            g: 9.81,
-        }
-    }
-}
-
-impl<S> FlyballGovernor<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> FlyballGovernor<R> {
-        FlyballGovernor {
-            l: f(self.l),
-            b: f(self.b),
-            m: f(self.m),
-            M: f(self.M),
-            J: f(self.J),
-            g: f(self.g),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> FlyballGovernor<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -116,13 +89,7 @@ impl<S: ::lagrangian::emitted::Scalar> FlyballGovernor<S> {
         let k20 = S::ONE / self.M;
         let k21 = t0 * k19 / self.m;
         let k22 = self.g * k2;
-        let singular = if vanishes(k9, k9, 3.552713678800501e-15) {
-            Some(singular(1, k9, k9))
-        } else if vanishes(self.M, self.M, 3.552713678800501e-15) {
-            Some(singular(2, self.M, self.M))
-        } else {
-            None
-        };
+        let pivots = [(1, k9, k9), (2, self.M, self.M)];
         Prepared {
             l: self.l,
             M: self.M,
@@ -151,7 +118,7 @@ impl<S: ::lagrangian::emitted::Scalar> FlyballGovernor<S> {
             k20,
             k21,
             k22,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -184,51 +151,11 @@ pub struct Coordinates<S = f64> {
     pub s: S,
 }
 
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 3] {
-        [self.phi, self.alpha, self.s]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 3]) -> Self {
-        Self {
-            phi: q[0],
-            alpha: q[1],
-            s: q[2],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            phi: f(self.phi),
-            alpha: f(self.alpha),
-            s: f(self.s),
-        }
-    }
-}
-
 /// What can be set while a [`FlyballGovernor`] runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inputs<S = f64> {
     /// Torque on the shaft. Unit: `N*m`. Default: 0.
     pub drive: S,
-}
-
-impl Default for Inputs {
-    fn default() -> Self {
-        Self { drive: 0.0 }
-    }
-}
-
-impl<S> Inputs<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Inputs<R> {
-        Inputs {
-            drive: f(self.drive),
-        }
-    }
 }
 
 /// What can be observed of a [`FlyballGovernor`].
@@ -295,6 +222,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 3,
+    tolerance: 3.552713678800501e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -505,12 +439,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let phi_ddot = t0.neg_mul_add(t8, n(u.drive)) / t9;
         let alpha_ddot = -t12.mul_add(t18, n(p.k21) * t7);
         let s_ddot = t11.neg_mul_add(t18, n(p.g));
-        let sound = t9.exceeds(N::from_f64(3.552713678800501e-15) * t9)
-            & t15.exceeds(N::from_f64(3.552713678800501e-15) * t15)
-            & alpha_ddot.is_finite();
+        let sound = PIVOTS.hold(t9, t9) & PIVOTS.hold(t15, t15) & alpha_ddot.is_finite();
         if !sound {
-            check(t9, t9, 3.552713678800501e-15, 0)?;
-            check(t15, t15, 3.552713678800501e-15, 3)?;
+            let pivots = [(0, t9, t9), (3, t15, t15)];
+            PIVOTS.check(pivots)?;
         }
         let accelerations = [phi_ddot.store(), alpha_ddot.store(), s_ddot.store()];
         Ok(accelerations)
@@ -571,12 +503,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t14 = t12.mul_add(n(p.k3), t5 * n(p.k22));
         let t15 = t9.mul_add(t9 * n(p.k21), t8 * (t8 * n(p.k20)));
         let lambda1 = -(t13.mul_add(t9 * n(p.k19), t14) / t15);
-        let sound = t7.exceeds(N::from_f64(3.552713678800501e-15) * t7)
-            & t15.exceeds(N::from_f64(3.552713678800501e-15) * t15)
-            & lambda1.is_finite();
+        let sound = PIVOTS.hold(t7, t7) & PIVOTS.hold(t15, t15) & lambda1.is_finite();
         if !sound {
-            check(t7, t7, 3.552713678800501e-15, 0)?;
-            check(t15, t15, 3.552713678800501e-15, 3)?;
+            let pivots = [(0, t7, t7), (3, t15, t15)];
+            PIVOTS.check(pivots)?;
         }
         let multipliers = [lambda1.store()];
         Ok(multipliers)
@@ -625,348 +555,52 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(v: &[S; 3], u: &Inputs<S>) ->
     u.drive * phi_dot
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 6] = [
-    ("l", "m"),
-    ("b", "m"),
-    ("m", "kg"),
-    ("M", "kg"),
-    ("J", "kg*m^2"),
-    ("g", "m/s^2"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 3] = [("phi", "rad"), ("alpha", "rad"), ("s", "m")];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 1] = [("drive", "N*m")];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 0] = [];
-
-/// Names, units, units of multipliers, whether positions are constrained.
-const CONSTRAINTS: [(&str, &str, &str, bool); 1] = [("links", "m", "N", true)];
-
-impl ::lagrangian::emitted::Machine for FlyballGovernor {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "FlyballGovernor"
+::lagrangian::emitted::implement! {
+    machine FlyballGovernor "FlyballGovernor" over S, R;
+    parameters { l, b, m, M, J, g } [
+        l: "l" "m" = 0.2;
+        b: "b" "m" = 0.2;
+        m: "m" "kg" = 0.5;
+        M: "M" "kg" = 2.0;
+        J: "J" "kg*m^2" = 0.02;
+        g: "g" "m/s^2" = 9.81;
+    ]
+    coordinates 3 Coordinates { phi, alpha, s } [
+        phi: "phi" "rad";
+        alpha: "alpha" "rad";
+        s: "s" "m";
+    ]
+    inputs Inputs { drive } [
+        drive: "drive" "N*m" = 0.0;
+    ] over S
+    outputs Outputs {} []
+    prepared Prepared {
+        l, M, J, g, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16, k17,
+        k18, k19, k20, k21, k22,
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [self.l, self.b, self.m, self.M, self.J, self.g];
-        quantities(&PARAMETERS, values)
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, q, v, u } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q, u);
+        vector forces(p, t, q, v, u) = forces(p, q, v, u);
+        numbers constraint_positions(p, t, q) = constraint_positions(p, q);
+        numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
+        numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
+        numbers constraint_drift(p, t, q, v) = constraint_drift(p, q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u) = work_rate(v, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = Outputs {};
+        constraints constraints(p) = [("links", "m", "N", true)];
+        solved multipliers(p, t, q, v, u) = multipliers(p, q, v);
+        workspace with_workspace(p) = ::lagrangian::emitted::constraint_workspace(3, 1);
     }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.l),
-            1 => Some(&mut self.b),
-            2 => Some(&mut self.m),
-            3 => Some(&mut self.M),
-            4 => Some(&mut self.J),
-            5 => Some(&mut self.g),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 3];
-    type Matrix = [f64; 9];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 3]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 3] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 3],
-        v: &[f64; 3],
-        u: &Inputs,
-        result: &mut [f64; 3],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v, u },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, q: &[f64; 3], matrix: &mut [f64; 9]) {
-        let rows = mass_matrix(self, q);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, q: &[f64; 3], v: &[f64; 3], result: &mut [f64; 3]) {
-        *result = bias(self, q, v);
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 3], _: &[f64; 3], u: &Inputs, result: &mut [f64; 3]) {
-        *result = applied(self, q, u);
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 3], v: &[f64; 3], u: &Inputs, result: &mut [f64; 3]) {
-        *result = forces(self, q, v, u);
-    }
-
-    fn constraint_positions(&self, _: f64, q: &[f64; 3], to: &mut [f64]) {
-        fill(to, &constraint_positions(self, q));
-    }
-
-    fn constraint_rates(&self, _: f64, q: &[f64; 3], v: &[f64; 3], to: &mut [f64]) {
-        fill(to, &constraint_rates(self, q, v));
-    }
-
-    fn constraint_matrix(&self, _: f64, q: &[f64; 3], to: &mut [f64]) {
-        fill(to, &constraint_matrix(self, q));
-    }
-
-    fn constraint_drift(&self, _: f64, q: &[f64; 3], v: &[f64; 3], to: &mut [f64]) {
-        fill(to, &constraint_drift(self, q, v));
-    }
-
-    fn kinetic_energy(&self, _: f64, q: &[f64; 3], v: &[f64; 3]) -> f64 {
-        kinetic_energy(self, q, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 3], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 3], v: &[f64; 3], _: &[f64; 3], u: &Inputs) -> f64 {
-        work_rate(v, u)
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        inputs: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [inputs.drive];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> Outputs {
-        Outputs {}
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        _: &[f64; 3],
-        _: &[f64; 3],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        ::core::iter::empty()
-    }
-
-    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Constraint<'_>> {
-        CONSTRAINTS.iter().map(constraint)
-    }
-
-    fn multipliers(
-        &self,
-        _: f64,
-        q: &[f64; 3],
-        v: &[f64; 3],
-        _: &Inputs,
-        to: &mut [f64],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        fill(to, &multipliers(self, q, v)?);
-        Ok(())
-    }
-
-    fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::emitted::constraint_workspace(3, 1)];
-        work(room.get_mut(..length))
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 3];
-    type BatchInputs = Inputs<::lagrangian::emitted::Lanes<N>>;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            l: lanes(|p| p.l),
-            M: lanes(|p| p.M),
-            J: lanes(|p| p.J),
-            g: lanes(|p| p.g),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            k9: lanes(|p| p.k9),
-            k10: lanes(|p| p.k10),
-            k11: lanes(|p| p.k11),
-            k12: lanes(|p| p.k12),
-            k13: lanes(|p| p.k13),
-            k14: lanes(|p| p.k14),
-            k15: lanes(|p| p.k15),
-            k16: lanes(|p| p.k16),
-            k17: lanes(|p| p.k17),
-            k18: lanes(|p| p.k18),
-            k19: lanes(|p| p.k19),
-            k20: lanes(|p| p.k20),
-            k21: lanes(|p| p.k21),
-            k22: lanes(|p| p.k22),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(inputs: [&Inputs; N]) -> Self::BatchInputs {
-        let lanes = |number: fn(&Inputs) -> f64| ::lagrangian::emitted::Lanes(inputs.map(number));
-        Inputs {
-            drive: lanes(|u| u.drive),
-        }
-    }
-
-    fn inputs_of_lane(inputs: &Self::BatchInputs, lane: usize) -> Inputs {
-        Inputs {
-            drive: inputs.drive[lane],
-        }
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        u: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q, v, u },
-            result,
-        )
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// A constraint, as it is called.
-fn constraint<'a>(
-    &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
-) -> ::lagrangian::emitted::Constraint<'a> {
-    ::lagrangian::emitted::Constraint {
-        name,
-        unit,
-        multiplier_unit,
-        holonomic,
-    }
-}
-
-/// Writes numbers where there is room for them.
-fn fill(to: &mut [f64], from: &[f64]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = *from;
-    }
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    if let Some(constraint) = coordinate.checked_sub(3) {
-        return ::lagrangian::emitted::Singular::constraint(constraint, pivot, diagonal);
-    }
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers []
 }

@@ -57,29 +57,6 @@ pub struct FourBars<S = f64> {
     pub v0: S,
 }
 
-impl Default for FourBars {
-    fn default() -> Self {
-        Self {
-            l: 1.0,
-            m: 1.0,
-            g: 9.81,
-            v0: 1.0,
-        }
-    }
-}
-
-impl<S> FourBars<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> FourBars<R> {
-        FourBars {
-            l: f(self.l),
-            m: f(self.m),
-            g: f(self.g),
-            v0: f(self.v0),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> FourBars<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -102,15 +79,7 @@ impl<S: ::lagrangian::emitted::Scalar> FourBars<S> {
         let k12 = -k3;
         let k13 = t3 * S::from_f64(3.0);
         let k14 = t3 * S::from_f64(0.75);
-        let singular = if vanishes(k7, k7, 7.993605777301127e-15) {
-            Some(singular(2, k7, k7))
-        } else if vanishes(k6, k6, 7.993605777301127e-15) {
-            Some(singular(0, k6, k6))
-        } else if vanishes(k7, k7, 7.993605777301127e-15) {
-            Some(singular(4, k7, k7))
-        } else {
-            None
-        };
+        let pivots = [(2, k7, k7), (0, k6, k6), (4, k7, k7)];
         Prepared {
             l: self.l,
             m: self.m,
@@ -129,7 +98,7 @@ impl<S: ::lagrangian::emitted::Scalar> FourBars<S> {
             k12,
             k13,
             k14,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -155,35 +124,6 @@ pub struct Coordinates<S = f64> {
     pub crank: [S; 3],
     /// `coupler`. Unit: `rad`. Members: `coupler[1]` to `coupler[2]`.
     pub coupler: [S; 2],
-}
-
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 5] {
-        [
-            self.crank[0],
-            self.crank[1],
-            self.crank[2],
-            self.coupler[0],
-            self.coupler[1],
-        ]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 5]) -> Self {
-        Self {
-            crank: [q[0], q[1], q[2]],
-            coupler: [q[3], q[4]],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            crank: self.crank.map(&f),
-            coupler: self.coupler.map(&f),
-        }
-    }
 }
 
 /// What can be set while a [`FourBars`] runs.
@@ -234,6 +174,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 5,
+    tolerance: 7.993605777301127e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -676,20 +623,23 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let crank_2_ddot = t18.mul_sub(t93, t32.mul_add(t91, n(p.k13) * t40));
         let coupler_1_ddot = -t99;
         let coupler_2_ddot = t24.mul_add(t97 - t98, t101);
-        let sound = t29.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k7))
-            & t30.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k6))
-            & t52.exceeds(N::from_f64(7.993605777301127e-15) * t52)
-            & t74.exceeds(N::from_f64(7.993605777301127e-15) * t50)
-            & t82.exceeds(N::from_f64(7.993605777301127e-15) * t56)
-            & t90.exceeds(N::from_f64(7.993605777301127e-15) * t70)
+        let sound = PIVOTS.hold(t29, n(p.k7))
+            & PIVOTS.hold(t30, n(p.k6))
+            & PIVOTS.hold(t52, t52)
+            & PIVOTS.hold(t74, t50)
+            & PIVOTS.hold(t82, t56)
+            & PIVOTS.hold(t90, t70)
             & coupler_2_ddot.is_finite();
         if !sound {
-            check(t29, n(p.k7), 7.993605777301127e-15, 3)?;
-            check(t30, n(p.k6), 7.993605777301127e-15, 1)?;
-            check(t52, t52, 7.993605777301127e-15, 5)?;
-            check(t74, t50, 7.993605777301127e-15, 6)?;
-            check(t82, t56, 7.993605777301127e-15, 7)?;
-            check(t90, t70, 7.993605777301127e-15, 8)?;
+            let pivots = [
+                (3, t29, n(p.k7)),
+                (1, t30, n(p.k6)),
+                (5, t52, t52),
+                (6, t74, t50),
+                (7, t82, t56),
+                (8, t90, t70),
+            ];
+            PIVOTS.check(pivots)?;
         }
         let accelerations = [
             crank_0_ddot.store(),
@@ -846,20 +796,23 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let lambda2 = t80.neg_mul_add(lambda3, t81.mul_add(lambda4, t79 * t78));
         let t91 = t72.mul_add(lambda3, t73.neg_mul_add(lambda4, t59 * t66));
         let lambda1 = t71.mul_add(lambda2, t91);
-        let sound = t29.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k7))
-            & t30.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k6))
-            & t52.exceeds(N::from_f64(7.993605777301127e-15) * t52)
-            & t74.exceeds(N::from_f64(7.993605777301127e-15) * t50)
-            & t82.exceeds(N::from_f64(7.993605777301127e-15) * t56)
-            & t90.exceeds(N::from_f64(7.993605777301127e-15) * t70)
+        let sound = PIVOTS.hold(t29, n(p.k7))
+            & PIVOTS.hold(t30, n(p.k6))
+            & PIVOTS.hold(t52, t52)
+            & PIVOTS.hold(t74, t50)
+            & PIVOTS.hold(t82, t56)
+            & PIVOTS.hold(t90, t70)
             & lambda1.is_finite();
         if !sound {
-            check(t29, n(p.k7), 7.993605777301127e-15, 3)?;
-            check(t30, n(p.k6), 7.993605777301127e-15, 1)?;
-            check(t52, t52, 7.993605777301127e-15, 5)?;
-            check(t74, t50, 7.993605777301127e-15, 6)?;
-            check(t82, t56, 7.993605777301127e-15, 7)?;
-            check(t90, t70, 7.993605777301127e-15, 8)?;
+            let pivots = [
+                (3, t29, n(p.k7)),
+                (1, t30, n(p.k6)),
+                (5, t52, t52),
+                (6, t74, t50),
+                (7, t82, t56),
+                (8, t90, t70),
+            ];
+            PIVOTS.check(pivots)?;
         }
         let multipliers = [
             lambda1.store(),
@@ -934,335 +887,54 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     t1 + (sin_crank_2 + (sin_crank_1 + sin_crank_0)) * p.k3
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 4] = [("l", "m"), ("m", "kg"), ("g", "m/s^2"), ("v0", "m/s")];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 5] = [
-    ("crank[0]", "rad"),
-    ("crank[1]", "rad"),
-    ("crank[2]", "rad"),
-    ("coupler[1]", "rad"),
-    ("coupler[2]", "rad"),
-];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 0] = [];
-
-/// Names, units, units of multipliers, whether positions are constrained.
-const CONSTRAINTS: [(&str, &str, &str, bool); 4] = [
-    ("along[1]", "m", "N", true),
-    ("along[2]", "m", "N", true),
-    ("across[1]", "m", "N", true),
-    ("across[2]", "m", "N", true),
-];
-
-impl ::lagrangian::emitted::Machine for FourBars {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "FourBars"
+::lagrangian::emitted::implement! {
+    machine FourBars "FourBars" over S, R;
+    parameters { l, m, g, v0 } [
+        l: "l" "m" = 1.0;
+        m: "m" "kg" = 1.0;
+        g: "g" "m/s^2" = 9.81;
+        v0: "v0" "m/s" = 1.0;
+    ]
+    coordinates 5 Coordinates {
+        crank: [crank_0, crank_1, crank_2], coupler: [coupler_1, coupler_2],
+    } [
+        crank_0: "crank[0]" "rad";
+        crank_1: "crank[1]" "rad";
+        crank_2: "crank[2]" "rad";
+        coupler_1: "coupler[1]" "rad";
+        coupler_2: "coupler[2]" "rad";
+    ]
+    inputs Inputs {} []
+    outputs Outputs {} []
+    prepared Prepared { l, m, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14 }
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q);
+        vector forces(p, t, q, v, u) = forces(p, q, v);
+        numbers constraint_positions(p, t, q) = constraint_positions(p, q);
+        numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
+        numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
+        numbers constraint_drift(p, t, q, v) = constraint_drift(p, q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = Outputs {};
+        constraints constraints(p) = [
+            ("along[1]", "m", "N", true),
+            ("along[2]", "m", "N", true),
+            ("across[1]", "m", "N", true),
+            ("across[2]", "m", "N", true),
+        ];
+        solved multipliers(p, t, q, v, u) = multipliers(p, q, v);
+        workspace with_workspace(p) = ::lagrangian::emitted::constraint_workspace(5, 4);
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [self.l, self.m, self.g, self.v0];
-        quantities(&PARAMETERS, values)
-    }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.l),
-            1 => Some(&mut self.m),
-            2 => Some(&mut self.g),
-            3 => Some(&mut self.v0),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 5];
-    type Matrix = [f64; 25];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 5]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 5] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 5],
-        v: &[f64; 5],
-        _: &Inputs,
-        result: &mut [f64; 5],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, q: &[f64; 5], matrix: &mut [f64; 25]) {
-        let rows = mass_matrix(self, q);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, q: &[f64; 5], v: &[f64; 5], result: &mut [f64; 5]) {
-        *result = bias(self, q, v);
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 5], _: &[f64; 5], _: &Inputs, result: &mut [f64; 5]) {
-        *result = applied(self, q);
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 5], v: &[f64; 5], _: &Inputs, result: &mut [f64; 5]) {
-        *result = forces(self, q, v);
-    }
-
-    fn constraint_positions(&self, _: f64, q: &[f64; 5], to: &mut [f64]) {
-        fill(to, &constraint_positions(self, q));
-    }
-
-    fn constraint_rates(&self, _: f64, q: &[f64; 5], v: &[f64; 5], to: &mut [f64]) {
-        fill(to, &constraint_rates(self, q, v));
-    }
-
-    fn constraint_matrix(&self, _: f64, q: &[f64; 5], to: &mut [f64]) {
-        fill(to, &constraint_matrix(self, q));
-    }
-
-    fn constraint_drift(&self, _: f64, q: &[f64; 5], v: &[f64; 5], to: &mut [f64]) {
-        fill(to, &constraint_drift(self, q, v));
-    }
-
-    fn kinetic_energy(&self, _: f64, q: &[f64; 5], v: &[f64; 5]) -> f64 {
-        kinetic_energy(self, q, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 5], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 5], _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, _: &[f64; 5], _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> Outputs {
-        Outputs {}
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        _: &[f64; 5],
-        _: &[f64; 5],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        ::core::iter::empty()
-    }
-
-    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Constraint<'_>> {
-        CONSTRAINTS.iter().map(constraint)
-    }
-
-    fn multipliers(
-        &self,
-        _: f64,
-        q: &[f64; 5],
-        v: &[f64; 5],
-        _: &Inputs,
-        to: &mut [f64],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        fill(to, &multipliers(self, q, v)?);
-        Ok(())
-    }
-
-    fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::emitted::constraint_workspace(5, 4)];
-        work(room.get_mut(..length))
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 5];
-    type BatchInputs = Inputs;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            l: lanes(|p| p.l),
-            m: lanes(|p| p.m),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            k9: lanes(|p| p.k9),
-            k10: lanes(|p| p.k10),
-            k11: lanes(|p| p.k11),
-            k12: lanes(|p| p.k12),
-            k13: lanes(|p| p.k13),
-            k14: lanes(|p| p.k14),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(_: [&Inputs; N]) -> Self::BatchInputs {
-        Inputs {}
-    }
-
-    fn inputs_of_lane(_: &Self::BatchInputs, _: usize) -> Inputs {
-        Inputs {}
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        _: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q, v },
-            result,
-        )
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// A constraint, as it is called.
-fn constraint<'a>(
-    &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
-) -> ::lagrangian::emitted::Constraint<'a> {
-    ::lagrangian::emitted::Constraint {
-        name,
-        unit,
-        multiplier_unit,
-        holonomic,
-    }
-}
-
-/// Writes numbers where there is room for them.
-fn fill(to: &mut [f64], from: &[f64]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = *from;
-    }
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    if let Some(constraint) = coordinate.checked_sub(5) {
-        return ::lagrangian::emitted::Singular::constraint(constraint, pivot, diagonal);
-    }
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers []
 }

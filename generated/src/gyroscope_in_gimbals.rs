@@ -95,45 +95,6 @@ pub struct GyroscopeInGimbals<S = f64> {
     pub g: S,
 }
 
-impl Default for GyroscopeInGimbals {
-    fn default() -> Self {
-        Self {
-            A1: 0.002,
-            A2: 0.0012,
-            B2: 0.0008,
-            C2: 0.0008,
-            A3: 0.0015,
-            C3: 0.0025,
-            m1: 0.5,
-            m2: 0.4,
-            m3: 1.2,
-            w: 0.05,
-            d: 0.12,
-            g: 9.81,
-        }
-    }
-}
-
-impl<S> GyroscopeInGimbals<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> GyroscopeInGimbals<R> {
-        GyroscopeInGimbals {
-            A1: f(self.A1),
-            A2: f(self.A2),
-            B2: f(self.B2),
-            C2: f(self.C2),
-            A3: f(self.A3),
-            C3: f(self.C3),
-            m1: f(self.m1),
-            m2: f(self.m2),
-            m3: f(self.m3),
-            w: f(self.w),
-            d: f(self.d),
-            g: f(self.g),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> GyroscopeInGimbals<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -156,13 +117,7 @@ impl<S: ::lagrangian::emitted::Scalar> GyroscopeInGimbals<S> {
         let k12 = -self.C3;
         let k13 = t3 - t2;
         let k14 = -(S::ONE / k1);
-        let singular = if vanishes(self.C3, self.C3, 2.6645352591003757e-15) {
-            Some(singular(2, self.C3, self.C3))
-        } else if vanishes(k1, k1, 2.6645352591003757e-15) {
-            Some(singular(1, k1, k1))
-        } else {
-            None
-        };
+        let pivots = [(2, self.C3, self.C3), (1, k1, k1)];
         Prepared {
             A1: self.A1,
             A2: self.A2,
@@ -185,7 +140,7 @@ impl<S: ::lagrangian::emitted::Scalar> GyroscopeInGimbals<S> {
             k12,
             k13,
             k14,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -213,31 +168,6 @@ pub struct Coordinates<S = f64> {
     /// Turn of the rotor in the inner gimbal.
     /// Its speed: fast beside the rates that the weight makes. Unit: `rad`.
     pub gamma: S,
-}
-
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 3] {
-        [self.alpha, self.beta, self.gamma]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 3]) -> Self {
-        Self {
-            alpha: q[0],
-            beta: q[1],
-            gamma: q[2],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            alpha: f(self.alpha),
-            beta: f(self.beta),
-            gamma: f(self.gamma),
-        }
-    }
 }
 
 /// What can be set while a [`GyroscopeInGimbals`] runs.
@@ -303,6 +233,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 3,
+    tolerance: 2.6645352591003757e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -423,9 +360,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let beta_ddot = t6 * (cos_beta * n(p.k14));
         let gamma_ddot = sin_beta.mul_sub(t7, alpha_dot * t3);
         let t8 = t1.mul_add(n(p.k5), n(p.k3));
-        let sound = t4.exceeds(N::from_f64(2.6645352591003757e-15) * t8) & gamma_ddot.is_finite();
+        let sound = PIVOTS.hold(t4, t8) & gamma_ddot.is_finite();
         if !sound {
-            check(t4, t8, 2.6645352591003757e-15, 0)?;
+            let pivots = [(0, t4, t8)];
+            PIVOTS.check(pivots)?;
         }
         let accelerations = [alpha_ddot.store(), beta_ddot.store(), gamma_ddot.store()];
         Ok(accelerations)
@@ -518,336 +456,51 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
     }
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 12] = [
-    ("A1", "kg*m^2"),
-    ("A2", "kg*m^2"),
-    ("B2", "kg*m^2"),
-    ("C2", "kg*m^2"),
-    ("A3", "kg*m^2"),
-    ("C3", "kg*m^2"),
-    ("m1", "kg"),
-    ("m2", "kg"),
-    ("m3", "kg"),
-    ("w", "kg"),
-    ("d", "m"),
-    ("g", "m/s^2"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 3] = [("alpha", "rad"), ("beta", "rad"), ("gamma", "rad")];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 2] = [("rotor_momentum", "J*s"), ("vertical_momentum", "J*s")];
-
-impl ::lagrangian::emitted::Machine for GyroscopeInGimbals {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "GyroscopeInGimbals"
+::lagrangian::emitted::implement! {
+    machine GyroscopeInGimbals "GyroscopeInGimbals" over S, R;
+    parameters { A1, A2, B2, C2, A3, C3, m1, m2, m3, w, d, g } [
+        A1: "A1" "kg*m^2" = 0.002;
+        A2: "A2" "kg*m^2" = 0.0012;
+        B2: "B2" "kg*m^2" = 0.0008;
+        C2: "C2" "kg*m^2" = 0.0008;
+        A3: "A3" "kg*m^2" = 0.0015;
+        C3: "C3" "kg*m^2" = 0.0025;
+        m1: "m1" "kg" = 0.5;
+        m2: "m2" "kg" = 0.4;
+        m3: "m3" "kg" = 1.2;
+        w: "w" "kg" = 0.05;
+        d: "d" "m" = 0.12;
+        g: "g" "m/s^2" = 9.81;
+    ]
+    coordinates 3 Coordinates { alpha, beta, gamma } [
+        alpha: "alpha" "rad";
+        beta: "beta" "rad";
+        gamma: "gamma" "rad";
+    ]
+    inputs Inputs {} []
+    outputs Outputs { rotor_momentum, vertical_momentum } [
+        rotor_momentum: "rotor_momentum" "J*s";
+        vertical_momentum: "vertical_momentum" "J*s";
+    ]
+    prepared Prepared {
+        A1, A2, B2, C2, A3, C3, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14,
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [
-            self.A1, self.A2, self.B2, self.C2, self.A3, self.C3, self.m1, self.m2, self.m3,
-            self.w, self.d, self.g,
-        ];
-        quantities(&PARAMETERS, values)
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q);
+        vector forces(p, t, q, v, u) = forces(p, q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = outputs(p, q, v);
     }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.A1),
-            1 => Some(&mut self.A2),
-            2 => Some(&mut self.B2),
-            3 => Some(&mut self.C2),
-            4 => Some(&mut self.A3),
-            5 => Some(&mut self.C3),
-            6 => Some(&mut self.m1),
-            7 => Some(&mut self.m2),
-            8 => Some(&mut self.m3),
-            9 => Some(&mut self.w),
-            10 => Some(&mut self.d),
-            11 => Some(&mut self.g),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 3];
-    type Matrix = [f64; 9];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_BE_CONSTRAINED: bool = false;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 3]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 3] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 3],
-        v: &[f64; 3],
-        _: &Inputs,
-        result: &mut [f64; 3],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, q: &[f64; 3], matrix: &mut [f64; 9]) {
-        let rows = mass_matrix(self, q);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, q: &[f64; 3], v: &[f64; 3], result: &mut [f64; 3]) {
-        *result = bias(self, q, v);
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 3], _: &[f64; 3], _: &Inputs, result: &mut [f64; 3]) {
-        *result = applied(self, q);
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 3], v: &[f64; 3], _: &Inputs, result: &mut [f64; 3]) {
-        *result = forces(self, q, v);
-    }
-
-    fn kinetic_energy(&self, _: f64, q: &[f64; 3], v: &[f64; 3]) -> f64 {
-        kinetic_energy(self, q, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 3], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [outputs.rotor_momentum, outputs.vertical_momentum];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, q: &[f64; 3], v: &[f64; 3], _: &[f64; 3], _: &Inputs) -> Outputs {
-        outputs(self, q, v)
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        _: &[f64; 3],
-        _: &[f64; 3],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        ::core::iter::empty()
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 3];
-    type BatchInputs = Inputs;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            A1: lanes(|p| p.A1),
-            A2: lanes(|p| p.A2),
-            B2: lanes(|p| p.B2),
-            C2: lanes(|p| p.C2),
-            A3: lanes(|p| p.A3),
-            C3: lanes(|p| p.C3),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            k9: lanes(|p| p.k9),
-            k10: lanes(|p| p.k10),
-            k11: lanes(|p| p.k11),
-            k12: lanes(|p| p.k12),
-            k13: lanes(|p| p.k13),
-            k14: lanes(|p| p.k14),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(_: [&Inputs; N]) -> Self::BatchInputs {
-        Inputs {}
-    }
-
-    fn inputs_of_lane(_: &Self::BatchInputs, _: usize) -> Inputs {
-        Inputs {}
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        _: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q, v },
-            result,
-        )
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for GyroscopeInGimbals<S> {
-    type System = Prepared<S>;
-
-    fn prepare(&self) -> Prepared<S> {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
-        Self::start(self)
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
-    type Vector = [S; 3];
-    type Coordinates = Coordinates<S>;
-    type Inputs = Inputs;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[S; 3]) -> Coordinates<S> {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 3] {
-        coordinates.to_array()
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs {}
-    }
-
-    fn accelerations(
-        &self,
-        _: S,
-        q: &[S; 3],
-        v: &[S; 3],
-        _: &Inputs,
-        result: &mut [S; 3],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <S as ::lagrangian::emitted::Number>::run_in_place(Accelerations { p: self, q, v }, result)
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_BE_CONSTRAINED MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers [yes]
 }

@@ -58,31 +58,6 @@ pub struct HeavyTop<S = f64> {
     pub g: S,
 }
 
-impl Default for HeavyTop {
-    fn default() -> Self {
-        Self {
-            m: 15.0,
-            l: 1.0,
-            A: 0.234375,
-            C: 0.46875,
-            g: 9.81,
-        }
-    }
-}
-
-impl<S> HeavyTop<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> HeavyTop<R> {
-        HeavyTop {
-            m: f(self.m),
-            l: f(self.l),
-            A: f(self.A),
-            C: f(self.C),
-            g: f(self.g),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> HeavyTop<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -96,13 +71,7 @@ impl<S: ::lagrangian::emitted::Scalar> HeavyTop<S> {
         let k5 = k4 * S::from_f64(2.0);
         let k6 = -self.C;
         let k8 = -k7;
-        let singular = if vanishes(self.C, self.C, 2.6645352591003757e-15) {
-            Some(singular(2, self.C, self.C))
-        } else if vanishes(k1, k1, 2.6645352591003757e-15) {
-            Some(singular(1, k1, k1))
-        } else {
-            None
-        };
+        let pivots = [(2, self.C, self.C), (1, k1, k1)];
         Prepared {
             A: self.A,
             C: self.C,
@@ -115,7 +84,7 @@ impl<S: ::lagrangian::emitted::Scalar> HeavyTop<S> {
             k6,
             k7,
             k8,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -144,31 +113,6 @@ pub struct Coordinates<S = f64> {
     /// The spin with which it is let go: fast enough to carry it, at m g l/(C spin) = 2 rad/s.
     /// Unit: `rad`.
     pub phi: S,
-}
-
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 3] {
-        [self.psi, self.theta, self.phi]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 3]) -> Self {
-        Self {
-            psi: q[0],
-            theta: q[1],
-            phi: q[2],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            psi: f(self.psi),
-            theta: f(self.theta),
-            phi: f(self.phi),
-        }
-    }
 }
 
 /// What can be set while a [`HeavyTop`] runs.
@@ -212,6 +156,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 3,
+    tolerance: 2.6645352591003757e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -339,9 +290,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let theta_ddot = n(p.k7) * sin_phi.mul_sub(t10, cos_phi * t11);
         let phi_ddot = t12.mul_add(cos_theta * n(p.k7), sin_theta * t0);
         let t13 = cos_theta.mul_add(cos_theta * n(p.C), t7);
-        let sound = t7.exceeds(N::from_f64(2.6645352591003757e-15) * t13) & phi_ddot.is_finite();
+        let sound = PIVOTS.hold(t7, t13) & phi_ddot.is_finite();
         if !sound {
-            check(t7, t13, 2.6645352591003757e-15, 0)?;
+            let pivots = [(0, t7, t13)];
+            PIVOTS.check(pivots)?;
         }
         let accelerations = [psi_ddot.store(), theta_ddot.store(), phi_ddot.store()];
         Ok(accelerations)
@@ -437,319 +389,43 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
     }
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 5] = [
-    ("m", "kg"),
-    ("l", "m"),
-    ("A", "kg*m^2"),
-    ("C", "kg*m^2"),
-    ("g", "m/s^2"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 3] = [("psi", "rad"), ("theta", "rad"), ("phi", "rad")];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 2] = [("vertical_momentum", "J*s"), ("axial_momentum", "J*s")];
-
-impl ::lagrangian::emitted::Machine for HeavyTop {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "HeavyTop"
+::lagrangian::emitted::implement! {
+    machine HeavyTop "HeavyTop" over S, R;
+    parameters { m, l, A, C, g } [
+        m: "m" "kg" = 15.0;
+        l: "l" "m" = 1.0;
+        A: "A" "kg*m^2" = 0.234375;
+        C: "C" "kg*m^2" = 0.46875;
+        g: "g" "m/s^2" = 9.81;
+    ]
+    coordinates 3 Coordinates { psi, theta, phi } [
+        psi: "psi" "rad";
+        theta: "theta" "rad";
+        phi: "phi" "rad";
+    ]
+    inputs Inputs {} []
+    outputs Outputs { vertical_momentum, axial_momentum } [
+        vertical_momentum: "vertical_momentum" "J*s";
+        axial_momentum: "axial_momentum" "J*s";
+    ]
+    prepared Prepared { A, C, k0, k1, k2, k3, k4, k5, k6, k7, k8 }
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q);
+        vector forces(p, t, q, v, u) = forces(p, q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = outputs(p, q, v);
+        facts assumptions(p, t, q, v, u) = [("sin(theta) > 0", true, assumption_0(q))];
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [self.m, self.l, self.A, self.C, self.g];
-        quantities(&PARAMETERS, values)
-    }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.m),
-            1 => Some(&mut self.l),
-            2 => Some(&mut self.A),
-            3 => Some(&mut self.C),
-            4 => Some(&mut self.g),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 3];
-    type Matrix = [f64; 9];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_BE_CONSTRAINED: bool = false;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 3]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 3] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 3],
-        v: &[f64; 3],
-        _: &Inputs,
-        result: &mut [f64; 3],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, q: &[f64; 3], matrix: &mut [f64; 9]) {
-        let rows = mass_matrix(self, q);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, q: &[f64; 3], v: &[f64; 3], result: &mut [f64; 3]) {
-        *result = bias(self, q, v);
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 3], _: &[f64; 3], _: &Inputs, result: &mut [f64; 3]) {
-        *result = applied(self, q);
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 3], v: &[f64; 3], _: &Inputs, result: &mut [f64; 3]) {
-        *result = forces(self, q, v);
-    }
-
-    fn kinetic_energy(&self, _: f64, q: &[f64; 3], v: &[f64; 3]) -> f64 {
-        kinetic_energy(self, q, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 3], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [outputs.vertical_momentum, outputs.axial_momentum];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, q: &[f64; 3], v: &[f64; 3], _: &[f64; 3], _: &Inputs) -> Outputs {
-        outputs(self, q, v)
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        q: &[f64; 3],
-        _: &[f64; 3],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        let facts = [assumption("sin(theta) > 0", true, assumption_0(q))];
-        facts.into_iter()
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 3];
-    type BatchInputs = Inputs;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            A: lanes(|p| p.A),
-            C: lanes(|p| p.C),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(_: [&Inputs; N]) -> Self::BatchInputs {
-        Inputs {}
-    }
-
-    fn inputs_of_lane(_: &Self::BatchInputs, _: usize) -> Inputs {
-        Inputs {}
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        _: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q, v },
-            result,
-        )
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for HeavyTop<S> {
-    type System = Prepared<S>;
-
-    fn prepare(&self) -> Prepared<S> {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
-        Self::start(self)
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
-    type Vector = [S; 3];
-    type Coordinates = Coordinates<S>;
-    type Inputs = Inputs;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[S; 3]) -> Coordinates<S> {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 3] {
-        coordinates.to_array()
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs {}
-    }
-
-    fn accelerations(
-        &self,
-        _: S,
-        q: &[S; 3],
-        v: &[S; 3],
-        _: &Inputs,
-        result: &mut [S; 3],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <S as ::lagrangian::emitted::Number>::run_in_place(Accelerations { p: self, q, v }, result)
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// A fact and by how much it holds.
-fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::emitted::Assumption<'_> {
-    ::lagrangian::emitted::Assumption {
-        text,
-        margin,
-        strict,
-    }
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_BE_CONSTRAINED MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers [yes]
 }

@@ -65,31 +65,6 @@ pub struct KapitzaPendulum<S = f64> {
     pub g: S,
 }
 
-impl Default for KapitzaPendulum {
-    fn default() -> Self {
-        Self {
-            m: 1.0,
-            l: 1.0,
-            a: 0.1,
-            omega: 88.0,
-            g: 9.81,
-        }
-    }
-}
-
-impl<S> KapitzaPendulum<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> KapitzaPendulum<R> {
-        KapitzaPendulum {
-            m: f(self.m),
-            l: f(self.l),
-            a: f(self.a),
-            omega: f(self.omega),
-            g: f(self.g),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> KapitzaPendulum<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -105,11 +80,7 @@ impl<S: ::lagrangian::emitted::Scalar> KapitzaPendulum<S> {
         let k8 = self.m * k0;
         let k9 = k1 * t0;
         let k10 = S::ONE / k5;
-        let singular = if vanishes(k5, k5, 8.881784197001252e-16) {
-            Some(singular(0, k5, k5))
-        } else {
-            None
-        };
+        let pivots = [(0, k5, k5)];
         Prepared {
             m: self.m,
             l: self.l,
@@ -127,7 +98,7 @@ impl<S: ::lagrangian::emitted::Scalar> KapitzaPendulum<S> {
             k8,
             k9,
             k10,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -149,25 +120,6 @@ impl<S: ::lagrangian::emitted::Scalar> KapitzaPendulum<S> {
 pub struct Coordinates<S = f64> {
     /// Angle of the rod from the upward vertical. Unit: `rad`.
     pub theta: S,
-}
-
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 1] {
-        [self.theta]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 1]) -> Self {
-        Self { theta: q[0] }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            theta: f(self.theta),
-        }
-    }
 }
 
 /// What can be set while a [`KapitzaPendulum`] runs.
@@ -219,6 +171,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 1,
+    tolerance: 8.881784197001252e-16,
+};
 
 /// Mass matrix `M`.
 ///
@@ -407,298 +366,39 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
     }
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 5] = [
-    ("m", "kg"),
-    ("l", "m"),
-    ("a", "m"),
-    ("omega", "rad/s"),
-    ("g", "m/s^2"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 1] = [("theta", "rad")];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 1] = [("force", "N")];
-
-impl ::lagrangian::emitted::Machine for KapitzaPendulum {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "KapitzaPendulum"
+::lagrangian::emitted::implement! {
+    machine KapitzaPendulum "KapitzaPendulum" over S, R;
+    parameters { m, l, a, omega, g } [
+        m: "m" "kg" = 1.0;
+        l: "l" "m" = 1.0;
+        a: "a" "m" = 0.1;
+        omega: "omega" "rad/s" = 88.0;
+        g: "g" "m/s^2" = 9.81;
+    ]
+    coordinates 1 Coordinates { theta } [
+        theta: "theta" "rad";
+    ]
+    inputs Inputs {} []
+    outputs Outputs { force } [
+        force: "force" "N";
+    ]
+    prepared Prepared { m, l, a, omega, g, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10 }
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, t, q } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p);
+        vector bias(p, t, q, v) = bias(p, t, q);
+        vector applied(p, t, q, v, u) = applied(p, q);
+        vector forces(p, t, q, v, u) = forces(p, t, q);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, t, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, t, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u) = work_rate(p, t, q, v, a);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = outputs(p, t, q, v, a);
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [self.m, self.l, self.a, self.omega, self.g];
-        quantities(&PARAMETERS, values)
-    }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.m),
-            1 => Some(&mut self.l),
-            2 => Some(&mut self.a),
-            3 => Some(&mut self.omega),
-            4 => Some(&mut self.g),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 1];
-    type Matrix = [f64; 1];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_BE_CONSTRAINED: bool = false;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 1]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 1] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        t: f64,
-        q: &[f64; 1],
-        _: &[f64; 1],
-        _: &Inputs,
-        result: &mut [f64; 1],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, t, q },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, _: &[f64; 1], matrix: &mut [f64; 1]) {
-        let rows = mass_matrix(self);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, t: f64, q: &[f64; 1], _: &[f64; 1], result: &mut [f64; 1]) {
-        *result = bias(self, t, q);
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 1], _: &[f64; 1], _: &Inputs, result: &mut [f64; 1]) {
-        *result = applied(self, q);
-    }
-
-    fn forces(&self, t: f64, q: &[f64; 1], _: &[f64; 1], _: &Inputs, result: &mut [f64; 1]) {
-        *result = forces(self, t, q);
-    }
-
-    fn kinetic_energy(&self, t: f64, q: &[f64; 1], v: &[f64; 1]) -> f64 {
-        kinetic_energy(self, t, q, v)
-    }
-
-    fn potential_energy(&self, t: f64, q: &[f64; 1], _: &Inputs) -> f64 {
-        potential_energy(self, t, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 1], _: &[f64; 1], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, t: f64, q: &[f64; 1], v: &[f64; 1], a: &[f64; 1], _: &Inputs) -> f64 {
-        work_rate(self, t, q, v, a)
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 1], _: &[f64; 1], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [outputs.force];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, t: f64, q: &[f64; 1], v: &[f64; 1], a: &[f64; 1], _: &Inputs) -> Outputs {
-        outputs(self, t, q, v, a)
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        _: &[f64; 1],
-        _: &[f64; 1],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        ::core::iter::empty()
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 1];
-    type BatchInputs = Inputs;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            m: lanes(|p| p.m),
-            l: lanes(|p| p.l),
-            a: lanes(|p| p.a),
-            omega: lanes(|p| p.omega),
-            g: lanes(|p| p.g),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            k9: lanes(|p| p.k9),
-            k10: lanes(|p| p.k10),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(_: [&Inputs; N]) -> Self::BatchInputs {
-        Inputs {}
-    }
-
-    fn inputs_of_lane(_: &Self::BatchInputs, _: usize) -> Inputs {
-        Inputs {}
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        t: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        _: &Self::Vectors,
-        _: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, t, q },
-            result,
-        )
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for KapitzaPendulum<S> {
-    type System = Prepared<S>;
-
-    fn prepare(&self) -> Prepared<S> {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
-        Self::start(self)
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
-    type Vector = [S; 1];
-    type Coordinates = Coordinates<S>;
-    type Inputs = Inputs;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[S; 1]) -> Coordinates<S> {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 1] {
-        coordinates.to_array()
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs {}
-    }
-
-    fn accelerations(
-        &self,
-        t: S,
-        q: &[S; 1],
-        _: &[S; 1],
-        _: &Inputs,
-        result: &mut [S; 1],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <S as ::lagrangian::emitted::Number>::run_in_place(Accelerations { p: self, t, q }, result)
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_BE_CONSTRAINED MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers [yes]
 }

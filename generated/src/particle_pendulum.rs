@@ -51,31 +51,6 @@ pub struct ParticlePendulum<S = f64> {
     pub g: S,
 }
 
-impl Default for ParticlePendulum {
-    fn default() -> Self {
-        Self {
-            m1: 1.0,
-            m2: 1.0,
-            l1: 1.0,
-            l2: 1.0,
-            g: 9.81,
-        }
-    }
-}
-
-impl<S> ParticlePendulum<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> ParticlePendulum<R> {
-        ParticlePendulum {
-            m1: f(self.m1),
-            m2: f(self.m2),
-            l1: f(self.l1),
-            l2: f(self.l2),
-            g: f(self.g),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> ParticlePendulum<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -96,17 +71,12 @@ impl<S: ::lagrangian::emitted::Scalar> ParticlePendulum<S> {
         let k14 = S::ONE / self.m1;
         let k15 = S::ONE / self.m2;
         let k16 = self.g * k1;
-        let singular = if vanishes(self.m1, self.m1, 5.329070518200751e-15) {
-            Some(singular(0, self.m1, self.m1))
-        } else if vanishes(self.m1, self.m1, 5.329070518200751e-15) {
-            Some(singular(1, self.m1, self.m1))
-        } else if vanishes(self.m2, self.m2, 5.329070518200751e-15) {
-            Some(singular(2, self.m2, self.m2))
-        } else if vanishes(self.m2, self.m2, 5.329070518200751e-15) {
-            Some(singular(3, self.m2, self.m2))
-        } else {
-            None
-        };
+        let pivots = [
+            (0, self.m1, self.m1),
+            (1, self.m1, self.m1),
+            (2, self.m2, self.m2),
+            (3, self.m2, self.m2),
+        ];
         Prepared {
             m1: self.m1,
             m2: self.m2,
@@ -128,7 +98,7 @@ impl<S: ::lagrangian::emitted::Scalar> ParticlePendulum<S> {
             k14,
             k15,
             k16,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -160,33 +130,6 @@ pub struct Coordinates<S = f64> {
     pub x2: S,
     /// `y2`. Unit: `m`.
     pub y2: S,
-}
-
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 4] {
-        [self.x1, self.y1, self.x2, self.y2]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 4]) -> Self {
-        Self {
-            x1: q[0],
-            y1: q[1],
-            x2: q[2],
-            y2: q[3],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            x1: f(self.x1),
-            y1: f(self.y1),
-            x2: f(self.x2),
-            y2: f(self.y2),
-        }
-    }
 }
 
 /// What can be set while a [`ParticlePendulum`] runs.
@@ -243,6 +186,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 4,
+    tolerance: 5.329070518200751e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -435,12 +385,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let y1_ddot = t5.mul_sub(t21, t11.mul_add(t20, n(p.g)));
         let x2_ddot = t8 * t20;
         let y2_ddot = t10.mul_sub(t20, n(p.g));
-        let sound = t14.exceeds(N::from_f64(5.329070518200751e-15) * t14)
-            & t19.exceeds(N::from_f64(5.329070518200751e-15) * t17)
-            & y1_ddot.is_finite();
+        let sound = PIVOTS.hold(t14, t14) & PIVOTS.hold(t19, t17) & y1_ddot.is_finite();
         if !sound {
-            check(t14, t14, 5.329070518200751e-15, 4)?;
-            check(t19, t17, 5.329070518200751e-15, 5)?;
+            let pivots = [(4, t14, t14), (5, t19, t17)];
+            PIVOTS.check(pivots)?;
         }
         let accelerations = [
             x1_ddot.store(),
@@ -514,12 +462,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t20 = t18.neg_mul_add(t12, t8.neg_mul_add(n(p.k6), t17)) / t19;
         let lambda1 = t18.mul_sub(t20, t13 * t12);
         let lambda2 = -t20;
-        let sound = t10.exceeds(N::from_f64(5.329070518200751e-15) * t10)
-            & t19.exceeds(N::from_f64(5.329070518200751e-15) * t16)
-            & lambda2.is_finite();
+        let sound = PIVOTS.hold(t10, t10) & PIVOTS.hold(t19, t16) & lambda2.is_finite();
         if !sound {
-            check(t10, t10, 5.329070518200751e-15, 4)?;
-            check(t19, t16, 5.329070518200751e-15, 5)?;
+            let pivots = [(4, t10, t10), (5, t19, t16)];
+            PIVOTS.check(pivots)?;
         }
         let multipliers = [lambda1.store(), lambda2.store()];
         Ok(multipliers)
@@ -551,335 +497,49 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     p.k7 * y2 + p.k6 * y1
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 5] = [
-    ("m1", "kg"),
-    ("m2", "kg"),
-    ("l1", "m"),
-    ("l2", "m"),
-    ("g", "m/s^2"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 4] = [("x1", "m"), ("y1", "m"), ("x2", "m"), ("y2", "m")];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 0] = [];
-
-/// Names, units, units of multipliers, whether positions are constrained.
-const CONSTRAINTS: [(&str, &str, &str, bool); 2] =
-    [("upper_rod", "m", "N", true), ("lower_rod", "m", "N", true)];
-
-impl ::lagrangian::emitted::Machine for ParticlePendulum {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "ParticlePendulum"
+::lagrangian::emitted::implement! {
+    machine ParticlePendulum "ParticlePendulum" over S, R;
+    parameters { m1, m2, l1, l2, g } [
+        m1: "m1" "kg" = 1.0;
+        m2: "m2" "kg" = 1.0;
+        l1: "l1" "m" = 1.0;
+        l2: "l2" "m" = 1.0;
+        g: "g" "m/s^2" = 9.81;
+    ]
+    coordinates 4 Coordinates { x1, y1, x2, y2 } [
+        x1: "x1" "m";
+        y1: "y1" "m";
+        x2: "x2" "m";
+        y2: "y2" "m";
+    ]
+    inputs Inputs {} []
+    outputs Outputs {} []
+    prepared Prepared {
+        m1, m2, g, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16,
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [self.m1, self.m2, self.l1, self.l2, self.g];
-        quantities(&PARAMETERS, values)
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p);
+        vector bias(p, t, q, v);
+        vector applied(p, t, q, v, u) = applied(p);
+        vector forces(p, t, q, v, u) = forces(p);
+        numbers constraint_positions(p, t, q) = constraint_positions(p, q);
+        numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
+        numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
+        numbers constraint_drift(p, t, q, v) = constraint_drift(p, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = Outputs {};
+        constraints constraints(p) = [("upper_rod", "m", "N", true), ("lower_rod", "m", "N", true)];
+        solved multipliers(p, t, q, v, u) = multipliers(p, q, v);
+        workspace with_workspace(p) = ::lagrangian::emitted::constraint_workspace(4, 2);
     }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.m1),
-            1 => Some(&mut self.m2),
-            2 => Some(&mut self.l1),
-            3 => Some(&mut self.l2),
-            4 => Some(&mut self.g),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 4];
-    type Matrix = [f64; 16];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 4]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 4] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 4],
-        v: &[f64; 4],
-        _: &Inputs,
-        result: &mut [f64; 4],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, _: &[f64; 4], matrix: &mut [f64; 16]) {
-        let rows = mass_matrix(self);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, _: &[f64; 4], _: &[f64; 4], result: &mut [f64; 4]) {
-        *result = [0.0; 4];
-    }
-
-    fn applied(&self, _: f64, _: &[f64; 4], _: &[f64; 4], _: &Inputs, result: &mut [f64; 4]) {
-        *result = applied(self);
-    }
-
-    fn forces(&self, _: f64, _: &[f64; 4], _: &[f64; 4], _: &Inputs, result: &mut [f64; 4]) {
-        *result = forces(self);
-    }
-
-    fn constraint_positions(&self, _: f64, q: &[f64; 4], to: &mut [f64]) {
-        fill(to, &constraint_positions(self, q));
-    }
-
-    fn constraint_rates(&self, _: f64, q: &[f64; 4], v: &[f64; 4], to: &mut [f64]) {
-        fill(to, &constraint_rates(self, q, v));
-    }
-
-    fn constraint_matrix(&self, _: f64, q: &[f64; 4], to: &mut [f64]) {
-        fill(to, &constraint_matrix(self, q));
-    }
-
-    fn constraint_drift(&self, _: f64, _: &[f64; 4], v: &[f64; 4], to: &mut [f64]) {
-        fill(to, &constraint_drift(self, v));
-    }
-
-    fn kinetic_energy(&self, _: f64, _: &[f64; 4], v: &[f64; 4]) -> f64 {
-        kinetic_energy(self, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 4], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 4], _: &[f64; 4], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 4], _: &[f64; 4], _: &[f64; 4], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 4], _: &[f64; 4], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, _: &[f64; 4], _: &[f64; 4], _: &[f64; 4], _: &Inputs) -> Outputs {
-        Outputs {}
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        _: &[f64; 4],
-        _: &[f64; 4],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        ::core::iter::empty()
-    }
-
-    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Constraint<'_>> {
-        CONSTRAINTS.iter().map(constraint)
-    }
-
-    fn multipliers(
-        &self,
-        _: f64,
-        q: &[f64; 4],
-        v: &[f64; 4],
-        _: &Inputs,
-        to: &mut [f64],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        fill(to, &multipliers(self, q, v)?);
-        Ok(())
-    }
-
-    fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::emitted::constraint_workspace(4, 2)];
-        work(room.get_mut(..length))
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 4];
-    type BatchInputs = Inputs;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            m1: lanes(|p| p.m1),
-            m2: lanes(|p| p.m2),
-            g: lanes(|p| p.g),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            k9: lanes(|p| p.k9),
-            k10: lanes(|p| p.k10),
-            k11: lanes(|p| p.k11),
-            k12: lanes(|p| p.k12),
-            k13: lanes(|p| p.k13),
-            k14: lanes(|p| p.k14),
-            k15: lanes(|p| p.k15),
-            k16: lanes(|p| p.k16),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(_: [&Inputs; N]) -> Self::BatchInputs {
-        Inputs {}
-    }
-
-    fn inputs_of_lane(_: &Self::BatchInputs, _: usize) -> Inputs {
-        Inputs {}
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        _: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q, v },
-            result,
-        )
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// A constraint, as it is called.
-fn constraint<'a>(
-    &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
-) -> ::lagrangian::emitted::Constraint<'a> {
-    ::lagrangian::emitted::Constraint {
-        name,
-        unit,
-        multiplier_unit,
-        holonomic,
-    }
-}
-
-/// Writes numbers where there is room for them.
-fn fill(to: &mut [f64], from: &[f64]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = *from;
-    }
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    if let Some(constraint) = coordinate.checked_sub(4) {
-        return ::lagrangian::emitted::Singular::constraint(constraint, pivot, diagonal);
-    }
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers []
 }

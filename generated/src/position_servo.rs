@@ -70,47 +70,6 @@ pub struct PositionServo<S = f64> {
     pub g: S,
 }
 
-impl Default for PositionServo {
-    fn default() -> Self {
-        Self {
-            m: 1.2,
-            a: 0.25,
-            J: 0.04,
-            n: 40.0,
-            L: 0.002,
-            R: 0.5,
-            k: 0.05,
-            b: 0.3,
-            kp: 30.0,
-            ki: 40.0,
-            kd: 4.0,
-            tau: 0.01,
-            g: 9.81,
-        }
-    }
-}
-
-impl<S> PositionServo<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> PositionServo<R> {
-        PositionServo {
-            m: f(self.m),
-            a: f(self.a),
-            J: f(self.J),
-            n: f(self.n),
-            L: f(self.L),
-            R: f(self.R),
-            k: f(self.k),
-            b: f(self.b),
-            kp: f(self.kp),
-            ki: f(self.ki),
-            kd: f(self.kd),
-            tau: f(self.tau),
-            g: f(self.g),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> PositionServo<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -126,17 +85,7 @@ impl<S: ::lagrangian::emitted::Scalar> PositionServo<S> {
         let k8 = t0 * self.g;
         let k9 = -(S::ONE / k6);
         let one = S::ONE;
-        let singular = if vanishes(one, one, 3.552713678800501e-15) {
-            Some(singular(1, one, one))
-        } else if vanishes(one, one, 3.552713678800501e-15) {
-            Some(singular(2, one, one))
-        } else if vanishes(one, one, 3.552713678800501e-15) {
-            Some(singular(3, one, one))
-        } else if vanishes(k6, k6, 3.552713678800501e-15) {
-            Some(singular(0, k6, k6))
-        } else {
-            None
-        };
+        let pivots = [(1, one, one), (2, one, one), (3, one, one), (0, k6, k6)];
         Prepared {
             R: self.R,
             b: self.b,
@@ -152,7 +101,7 @@ impl<S: ::lagrangian::emitted::Scalar> PositionServo<S> {
             k7,
             k8,
             k9,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -185,53 +134,11 @@ pub struct Coordinates<S = f64> {
     pub error: S,
 }
 
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 4] {
-        [self.theta, self.i, self.seen, self.error]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 4]) -> Self {
-        Self {
-            theta: q[0],
-            i: q[1],
-            seen: q[2],
-            error: q[3],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            theta: f(self.theta),
-            i: f(self.i),
-            seen: f(self.seen),
-            error: f(self.error),
-        }
-    }
-}
-
 /// What can be set while a [`PositionServo`] runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inputs<S = f64> {
     /// Where the arm is wanted. Unit: `rad`. Default: 0.
     pub wanted: S,
-}
-
-impl Default for Inputs {
-    fn default() -> Self {
-        Self { wanted: 0.0 }
-    }
-}
-
-impl<S> Inputs<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Inputs<R> {
-        Inputs {
-            wanted: f(self.wanted),
-        }
-    }
 }
 
 /// What can be observed of a [`PositionServo`].
@@ -275,6 +182,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 4,
+    tolerance: 3.552713678800501e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -511,332 +425,53 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
     }
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 13] = [
-    ("m", "kg"),
-    ("a", "m"),
-    ("J", "kg*m^2"),
-    ("n", "1"),
-    ("L", "H"),
-    ("R", "ohm"),
-    ("k", "N*m/A"),
-    ("b", "N*m*s"),
-    ("kp", "V"),
-    ("ki", "V/s"),
-    ("kd", "V*s"),
-    ("tau", "s"),
-    ("g", "m/s^2"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 4] = [
-    ("theta", "rad"),
-    ("integral(i)", "A*s"),
-    ("integral(seen)", "rad*s"),
-    ("integral(error)", "rad*s*s"),
-];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 1] = [("wanted", "rad")];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 1] = [("voltage", "V")];
-
-impl ::lagrangian::emitted::Machine for PositionServo {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "PositionServo"
+::lagrangian::emitted::implement! {
+    machine PositionServo "PositionServo" over S, R;
+    parameters { m, a, J, n, L, R, k, b, kp, ki, kd, tau, g } [
+        m: "m" "kg" = 1.2;
+        a: "a" "m" = 0.25;
+        J: "J" "kg*m^2" = 0.04;
+        n: "n" "1" = 40.0;
+        L: "L" "H" = 0.002;
+        R: "R" "ohm" = 0.5;
+        k: "k" "N*m/A" = 0.05;
+        b: "b" "N*m*s" = 0.3;
+        kp: "kp" "V" = 30.0;
+        ki: "ki" "V/s" = 40.0;
+        kd: "kd" "V*s" = 4.0;
+        tau: "tau" "s" = 0.01;
+        g: "g" "m/s^2" = 9.81;
+    ]
+    coordinates 4 Coordinates { theta, i, seen, error } [
+        theta: "theta" "rad";
+        i: "integral(i)" "A*s";
+        seen: "integral(seen)" "rad*s";
+        error: "integral(error)" "rad*s*s";
+    ]
+    inputs Inputs { wanted } [
+        wanted: "wanted" "rad" = 0.0;
+    ] over S
+    outputs Outputs { voltage } [
+        voltage: "voltage" "V";
+    ]
+    prepared Prepared { R, b, kp, ki, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9 }
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, q, v, u } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p);
+        vector bias(p, t, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q, v, u);
+        vector forces(p, t, q, v, u) = forces(p, q, v, u);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number state_energy(p, t, q, v) = state_energy(p, v);
+        number dissipation(p, t, q, v, u) = dissipation(p, v);
+        number work_rate(p, t, q, v, a, u) = work_rate(p, q, v, u);
+        number dissipation_rate(p, t, q, v, u) = dissipation_rate(p, v);
+        outputs outputs(p, t, q, v, a, u) = outputs(p, q, v, u);
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [
-            self.m, self.a, self.J, self.n, self.L, self.R, self.k, self.b, self.kp, self.ki,
-            self.kd, self.tau, self.g,
-        ];
-        quantities(&PARAMETERS, values)
-    }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.m),
-            1 => Some(&mut self.a),
-            2 => Some(&mut self.J),
-            3 => Some(&mut self.n),
-            4 => Some(&mut self.L),
-            5 => Some(&mut self.R),
-            6 => Some(&mut self.k),
-            7 => Some(&mut self.b),
-            8 => Some(&mut self.kp),
-            9 => Some(&mut self.ki),
-            10 => Some(&mut self.kd),
-            11 => Some(&mut self.tau),
-            12 => Some(&mut self.g),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 4];
-    type Matrix = [f64; 16];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_BE_CONSTRAINED: bool = false;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 4]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 4] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 4],
-        v: &[f64; 4],
-        u: &Inputs,
-        result: &mut [f64; 4],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v, u },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, _: &[f64; 4], matrix: &mut [f64; 16]) {
-        let rows = mass_matrix(self);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, _: &[f64; 4], _: &[f64; 4], result: &mut [f64; 4]) {
-        *result = [0.0; 4];
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 4], v: &[f64; 4], u: &Inputs, result: &mut [f64; 4]) {
-        *result = applied(self, q, v, u);
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 4], v: &[f64; 4], u: &Inputs, result: &mut [f64; 4]) {
-        *result = forces(self, q, v, u);
-    }
-
-    fn kinetic_energy(&self, _: f64, _: &[f64; 4], v: &[f64; 4]) -> f64 {
-        kinetic_energy(self, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 4], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn state_energy(&self, _: f64, _: &[f64; 4], v: &[f64; 4]) -> f64 {
-        state_energy(self, v)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 4], v: &[f64; 4], _: &Inputs) -> f64 {
-        dissipation(self, v)
-    }
-
-    fn work_rate(&self, _: f64, q: &[f64; 4], v: &[f64; 4], _: &[f64; 4], u: &Inputs) -> f64 {
-        work_rate(self, q, v, u)
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 4], v: &[f64; 4], _: &Inputs) -> f64 {
-        dissipation_rate(self, v)
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        inputs: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [inputs.wanted];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [outputs.voltage];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, q: &[f64; 4], v: &[f64; 4], _: &[f64; 4], u: &Inputs) -> Outputs {
-        outputs(self, q, v, u)
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        _: &[f64; 4],
-        _: &[f64; 4],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        ::core::iter::empty()
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 4];
-    type BatchInputs = Inputs<::lagrangian::emitted::Lanes<N>>;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            R: lanes(|p| p.R),
-            b: lanes(|p| p.b),
-            kp: lanes(|p| p.kp),
-            ki: lanes(|p| p.ki),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            k9: lanes(|p| p.k9),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(inputs: [&Inputs; N]) -> Self::BatchInputs {
-        let lanes = |number: fn(&Inputs) -> f64| ::lagrangian::emitted::Lanes(inputs.map(number));
-        Inputs {
-            wanted: lanes(|u| u.wanted),
-        }
-    }
-
-    fn inputs_of_lane(inputs: &Self::BatchInputs, lane: usize) -> Inputs {
-        Inputs {
-            wanted: inputs.wanted[lane],
-        }
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        u: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q, v, u },
-            result,
-        )
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for PositionServo<S> {
-    type System = Prepared<S>;
-
-    fn prepare(&self) -> Prepared<S> {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
-        Self::start(self)
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
-    type Vector = [S; 4];
-    type Coordinates = Coordinates<S>;
-    type Inputs = Inputs<S>;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[S; 4]) -> Coordinates<S> {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 4] {
-        coordinates.to_array()
-    }
-
-    fn default_inputs(&self) -> Inputs<S> {
-        <Inputs>::default().map(S::from_f64)
-    }
-
-    fn accelerations(
-        &self,
-        _: S,
-        q: &[S; 4],
-        v: &[S; 4],
-        u: &Inputs<S>,
-        result: &mut [S; 4],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <S as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v, u },
-            result,
-        )
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_BE_CONSTRAINED MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers [yes]
 }

@@ -53,33 +53,6 @@ pub struct Prisms<S = f64> {
     pub g: S,
 }
 
-impl Default for Prisms {
-    fn default() -> Self {
-        Self {
-            m: 2.4615384615384617,
-            M: 1.5384615384615385,
-            alpha: 0.7853981633974483,
-            mu1: 0.1,
-            mu2: 0.02,
-            g: 9.81,
-        }
-    }
-}
-
-impl<S> Prisms<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Prisms<R> {
-        Prisms {
-            m: f(self.m),
-            M: f(self.M),
-            alpha: f(self.alpha),
-            mu1: f(self.mu1),
-            mu2: f(self.mu2),
-            g: f(self.g),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> Prisms<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -114,13 +87,7 @@ impl<S: ::lagrangian::emitted::Scalar> Prisms<S> {
         let k19 = -(t2 * t6);
         let k20 = -(t3 * k15);
         let k21 = -(k6 * t6);
-        let singular = if vanishes(k1, k1, 1.7763568394002505e-15) {
-            Some(singular(0, k1, k1))
-        } else if vanishes(pivot_1, k5, 1.7763568394002505e-15) {
-            Some(singular(1, pivot_1, k5))
-        } else {
-            None
-        };
+        let pivots = [(0, k1, k1), (1, pivot_1, k5)];
         Prepared {
             k0,
             k1,
@@ -146,7 +113,7 @@ impl<S: ::lagrangian::emitted::Scalar> Prisms<S> {
             k19,
             k20,
             k21,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -170,26 +137,6 @@ pub struct Coordinates<S = f64> {
     pub q1: S,
     /// How far the other has moved on it, horizontally and to the other side. Unit: `m`.
     pub q2: S,
-}
-
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 2] {
-        [self.q1, self.q2]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 2]) -> Self {
-        Self { q1: q[0], q2: q[1] }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            q1: f(self.q1),
-            q2: f(self.q2),
-        }
-    }
 }
 
 /// What can be set while a [`Prisms`] runs.
@@ -254,6 +201,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 2,
+    tolerance: 1.7763568394002505e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -385,272 +339,49 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     p.k8 * q2
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 6] = [
-    ("m", "kg"),
-    ("M", "kg"),
-    ("alpha", "rad"),
-    ("mu1", "1"),
-    ("mu2", "1"),
-    ("g", "m/s^2"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 2] = [("q1", "m"), ("q2", "m")];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 0] = [];
-
-/// The names of the contacts that stick and slide.
-const CONTACTS: [&str; 2] = ["floor", "incline"];
-
-impl ::lagrangian::emitted::Machine for Prisms {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "Prisms"
+::lagrangian::emitted::implement! {
+    machine Prisms "Prisms" over S, R;
+    parameters { m, M, alpha, mu1, mu2, g } [
+        m: "m" "kg" = 2.4615384615384617;
+        M: "M" "kg" = 1.5384615384615385;
+        alpha: "alpha" "rad" = 0.7853981633974483;
+        mu1: "mu1" "1" = 0.1;
+        mu2: "mu2" "1" = 0.02;
+        g: "g" "m/s^2" = 9.81;
+    ]
+    coordinates 2 Coordinates { q1, q2 } [
+        q1: "q1" "m";
+        q2: "q2" "m";
+    ]
+    inputs Inputs {} []
+    outputs Outputs {} []
+    prepared Prepared {
+        k0, k1, k2, k3, k4, k5, k6, k7, k8, mu2, mu1, k9, k10, k11, k12, k13, k14, k15, k16, k17,
+        k18, k19, k20, k21,
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [self.m, self.M, self.alpha, self.mu1, self.mu2, self.g];
-        quantities(&PARAMETERS, values)
+    singular singular
+    accelerations friction
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p);
+        vector bias(p, t, q, v);
+        vector applied(p, t, q, v, u) = applied(p);
+        vector forces(p, t, q, v, u) = forces(p);
+        numbers slips(p, t, q, v) = slips(p, v);
+        numbers slip_matrix(p, t, q) = slip_matrix(p);
+        numbers slip_drift(p, t, q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = Outputs {};
+        names contacts(p) = ["floor", "incline"];
+        ranges slip_ranges(p, v) = slips(p, v);
+        solved friction(p, t, q, v, u) = friction(p);
+        workspace with_workspace(p) = ::lagrangian::emitted::contact_workspace(2, 0, 2);
     }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.m),
-            1 => Some(&mut self.M),
-            2 => Some(&mut self.alpha),
-            3 => Some(&mut self.mu1),
-            4 => Some(&mut self.mu2),
-            5 => Some(&mut self.g),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 2];
-    type Matrix = [f64; 4];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_BE_CONSTRAINED: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 2]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 2] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        t: f64,
-        q: &[f64; 2],
-        v: &[f64; 2],
-        u: &Inputs,
-        result: &mut [f64; 2],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        ::lagrangian::emitted::accelerations_with_friction(self, t, q, v, u, result)
-    }
-
-    fn mass_matrix(&self, _: f64, _: &[f64; 2], matrix: &mut [f64; 4]) {
-        let rows = mass_matrix(self);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, _: &[f64; 2], _: &[f64; 2], result: &mut [f64; 2]) {
-        *result = [0.0; 2];
-    }
-
-    fn applied(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &Inputs, result: &mut [f64; 2]) {
-        *result = applied(self);
-    }
-
-    fn forces(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &Inputs, result: &mut [f64; 2]) {
-        *result = forces(self);
-    }
-
-    fn slips(&self, _: f64, _: &[f64; 2], v: &[f64; 2], to: &mut [f64]) {
-        fill(to, &slips(self, v));
-    }
-
-    fn slip_matrix(&self, _: f64, _: &[f64; 2], to: &mut [f64]) {
-        fill(to, &slip_matrix(self));
-    }
-
-    fn slip_drift(&self, _: f64, _: &[f64; 2], _: &[f64; 2], to: &mut [f64]) {
-        to.fill(0.0);
-    }
-
-    fn kinetic_energy(&self, _: f64, _: &[f64; 2], v: &[f64; 2]) -> f64 {
-        kinetic_energy(self, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 2], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> Outputs {
-        Outputs {}
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        _: &[f64; 2],
-        _: &[f64; 2],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        ::core::iter::empty()
-    }
-
-    fn contacts(&self) -> impl ExactSizeIterator<Item = &str> {
-        CONTACTS.iter().copied()
-    }
-
-    fn slip_ranges(&self, _: f64, _: &[f64; 2], v: &[f64; 2], ranges: &mut [[f64; 2]]) {
-        let between = ::lagrangian::emitted::scalar::Interval::new;
-        let near = |x: f64| between(x.next_down(), x.next_up());
-        let p = Prepared {
-            k0: near(self.k0),
-            k1: near(self.k1),
-            k2: near(self.k2),
-            k3: near(self.k3),
-            k4: near(self.k4),
-            k5: near(self.k5),
-            k6: near(self.k6),
-            k7: near(self.k7),
-            k8: near(self.k8),
-            mu2: near(self.mu2),
-            mu1: near(self.mu1),
-            k9: near(self.k9),
-            k10: near(self.k10),
-            k11: near(self.k11),
-            k12: near(self.k12),
-            k13: near(self.k13),
-            k14: near(self.k14),
-            k15: near(self.k15),
-            k16: near(self.k16),
-            k17: near(self.k17),
-            k18: near(self.k18),
-            k19: near(self.k19),
-            k20: near(self.k20),
-            k21: near(self.k21),
-            singular: self.singular,
-        };
-        let slips: [::lagrangian::emitted::scalar::Interval; _] = slips(&p, &v.map(near));
-        for (range, w) in ranges.iter_mut().zip(slips) {
-            *range = [w.lo(), w.hi()];
-        }
-    }
-
-    fn friction(
-        &self,
-        _: f64,
-        _: &[f64; 2],
-        _: &[f64; 2],
-        _: &Inputs,
-        to: &mut [f64],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        fill(to, &friction(self)?);
-        Ok(())
-    }
-
-    fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::emitted::contact_workspace(2, 0, 2)];
-        work(room.get_mut(..length))
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// Writes numbers where there is room for them.
-fn fill(to: &mut [f64], from: &[f64]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = *from;
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_BE_CONSTRAINED MAY_COLLIDE]
+    intervals [yes]
+    lanes []
+    numbers []
 }

@@ -65,41 +65,6 @@ pub struct Rattleback<S = f64> {
     pub g: S,
 }
 
-impl Default for Rattleback {
-    fn default() -> Self {
-        Self {
-            m: 1.0,
-            a: 0.2,
-            b: 0.03,
-            c: 0.02,
-            h: 0.01,
-            A: 0.0002,
-            B: 0.0016,
-            C: 0.0017,
-            D: -2e-5,
-            g: 9.81,
-        }
-    }
-}
-
-impl<S> Rattleback<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Rattleback<R> {
-        Rattleback {
-            m: f(self.m),
-            a: f(self.a),
-            b: f(self.b),
-            c: f(self.c),
-            h: f(self.h),
-            A: f(self.A),
-            B: f(self.B),
-            C: f(self.C),
-            D: f(self.D),
-            g: f(self.g),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> Rattleback<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -119,15 +84,11 @@ impl<S: ::lagrangian::emitted::Scalar> Rattleback<S> {
         let k13 = self.D * S::from_f64(2.0);
         let k14 = -k3;
         let k15 = S::ONE / self.m;
-        let singular = if vanishes(self.m, self.m, 7.993605777301127e-15) {
-            Some(singular(0, self.m, self.m))
-        } else if vanishes(self.m, self.m, 7.993605777301127e-15) {
-            Some(singular(1, self.m, self.m))
-        } else if vanishes(self.m, self.m, 7.993605777301127e-15) {
-            Some(singular(2, self.m, self.m))
-        } else {
-            None
-        };
+        let pivots = [
+            (0, self.m, self.m),
+            (1, self.m, self.m),
+            (2, self.m, self.m),
+        ];
         Prepared {
             m: self.m,
             h: self.h,
@@ -152,7 +113,7 @@ impl<S: ::lagrangian::emitted::Scalar> Rattleback<S> {
             k13,
             k14,
             k15,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -185,37 +146,6 @@ pub struct Coordinates<S = f64> {
     pub roll: S,
     /// `pitch`. Unit: `rad`.
     pub pitch: S,
-}
-
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 6] {
-        [self.x, self.y, self.z, self.psi, self.roll, self.pitch]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 6]) -> Self {
-        Self {
-            x: q[0],
-            y: q[1],
-            z: q[2],
-            psi: q[3],
-            roll: q[4],
-            pitch: q[5],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            x: f(self.x),
-            y: f(self.y),
-            z: f(self.z),
-            psi: f(self.psi),
-            roll: f(self.roll),
-            pitch: f(self.pitch),
-        }
-    }
 }
 
 /// What can be set while a [`Rattleback`] runs.
@@ -278,6 +208,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 6,
+    tolerance: 7.993605777301127e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -944,20 +881,23 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let z_ddot = n(p.k15).mul_sub(t211, n(p.g));
         let psi_ddot = t48.neg_mul_add(roll_ddot, t49.mul_add(t213, t215));
         let pitch_ddot = -t213;
-        let sound = t25.exceeds(N::from_f64(7.993605777301127e-15) * t25)
-            & t53.exceeds(N::from_f64(7.993605777301127e-15) * t20)
-            & t81.exceeds(N::from_f64(7.993605777301127e-15) * n(p.B))
-            & t113.exceeds(N::from_f64(7.993605777301127e-15) * t113)
-            & t184.exceeds(N::from_f64(7.993605777301127e-15) * t173)
-            & t206.exceeds(N::from_f64(7.993605777301127e-15) * t200)
+        let sound = PIVOTS.hold(t25, t25)
+            & PIVOTS.hold(t53, t20)
+            & PIVOTS.hold(t81, n(p.B))
+            & PIVOTS.hold(t113, t113)
+            & PIVOTS.hold(t184, t173)
+            & PIVOTS.hold(t206, t200)
             & psi_ddot.is_finite();
         if !sound {
-            check(t25, t25, 7.993605777301127e-15, 3)?;
-            check(t53, t20, 7.993605777301127e-15, 4)?;
-            check(t81, n(p.B), 7.993605777301127e-15, 5)?;
-            check(t113, t113, 7.993605777301127e-15, 6)?;
-            check(t184, t173, 7.993605777301127e-15, 7)?;
-            check(t206, t200, 7.993605777301127e-15, 8)?;
+            let pivots = [
+                (3, t25, t25),
+                (4, t53, t20),
+                (5, t81, n(p.B)),
+                (6, t113, t113),
+                (7, t184, t173),
+                (8, t206, t200),
+            ];
+            PIVOTS.check(pivots)?;
         }
         let accelerations = [
             x_ddot.store(),
@@ -1215,20 +1155,23 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let lambda1 = t159.neg_mul_add(t193 - t197, t198);
         let lambda2 = t197 - t193;
         let lambda3 = -t196;
-        let sound = t19.exceeds(N::from_f64(7.993605777301127e-15) * t19)
-            & t44.exceeds(N::from_f64(7.993605777301127e-15) * t7)
-            & t68.exceeds(N::from_f64(7.993605777301127e-15) * n(p.B))
-            & t110.exceeds(N::from_f64(7.993605777301127e-15) * t110)
-            & t170.exceeds(N::from_f64(7.993605777301127e-15) * t158)
-            & t195.exceeds(N::from_f64(7.993605777301127e-15) * t190)
+        let sound = PIVOTS.hold(t19, t19)
+            & PIVOTS.hold(t44, t7)
+            & PIVOTS.hold(t68, n(p.B))
+            & PIVOTS.hold(t110, t110)
+            & PIVOTS.hold(t170, t158)
+            & PIVOTS.hold(t195, t190)
             & lambda1.is_finite();
         if !sound {
-            check(t19, t19, 7.993605777301127e-15, 3)?;
-            check(t44, t7, 7.993605777301127e-15, 4)?;
-            check(t68, n(p.B), 7.993605777301127e-15, 5)?;
-            check(t110, t110, 7.993605777301127e-15, 6)?;
-            check(t170, t158, 7.993605777301127e-15, 7)?;
-            check(t195, t190, 7.993605777301127e-15, 8)?;
+            let pivots = [
+                (3, t19, t19),
+                (4, t44, t7),
+                (5, t68, n(p.B)),
+                (6, t110, t110),
+                (7, t170, t158),
+                (8, t195, t190),
+            ];
+            PIVOTS.check(pivots)?;
         }
         let multipliers = [lambda1.store(), lambda2.store(), lambda3.store()];
         Ok(multipliers)
@@ -1283,360 +1226,60 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     p.k3 * z
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 10] = [
-    ("m", "kg"),
-    ("a", "m"),
-    ("b", "m"),
-    ("c", "m"),
-    ("h", "m"),
-    ("A", "kg*m^2"),
-    ("B", "kg*m^2"),
-    ("C", "kg*m^2"),
-    ("D", "kg*m^2"),
-    ("g", "m/s^2"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 6] = [
-    ("x", "m"),
-    ("y", "m"),
-    ("z", "m"),
-    ("psi", "rad"),
-    ("roll", "rad"),
-    ("pitch", "rad"),
-];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 0] = [];
-
-/// Names, units, units of multipliers, whether positions are constrained.
-const CONSTRAINTS: [(&str, &str, &str, bool); 3] = [
-    ("touching", "m", "N", true),
-    ("along", "m/s", "N", false),
-    ("across", "m/s", "N", false),
-];
-
-impl ::lagrangian::emitted::Machine for Rattleback {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "Rattleback"
+::lagrangian::emitted::implement! {
+    machine Rattleback "Rattleback" over S, R;
+    parameters { m, a, b, c, h, A, B, C, D, g } [
+        m: "m" "kg" = 1.0;
+        a: "a" "m" = 0.2;
+        b: "b" "m" = 0.03;
+        c: "c" "m" = 0.02;
+        h: "h" "m" = 0.01;
+        A: "A" "kg*m^2" = 0.0002;
+        B: "B" "kg*m^2" = 0.0016;
+        C: "C" "kg*m^2" = 0.0017;
+        D: "D" "kg*m^2" = -2e-5;
+        g: "g" "m/s^2" = 9.81;
+    ]
+    coordinates 6 Coordinates { x, y, z, psi, roll, pitch } [
+        x: "x" "m";
+        y: "y" "m";
+        z: "z" "m";
+        psi: "psi" "rad";
+        roll: "roll" "rad";
+        pitch: "pitch" "rad";
+    ]
+    inputs Inputs {} []
+    outputs Outputs {} []
+    prepared Prepared {
+        m, h, A, B, C, D, g, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15,
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [
-            self.m, self.a, self.b, self.c, self.h, self.A, self.B, self.C, self.D, self.g,
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, q, v);
+        vector applied(p, t, q, v, u) = applied(p);
+        vector forces(p, t, q, v, u) = forces(p, q, v);
+        numbers constraint_positions(p, t, q) = constraint_positions(p, q);
+        numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
+        numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
+        numbers constraint_drift(p, t, q, v) = constraint_drift(p, q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = Outputs {};
+        constraints constraints(p) = [
+            ("touching", "m", "N", true),
+            ("along", "m/s", "N", false),
+            ("across", "m/s", "N", false),
         ];
-        quantities(&PARAMETERS, values)
+        solved multipliers(p, t, q, v, u) = multipliers(p, q, v);
+        workspace with_workspace(p) = ::lagrangian::emitted::constraint_workspace(6, 3);
     }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.m),
-            1 => Some(&mut self.a),
-            2 => Some(&mut self.b),
-            3 => Some(&mut self.c),
-            4 => Some(&mut self.h),
-            5 => Some(&mut self.A),
-            6 => Some(&mut self.B),
-            7 => Some(&mut self.C),
-            8 => Some(&mut self.D),
-            9 => Some(&mut self.g),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 6];
-    type Matrix = [f64; 36];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 6]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 6] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 6],
-        v: &[f64; 6],
-        _: &Inputs,
-        result: &mut [f64; 6],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, q: &[f64; 6], matrix: &mut [f64; 36]) {
-        let rows = mass_matrix(self, q);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, q: &[f64; 6], v: &[f64; 6], result: &mut [f64; 6]) {
-        *result = bias(self, q, v);
-    }
-
-    fn applied(&self, _: f64, _: &[f64; 6], _: &[f64; 6], _: &Inputs, result: &mut [f64; 6]) {
-        *result = applied(self);
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 6], v: &[f64; 6], _: &Inputs, result: &mut [f64; 6]) {
-        *result = forces(self, q, v);
-    }
-
-    fn constraint_positions(&self, _: f64, q: &[f64; 6], to: &mut [f64]) {
-        fill(to, &constraint_positions(self, q));
-    }
-
-    fn constraint_rates(&self, _: f64, q: &[f64; 6], v: &[f64; 6], to: &mut [f64]) {
-        fill(to, &constraint_rates(self, q, v));
-    }
-
-    fn constraint_matrix(&self, _: f64, q: &[f64; 6], to: &mut [f64]) {
-        fill(to, &constraint_matrix(self, q));
-    }
-
-    fn constraint_drift(&self, _: f64, q: &[f64; 6], v: &[f64; 6], to: &mut [f64]) {
-        fill(to, &constraint_drift(self, q, v));
-    }
-
-    fn kinetic_energy(&self, _: f64, q: &[f64; 6], v: &[f64; 6]) -> f64 {
-        kinetic_energy(self, q, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 6], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 6], _: &[f64; 6], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 6], _: &[f64; 6], _: &[f64; 6], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 6], _: &[f64; 6], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, _: &[f64; 6], _: &[f64; 6], _: &[f64; 6], _: &Inputs) -> Outputs {
-        Outputs {}
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        _: &[f64; 6],
-        _: &[f64; 6],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        ::core::iter::empty()
-    }
-
-    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Constraint<'_>> {
-        CONSTRAINTS.iter().map(constraint)
-    }
-
-    fn multipliers(
-        &self,
-        _: f64,
-        q: &[f64; 6],
-        v: &[f64; 6],
-        _: &Inputs,
-        to: &mut [f64],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        fill(to, &multipliers(self, q, v)?);
-        Ok(())
-    }
-
-    fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::emitted::constraint_workspace(6, 3)];
-        work(room.get_mut(..length))
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 6];
-    type BatchInputs = Inputs;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            m: lanes(|p| p.m),
-            h: lanes(|p| p.h),
-            A: lanes(|p| p.A),
-            B: lanes(|p| p.B),
-            C: lanes(|p| p.C),
-            D: lanes(|p| p.D),
-            g: lanes(|p| p.g),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            k9: lanes(|p| p.k9),
-            k10: lanes(|p| p.k10),
-            k11: lanes(|p| p.k11),
-            k12: lanes(|p| p.k12),
-            k13: lanes(|p| p.k13),
-            k14: lanes(|p| p.k14),
-            k15: lanes(|p| p.k15),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(_: [&Inputs; N]) -> Self::BatchInputs {
-        Inputs {}
-    }
-
-    fn inputs_of_lane(_: &Self::BatchInputs, _: usize) -> Inputs {
-        Inputs {}
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        _: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q, v },
-            result,
-        )
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// A constraint, as it is called.
-fn constraint<'a>(
-    &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
-) -> ::lagrangian::emitted::Constraint<'a> {
-    ::lagrangian::emitted::Constraint {
-        name,
-        unit,
-        multiplier_unit,
-        holonomic,
-    }
-}
-
-/// Writes numbers where there is room for them.
-fn fill(to: &mut [f64], from: &[f64]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = *from;
-    }
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    if let Some(constraint) = coordinate.checked_sub(6) {
-        return ::lagrangian::emitted::Singular::constraint(constraint, pivot, diagonal);
-    }
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers []
 }

@@ -54,31 +54,6 @@ pub struct RollingCoin<S = f64> {
     pub A: S,
 }
 
-impl Default for RollingCoin {
-    fn default() -> Self {
-        Self {
-            m: 1.0,
-            r: 0.1,
-            g: 9.81,
-            C: 0.005,
-            A: 0.0025,
-        }
-    }
-}
-
-impl<S> RollingCoin<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> RollingCoin<R> {
-        RollingCoin {
-            m: f(self.m),
-            r: f(self.r),
-            g: f(self.g),
-            C: f(self.C),
-            A: f(self.A),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> RollingCoin<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -97,13 +72,7 @@ impl<S: ::lagrangian::emitted::Scalar> RollingCoin<S> {
         let k9 = -self.r;
         let k10 = S::ONE / k3;
         let k13 = self.r * k12;
-        let singular = if vanishes(self.C, self.C, 6.217248937900877e-15) {
-            Some(singular(4, self.C, self.C))
-        } else if vanishes(k3, k3, 6.217248937900877e-15) {
-            Some(singular(3, k3, k3))
-        } else {
-            None
-        };
+        let pivots = [(4, self.C, self.C), (3, k3, k3)];
         Prepared {
             m: self.m,
             r: self.r,
@@ -123,7 +92,7 @@ impl<S: ::lagrangian::emitted::Scalar> RollingCoin<S> {
             k11,
             k12,
             k13,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -157,35 +126,6 @@ pub struct Coordinates<S = f64> {
     pub lean: S,
     /// `roll`. Unit: `rad`.
     pub roll: S,
-}
-
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 5] {
-        [self.x, self.y, self.heading, self.lean, self.roll]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 5]) -> Self {
-        Self {
-            x: q[0],
-            y: q[1],
-            heading: q[2],
-            lean: q[3],
-            roll: q[4],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            x: f(self.x),
-            y: f(self.y),
-            heading: f(self.heading),
-            lean: f(self.lean),
-            roll: f(self.roll),
-        }
-    }
 }
 
 /// What can be set while a [`RollingCoin`] runs.
@@ -238,6 +178,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 5,
+    tolerance: 6.217248937900877e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -536,18 +483,21 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let heading_ddot = t67 - t65;
         let lean_ddot = t16.mul_add(t66, t18.neg_mul_add(t63, n(p.k10) * t21));
         let roll_ddot = t7.mul_sub(t65 - t67, t68);
-        let sound = t15.exceeds(N::from_f64(6.217248937900877e-15) * t8)
-            & t30.exceeds(N::from_f64(6.217248937900877e-15) * n(p.m))
-            & t41.exceeds(N::from_f64(6.217248937900877e-15) * n(p.m))
-            & t50.exceeds(N::from_f64(6.217248937900877e-15) * t50)
-            & t57.exceeds(N::from_f64(6.217248937900877e-15) * t53)
+        let sound = PIVOTS.hold(t15, t8)
+            & PIVOTS.hold(t30, n(p.m))
+            & PIVOTS.hold(t41, n(p.m))
+            & PIVOTS.hold(t50, t50)
+            & PIVOTS.hold(t57, t53)
             & roll_ddot.is_finite();
         if !sound {
-            check(t15, t8, 6.217248937900877e-15, 2)?;
-            check(t30, n(p.m), 6.217248937900877e-15, 0)?;
-            check(t41, n(p.m), 6.217248937900877e-15, 1)?;
-            check(t50, t50, 6.217248937900877e-15, 5)?;
-            check(t57, t53, 6.217248937900877e-15, 6)?;
+            let pivots = [
+                (2, t15, t8),
+                (0, t30, n(p.m)),
+                (1, t41, n(p.m)),
+                (5, t50, t50),
+                (6, t57, t53),
+            ];
+            PIVOTS.check(pivots)?;
         }
         let accelerations = [
             x_ddot.store(),
@@ -662,18 +612,21 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t57 = t51.neg_mul_add(t55, t53);
         let lambda2 = t55.mul_add(t52, t56) / t57;
         let lambda1 = t55.mul_add(lambda2, t54 * t52);
-        let sound = t15.exceeds(N::from_f64(6.217248937900877e-15) * t8)
-            & t30.exceeds(N::from_f64(6.217248937900877e-15) * n(p.m))
-            & t41.exceeds(N::from_f64(6.217248937900877e-15) * n(p.m))
-            & t50.exceeds(N::from_f64(6.217248937900877e-15) * t50)
-            & t57.exceeds(N::from_f64(6.217248937900877e-15) * t53)
+        let sound = PIVOTS.hold(t15, t8)
+            & PIVOTS.hold(t30, n(p.m))
+            & PIVOTS.hold(t41, n(p.m))
+            & PIVOTS.hold(t50, t50)
+            & PIVOTS.hold(t57, t53)
             & lambda1.is_finite();
         if !sound {
-            check(t15, t8, 6.217248937900877e-15, 2)?;
-            check(t30, n(p.m), 6.217248937900877e-15, 0)?;
-            check(t41, n(p.m), 6.217248937900877e-15, 1)?;
-            check(t50, t50, 6.217248937900877e-15, 5)?;
-            check(t57, t53, 6.217248937900877e-15, 6)?;
+            let pivots = [
+                (2, t15, t8),
+                (0, t30, n(p.m)),
+                (1, t41, n(p.m)),
+                (5, t50, t50),
+                (6, t57, t53),
+            ];
+            PIVOTS.check(pivots)?;
         }
         let multipliers = [lambda1.store(), lambda2.store()];
         Ok(multipliers)
@@ -725,339 +678,48 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     p.k0 * cos_lean
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 5] = [
-    ("m", "kg"),
-    ("r", "m"),
-    ("g", "m/s^2"),
-    ("C", "kg*m^2"),
-    ("A", "kg*m^2"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 5] = [
-    ("x", "m"),
-    ("y", "m"),
-    ("heading", "rad"),
-    ("lean", "rad"),
-    ("roll", "rad"),
-];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 0] = [];
-
-/// Names, units, units of multipliers, whether positions are constrained.
-const CONSTRAINTS: [(&str, &str, &str, bool); 2] =
-    [("ahead", "m/s", "N", false), ("across", "m/s", "N", false)];
-
-impl ::lagrangian::emitted::Machine for RollingCoin {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "RollingCoin"
+::lagrangian::emitted::implement! {
+    machine RollingCoin "RollingCoin" over S, R;
+    parameters { m, r, g, C, A } [
+        m: "m" "kg" = 1.0;
+        r: "r" "m" = 0.1;
+        g: "g" "m/s^2" = 9.81;
+        C: "C" "kg*m^2" = 0.005;
+        A: "A" "kg*m^2" = 0.0025;
+    ]
+    coordinates 5 Coordinates { x, y, heading, lean, roll } [
+        x: "x" "m";
+        y: "y" "m";
+        heading: "heading" "rad";
+        lean: "lean" "rad";
+        roll: "roll" "rad";
+    ]
+    inputs Inputs {} []
+    outputs Outputs {} []
+    prepared Prepared { m, r, C, A, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13 }
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q);
+        vector forces(p, t, q, v, u) = forces(p, q, v);
+        numbers constraint_positions(p, t, q);
+        numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
+        numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
+        numbers constraint_drift(p, t, q, v) = constraint_drift(q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = Outputs {};
+        constraints constraints(p) = [("ahead", "m/s", "N", false), ("across", "m/s", "N", false)];
+        solved multipliers(p, t, q, v, u) = multipliers(p, q, v);
+        workspace with_workspace(p) = ::lagrangian::emitted::constraint_workspace(5, 2);
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [self.m, self.r, self.g, self.C, self.A];
-        quantities(&PARAMETERS, values)
-    }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.m),
-            1 => Some(&mut self.r),
-            2 => Some(&mut self.g),
-            3 => Some(&mut self.C),
-            4 => Some(&mut self.A),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 5];
-    type Matrix = [f64; 25];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 5]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 5] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 5],
-        v: &[f64; 5],
-        _: &Inputs,
-        result: &mut [f64; 5],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, q: &[f64; 5], matrix: &mut [f64; 25]) {
-        let rows = mass_matrix(self, q);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, q: &[f64; 5], v: &[f64; 5], result: &mut [f64; 5]) {
-        *result = bias(self, q, v);
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 5], _: &[f64; 5], _: &Inputs, result: &mut [f64; 5]) {
-        *result = applied(self, q);
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 5], v: &[f64; 5], _: &Inputs, result: &mut [f64; 5]) {
-        *result = forces(self, q, v);
-    }
-
-    fn constraint_positions(&self, _: f64, _: &[f64; 5], to: &mut [f64]) {
-        to.fill(0.0);
-    }
-
-    fn constraint_rates(&self, _: f64, q: &[f64; 5], v: &[f64; 5], to: &mut [f64]) {
-        fill(to, &constraint_rates(self, q, v));
-    }
-
-    fn constraint_matrix(&self, _: f64, q: &[f64; 5], to: &mut [f64]) {
-        fill(to, &constraint_matrix(self, q));
-    }
-
-    fn constraint_drift(&self, _: f64, q: &[f64; 5], v: &[f64; 5], to: &mut [f64]) {
-        fill(to, &constraint_drift(q, v));
-    }
-
-    fn kinetic_energy(&self, _: f64, q: &[f64; 5], v: &[f64; 5]) -> f64 {
-        kinetic_energy(self, q, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 5], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 5], _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, _: &[f64; 5], _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> Outputs {
-        Outputs {}
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        _: &[f64; 5],
-        _: &[f64; 5],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        ::core::iter::empty()
-    }
-
-    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Constraint<'_>> {
-        CONSTRAINTS.iter().map(constraint)
-    }
-
-    fn multipliers(
-        &self,
-        _: f64,
-        q: &[f64; 5],
-        v: &[f64; 5],
-        _: &Inputs,
-        to: &mut [f64],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        fill(to, &multipliers(self, q, v)?);
-        Ok(())
-    }
-
-    fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::emitted::constraint_workspace(5, 2)];
-        work(room.get_mut(..length))
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 5];
-    type BatchInputs = Inputs;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            m: lanes(|p| p.m),
-            r: lanes(|p| p.r),
-            C: lanes(|p| p.C),
-            A: lanes(|p| p.A),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            k9: lanes(|p| p.k9),
-            k10: lanes(|p| p.k10),
-            k11: lanes(|p| p.k11),
-            k12: lanes(|p| p.k12),
-            k13: lanes(|p| p.k13),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(_: [&Inputs; N]) -> Self::BatchInputs {
-        Inputs {}
-    }
-
-    fn inputs_of_lane(_: &Self::BatchInputs, _: usize) -> Inputs {
-        Inputs {}
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        _: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q, v },
-            result,
-        )
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// A constraint, as it is called.
-fn constraint<'a>(
-    &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
-) -> ::lagrangian::emitted::Constraint<'a> {
-    ::lagrangian::emitted::Constraint {
-        name,
-        unit,
-        multiplier_unit,
-        holonomic,
-    }
-}
-
-/// Writes numbers where there is room for them.
-fn fill(to: &mut [f64], from: &[f64]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = *from;
-    }
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    if let Some(constraint) = coordinate.checked_sub(5) {
-        return ::lagrangian::emitted::Singular::constraint(constraint, pivot, diagonal);
-    }
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers []
 }

@@ -54,31 +54,6 @@ pub struct RollingCylinder<S = f64> {
     pub g: S,
 }
 
-impl Default for RollingCylinder {
-    fn default() -> Self {
-        Self {
-            m: 180.0,
-            J: 9.225,
-            R: 0.27,
-            r: 0.25,
-            g: 9.81,
-        }
-    }
-}
-
-impl<S> RollingCylinder<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> RollingCylinder<R> {
-        RollingCylinder {
-            m: f(self.m),
-            J: f(self.J),
-            R: f(self.R),
-            r: f(self.r),
-            g: f(self.g),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> RollingCylinder<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -100,15 +75,7 @@ impl<S: ::lagrangian::emitted::Scalar> RollingCylinder<S> {
         let pivot_1 = t3 * t1;
         let scale_1 = self.m * t1 + t2 * t1;
         let one = S::ONE;
-        let singular = if vanishes(pivot_1, scale_1, 4.440892098500626e-15) {
-            Some(singular(1, pivot_1, scale_1))
-        } else if vanishes(one, one, 4.440892098500626e-15) {
-            Some(singular(3, one, one))
-        } else if vanishes(pivot_4, pivot_4, 4.440892098500626e-15) {
-            Some(singular(4, pivot_4, pivot_4))
-        } else {
-            None
-        };
+        let pivots = [(1, pivot_1, scale_1), (3, one, one), (4, pivot_4, pivot_4)];
         Prepared {
             m: self.m,
             J: self.J,
@@ -123,7 +90,7 @@ impl<S: ::lagrangian::emitted::Scalar> RollingCylinder<S> {
             k6,
             k7,
             k8,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -151,31 +118,6 @@ pub struct Coordinates<S = f64> {
     pub phi: S,
     /// Angle of the cylinder. Unit: `rad`.
     pub theta: S,
-}
-
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 3] {
-        [self.s, self.phi, self.theta]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 3]) -> Self {
-        Self {
-            s: q[0],
-            phi: q[1],
-            theta: q[2],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            s: f(self.s),
-            phi: f(self.phi),
-            theta: f(self.theta),
-        }
-    }
 }
 
 /// What can be set while a [`RollingCylinder`] runs.
@@ -218,6 +160,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 3,
+    tolerance: 4.440892098500626e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -426,18 +375,21 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t7 = t2.mul_add(sin_phi, cos_phi * t3) + n(p.g);
         let lambda1 = n(p.m) * cos_phi.mul_add(t7, sin_phi * t6);
         let lambda2 = -((t0 + sin_phi.neg_mul_add(t7, cos_phi * t6)) / t5);
-        let sound = n(p.J).exceeds(N::from_f64(4.440892098500626e-15) * n(p.J))
-            & n(p.m).exceeds(N::from_f64(4.440892098500626e-15) * n(p.m))
-            & t4.exceeds(N::from_f64(4.440892098500626e-15) * t4)
-            & n(p.k5).exceeds(N::from_f64(4.440892098500626e-15) * n(p.k5))
-            & t5.exceeds(N::from_f64(4.440892098500626e-15) * t5)
+        let sound = PIVOTS.hold(n(p.J), n(p.J))
+            & PIVOTS.hold(n(p.m), n(p.m))
+            & PIVOTS.hold(t4, t4)
+            & PIVOTS.hold(n(p.k5), n(p.k5))
+            & PIVOTS.hold(t5, t5)
             & lambda2.is_finite();
         if !sound {
-            check(n(p.J), n(p.J), 4.440892098500626e-15, 2)?;
-            check(n(p.m), n(p.m), 4.440892098500626e-15, 0)?;
-            check(t4, t4, 4.440892098500626e-15, 1)?;
-            check(n(p.k5), n(p.k5), 4.440892098500626e-15, 3)?;
-            check(t5, t5, 4.440892098500626e-15, 4)?;
+            let pivots = [
+                (2, n(p.J), n(p.J)),
+                (0, n(p.m), n(p.m)),
+                (1, t4, t4),
+                (3, n(p.k5), n(p.k5)),
+                (4, t5, t5),
+            ];
+            PIVOTS.check(pivots)?;
         }
         let multipliers = [lambda1.store(), lambda2.store()];
         Ok(multipliers)
@@ -485,337 +437,50 @@ pub fn assumption_0<S: ::lagrangian::emitted::Scalar>(q: &[S; 3]) -> S {
     s
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 5] = [
-    ("m", "kg"),
-    ("J", "kg*m^2"),
-    ("R", "m"),
-    ("r", "m"),
-    ("g", "m/s^2"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 3] = [("s", "m"), ("phi", "rad"), ("theta", "rad")];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 0] = [];
-
-/// Names, units, units of multipliers, whether positions are constrained.
-const CONSTRAINTS: [(&str, &str, &str, bool); 2] = [
-    ("contact.gap", "m", "N", true),
-    ("contact.slip", "m/s", "N", false),
-];
-
-impl ::lagrangian::emitted::Machine for RollingCylinder {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "RollingCylinder"
+::lagrangian::emitted::implement! {
+    machine RollingCylinder "RollingCylinder" over S, R;
+    parameters { m, J, R, r, g } [
+        m: "m" "kg" = 180.0;
+        J: "J" "kg*m^2" = 9.225;
+        R: "R" "m" = 0.27;
+        r: "r" "m" = 0.25;
+        g: "g" "m/s^2" = 9.81;
+    ]
+    coordinates 3 Coordinates { s, phi, theta } [
+        s: "s" "m";
+        phi: "phi" "rad";
+        theta: "theta" "rad";
+    ]
+    inputs Inputs {} []
+    outputs Outputs {} []
+    prepared Prepared { m, J, r, g, k0, k1, k2, k3, k4, k5, k6, k7, k8 }
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, q } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q);
+        vector forces(p, t, q, v, u) = forces(p, q, v);
+        numbers constraint_positions(p, t, q) = constraint_positions(p, q);
+        numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
+        numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
+        numbers constraint_drift(p, t, q, v) = constraint_drift(v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = Outputs {};
+        facts assumptions(p, t, q, v, u) = [("s > 0", true, assumption_0(q))];
+        constraints constraints(p) = [
+            ("contact.gap", "m", "N", true),
+            ("contact.slip", "m/s", "N", false),
+        ];
+        solved multipliers(p, t, q, v, u) = multipliers(p, q, v);
+        workspace with_workspace(p) = ::lagrangian::emitted::constraint_workspace(3, 2);
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [self.m, self.J, self.R, self.r, self.g];
-        quantities(&PARAMETERS, values)
-    }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.m),
-            1 => Some(&mut self.J),
-            2 => Some(&mut self.R),
-            3 => Some(&mut self.r),
-            4 => Some(&mut self.g),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 3];
-    type Matrix = [f64; 9];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 3]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 3] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 3],
-        _: &[f64; 3],
-        _: &Inputs,
-        result: &mut [f64; 3],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(Accelerations { p: self, q }, result)
-    }
-
-    fn mass_matrix(&self, _: f64, q: &[f64; 3], matrix: &mut [f64; 9]) {
-        let rows = mass_matrix(self, q);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, q: &[f64; 3], v: &[f64; 3], result: &mut [f64; 3]) {
-        *result = bias(self, q, v);
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 3], _: &[f64; 3], _: &Inputs, result: &mut [f64; 3]) {
-        *result = applied(self, q);
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 3], v: &[f64; 3], _: &Inputs, result: &mut [f64; 3]) {
-        *result = forces(self, q, v);
-    }
-
-    fn constraint_positions(&self, _: f64, q: &[f64; 3], to: &mut [f64]) {
-        fill(to, &constraint_positions(self, q));
-    }
-
-    fn constraint_rates(&self, _: f64, q: &[f64; 3], v: &[f64; 3], to: &mut [f64]) {
-        fill(to, &constraint_rates(self, q, v));
-    }
-
-    fn constraint_matrix(&self, _: f64, q: &[f64; 3], to: &mut [f64]) {
-        fill(to, &constraint_matrix(self, q));
-    }
-
-    fn constraint_drift(&self, _: f64, _: &[f64; 3], v: &[f64; 3], to: &mut [f64]) {
-        fill(to, &constraint_drift(v));
-    }
-
-    fn kinetic_energy(&self, _: f64, q: &[f64; 3], v: &[f64; 3]) -> f64 {
-        kinetic_energy(self, q, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 3], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> Outputs {
-        Outputs {}
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        q: &[f64; 3],
-        _: &[f64; 3],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        let facts = [assumption("s > 0", true, assumption_0(q))];
-        facts.into_iter()
-    }
-
-    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Constraint<'_>> {
-        CONSTRAINTS.iter().map(constraint)
-    }
-
-    fn multipliers(
-        &self,
-        _: f64,
-        q: &[f64; 3],
-        v: &[f64; 3],
-        _: &Inputs,
-        to: &mut [f64],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        fill(to, &multipliers(self, q, v)?);
-        Ok(())
-    }
-
-    fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::emitted::constraint_workspace(3, 2)];
-        work(room.get_mut(..length))
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 3];
-    type BatchInputs = Inputs;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            m: lanes(|p| p.m),
-            J: lanes(|p| p.J),
-            r: lanes(|p| p.r),
-            g: lanes(|p| p.g),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(_: [&Inputs; N]) -> Self::BatchInputs {
-        Inputs {}
-    }
-
-    fn inputs_of_lane(_: &Self::BatchInputs, _: usize) -> Inputs {
-        Inputs {}
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        _: &Self::Vectors,
-        _: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q },
-            result,
-        )
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// A fact and by how much it holds.
-fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::emitted::Assumption<'_> {
-    ::lagrangian::emitted::Assumption {
-        text,
-        margin,
-        strict,
-    }
-}
-
-/// A constraint, as it is called.
-fn constraint<'a>(
-    &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
-) -> ::lagrangian::emitted::Constraint<'a> {
-    ::lagrangian::emitted::Constraint {
-        name,
-        unit,
-        multiplier_unit,
-        holonomic,
-    }
-}
-
-/// Writes numbers where there is room for them.
-fn fill(to: &mut [f64], from: &[f64]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = *from;
-    }
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    if let Some(constraint) = coordinate.checked_sub(3) {
-        return ::lagrangian::emitted::Singular::constraint(constraint, pivot, diagonal);
-    }
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers []
 }

@@ -55,27 +55,6 @@ pub struct SimplePendulum<S = f64> {
     pub g: S,
 }
 
-impl Default for SimplePendulum {
-    fn default() -> Self {
-        Self {
-            m: 1.0,
-            l: 1.0,
-            g: 9.81,
-        }
-    }
-}
-
-impl<S> SimplePendulum<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> SimplePendulum<R> {
-        SimplePendulum {
-            m: f(self.m),
-            l: f(self.l),
-            g: f(self.g),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> SimplePendulum<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -84,11 +63,7 @@ impl<S: ::lagrangian::emitted::Scalar> SimplePendulum<S> {
         let k1 = k0 * S::from_f64(0.5);
         let k2 = -(self.g * t0);
         let k3 = -(self.g / self.l);
-        let singular = if vanishes(k0, k0, 8.881784197001252e-16) {
-            Some(singular(0, k0, k0))
-        } else {
-            None
-        };
+        let pivots = [(0, k0, k0)];
         Prepared {
             m: self.m,
             l: self.l,
@@ -97,7 +72,7 @@ impl<S: ::lagrangian::emitted::Scalar> SimplePendulum<S> {
             k1,
             k2,
             k3,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -119,25 +94,6 @@ impl<S: ::lagrangian::emitted::Scalar> SimplePendulum<S> {
 pub struct Coordinates<S = f64> {
     /// Angle of the rod from the downward vertical. Unit: `rad`.
     pub theta: S,
-}
-
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 1] {
-        [self.theta]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 1]) -> Self {
-        Self { theta: q[0] }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            theta: f(self.theta),
-        }
-    }
 }
 
 /// What can be set while a [`SimplePendulum`] runs.
@@ -172,6 +128,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 1,
+    tolerance: 8.881784197001252e-16,
+};
 
 /// Mass matrix `M`.
 ///
@@ -287,278 +250,37 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
     }
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 3] = [("m", "kg"), ("l", "m"), ("g", "m/s^2")];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 1] = [("theta", "rad")];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 1] = [("tension", "N")];
-
-impl ::lagrangian::emitted::Machine for SimplePendulum {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "SimplePendulum"
+::lagrangian::emitted::implement! {
+    machine SimplePendulum "SimplePendulum" over S, R;
+    parameters { m, l, g } [
+        m: "m" "kg" = 1.0;
+        l: "l" "m" = 1.0;
+        g: "g" "m/s^2" = 9.81;
+    ]
+    coordinates 1 Coordinates { theta } [
+        theta: "theta" "rad";
+    ]
+    inputs Inputs {} []
+    outputs Outputs { tension } [
+        tension: "tension" "N";
+    ]
+    prepared Prepared { m, l, g, k0, k1, k2, k3 }
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, q } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p);
+        vector bias(p, t, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q);
+        vector forces(p, t, q, v, u) = forces(p, q);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = outputs(p, q, v);
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [self.m, self.l, self.g];
-        quantities(&PARAMETERS, values)
-    }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.m),
-            1 => Some(&mut self.l),
-            2 => Some(&mut self.g),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 1];
-    type Matrix = [f64; 1];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_BE_CONSTRAINED: bool = false;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 1]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 1] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 1],
-        _: &[f64; 1],
-        _: &Inputs,
-        result: &mut [f64; 1],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(Accelerations { p: self, q }, result)
-    }
-
-    fn mass_matrix(&self, _: f64, _: &[f64; 1], matrix: &mut [f64; 1]) {
-        let rows = mass_matrix(self);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, _: &[f64; 1], _: &[f64; 1], result: &mut [f64; 1]) {
-        *result = [0.0; 1];
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 1], _: &[f64; 1], _: &Inputs, result: &mut [f64; 1]) {
-        *result = applied(self, q);
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 1], _: &[f64; 1], _: &Inputs, result: &mut [f64; 1]) {
-        *result = forces(self, q);
-    }
-
-    fn kinetic_energy(&self, _: f64, _: &[f64; 1], v: &[f64; 1]) -> f64 {
-        kinetic_energy(self, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 1], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 1], _: &[f64; 1], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 1], _: &[f64; 1], _: &[f64; 1], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 1], _: &[f64; 1], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [outputs.tension];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, q: &[f64; 1], v: &[f64; 1], _: &[f64; 1], _: &Inputs) -> Outputs {
-        outputs(self, q, v)
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        _: &[f64; 1],
-        _: &[f64; 1],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        ::core::iter::empty()
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 1];
-    type BatchInputs = Inputs;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            m: lanes(|p| p.m),
-            l: lanes(|p| p.l),
-            g: lanes(|p| p.g),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(_: [&Inputs; N]) -> Self::BatchInputs {
-        Inputs {}
-    }
-
-    fn inputs_of_lane(_: &Self::BatchInputs, _: usize) -> Inputs {
-        Inputs {}
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        _: &Self::Vectors,
-        _: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q },
-            result,
-        )
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for SimplePendulum<S> {
-    type System = Prepared<S>;
-
-    fn prepare(&self) -> Prepared<S> {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
-        Self::start(self)
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
-    type Vector = [S; 1];
-    type Coordinates = Coordinates<S>;
-    type Inputs = Inputs;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[S; 1]) -> Coordinates<S> {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 1] {
-        coordinates.to_array()
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs {}
-    }
-
-    fn accelerations(
-        &self,
-        _: S,
-        q: &[S; 1],
-        _: &[S; 1],
-        _: &Inputs,
-        result: &mut [S; 1],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <S as ::lagrangian::emitted::Number>::run_in_place(Accelerations { p: self, q }, result)
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_BE_CONSTRAINED MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers [yes]
 }

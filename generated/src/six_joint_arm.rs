@@ -68,45 +68,6 @@ pub struct SixJointArm<S = f64> {
     pub g: S,
 }
 
-impl Default for SixJointArm {
-    fn default() -> Self {
-        Self {
-            h: 0.35,
-            a: 0.4,
-            b: 0.42,
-            c: 0.1,
-            m1: 12.0,
-            m2: 9.0,
-            m3: 6.0,
-            m4: 1.5,
-            m5: 1.0,
-            m6: 5.2,
-            friction: 0.4,
-            g: 9.81,
-        }
-    }
-}
-
-impl<S> SixJointArm<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> SixJointArm<R> {
-        SixJointArm {
-            h: f(self.h),
-            a: f(self.a),
-            b: f(self.b),
-            c: f(self.c),
-            m1: f(self.m1),
-            m2: f(self.m2),
-            m3: f(self.m3),
-            m4: f(self.m4),
-            m5: f(self.m5),
-            m6: f(self.m6),
-            friction: f(self.friction),
-            g: f(self.g),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> SixJointArm<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -285,49 +246,11 @@ pub struct Coordinates<S = f64> {
     pub q: [S; 6],
 }
 
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 6] {
-        [
-            self.q[0], self.q[1], self.q[2], self.q[3], self.q[4], self.q[5],
-        ]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 6]) -> Self {
-        Self {
-            q: [q[0], q[1], q[2], q[3], q[4], q[5]],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates { q: self.q.map(&f) }
-    }
-}
-
 /// What can be set while a [`SixJointArm`] runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inputs<S = f64> {
     /// Torques of the motors. Unit: `N*m`. Members: `tau[1]` to `tau[6]`.
     pub tau: [S; 6],
-}
-
-impl Default for Inputs {
-    fn default() -> Self {
-        Self {
-            tau: [0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-        }
-    }
-}
-
-impl<S> Inputs<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Inputs<R> {
-        Inputs {
-            tau: self.tau.map(&f),
-        }
-    }
 }
 
 /// What can be observed of a [`SixJointArm`].
@@ -485,6 +408,13 @@ pub struct Prepared<S = f64> {
     /// `-0.0012*m6*(2 + 25*c)`
     k56: S,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 6,
+    tolerance: 5.329070518200751e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -1239,20 +1169,23 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let q_2_ddot = t126.mul_add(q_3_ddot, t158.neg_mul_add(q_4_ddot, t261));
         let t263 = t111.neg_mul_add(q_3_ddot, t262);
         let q_1_ddot = t82.neg_mul_add(q_2_ddot, t263);
-        let sound = t59.exceeds(N::from_f64(5.329070518200751e-15) * t59)
-            & t90.exceeds(N::from_f64(5.329070518200751e-15) * t83)
-            & t134.exceeds(N::from_f64(5.329070518200751e-15) * t66)
-            & t188.exceeds(N::from_f64(5.329070518200751e-15) * t36)
-            & t229.exceeds(N::from_f64(5.329070518200751e-15) * t23)
-            & t254.exceeds(N::from_f64(5.329070518200751e-15) * n(p.k3))
+        let sound = PIVOTS.hold(t59, t59)
+            & PIVOTS.hold(t90, t83)
+            & PIVOTS.hold(t134, t66)
+            & PIVOTS.hold(t188, t36)
+            & PIVOTS.hold(t229, t23)
+            & PIVOTS.hold(t254, n(p.k3))
             & q_1_ddot.is_finite();
         if !sound {
-            check(t59, t59, 5.329070518200751e-15, 0)?;
-            check(t90, t83, 5.329070518200751e-15, 1)?;
-            check(t134, t66, 5.329070518200751e-15, 2)?;
-            check(t188, t36, 5.329070518200751e-15, 3)?;
-            check(t229, t23, 5.329070518200751e-15, 4)?;
-            check(t254, n(p.k3), 5.329070518200751e-15, 5)?;
+            let pivots = [
+                (0, t59, t59),
+                (1, t90, t83),
+                (2, t134, t66),
+                (3, t188, t36),
+                (4, t229, t23),
+                (5, t254, n(p.k3)),
+            ];
+            PIVOTS.check(pivots)?;
         }
         let accelerations = [
             q_1_ddot.store(),
@@ -1463,428 +1396,62 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 6]) ->
     }
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 12] = [
-    ("h", "m"),
-    ("a", "m"),
-    ("b", "m"),
-    ("c", "m"),
-    ("m1", "kg"),
-    ("m2", "kg"),
-    ("m3", "kg"),
-    ("m4", "kg"),
-    ("m5", "kg"),
-    ("m6", "kg"),
-    ("friction", "N*m*s"),
-    ("g", "m/s^2"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 6] = [
-    ("q[1]", "rad"),
-    ("q[2]", "rad"),
-    ("q[3]", "rad"),
-    ("q[4]", "rad"),
-    ("q[5]", "rad"),
-    ("q[6]", "rad"),
-];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 6] = [
-    ("tau[1]", "N*m"),
-    ("tau[2]", "N*m"),
-    ("tau[3]", "N*m"),
-    ("tau[4]", "N*m"),
-    ("tau[5]", "N*m"),
-    ("tau[6]", "N*m"),
-];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 1] = [("height", "m")];
-
-impl ::lagrangian::emitted::Machine for SixJointArm {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "SixJointArm"
+::lagrangian::emitted::implement! {
+    machine SixJointArm "SixJointArm" over S, R;
+    parameters { h, a, b, c, m1, m2, m3, m4, m5, m6, friction, g } [
+        h: "h" "m" = 0.35;
+        a: "a" "m" = 0.4;
+        b: "b" "m" = 0.42;
+        c: "c" "m" = 0.1;
+        m1: "m1" "kg" = 12.0;
+        m2: "m2" "kg" = 9.0;
+        m3: "m3" "kg" = 6.0;
+        m4: "m4" "kg" = 1.5;
+        m5: "m5" "kg" = 1.0;
+        m6: "m6" "kg" = 5.2;
+        friction: "friction" "N*m*s" = 0.4;
+        g: "g" "m/s^2" = 9.81;
+    ]
+    coordinates 6 Coordinates { q: [q_1, q_2, q_3, q_4, q_5, q_6] } [
+        q_1: "q[1]" "rad";
+        q_2: "q[2]" "rad";
+        q_3: "q[3]" "rad";
+        q_4: "q[4]" "rad";
+        q_5: "q[5]" "rad";
+        q_6: "q[6]" "rad";
+    ]
+    inputs Inputs { tau: [tau_1, tau_2, tau_3, tau_4, tau_5, tau_6] } [
+        tau_1: "tau[1]" "N*m" = 0.0;
+        tau_2: "tau[2]" "N*m" = 0.0;
+        tau_3: "tau[3]" "N*m" = 0.0;
+        tau_4: "tau[4]" "N*m" = 0.0;
+        tau_5: "tau[5]" "N*m" = 0.0;
+        tau_6: "tau[6]" "N*m" = 0.0;
+    ] over S
+    outputs Outputs { height } [
+        height: "height" "m";
+    ]
+    prepared Prepared {
+        h, a, b, c, m2, m3, m4, m5, m6, friction, g, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10,
+        k11, k12, k13, k14, k15, k16, k17, k18, k19, k20, k21, k22, k23, k24, k25, k26, k27, k28,
+        k29, k30, k31, k32, k33, k34, k35, k36, k37, k38, k39, k40, k41, k42, k43, k44, k45, k46,
+        k47, k48, k49, k50, k51, k52, k53, k54, k55, k56,
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [
-            self.h,
-            self.a,
-            self.b,
-            self.c,
-            self.m1,
-            self.m2,
-            self.m3,
-            self.m4,
-            self.m5,
-            self.m6,
-            self.friction,
-            self.g,
-        ];
-        quantities(&PARAMETERS, values)
+    accelerations { (p, t, q, v, u) Accelerations { p, q, v, u } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q, v, u);
+        vector forces(p, t, q, v, u) = forces(p, q, v, u);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u) = dissipation(p, v);
+        number work_rate(p, t, q, v, a, u) = work_rate(v, u);
+        number dissipation_rate(p, t, q, v, u) = dissipation_rate(p, v);
+        outputs outputs(p, t, q, v, a, u) = outputs(p, q);
     }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.h),
-            1 => Some(&mut self.a),
-            2 => Some(&mut self.b),
-            3 => Some(&mut self.c),
-            4 => Some(&mut self.m1),
-            5 => Some(&mut self.m2),
-            6 => Some(&mut self.m3),
-            7 => Some(&mut self.m4),
-            8 => Some(&mut self.m5),
-            9 => Some(&mut self.m6),
-            10 => Some(&mut self.friction),
-            11 => Some(&mut self.g),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 6];
-    type Matrix = [f64; 36];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_BE_CONSTRAINED: bool = false;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 6]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 6] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 6],
-        v: &[f64; 6],
-        u: &Inputs,
-        result: &mut [f64; 6],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v, u },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, q: &[f64; 6], matrix: &mut [f64; 36]) {
-        let rows = mass_matrix(self, q);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, q: &[f64; 6], v: &[f64; 6], result: &mut [f64; 6]) {
-        *result = bias(self, q, v);
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 6], v: &[f64; 6], u: &Inputs, result: &mut [f64; 6]) {
-        *result = applied(self, q, v, u);
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 6], v: &[f64; 6], u: &Inputs, result: &mut [f64; 6]) {
-        *result = forces(self, q, v, u);
-    }
-
-    fn kinetic_energy(&self, _: f64, q: &[f64; 6], v: &[f64; 6]) -> f64 {
-        kinetic_energy(self, q, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 6], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 6], v: &[f64; 6], _: &Inputs) -> f64 {
-        dissipation(self, v)
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 6], v: &[f64; 6], _: &[f64; 6], u: &Inputs) -> f64 {
-        work_rate(v, u)
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 6], v: &[f64; 6], _: &Inputs) -> f64 {
-        dissipation_rate(self, v)
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        inputs: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [
-            inputs.tau[0],
-            inputs.tau[1],
-            inputs.tau[2],
-            inputs.tau[3],
-            inputs.tau[4],
-            inputs.tau[5],
-        ];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [outputs.height];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, q: &[f64; 6], _: &[f64; 6], _: &[f64; 6], _: &Inputs) -> Outputs {
-        outputs(self, q)
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        _: &[f64; 6],
-        _: &[f64; 6],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        ::core::iter::empty()
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 6];
-    type BatchInputs = Inputs<::lagrangian::emitted::Lanes<N>>;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            h: lanes(|p| p.h),
-            a: lanes(|p| p.a),
-            b: lanes(|p| p.b),
-            c: lanes(|p| p.c),
-            m2: lanes(|p| p.m2),
-            m3: lanes(|p| p.m3),
-            m4: lanes(|p| p.m4),
-            m5: lanes(|p| p.m5),
-            m6: lanes(|p| p.m6),
-            friction: lanes(|p| p.friction),
-            g: lanes(|p| p.g),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            k9: lanes(|p| p.k9),
-            k10: lanes(|p| p.k10),
-            k11: lanes(|p| p.k11),
-            k12: lanes(|p| p.k12),
-            k13: lanes(|p| p.k13),
-            k14: lanes(|p| p.k14),
-            k15: lanes(|p| p.k15),
-            k16: lanes(|p| p.k16),
-            k17: lanes(|p| p.k17),
-            k18: lanes(|p| p.k18),
-            k19: lanes(|p| p.k19),
-            k20: lanes(|p| p.k20),
-            k21: lanes(|p| p.k21),
-            k22: lanes(|p| p.k22),
-            k23: lanes(|p| p.k23),
-            k24: lanes(|p| p.k24),
-            k25: lanes(|p| p.k25),
-            k26: lanes(|p| p.k26),
-            k27: lanes(|p| p.k27),
-            k28: lanes(|p| p.k28),
-            k29: lanes(|p| p.k29),
-            k30: lanes(|p| p.k30),
-            k31: lanes(|p| p.k31),
-            k32: lanes(|p| p.k32),
-            k33: lanes(|p| p.k33),
-            k34: lanes(|p| p.k34),
-            k35: lanes(|p| p.k35),
-            k36: lanes(|p| p.k36),
-            k37: lanes(|p| p.k37),
-            k38: lanes(|p| p.k38),
-            k39: lanes(|p| p.k39),
-            k40: lanes(|p| p.k40),
-            k41: lanes(|p| p.k41),
-            k42: lanes(|p| p.k42),
-            k43: lanes(|p| p.k43),
-            k44: lanes(|p| p.k44),
-            k45: lanes(|p| p.k45),
-            k46: lanes(|p| p.k46),
-            k47: lanes(|p| p.k47),
-            k48: lanes(|p| p.k48),
-            k49: lanes(|p| p.k49),
-            k50: lanes(|p| p.k50),
-            k51: lanes(|p| p.k51),
-            k52: lanes(|p| p.k52),
-            k53: lanes(|p| p.k53),
-            k54: lanes(|p| p.k54),
-            k55: lanes(|p| p.k55),
-            k56: lanes(|p| p.k56),
-        }
-    }
-
-    fn batch_inputs(inputs: [&Inputs; N]) -> Self::BatchInputs {
-        let lanes = |number: fn(&Inputs) -> f64| ::lagrangian::emitted::Lanes(inputs.map(number));
-        Inputs {
-            tau: [
-                lanes(|u| u.tau[0]),
-                lanes(|u| u.tau[1]),
-                lanes(|u| u.tau[2]),
-                lanes(|u| u.tau[3]),
-                lanes(|u| u.tau[4]),
-                lanes(|u| u.tau[5]),
-            ],
-        }
-    }
-
-    fn inputs_of_lane(inputs: &Self::BatchInputs, lane: usize) -> Inputs {
-        Inputs {
-            tau: [
-                inputs.tau[0][lane],
-                inputs.tau[1][lane],
-                inputs.tau[2][lane],
-                inputs.tau[3][lane],
-                inputs.tau[4][lane],
-                inputs.tau[5][lane],
-            ],
-        }
-    }
-
-    fn is_singular(&self) -> bool {
-        false
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        u: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q, v, u },
-            result,
-        )
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for SixJointArm<S> {
-    type System = Prepared<S>;
-
-    fn prepare(&self) -> Prepared<S> {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
-        Self::start(self)
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
-    type Vector = [S; 6];
-    type Coordinates = Coordinates<S>;
-    type Inputs = Inputs<S>;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[S; 6]) -> Coordinates<S> {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 6] {
-        coordinates.to_array()
-    }
-
-    fn default_inputs(&self) -> Inputs<S> {
-        <Inputs>::default().map(S::from_f64)
-    }
-
-    fn accelerations(
-        &self,
-        _: S,
-        q: &[S; 6],
-        v: &[S; 6],
-        u: &Inputs<S>,
-        result: &mut [S; 6],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <S as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v, u },
-            result,
-        )
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_BE_CONSTRAINED MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers [yes]
 }

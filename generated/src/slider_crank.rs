@@ -68,39 +68,6 @@ pub struct SliderCrank<S = f64> {
     pub omega: S,
 }
 
-impl Default for SliderCrank {
-    fn default() -> Self {
-        Self {
-            a: 0.15,
-            b: 0.35,
-            m1: 0.5,
-            m2: 0.8,
-            m3: 1.2,
-            J1: 0.001,
-            J2: 0.008,
-            g: 9.81,
-            omega: 20.0,
-        }
-    }
-}
-
-impl<S> SliderCrank<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> SliderCrank<R> {
-        SliderCrank {
-            a: f(self.a),
-            b: f(self.b),
-            m1: f(self.m1),
-            m2: f(self.m2),
-            m3: f(self.m3),
-            J1: f(self.J1),
-            J2: f(self.J2),
-            g: f(self.g),
-            omega: f(self.omega),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> SliderCrank<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -128,13 +95,7 @@ impl<S: ::lagrangian::emitted::Scalar> SliderCrank<S> {
         let k14 = -self.b;
         let k15 = S::ONE / self.m3;
         let k16 = S::ONE / pivot_0;
-        let singular = if vanishes(self.m3, self.m3, 4.440892098500626e-15) {
-            Some(singular(2, self.m3, self.m3))
-        } else if vanishes(pivot_0, pivot_0, 4.440892098500626e-15) {
-            Some(singular(0, pivot_0, pivot_0))
-        } else {
-            None
-        };
+        let pivots = [(2, self.m3, self.m3), (0, pivot_0, pivot_0)];
         Prepared {
             a: self.a,
             b: self.b,
@@ -158,7 +119,7 @@ impl<S: ::lagrangian::emitted::Scalar> SliderCrank<S> {
             k14,
             k15,
             k16,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -188,31 +149,6 @@ pub struct Coordinates<S = f64> {
     pub phi: S,
     /// Position of the slider. Unit: `m`.
     pub s: S,
-}
-
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 3] {
-        [self.theta, self.phi, self.s]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 3]) -> Self {
-        Self {
-            theta: q[0],
-            phi: q[1],
-            s: q[2],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            theta: f(self.theta),
-            phi: f(self.phi),
-            s: f(self.s),
-        }
-    }
 }
 
 /// What can be set while a [`SliderCrank`] runs.
@@ -273,6 +209,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 3,
+    tolerance: 4.440892098500626e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -515,14 +458,13 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let theta_ddot = t12.mul_add(t32, t33);
         let phi_ddot = -t32;
         let s_ddot = -(n(p.k15) * t31);
-        let sound = t15.exceeds(N::from_f64(4.440892098500626e-15) * n(p.k7))
-            & t21.exceeds(N::from_f64(4.440892098500626e-15) * t21)
-            & t29.exceeds(N::from_f64(4.440892098500626e-15) * t25)
+        let sound = PIVOTS.hold(t15, n(p.k7))
+            & PIVOTS.hold(t21, t21)
+            & PIVOTS.hold(t29, t25)
             & s_ddot.is_finite();
         if !sound {
-            check(t15, n(p.k7), 4.440892098500626e-15, 1)?;
-            check(t21, t21, 4.440892098500626e-15, 3)?;
-            check(t29, t25, 4.440892098500626e-15, 4)?;
+            let pivots = [(1, t15, n(p.k7)), (3, t21, t21), (4, t29, t25)];
+            PIVOTS.check(pivots)?;
         }
         let accelerations = [theta_ddot.store(), phi_ddot.store(), s_ddot.store()];
         Ok(accelerations)
@@ -600,14 +542,13 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t29 = t22.neg_mul_add(t27, t25);
         let lambda2 = t27.mul_add(t24, t28) / t29;
         let lambda1 = t27.mul_add(lambda2, t26 * t24);
-        let sound = t15.exceeds(N::from_f64(4.440892098500626e-15) * n(p.k7))
-            & t21.exceeds(N::from_f64(4.440892098500626e-15) * t21)
-            & t29.exceeds(N::from_f64(4.440892098500626e-15) * t25)
+        let sound = PIVOTS.hold(t15, n(p.k7))
+            & PIVOTS.hold(t21, t21)
+            & PIVOTS.hold(t29, t25)
             & lambda1.is_finite();
         if !sound {
-            check(t15, n(p.k7), 4.440892098500626e-15, 1)?;
-            check(t21, t21, 4.440892098500626e-15, 3)?;
-            check(t29, t25, 4.440892098500626e-15, 4)?;
+            let pivots = [(1, t15, n(p.k7)), (3, t21, t21), (4, t29, t25)];
+            PIVOTS.check(pivots)?;
         }
         let multipliers = [lambda1.store(), lambda2.store()];
         Ok(multipliers)
@@ -662,357 +603,53 @@ pub fn assumption_0<S: ::lagrangian::emitted::Scalar>(q: &[S; 3]) -> S {
     cos_phi
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 9] = [
-    ("a", "m"),
-    ("b", "m"),
-    ("m1", "kg"),
-    ("m2", "kg"),
-    ("m3", "kg"),
-    ("J1", "kg*m^2"),
-    ("J2", "kg*m^2"),
-    ("g", "m/s^2"),
-    ("omega", "rad/s"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 3] = [("theta", "rad"), ("phi", "rad"), ("s", "m")];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 0] = [];
-
-/// Names, units, units of multipliers, whether positions are constrained.
-const CONSTRAINTS: [(&str, &str, &str, bool); 2] =
-    [("along", "m", "N", true), ("across", "m", "N", true)];
-
-impl ::lagrangian::emitted::Machine for SliderCrank {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "SliderCrank"
+::lagrangian::emitted::implement! {
+    machine SliderCrank "SliderCrank" over S, R;
+    parameters { a, b, m1, m2, m3, J1, J2, g, omega } [
+        a: "a" "m" = 0.15;
+        b: "b" "m" = 0.35;
+        m1: "m1" "kg" = 0.5;
+        m2: "m2" "kg" = 0.8;
+        m3: "m3" "kg" = 1.2;
+        J1: "J1" "kg*m^2" = 0.001;
+        J2: "J2" "kg*m^2" = 0.008;
+        g: "g" "m/s^2" = 9.81;
+        omega: "omega" "rad/s" = 20.0;
+    ]
+    coordinates 3 Coordinates { theta, phi, s } [
+        theta: "theta" "rad";
+        phi: "phi" "rad";
+        s: "s" "m";
+    ]
+    inputs Inputs {} []
+    outputs Outputs {} []
+    prepared Prepared {
+        a, b, m2, m3, J2, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16,
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [
-            self.a, self.b, self.m1, self.m2, self.m3, self.J1, self.J2, self.g, self.omega,
-        ];
-        quantities(&PARAMETERS, values)
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q);
+        vector forces(p, t, q, v, u) = forces(p, q, v);
+        numbers constraint_positions(p, t, q) = constraint_positions(p, q);
+        numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
+        numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
+        numbers constraint_drift(p, t, q, v) = constraint_drift(p, q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = Outputs {};
+        facts assumptions(p, t, q, v, u) = [("cos(phi) > 0", true, assumption_0(q))];
+        constraints constraints(p) = [("along", "m", "N", true), ("across", "m", "N", true)];
+        solved multipliers(p, t, q, v, u) = multipliers(p, q, v);
+        workspace with_workspace(p) = ::lagrangian::emitted::constraint_workspace(3, 2);
     }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.a),
-            1 => Some(&mut self.b),
-            2 => Some(&mut self.m1),
-            3 => Some(&mut self.m2),
-            4 => Some(&mut self.m3),
-            5 => Some(&mut self.J1),
-            6 => Some(&mut self.J2),
-            7 => Some(&mut self.g),
-            8 => Some(&mut self.omega),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 3];
-    type Matrix = [f64; 9];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 3]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 3] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 3],
-        v: &[f64; 3],
-        _: &Inputs,
-        result: &mut [f64; 3],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, q: &[f64; 3], matrix: &mut [f64; 9]) {
-        let rows = mass_matrix(self, q);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, q: &[f64; 3], v: &[f64; 3], result: &mut [f64; 3]) {
-        *result = bias(self, q, v);
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 3], _: &[f64; 3], _: &Inputs, result: &mut [f64; 3]) {
-        *result = applied(self, q);
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 3], v: &[f64; 3], _: &Inputs, result: &mut [f64; 3]) {
-        *result = forces(self, q, v);
-    }
-
-    fn constraint_positions(&self, _: f64, q: &[f64; 3], to: &mut [f64]) {
-        fill(to, &constraint_positions(self, q));
-    }
-
-    fn constraint_rates(&self, _: f64, q: &[f64; 3], v: &[f64; 3], to: &mut [f64]) {
-        fill(to, &constraint_rates(self, q, v));
-    }
-
-    fn constraint_matrix(&self, _: f64, q: &[f64; 3], to: &mut [f64]) {
-        fill(to, &constraint_matrix(self, q));
-    }
-
-    fn constraint_drift(&self, _: f64, q: &[f64; 3], v: &[f64; 3], to: &mut [f64]) {
-        fill(to, &constraint_drift(self, q, v));
-    }
-
-    fn kinetic_energy(&self, _: f64, q: &[f64; 3], v: &[f64; 3]) -> f64 {
-        kinetic_energy(self, q, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 3], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> Outputs {
-        Outputs {}
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        q: &[f64; 3],
-        _: &[f64; 3],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        let facts = [assumption("cos(phi) > 0", true, assumption_0(q))];
-        facts.into_iter()
-    }
-
-    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Constraint<'_>> {
-        CONSTRAINTS.iter().map(constraint)
-    }
-
-    fn multipliers(
-        &self,
-        _: f64,
-        q: &[f64; 3],
-        v: &[f64; 3],
-        _: &Inputs,
-        to: &mut [f64],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        fill(to, &multipliers(self, q, v)?);
-        Ok(())
-    }
-
-    fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::emitted::constraint_workspace(3, 2)];
-        work(room.get_mut(..length))
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 3];
-    type BatchInputs = Inputs;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            a: lanes(|p| p.a),
-            b: lanes(|p| p.b),
-            m2: lanes(|p| p.m2),
-            m3: lanes(|p| p.m3),
-            J2: lanes(|p| p.J2),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            k9: lanes(|p| p.k9),
-            k10: lanes(|p| p.k10),
-            k11: lanes(|p| p.k11),
-            k12: lanes(|p| p.k12),
-            k13: lanes(|p| p.k13),
-            k14: lanes(|p| p.k14),
-            k15: lanes(|p| p.k15),
-            k16: lanes(|p| p.k16),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(_: [&Inputs; N]) -> Self::BatchInputs {
-        Inputs {}
-    }
-
-    fn inputs_of_lane(_: &Self::BatchInputs, _: usize) -> Inputs {
-        Inputs {}
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        _: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q, v },
-            result,
-        )
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// A fact and by how much it holds.
-fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::emitted::Assumption<'_> {
-    ::lagrangian::emitted::Assumption {
-        text,
-        margin,
-        strict,
-    }
-}
-
-/// A constraint, as it is called.
-fn constraint<'a>(
-    &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
-) -> ::lagrangian::emitted::Constraint<'a> {
-    ::lagrangian::emitted::Constraint {
-        name,
-        unit,
-        multiplier_unit,
-        holonomic,
-    }
-}
-
-/// Writes numbers where there is room for them.
-fn fill(to: &mut [f64], from: &[f64]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = *from;
-    }
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    if let Some(constraint) = coordinate.checked_sub(3) {
-        return ::lagrangian::emitted::Singular::constraint(constraint, pivot, diagonal);
-    }
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers []
 }

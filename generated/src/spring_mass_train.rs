@@ -64,27 +64,6 @@ pub struct SpringMassTrain<S = f64> {
     pub d: S,
 }
 
-impl Default for SpringMassTrain {
-    fn default() -> Self {
-        Self {
-            m: 20.0,
-            k: 8000.0,
-            d: 0.5,
-        }
-    }
-}
-
-impl<S> SpringMassTrain<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> SpringMassTrain<R> {
-        SpringMassTrain {
-            m: f(self.m),
-            k: f(self.k),
-            d: f(self.d),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> SpringMassTrain<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -94,25 +73,16 @@ impl<S: ::lagrangian::emitted::Scalar> SpringMassTrain<S> {
         let k1 = self.m * S::from_f64(0.5);
         let k2 = -self.k;
         let k5 = -k4;
-        let singular = if vanishes(self.m, self.m, 7.105427357601002e-15) {
-            Some(singular(7, self.m, self.m))
-        } else if vanishes(self.m, self.m, 7.105427357601002e-15) {
-            Some(singular(6, self.m, self.m))
-        } else if vanishes(self.m, self.m, 7.105427357601002e-15) {
-            Some(singular(5, self.m, self.m))
-        } else if vanishes(self.m, self.m, 7.105427357601002e-15) {
-            Some(singular(4, self.m, self.m))
-        } else if vanishes(self.m, self.m, 7.105427357601002e-15) {
-            Some(singular(3, self.m, self.m))
-        } else if vanishes(self.m, self.m, 7.105427357601002e-15) {
-            Some(singular(2, self.m, self.m))
-        } else if vanishes(self.m, self.m, 7.105427357601002e-15) {
-            Some(singular(0, self.m, self.m))
-        } else if vanishes(self.m, self.m, 7.105427357601002e-15) {
-            Some(singular(1, self.m, self.m))
-        } else {
-            None
-        };
+        let pivots = [
+            (7, self.m, self.m),
+            (6, self.m, self.m),
+            (5, self.m, self.m),
+            (4, self.m, self.m),
+            (3, self.m, self.m),
+            (2, self.m, self.m),
+            (0, self.m, self.m),
+            (1, self.m, self.m),
+        ];
         Prepared {
             m: self.m,
             k: self.k,
@@ -123,7 +93,7 @@ impl<S: ::lagrangian::emitted::Scalar> SpringMassTrain<S> {
             k3,
             k4,
             k5,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -147,45 +117,11 @@ pub struct Coordinates<S = f64> {
     pub u: [S; 8],
 }
 
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 8] {
-        [
-            self.u[0], self.u[1], self.u[2], self.u[3], self.u[4], self.u[5], self.u[6], self.u[7],
-        ]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 8]) -> Self {
-        Self {
-            u: [q[0], q[1], q[2], q[3], q[4], q[5], q[6], q[7]],
-        }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates { u: self.u.map(&f) }
-    }
-}
-
 /// What can be set while a [`SpringMassTrain`] runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inputs<S = f64> {
     /// Pull of the engine. Unit: `N`. Default: 200.
     pub pull: S,
-}
-
-impl Default for Inputs {
-    fn default() -> Self {
-        Self { pull: 200.0 }
-    }
-}
-
-impl<S> Inputs<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Inputs<R> {
-        Inputs { pull: f(self.pull) }
-    }
 }
 
 /// What can be observed of a [`SpringMassTrain`].
@@ -219,6 +155,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 8,
+    tolerance: 7.105427357601002e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -514,315 +457,55 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8]) ->
     }
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 3] = [("m", "kg"), ("k", "N/m"), ("d", "m")];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 8] = [
-    ("u[1]", "m"),
-    ("u[2]", "m"),
-    ("u[3]", "m"),
-    ("u[4]", "m"),
-    ("u[5]", "m"),
-    ("u[6]", "m"),
-    ("u[7]", "m"),
-    ("u[8]", "m"),
-];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 1] = [("pull", "N")];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 1] = [("drawbar", "N")];
-
-impl ::lagrangian::emitted::Machine for SpringMassTrain {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "SpringMassTrain"
-    }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [self.m, self.k, self.d];
-        quantities(&PARAMETERS, values)
-    }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.m),
-            1 => Some(&mut self.k),
-            2 => Some(&mut self.d),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 8];
-    type Matrix = [f64; 64];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_BE_CONSTRAINED: bool = false;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 8]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 8] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 8],
-        _: &[f64; 8],
-        u: &Inputs,
-        result: &mut [f64; 8],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, u },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, _: &[f64; 8], matrix: &mut [f64; 64]) {
-        let rows = mass_matrix(self);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, _: &[f64; 8], _: &[f64; 8], result: &mut [f64; 8]) {
-        *result = [0.0; 8];
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 8], _: &[f64; 8], u: &Inputs, result: &mut [f64; 8]) {
-        *result = applied(self, q, u);
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 8], _: &[f64; 8], u: &Inputs, result: &mut [f64; 8]) {
-        *result = forces(self, q, u);
-    }
-
-    fn kinetic_energy(&self, _: f64, _: &[f64; 8], v: &[f64; 8]) -> f64 {
-        kinetic_energy(self, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 8], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 8], _: &[f64; 8], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 8], v: &[f64; 8], _: &[f64; 8], u: &Inputs) -> f64 {
-        work_rate(v, u)
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 8], _: &[f64; 8], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        inputs: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [inputs.pull];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [outputs.drawbar];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, q: &[f64; 8], _: &[f64; 8], _: &[f64; 8], _: &Inputs) -> Outputs {
-        outputs(self, q)
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        q: &[f64; 8],
-        _: &[f64; 8],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        let facts = [
-            assumption("d + u[2] - u[1] > 0", true, assumption_0(self, q)),
-            assumption("d + u[3] - u[2] > 0", true, assumption_1(self, q)),
-            assumption("d + u[4] - u[3] > 0", true, assumption_2(self, q)),
-            assumption("d + u[5] - u[4] > 0", true, assumption_3(self, q)),
-            assumption("d + u[6] - u[5] > 0", true, assumption_4(self, q)),
-            assumption("d + u[7] - u[6] > 0", true, assumption_5(self, q)),
-            assumption("d + u[8] - u[7] > 0", true, assumption_6(self, q)),
+::lagrangian::emitted::implement! {
+    machine SpringMassTrain "SpringMassTrain" over S, R;
+    parameters { m, k, d } [
+        m: "m" "kg" = 20.0;
+        k: "k" "N/m" = 8000.0;
+        d: "d" "m" = 0.5;
+    ]
+    coordinates 8 Coordinates { u: [u_1, u_2, u_3, u_4, u_5, u_6, u_7, u_8] } [
+        u_1: "u[1]" "m";
+        u_2: "u[2]" "m";
+        u_3: "u[3]" "m";
+        u_4: "u[4]" "m";
+        u_5: "u[5]" "m";
+        u_6: "u[6]" "m";
+        u_7: "u[7]" "m";
+        u_8: "u[8]" "m";
+    ]
+    inputs Inputs { pull } [
+        pull: "pull" "N" = 200.0;
+    ] over S
+    outputs Outputs { drawbar } [
+        drawbar: "drawbar" "N";
+    ]
+    prepared Prepared { m, k, d, k0, k1, k2, k3, k4, k5 }
+    singular singular
+    accelerations { (p, t, q, v, u) Accelerations { p, q, u } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p);
+        vector bias(p, t, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q, u);
+        vector forces(p, t, q, v, u) = forces(p, q, u);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u) = work_rate(v, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = outputs(p, q);
+        facts assumptions(p, t, q, v, u) = [
+            ("d + u[2] - u[1] > 0", true, assumption_0(p, q)),
+            ("d + u[3] - u[2] > 0", true, assumption_1(p, q)),
+            ("d + u[4] - u[3] > 0", true, assumption_2(p, q)),
+            ("d + u[5] - u[4] > 0", true, assumption_3(p, q)),
+            ("d + u[6] - u[5] > 0", true, assumption_4(p, q)),
+            ("d + u[7] - u[6] > 0", true, assumption_5(p, q)),
+            ("d + u[8] - u[7] > 0", true, assumption_6(p, q)),
         ];
-        facts.into_iter()
     }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 8];
-    type BatchInputs = Inputs<::lagrangian::emitted::Lanes<N>>;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            m: lanes(|p| p.m),
-            k: lanes(|p| p.k),
-            d: lanes(|p| p.d),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            singular: None,
-        }
-    }
-
-    fn batch_inputs(inputs: [&Inputs; N]) -> Self::BatchInputs {
-        let lanes = |number: fn(&Inputs) -> f64| ::lagrangian::emitted::Lanes(inputs.map(number));
-        Inputs {
-            pull: lanes(|u| u.pull),
-        }
-    }
-
-    fn inputs_of_lane(inputs: &Self::BatchInputs, lane: usize) -> Inputs {
-        Inputs {
-            pull: inputs.pull[lane],
-        }
-    }
-
-    fn is_singular(&self) -> bool {
-        self.singular.is_some()
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        _: &Self::Vectors,
-        u: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q, u },
-            result,
-        )
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for SpringMassTrain<S> {
-    type System = Prepared<S>;
-
-    fn prepare(&self) -> Prepared<S> {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
-        Self::start(self)
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
-    type Vector = [S; 8];
-    type Coordinates = Coordinates<S>;
-    type Inputs = Inputs<S>;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[S; 8]) -> Coordinates<S> {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 8] {
-        coordinates.to_array()
-    }
-
-    fn default_inputs(&self) -> Inputs<S> {
-        <Inputs>::default().map(S::from_f64)
-    }
-
-    fn accelerations(
-        &self,
-        _: S,
-        q: &[S; 8],
-        _: &[S; 8],
-        u: &Inputs<S>,
-        result: &mut [S; 8],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <S as ::lagrangian::emitted::Number>::run_in_place(Accelerations { p: self, q, u }, result)
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// A fact and by how much it holds.
-fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::emitted::Assumption<'_> {
-    ::lagrangian::emitted::Assumption {
-        text,
-        margin,
-        strict,
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_BE_CONSTRAINED MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers [yes]
 }

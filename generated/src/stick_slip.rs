@@ -48,33 +48,6 @@ pub struct StickSlip<S = f64> {
     pub g: S,
 }
 
-impl Default for StickSlip {
-    fn default() -> Self {
-        Self {
-            m: 1.0,
-            k: 1.0,
-            v_b: 0.2,
-            mu: 0.5,
-            mu0: 1.0,
-            g: 1.0,
-        }
-    }
-}
-
-impl<S> StickSlip<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> StickSlip<R> {
-        StickSlip {
-            m: f(self.m),
-            k: f(self.k),
-            v_b: f(self.v_b),
-            mu: f(self.mu),
-            mu0: f(self.mu0),
-            g: f(self.g),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> StickSlip<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -83,11 +56,7 @@ impl<S: ::lagrangian::emitted::Scalar> StickSlip<S> {
         let k2 = -self.k;
         let k3 = self.m * self.g;
         let k4 = S::ONE / self.m;
-        let singular = if vanishes(self.m, self.m, 8.881784197001252e-16) {
-            Some(singular(0, self.m, self.m))
-        } else {
-            None
-        };
+        let pivots = [(0, self.m, self.m)];
         Prepared {
             m: self.m,
             k: self.k,
@@ -99,7 +68,7 @@ impl<S: ::lagrangian::emitted::Scalar> StickSlip<S> {
             mu: self.mu,
             mu0: self.mu0,
             k4,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -121,23 +90,6 @@ impl<S: ::lagrangian::emitted::Scalar> StickSlip<S> {
 pub struct Coordinates<S = f64> {
     /// Stretch of the spring. Unit: `m`.
     pub x: S,
-}
-
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 1] {
-        [self.x]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 1]) -> Self {
-        Self { x: q[0] }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates { x: f(self.x) }
-    }
 }
 
 /// What can be set while a [`StickSlip`] runs.
@@ -174,6 +126,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 1,
+    tolerance: 8.881784197001252e-16,
+};
 
 /// Mass matrix `M`.
 ///
@@ -291,258 +250,45 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     x * (x * p.k1)
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 6] = [
-    ("m", "kg"),
-    ("k", "N/m"),
-    ("v_b", "m/s"),
-    ("mu", "1"),
-    ("mu0", "1"),
-    ("g", "m/s^2"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 1] = [("x", "m")];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 0] = [];
-
-/// The names of the contacts that stick and slide.
-const CONTACTS: [&str; 1] = ["belt"];
-
-impl ::lagrangian::emitted::Machine for StickSlip {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "StickSlip"
+::lagrangian::emitted::implement! {
+    machine StickSlip "StickSlip" over S, R;
+    parameters { m, k, v_b, mu, mu0, g } [
+        m: "m" "kg" = 1.0;
+        k: "k" "N/m" = 1.0;
+        v_b: "v_b" "m/s" = 0.2;
+        mu: "mu" "1" = 0.5;
+        mu0: "mu0" "1" = 1.0;
+        g: "g" "m/s^2" = 1.0;
+    ]
+    coordinates 1 Coordinates { x } [
+        x: "x" "m";
+    ]
+    inputs Inputs {} []
+    outputs Outputs {} []
+    prepared Prepared { m, k, v_b, k0, k1, k2, k3, mu, mu0, k4 }
+    singular singular
+    accelerations friction
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p);
+        vector bias(p, t, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q);
+        vector forces(p, t, q, v, u) = forces(p, q);
+        numbers slips(p, t, q, v) = slips(p, v);
+        numbers slip_matrix(p, t, q) = slip_matrix();
+        numbers slip_drift(p, t, q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = Outputs {};
+        names contacts(p) = ["belt"];
+        ranges slip_ranges(p, v) = slips(p, v);
+        solved friction(p, t, q, v, u) = friction(p, q);
+        workspace with_workspace(p) = ::lagrangian::emitted::contact_workspace(1, 0, 1);
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [self.m, self.k, self.v_b, self.mu, self.mu0, self.g];
-        quantities(&PARAMETERS, values)
-    }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.m),
-            1 => Some(&mut self.k),
-            2 => Some(&mut self.v_b),
-            3 => Some(&mut self.mu),
-            4 => Some(&mut self.mu0),
-            5 => Some(&mut self.g),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 1];
-    type Matrix = [f64; 1];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_BE_CONSTRAINED: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 1]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 1] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        t: f64,
-        q: &[f64; 1],
-        v: &[f64; 1],
-        u: &Inputs,
-        result: &mut [f64; 1],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        ::lagrangian::emitted::accelerations_with_friction(self, t, q, v, u, result)
-    }
-
-    fn mass_matrix(&self, _: f64, _: &[f64; 1], matrix: &mut [f64; 1]) {
-        let rows = mass_matrix(self);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, _: &[f64; 1], _: &[f64; 1], result: &mut [f64; 1]) {
-        *result = [0.0; 1];
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 1], _: &[f64; 1], _: &Inputs, result: &mut [f64; 1]) {
-        *result = applied(self, q);
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 1], _: &[f64; 1], _: &Inputs, result: &mut [f64; 1]) {
-        *result = forces(self, q);
-    }
-
-    fn slips(&self, _: f64, _: &[f64; 1], v: &[f64; 1], to: &mut [f64]) {
-        fill(to, &slips(self, v));
-    }
-
-    fn slip_matrix(&self, _: f64, _: &[f64; 1], to: &mut [f64]) {
-        fill(to, &slip_matrix());
-    }
-
-    fn slip_drift(&self, _: f64, _: &[f64; 1], _: &[f64; 1], to: &mut [f64]) {
-        to.fill(0.0);
-    }
-
-    fn kinetic_energy(&self, _: f64, _: &[f64; 1], v: &[f64; 1]) -> f64 {
-        kinetic_energy(self, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 1], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 1], _: &[f64; 1], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 1], _: &[f64; 1], _: &[f64; 1], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 1], _: &[f64; 1], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, _: &[f64; 1], _: &[f64; 1], _: &[f64; 1], _: &Inputs) -> Outputs {
-        Outputs {}
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        _: &[f64; 1],
-        _: &[f64; 1],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        ::core::iter::empty()
-    }
-
-    fn contacts(&self) -> impl ExactSizeIterator<Item = &str> {
-        CONTACTS.iter().copied()
-    }
-
-    fn slip_ranges(&self, _: f64, _: &[f64; 1], v: &[f64; 1], ranges: &mut [[f64; 2]]) {
-        let between = ::lagrangian::emitted::scalar::Interval::new;
-        let near = |x: f64| between(x.next_down(), x.next_up());
-        let p = Prepared {
-            m: near(self.m),
-            k: near(self.k),
-            v_b: near(self.v_b),
-            k0: near(self.k0),
-            k1: near(self.k1),
-            k2: near(self.k2),
-            k3: near(self.k3),
-            mu: near(self.mu),
-            mu0: near(self.mu0),
-            k4: near(self.k4),
-            singular: self.singular,
-        };
-        let slips: [::lagrangian::emitted::scalar::Interval; _] = slips(&p, &v.map(near));
-        for (range, w) in ranges.iter_mut().zip(slips) {
-            *range = [w.lo(), w.hi()];
-        }
-    }
-
-    fn friction(
-        &self,
-        _: f64,
-        q: &[f64; 1],
-        _: &[f64; 1],
-        _: &Inputs,
-        to: &mut [f64],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        fill(to, &friction(self, q)?);
-        Ok(())
-    }
-
-    fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::emitted::contact_workspace(1, 0, 1)];
-        work(room.get_mut(..length))
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// Writes numbers where there is room for them.
-fn fill(to: &mut [f64], from: &[f64]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = *from;
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_BE_CONSTRAINED MAY_COLLIDE]
+    intervals [yes]
+    lanes []
+    numbers []
 }

@@ -74,39 +74,6 @@ pub struct TwoJointArm<S = f64> {
     pub g: S,
 }
 
-impl Default for TwoJointArm {
-    fn default() -> Self {
-        Self {
-            l1: 0.4,
-            l2: 0.35,
-            c1: 0.2,
-            c2: 0.16,
-            m1: 4.0,
-            m2: 2.5,
-            J1: 0.06,
-            J2: 0.03,
-            g: 9.81,
-        }
-    }
-}
-
-impl<S> TwoJointArm<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> TwoJointArm<R> {
-        TwoJointArm {
-            l1: f(self.l1),
-            l2: f(self.l2),
-            c1: f(self.c1),
-            c2: f(self.c2),
-            m1: f(self.m1),
-            m2: f(self.m2),
-            J1: f(self.J1),
-            J2: f(self.J2),
-            g: f(self.g),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> TwoJointArm<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -166,26 +133,6 @@ pub struct Coordinates<S = f64> {
     pub q2: S,
 }
 
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 2] {
-        [self.q1, self.q2]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 2]) -> Self {
-        Self { q1: q[0], q2: q[1] }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            q1: f(self.q1),
-            q2: f(self.q2),
-        }
-    }
-}
-
 /// What can be set while a [`TwoJointArm`] runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inputs<S = f64> {
@@ -193,25 +140,6 @@ pub struct Inputs<S = f64> {
     pub tau1: S,
     /// `tau2`. Unit: `N*m`. Default: 0.
     pub tau2: S,
-}
-
-impl Default for Inputs {
-    fn default() -> Self {
-        Self {
-            tau1: 0.0,
-            tau2: 0.0,
-        }
-    }
-}
-
-impl<S> Inputs<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Inputs<R> {
-        Inputs {
-            tau1: f(self.tau1),
-            tau2: f(self.tau2),
-        }
-    }
 }
 
 /// What can be observed of a [`TwoJointArm`].
@@ -260,6 +188,13 @@ pub struct Prepared<S = f64> {
     /// `J1 + J2 + c1^2*m1 + c2^2*m2 + l1^2*m2`
     k9: S,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 2,
+    tolerance: 1.7763568394002505e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -390,12 +325,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t11 = t9.neg_mul_add(t8, sin_q2.neg_mul_add(t5, n(u.tau2) - t4));
         let q2_ddot = t11 / t10;
         let q1_ddot = t9.neg_mul_add(q2_ddot, t3 * t8);
-        let sound = t1.exceeds(N::from_f64(1.7763568394002505e-15) * t1)
-            & t10.exceeds(N::from_f64(1.7763568394002505e-15) * n(p.k4))
-            & q1_ddot.is_finite();
+        let sound = PIVOTS.hold(t1, t1) & PIVOTS.hold(t10, n(p.k4)) & q1_ddot.is_finite();
         if !sound {
-            check(t1, t1, 1.7763568394002505e-15, 0)?;
-            check(t10, n(p.k4), 1.7763568394002505e-15, 1)?;
+            let pivots = [(0, t1, t1), (1, t10, n(p.k4))];
+            PIVOTS.check(pivots)?;
         }
         let accelerations = [q1_ddot.store(), q2_ddot.store()];
         Ok(accelerations)
@@ -504,325 +437,48 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) ->
     }
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 9] = [
-    ("l1", "m"),
-    ("l2", "m"),
-    ("c1", "m"),
-    ("c2", "m"),
-    ("m1", "kg"),
-    ("m2", "kg"),
-    ("J1", "kg*m^2"),
-    ("J2", "kg*m^2"),
-    ("g", "m/s^2"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 2] = [("q1", "rad"), ("q2", "rad")];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 2] = [("tau1", "N*m"), ("tau2", "N*m")];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 3] = [("x", "m"), ("y", "m"), ("manipulability", "m^2")];
-
-impl ::lagrangian::emitted::Machine for TwoJointArm {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "TwoJointArm"
+::lagrangian::emitted::implement! {
+    machine TwoJointArm "TwoJointArm" over S, R;
+    parameters { l1, l2, c1, c2, m1, m2, J1, J2, g } [
+        l1: "l1" "m" = 0.4;
+        l2: "l2" "m" = 0.35;
+        c1: "c1" "m" = 0.2;
+        c2: "c2" "m" = 0.16;
+        m1: "m1" "kg" = 4.0;
+        m2: "m2" "kg" = 2.5;
+        J1: "J1" "kg*m^2" = 0.06;
+        J2: "J2" "kg*m^2" = 0.03;
+        g: "g" "m/s^2" = 9.81;
+    ]
+    coordinates 2 Coordinates { q1, q2 } [
+        q1: "q1" "rad";
+        q2: "q2" "rad";
+    ]
+    inputs Inputs { tau1, tau2 } [
+        tau1: "tau1" "N*m" = 0.0;
+        tau2: "tau2" "N*m" = 0.0;
+    ] over S
+    outputs Outputs { x, y, manipulability } [
+        x: "x" "m";
+        y: "y" "m";
+        manipulability: "manipulability" "m^2";
+    ]
+    prepared Prepared { l1, l2, c2, m2, J2, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9 }
+    accelerations { (p, t, q, v, u) Accelerations { p, q, v, u } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q, u);
+        vector forces(p, t, q, v, u) = forces(p, q, v, u);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u) = work_rate(v, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = outputs(p, q);
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [
-            self.l1, self.l2, self.c1, self.c2, self.m1, self.m2, self.J1, self.J2, self.g,
-        ];
-        quantities(&PARAMETERS, values)
-    }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.l1),
-            1 => Some(&mut self.l2),
-            2 => Some(&mut self.c1),
-            3 => Some(&mut self.c2),
-            4 => Some(&mut self.m1),
-            5 => Some(&mut self.m2),
-            6 => Some(&mut self.J1),
-            7 => Some(&mut self.J2),
-            8 => Some(&mut self.g),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 2];
-    type Matrix = [f64; 4];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_BE_CONSTRAINED: bool = false;
-    const MAY_SLIDE: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 2]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 2] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        _: f64,
-        q: &[f64; 2],
-        v: &[f64; 2],
-        u: &Inputs,
-        result: &mut [f64; 2],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <f64 as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v, u },
-            result,
-        )
-    }
-
-    fn mass_matrix(&self, _: f64, q: &[f64; 2], matrix: &mut [f64; 4]) {
-        let rows = mass_matrix(self, q);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, q: &[f64; 2], v: &[f64; 2], result: &mut [f64; 2]) {
-        *result = bias(self, q, v);
-    }
-
-    fn applied(&self, _: f64, q: &[f64; 2], _: &[f64; 2], u: &Inputs, result: &mut [f64; 2]) {
-        *result = applied(self, q, u);
-    }
-
-    fn forces(&self, _: f64, q: &[f64; 2], v: &[f64; 2], u: &Inputs, result: &mut [f64; 2]) {
-        *result = forces(self, q, v, u);
-    }
-
-    fn kinetic_energy(&self, _: f64, q: &[f64; 2], v: &[f64; 2]) -> f64 {
-        kinetic_energy(self, q, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 2], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 2], v: &[f64; 2], _: &[f64; 2], u: &Inputs) -> f64 {
-        work_rate(v, u)
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        inputs: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [inputs.tau1, inputs.tau2];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [outputs.x, outputs.y, outputs.manipulability];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, q: &[f64; 2], _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> Outputs {
-        outputs(self, q)
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        _: &[f64; 2],
-        _: &[f64; 2],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        ::core::iter::empty()
-    }
-}
-
-impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
-where
-    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
-{
-    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
-    type Vectors = [::lagrangian::emitted::Lanes<N>; 2];
-    type BatchInputs = Inputs<::lagrangian::emitted::Lanes<N>>;
-
-    fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
-        Prepared {
-            l1: lanes(|p| p.l1),
-            l2: lanes(|p| p.l2),
-            c2: lanes(|p| p.c2),
-            m2: lanes(|p| p.m2),
-            J2: lanes(|p| p.J2),
-            k0: lanes(|p| p.k0),
-            k1: lanes(|p| p.k1),
-            k2: lanes(|p| p.k2),
-            k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
-            k5: lanes(|p| p.k5),
-            k6: lanes(|p| p.k6),
-            k7: lanes(|p| p.k7),
-            k8: lanes(|p| p.k8),
-            k9: lanes(|p| p.k9),
-        }
-    }
-
-    fn batch_inputs(inputs: [&Inputs; N]) -> Self::BatchInputs {
-        let lanes = |number: fn(&Inputs) -> f64| ::lagrangian::emitted::Lanes(inputs.map(number));
-        Inputs {
-            tau1: lanes(|u| u.tau1),
-            tau2: lanes(|u| u.tau2),
-        }
-    }
-
-    fn inputs_of_lane(inputs: &Self::BatchInputs, lane: usize) -> Inputs {
-        Inputs {
-            tau1: inputs.tau1[lane],
-            tau2: inputs.tau2[lane],
-        }
-    }
-
-    fn is_singular(&self) -> bool {
-        false
-    }
-
-    fn batch_accelerations(
-        p: &Self::Batch,
-        _: ::lagrangian::emitted::Lanes<N>,
-        q: &Self::Vectors,
-        v: &Self::Vectors,
-        u: &Self::BatchInputs,
-        result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p, q, v, u },
-            result,
-        )
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for TwoJointArm<S> {
-    type System = Prepared<S>;
-
-    fn prepare(&self) -> Prepared<S> {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
-        Self::start(self)
-    }
-}
-
-impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
-    type Vector = [S; 2];
-    type Coordinates = Coordinates<S>;
-    type Inputs = Inputs<S>;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[S; 2]) -> Coordinates<S> {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 2] {
-        coordinates.to_array()
-    }
-
-    fn default_inputs(&self) -> Inputs<S> {
-        <Inputs>::default().map(S::from_f64)
-    }
-
-    fn accelerations(
-        &self,
-        _: S,
-        q: &[S; 2],
-        v: &[S; 2],
-        u: &Inputs<S>,
-        result: &mut [S; 2],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        <S as ::lagrangian::emitted::Number>::run_in_place(
-            Accelerations { p: self, q, v, u },
-            result,
-        )
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
-/// in any of several lanes.
-#[inline(always)]
-fn check<N: ::lagrangian::emitted::Scalar>(
-    pivot: N,
-    diagonal: N,
-    share: f64,
-    coordinate: usize,
-) -> Result<(), ::lagrangian::emitted::Singular> {
-    let bound = N::from_f64(share) * diagonal;
-    match pivot.exceeds(bound) {
-        true => Ok(()),
-        false => Err(singular(coordinate, pivot, diagonal)),
-    }
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_BE_CONSTRAINED MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers [yes]
 }

@@ -44,33 +44,6 @@ pub struct WedgeAndBlock<S = f64> {
     pub g: S,
 }
 
-impl Default for WedgeAndBlock {
-    fn default() -> Self {
-        Self {
-            M: 3.0,
-            m: 1.0,
-            alpha: 0.5235987755982989,
-            mu1: 0.1,
-            mu2: 0.02,
-            g: 9.81,
-        }
-    }
-}
-
-impl<S> WedgeAndBlock<S> {
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> WedgeAndBlock<R> {
-        WedgeAndBlock {
-            M: f(self.M),
-            m: f(self.m),
-            alpha: f(self.alpha),
-            mu1: f(self.mu1),
-            mu2: f(self.mu2),
-            g: f(self.g),
-        }
-    }
-}
-
 impl<S: ::lagrangian::emitted::Scalar> WedgeAndBlock<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
@@ -100,13 +73,7 @@ impl<S: ::lagrangian::emitted::Scalar> WedgeAndBlock<S> {
         let k16 = -t4;
         let k17 = -t3;
         let k18 = -k13;
-        let singular = if vanishes(k6, k6, 1.7763568394002505e-15) {
-            Some(singular(0, k6, k6))
-        } else if vanishes(pivot_1, self.m, 1.7763568394002505e-15) {
-            Some(singular(1, pivot_1, self.m))
-        } else {
-            None
-        };
+        let pivots = [(0, k6, k6), (1, pivot_1, self.m)];
         Prepared {
             m: self.m,
             k0: cos_self_alpha,
@@ -130,7 +97,7 @@ impl<S: ::lagrangian::emitted::Scalar> WedgeAndBlock<S> {
             k16,
             k17,
             k18,
-            singular,
+            singular: PIVOTS.vanished(pivots),
         }
     }
 
@@ -154,26 +121,6 @@ pub struct Coordinates<S = f64> {
     pub x: S,
     /// How far the block has slid down the wedge. Unit: `m`.
     pub s: S,
-}
-
-impl<S: Copy> Coordinates<S> {
-    /// The numbers in the order of the description: the order of `q` in every function here.
-    pub fn to_array(self) -> [S; 2] {
-        [self.x, self.s]
-    }
-
-    /// Names for numbers in the order of the description.
-    pub fn from_array(q: [S; 2]) -> Self {
-        Self { x: q[0], s: q[1] }
-    }
-
-    /// These values as other numbers.
-    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
-        Coordinates {
-            x: f(self.x),
-            s: f(self.s),
-        }
-    }
 }
 
 /// What can be set while a [`WedgeAndBlock`] runs.
@@ -234,6 +181,13 @@ pub struct Prepared<S = f64> {
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 2,
+    tolerance: 1.7763568394002505e-15,
+};
 
 /// Mass matrix `M`.
 ///
@@ -364,245 +318,49 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     p.k7 * s
 }
 
-/// Names and units.
-const PARAMETERS: [(&str, &str); 6] = [
-    ("M", "kg"),
-    ("m", "kg"),
-    ("alpha", "rad"),
-    ("mu1", "1"),
-    ("mu2", "1"),
-    ("g", "m/s^2"),
-];
-
-/// Names and units.
-const COORDINATES: [(&str, &str); 2] = [("x", "m"), ("s", "m")];
-
-/// Names and units.
-const INPUTS: [(&str, &str); 0] = [];
-
-/// Names and units.
-const OUTPUTS: [(&str, &str); 0] = [];
-
-/// The names of the contacts that stick and slide.
-const CONTACTS: [&str; 2] = ["table", "slope"];
-
-impl ::lagrangian::emitted::Machine for WedgeAndBlock {
-    type System = Prepared;
-
-    fn name(&self) -> &str {
-        "WedgeAndBlock"
+::lagrangian::emitted::implement! {
+    machine WedgeAndBlock "WedgeAndBlock" over S, R;
+    parameters { M, m, alpha, mu1, mu2, g } [
+        M: "M" "kg" = 3.0;
+        m: "m" "kg" = 1.0;
+        alpha: "alpha" "rad" = 0.5235987755982989;
+        mu1: "mu1" "1" = 0.1;
+        mu2: "mu2" "1" = 0.02;
+        g: "g" "m/s^2" = 9.81;
+    ]
+    coordinates 2 Coordinates { x, s } [
+        x: "x" "m";
+        s: "s" "m";
+    ]
+    inputs Inputs {} []
+    outputs Outputs {} []
+    prepared Prepared {
+        m, k0, k1, k2, k3, k4, k5, k6, k7, mu2, mu1, k8, k9, k10, k11, k12, k13, k14, k15, k16, k17,
+        k18,
     }
-
-    fn parameters(
-        &self,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [self.M, self.m, self.alpha, self.mu1, self.mu2, self.g];
-        quantities(&PARAMETERS, values)
+    singular singular
+    accelerations friction
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p);
+        vector bias(p, t, q, v);
+        vector applied(p, t, q, v, u) = applied(p);
+        vector forces(p, t, q, v, u) = forces(p);
+        numbers slips(p, t, q, v) = slips(v);
+        numbers slip_matrix(p, t, q) = slip_matrix();
+        numbers slip_drift(p, t, q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = Outputs {};
+        names contacts(p) = ["table", "slope"];
+        ranges slip_ranges(v) = slips(v);
+        solved friction(p, t, q, v, u) = friction(p);
+        workspace with_workspace(p) = ::lagrangian::emitted::contact_workspace(2, 0, 2);
     }
-
-    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
-        match index {
-            0 => Some(&mut self.M),
-            1 => Some(&mut self.m),
-            2 => Some(&mut self.alpha),
-            3 => Some(&mut self.mu1),
-            4 => Some(&mut self.mu2),
-            5 => Some(&mut self.g),
-            _ => None,
-        }
-    }
-
-    fn prepare(&self) -> Prepared {
-        Self::prepare(self)
-    }
-
-    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
-        Self::start(self)
-    }
-}
-
-impl ::lagrangian::emitted::System for Prepared {
-    type Vector = [f64; 2];
-    type Matrix = [f64; 4];
-    type Coordinates = Coordinates;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
-    const MAY_BE_CONSTRAINED: bool = false;
-    const MAY_COLLIDE: bool = false;
-
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
-        COORDINATES.iter().map(quantity)
-    }
-
-    fn to_coordinates(&self, vector: &[f64; 2]) -> Coordinates {
-        Coordinates::from_array(*vector)
-    }
-
-    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 2] {
-        coordinates.to_array()
-    }
-
-    fn accelerations(
-        &self,
-        t: f64,
-        q: &[f64; 2],
-        v: &[f64; 2],
-        u: &Inputs,
-        result: &mut [f64; 2],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        ::lagrangian::emitted::accelerations_with_friction(self, t, q, v, u, result)
-    }
-
-    fn mass_matrix(&self, _: f64, _: &[f64; 2], matrix: &mut [f64; 4]) {
-        let rows = mass_matrix(self);
-        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, _: f64, _: &[f64; 2], _: &[f64; 2], result: &mut [f64; 2]) {
-        *result = [0.0; 2];
-    }
-
-    fn applied(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &Inputs, result: &mut [f64; 2]) {
-        *result = applied(self);
-    }
-
-    fn forces(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &Inputs, result: &mut [f64; 2]) {
-        *result = forces(self);
-    }
-
-    fn slips(&self, _: f64, _: &[f64; 2], v: &[f64; 2], to: &mut [f64]) {
-        fill(to, &slips(v));
-    }
-
-    fn slip_matrix(&self, _: f64, _: &[f64; 2], to: &mut [f64]) {
-        fill(to, &slip_matrix());
-    }
-
-    fn slip_drift(&self, _: f64, _: &[f64; 2], _: &[f64; 2], to: &mut [f64]) {
-        to.fill(0.0);
-    }
-
-    fn kinetic_energy(&self, _: f64, _: &[f64; 2], v: &[f64; 2]) -> f64 {
-        kinetic_energy(self, v)
-    }
-
-    fn potential_energy(&self, _: f64, q: &[f64; 2], _: &Inputs) -> f64 {
-        potential_energy(self, q)
-    }
-
-    fn dissipation(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn work_rate(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn dissipation_rate(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> f64 {
-        0.0
-    }
-
-    fn default_inputs(&self) -> Inputs {
-        Inputs::default()
-    }
-
-    fn input_values(
-        &self,
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&INPUTS, values)
-    }
-
-    fn output_values(
-        &self,
-        _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
-        let values = [];
-        quantities(&OUTPUTS, values)
-    }
-
-    fn outputs(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> Outputs {
-        Outputs {}
-    }
-
-    fn assumptions(
-        &self,
-        _: f64,
-        _: &[f64; 2],
-        _: &[f64; 2],
-        _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
-        ::core::iter::empty()
-    }
-
-    fn contacts(&self) -> impl ExactSizeIterator<Item = &str> {
-        CONTACTS.iter().copied()
-    }
-
-    fn slip_ranges(&self, _: f64, _: &[f64; 2], v: &[f64; 2], ranges: &mut [[f64; 2]]) {
-        let between = ::lagrangian::emitted::scalar::Interval::new;
-        let near = |x: f64| between(x.next_down(), x.next_up());
-        let slips: [::lagrangian::emitted::scalar::Interval; _] = slips(&v.map(near));
-        for (range, w) in ranges.iter_mut().zip(slips) {
-            *range = [w.lo(), w.hi()];
-        }
-    }
-
-    fn friction(
-        &self,
-        _: f64,
-        _: &[f64; 2],
-        _: &[f64; 2],
-        _: &Inputs,
-        to: &mut [f64],
-    ) -> Result<(), ::lagrangian::emitted::Singular> {
-        fill(to, &friction(self)?);
-        Ok(())
-    }
-
-    fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::emitted::contact_workspace(2, 0, 2)];
-        work(room.get_mut(..length))
-    }
-}
-
-/// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
-    ::lagrangian::emitted::Quantity { name, unit }
-}
-
-/// Names and units beside values.
-fn quantities<'a, const N: usize>(
-    names: &'a [(&'a str, &'a str); N],
-    values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
-    names.iter().map(quantity).zip(values)
-}
-
-/// Writes numbers where there is room for them.
-fn fill(to: &mut [f64], from: &[f64]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = *from;
-    }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    !pivot.exceeds(bound)
-}
-
-/// The share of a pivot that is no rounding, for the message.
-#[cold]
-fn singular<S: ::lagrangian::emitted::Scalar>(
-    coordinate: usize,
-    pivot: S,
-    diagonal: S,
-) -> ::lagrangian::emitted::Singular {
-    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
-    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
+    absent [MAY_BE_CONSTRAINED MAY_COLLIDE]
+    intervals []
+    lanes []
+    numbers []
 }

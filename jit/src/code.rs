@@ -13,7 +13,7 @@ use super::lower::{Arithmetic, Base, Lowered};
 use super::unavailable::Unavailable;
 use super::work::Work;
 
-/// What code is called as: time, coordinates, velocities, inputs, prepared values, the room. A bit for each lane: whether
+/// What code is called as: time, coordinates, velocities, inputs, prepared values, the workspace. A bit for each lane: whether
 /// its guards hold.
 type Entry = unsafe extern "sysv64" fn(
     *const f64,
@@ -34,7 +34,7 @@ pub struct Code {
     /// Of each argument how many numbers it reads.
     reads: [usize; READ],
     results: usize,
-    room: usize,
+    workspace: usize,
     work: Work,
     length: usize,
 }
@@ -117,7 +117,7 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// Room for the results of one or several states.
+/// Workspace for the results of one or several states.
 pub struct Results<'a> {
     address: *mut f64,
     len: usize,
@@ -151,13 +151,13 @@ impl<'a, const N: usize> From<&'a mut [Lanes<N>]> for Results<'a> {
 
 /// Where code keeps what its registers have no place for.
 #[derive(Clone, Debug, Default)]
-pub struct Room(Vec<Line>);
+pub struct Workspace(Vec<Line>);
 
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 struct Line([u64; 8]);
 
-impl Room {
+impl Workspace {
     #[inline(always)]
     fn at_least(&mut self, bytes: usize) -> *mut u8 {
         let lines = bytes.div_ceil(size_of::<Line>());
@@ -183,7 +183,7 @@ impl Code {
         let Assembled {
             bytes,
             entry,
-            room,
+            workspace,
             work,
         } = assembled.map_err(|error| Unavailable::Encoding(error.to_string()))?;
         let length = bytes.len();
@@ -196,7 +196,7 @@ impl Code {
             layout,
             reads: std::array::from_fn(|base| lowered.reads[base] as usize),
             results: lowered.results.len(),
-            room: HEADER + room * layout.width(),
+            workspace: HEADER + workspace * layout.width(),
             work,
             length,
         })
@@ -218,14 +218,14 @@ impl Code {
         start..start + self.pages.len()
     }
 
-    /// Runs the code; a bit for each lane, whether its guards hold. None if an argument is too short, there is not room for
+    /// Runs the code; a bit for each lane, whether its guards hold. None if an argument is too short, there is no workspace for
     /// exactly the results, or any of these is of another number of states than the layout: then nothing happens.
     ///
     /// Of states side by side as many are evaluated as the code has lanes, from `first` on.
     #[inline(always)]
     pub(crate) fn run(
         &self,
-        room: &mut Room,
+        workspace: &mut Workspace,
         rows: &Rows<'_>,
         first: usize,
         results: &mut Results<'_>,
@@ -245,25 +245,25 @@ impl Code {
         if is_other {
             return None;
         }
-        let room = room.at_least(self.room);
+        let workspace = workspace.at_least(self.workspace);
         let at = |base: Base| rows.addresses[base as usize].wrapping_add(first);
         let known = match known_stride < stride {
-            // The same for all lanes.
+            // One address for all lanes.
             true => rows.addresses[Base::Known as usize],
             false => at(Base::Known),
         };
         // SAFETY: the pages are executable and hold, from `entry` on, a function of this kind, which `assemble` wrote. Of
         // each argument it reads as many numbers as `reads` says, a stride apart, and there are so many; it writes as many
-        // results, and there is room for so many. The room is as long as the code says, and aligned to its registers. The
+        // results, and there is space for so many. The workspace is as long as the code says, and aligned to its registers. The
         // addresses of what it does not read may be any. It calls `external.rs` only.
         unsafe {
             let entry =
                 std::mem::transmute::<*const u8, Entry>(self.pages.as_ptr().add(self.entry));
-            let header = room.cast::<*const f64>();
+            let header = workspace.cast::<*const f64>();
             for base in [Base::Accelerations, Base::AtTime, Base::AtPosition] {
                 header.add(base as usize).write(at(base));
             }
-            let to = room.cast::<*mut f64>().add(Base::Results as usize);
+            let to = workspace.cast::<*mut f64>().add(Base::Results as usize);
             to.write(results.address.wrapping_add(first));
             let held = entry(
                 at(Base::Time),
@@ -271,7 +271,7 @@ impl Code {
                 at(Base::Velocities),
                 at(Base::Inputs),
                 known,
-                room,
+                workspace,
             );
             Some(held & ((1 << lanes) - 1))
         }

@@ -16,7 +16,7 @@ use super::external;
 use super::lower::{Arithmetic, Base, Id, Instruction, Lowered, Node, Place, Predicate};
 use super::work::Work;
 
-/// The bytes in front of the room for values: addresses of arguments.
+/// The bytes in front of the workspace for values: addresses of arguments.
 pub const HEADER: usize = 128;
 
 /// For how many states at once code is, and how their numbers lie in memory.
@@ -47,8 +47,8 @@ pub struct Assembled {
     pub bytes: Vec<u8>,
     /// Where the code starts.
     pub entry: usize,
-    /// How many places as long as a register it needs in the room.
-    pub room: usize,
+    /// How many places as long as a register it needs in the workspace.
+    pub workspace: usize,
     /// How much work it was.
     pub work: Work,
 }
@@ -72,11 +72,11 @@ const ADDRESSES: [Register; Base::COUNT] = [
     Register::RAX, // results
 ];
 
-/// How many of [`ADDRESSES`] a call brings along; where the room is, it brings in R9.
+/// How many of [`ADDRESSES`] a call brings along; where the workspace is, it brings in R9.
 const BROUGHT: usize = 5;
 
-/// The address of the room, in a register that calls keep.
-const ROOM: Register = Register::RBX;
+/// The address of the workspace, in a register that calls keep.
+const WORKSPACE: Register = Register::RBX;
 
 /// Where guards are kept in mind with AVX-512, and where comparisons go.
 const GUARDS: Register = Register::K1;
@@ -100,7 +100,7 @@ pub fn assemble(
     Ok(Assembled {
         bytes,
         entry,
-        room: emitter.slots as usize,
+        workspace: emitter.slots as usize,
         work: emitter.work,
     })
 }
@@ -140,8 +140,8 @@ struct Emitter<'a> {
 /// Where a value goes as soon as it is there.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Goal {
-    /// An argument of a call, in the room.
-    Room(u32),
+    /// An argument of a call, in the workspace.
+    Workspace(u32),
     /// A result.
     Result(u32),
 }
@@ -186,7 +186,7 @@ impl<'a> Emitter<'a> {
         let mut wanted: Vec<(Id, Goal)> = Vec::new();
         for call in lowered.phases.iter().flat_map(|phase| &phase.calls) {
             for (index, id) in call.arguments.iter().enumerate() {
-                wanted.push((*id, Goal::Room(call.from + index as u32)));
+                wanted.push((*id, Goal::Workspace(call.from + index as u32)));
             }
         }
         for (index, id) in lowered.results.iter().enumerate() {
@@ -222,7 +222,7 @@ impl<'a> Emitter<'a> {
             home: home.collect(),
             is_borrowed: vec![false; count],
             free_slots: Vec::new(),
-            slots: lowered.room,
+            slots: lowered.workspace,
             wanted,
             is_loaded,
             work: Work::default(),
@@ -231,8 +231,8 @@ impl<'a> Emitter<'a> {
 
     fn function(&mut self) -> Result<(), IcedError> {
         // The stack is then aligned as calls want it.
-        self.put(Encoded::with1(Code::Push_r64, ROOM)?)?;
-        self.put(Encoded::with2(Code::Mov_r64_rm64, ROOM, Register::R9)?)?;
+        self.put(Encoded::with1(Code::Push_r64, WORKSPACE)?)?;
+        self.put(Encoded::with2(Code::Mov_r64_rm64, WORKSPACE, Register::R9)?)?;
         let lowered = self.lowered;
         let phases = &lowered.phases;
         for (number, phase) in phases.iter().enumerate() {
@@ -257,7 +257,7 @@ impl<'a> Emitter<'a> {
         if self.layout.lanes > 1 {
             self.put(Encoded::with(Code::VEX_Vzeroupper))?;
         }
-        self.put(Encoded::with1(Code::Pop_r64, ROOM)?)?;
+        self.put(Encoded::with1(Code::Pop_r64, WORKSPACE)?)?;
         self.put(Encoded::with(Code::Retnq))
     }
 
@@ -283,7 +283,7 @@ impl<'a> Emitter<'a> {
     fn address(&mut self, base: Base) -> Result<Register, IcedError> {
         let register = ADDRESSES[base as usize];
         if !std::mem::replace(&mut self.is_loaded[base as usize], true) {
-            let header = MemoryOperand::with_base_displ(ROOM, saved(base as usize));
+            let header = MemoryOperand::with_base_displ(WORKSPACE, saved(base as usize));
             self.put(Encoded::with2(Code::Mov_r64_rm64, register, header)?)?;
         }
         Ok(register)
@@ -307,14 +307,14 @@ impl<'a> Emitter<'a> {
                 let displacement = 8 * stride * index as usize;
                 (register, displacement as i64, is_wide && stride == 1)
             }
-            Place::Room(index) => (ROOM, self.in_room(index), false),
+            Place::Workspace(index) => (WORKSPACE, self.in_workspace(index), false),
         };
         let mut operand = MemoryOperand::with_base_displ(base, displacement);
         operand.is_broadcast = is_broadcast;
         Ok(operand)
     }
 
-    fn in_room(&self, index: u32) -> i64 {
+    fn in_workspace(&self, index: u32) -> i64 {
         (HEADER + index as usize * self.layout.width()) as i64
     }
 
@@ -365,9 +365,9 @@ impl<'a> Emitter<'a> {
         if self.home[id as usize].is_none() {
             let slot = self.free_slots.pop().unwrap_or(self.slots);
             self.slots = self.slots.max(slot + 1);
-            self.home[id as usize] = Some(Place::Room(slot));
+            self.home[id as usize] = Some(Place::Workspace(slot));
             self.is_borrowed[id as usize] = true;
-            self.store(index, Goal::Room(slot))?;
+            self.store(index, Goal::Workspace(slot))?;
         }
         Ok(())
     }
@@ -387,7 +387,9 @@ impl<'a> Emitter<'a> {
 
     fn store(&mut self, index: u8, goal: Goal) -> Result<(), IcedError> {
         let to = match goal {
-            Goal::Room(slot) => MemoryOperand::with_base_displ(ROOM, self.in_room(slot)),
+            Goal::Workspace(slot) => {
+                MemoryOperand::with_base_displ(WORKSPACE, self.in_workspace(slot))
+            }
             Goal::Result(result) => {
                 let register = self.address(Base::Results)?;
                 let displacement = 8 * self.layout.stride * result as usize;
@@ -568,7 +570,7 @@ impl<'a> Emitter<'a> {
                 Last::Memory(operand)
             }
             // Constants are there twice; behind others may be nothing.
-            (Level::Avx2, Place::Argument(..) | Place::Room(_)) if is_long => {
+            (Level::Avx2, Place::Argument(..) | Place::Workspace(_)) if is_long => {
                 Last::Register(self.in_register(id, but)?)
             }
             (Level::Avx2, _) => Last::Memory(self.operand(place)?),
@@ -604,7 +606,7 @@ impl<'a> Emitter<'a> {
         for operand in self.lowered.nodes[id as usize].operands() {
             if self.next(operand) == NEVER
                 && std::mem::replace(&mut self.is_borrowed[operand as usize], false)
-                && let Some(Place::Room(slot)) = self.home[operand as usize].take()
+                && let Some(Place::Workspace(slot)) = self.home[operand as usize].take()
             {
                 self.free_slots.push(slot);
             }
@@ -620,9 +622,9 @@ impl<'a> Emitter<'a> {
                 break;
             }
             self.store(index, goal)?;
-            if let Goal::Room(slot) = goal {
+            if let Goal::Workspace(slot) = goal {
                 // Nobody else writes there, so it need not be saved.
-                self.home[id as usize] = Some(Place::Room(slot));
+                self.home[id as usize] = Some(Place::Workspace(slot));
             }
         }
         self.give_back(id);
@@ -762,7 +764,7 @@ impl<'a> Emitter<'a> {
             for (index, id) in call.arguments.iter().enumerate() {
                 // What is computed went there at once.
                 if let Node::Leaf(place) = lowered.nodes[*id as usize] {
-                    self.copy(place, Goal::Room(call.from + index as u32))?;
+                    self.copy(place, Goal::Workspace(call.from + index as u32))?;
                 }
             }
         }
@@ -777,7 +779,7 @@ impl<'a> Emitter<'a> {
         if phase == 0 {
             for (base, register) in ADDRESSES.iter().enumerate().take(BROUGHT) {
                 if self.lowered.reads[base] > 0 {
-                    let header = MemoryOperand::with_base_displ(ROOM, saved(base));
+                    let header = MemoryOperand::with_base_displ(WORKSPACE, saved(base));
                     self.put(Encoded::with2(Code::Mov_rm64_r64, header, *register)?)?;
                 }
             }
@@ -793,8 +795,8 @@ impl<'a> Emitter<'a> {
                 self.layout.lanes,
                 call.arguments.len(),
             );
-            let from = MemoryOperand::with_base_displ(ROOM, self.in_room(call.from));
-            let to = MemoryOperand::with_base_displ(ROOM, self.in_room(call.to));
+            let from = MemoryOperand::with_base_displ(WORKSPACE, self.in_workspace(call.from));
+            let to = MemoryOperand::with_base_displ(WORKSPACE, self.in_workspace(call.to));
             let count = call.arguments.len() as u32;
             self.put(Encoded::with2(Code::Lea_r64_m, Register::RDI, from)?)?;
             self.put(Encoded::with2(Code::Lea_r64_m, Register::RSI, to)?)?;
@@ -811,7 +813,7 @@ impl<'a> Emitter<'a> {
     }
 }
 
-/// Where the address of an argument is kept, by the number of its [`Base`], from the start of the room.
+/// Where the address of an argument is kept, by the number of its [`Base`], from the start of the workspace.
 fn saved(base: usize) -> i64 {
     8 * base as i64
 }

@@ -38,7 +38,7 @@ pub fn address(kind: CallKind, arithmetic: Arithmetic, lanes: usize, arguments: 
 /// late if it is read in one, 20 to 30 ns.
 ///
 /// # Safety
-/// There are K angles, and room for 2K results.
+/// There are K angles, and space for 2K results.
 unsafe extern "sysv64" fn few<const K: usize>(from: *const f64, to: *mut f64, _: u32) {
     f64::run(Few::<K> { from, to });
 }
@@ -61,7 +61,7 @@ impl<const K: usize> Kernel<f64> for Few<K> {
         }
         let all = N::sin_cos_all(angles);
         for (index, (sin, cos)) in all.into_iter().enumerate() {
-            // SAFETY: by the caller of `few` there is room for K sines and K cosines behind them.
+            // SAFETY: by the caller of `few` there is space for K sines and K cosines behind them.
             unsafe {
                 self.to.add(index).write(sin.store());
                 self.to.add(K + index).write(cos.store());
@@ -73,7 +73,7 @@ impl<const K: usize> Kernel<f64> for Few<K> {
 /// Sines and cosines of many angles of one state, eight by eight.
 ///
 /// # Safety
-/// There are `count` angles, and room for twice as many results.
+/// There are `count` angles, and space for twice as many results.
 unsafe extern "sysv64" fn many(from: *const f64, to: *mut f64, count: u32) {
     let count = count as usize;
     // SAFETY: the caller says so; results lie behind the angles.
@@ -130,7 +130,7 @@ impl Kernel<Lanes<8>> for Many<'_> {
 /// Sines and cosines of the angles of several states.
 ///
 /// # Safety
-/// There are `count` rows of angles, and room for twice as many results, at addresses that rows may have.
+/// There are `count` rows of angles, and space for twice as many results, at addresses that rows may have.
 unsafe extern "sysv64" fn rows<const N: usize>(from: *const f64, to: *mut f64, count: u32)
 where
     Lanes<N>: Number,
@@ -202,7 +202,7 @@ fn together<N: Scalar<Stored = Lanes<L>>, const K: usize, const L: usize>(
 /// `libm`'s sines and cosines.
 ///
 /// # Safety
-/// There are `count` rows of L angles, and room for twice as many results.
+/// There are `count` rows of L angles, and space for twice as many results.
 unsafe extern "sysv64" fn plain_sines<const L: usize>(from: *const f64, to: *mut f64, count: u32) {
     let count = L * count as usize;
     for index in 0..count {
@@ -220,7 +220,7 @@ fn named<const L: usize>(function: Named) -> External {
     macro_rules! one {
         ($method:ident) => {{
             /// # Safety
-            /// There is a row, and room for a row.
+            /// There is a row, and space for a row.
             unsafe extern "sysv64" fn each<const L: usize>(from: *const f64, to: *mut f64, _: u32) {
                 for lane in 0..L {
                     // SAFETY: the caller says so.
@@ -233,7 +233,7 @@ fn named<const L: usize>(function: Named) -> External {
     macro_rules! two {
         ($method:ident) => {{
             /// # Safety
-            /// There are two rows, and room for a row.
+            /// There are two rows, and space for a row.
             unsafe extern "sysv64" fn each<const L: usize>(from: *const f64, to: *mut f64, _: u32) {
                 for lane in 0..L {
                     // SAFETY: the caller says so.

@@ -49,7 +49,7 @@ mod work;
 use nowhere as code;
 
 pub use arguments::SeveralArguments;
-pub use code::{Code, Layout, Room};
+pub use code::{Code, Layout, Workspace};
 pub use library::Library;
 pub use running::{Running, When};
 pub use several::Several;

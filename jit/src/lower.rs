@@ -88,8 +88,8 @@ pub enum Place {
     Constant(u32),
     /// Among the arguments of the call.
     Argument(Base, u32),
-    /// In the room for values between instructions.
-    Room(u32),
+    /// In the workspace for values between instructions.
+    Workspace(u32),
 }
 
 /// The arguments of a call, each a row of numbers.
@@ -127,7 +127,7 @@ pub struct Call {
     pub kind: CallKind,
     /// The arguments, of sines and cosines any number.
     pub arguments: Vec<Id>,
-    /// Where in the room the arguments go, one after another.
+    /// Where in the workspace the arguments go, one after another.
     pub from: u32,
     /// Where the results are: of angles all sines, then all cosines.
     pub to: u32,
@@ -162,8 +162,8 @@ pub struct Lowered {
     pub results: Vec<Id>,
     /// The bits of the constants.
     pub constants: Vec<u64>,
-    /// How many places the calls need in the room.
-    pub room: u32,
+    /// How many places the calls need in the workspace.
+    pub workspace: u32,
     /// Of each argument how many numbers are read.
     pub reads: [u32; Base::COUNT],
     /// Whether there are guards.
@@ -243,7 +243,7 @@ impl Builder {
     /// The result of a call of which nothing is known yet but what it is of.
     fn call(&mut self, kind: CallKind, arguments: Vec<Id>, results: usize) -> Vec<Id> {
         let call = self.wanted.len();
-        let place = Node::Leaf(Place::Room(0));
+        let place = Node::Leaf(Place::Workspace(0));
         let results: Vec<Id> = (0..results).map(|_| self.add(place)).collect();
         self.call_of.extend(results.iter().map(|id| (*id, call)));
         self.wanted.push(Wanted {
@@ -501,20 +501,20 @@ impl Builder {
                 phase.order.push(*id);
             }
         }
-        let mut room = 0;
+        let mut workspace = 0;
         let mut place = |nodes: &mut [Node], calls: &[&Wanted], kind| {
             let arguments: Vec<Id> = calls
                 .iter()
                 .flat_map(|call| call.arguments.iter().copied())
                 .collect();
-            let from = room;
+            let from = workspace;
             let to = from + arguments.len() as u32;
-            room = to;
+            workspace = to;
             // All first results, then all second ones.
             for second in 0..2 {
                 for id in calls.iter().filter_map(|call| call.results.get(second)) {
-                    nodes[*id as usize] = Node::Leaf(Place::Room(room));
-                    room += 1;
+                    nodes[*id as usize] = Node::Leaf(Place::Workspace(workspace));
+                    workspace += 1;
                 }
             }
             Call {
@@ -551,7 +551,7 @@ impl Builder {
             phases,
             results,
             constants: self.constants,
-            room,
+            workspace,
             reads,
             is_guarded,
         }

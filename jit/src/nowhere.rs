@@ -30,7 +30,7 @@ pub struct Layout {
 
 /// Where code keeps what its registers have no place for.
 #[derive(Clone, Debug, Default)]
-pub struct Room(());
+pub struct Workspace(());
 
 /// What a call reads.
 #[derive(Clone, Copy, Debug)]
@@ -53,7 +53,7 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// Room for the results of one or several states.
+/// Workspace for the results of one or several states.
 pub struct Results<'a>(PhantomData<&'a mut f64>);
 
 impl<'a> From<&'a mut [f64]> for Results<'a> {
@@ -94,7 +94,7 @@ impl Code {
 
     pub(crate) fn run(
         &self,
-        _: &mut Room,
+        _: &mut Workspace,
         _: &Rows<'_>,
         _: usize,
         _: &mut Results<'_>,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use lagrangian_program::{Arguments, Interpreter, Role};
 
 use super::Library;
-use super::code::{Room, Rows};
+use super::code::{Rows, Workspace};
 
 /// When functions are compiled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +26,7 @@ pub struct Running {
     is_singular: bool,
     at_time: Vec<f64>,
     at_position: Vec<f64>,
-    room: Room,
+    workspace: Workspace,
     /// The function of the last call.
     last: usize,
 }
@@ -41,7 +41,7 @@ impl Running {
             is_singular: interpreter.singular().is_some(),
             at_time: Vec::new(),
             at_position: Vec::new(),
-            room: Room::default(),
+            workspace: Workspace::default(),
             last: usize::MAX,
         }
     }
@@ -69,7 +69,7 @@ impl Running {
         };
         let left = [self.at_time.as_slice(), self.at_position.as_slice()];
         let rows = Rows::of_one(&arguments, &self.prepared, left);
-        code.run(&mut self.room, &rows, 0, &mut results.into()) == Some(1)
+        code.run(&mut self.workspace, &rows, 0, &mut results.into()) == Some(1)
     }
 
     /// Hands the results of [`Role::AtTime`] or [`Role::AtPosition`] to the calls of the next stage.

@@ -7,7 +7,7 @@ use lagrangian_program::{Interpreter, Role};
 
 use super::Library;
 use super::arguments::SeveralArguments;
-use super::code::{Results, Room, Rows};
+use super::code::{Results, Rows, Workspace};
 
 /// A machine in N lanes, 4 or 8, run by machine code.
 ///
@@ -21,7 +21,7 @@ pub struct Several<const N: usize> {
     regular: u32,
     at_time: Vec<Lanes<N>>,
     at_position: Vec<Lanes<N>>,
-    room: Room,
+    workspace: Workspace,
     /// The function of the last call.
     last: usize,
 }
@@ -86,7 +86,7 @@ impl<const N: usize> Several<N> {
             regular: Self::ALL,
             at_time: Vec::new(),
             at_position: Vec::new(),
-            room: Room::default(),
+            workspace: Workspace::default(),
             last: usize::MAX,
         }
     }
@@ -127,7 +127,7 @@ impl<const N: usize> Several<N> {
         let mut to = Results::from(results);
         let mut held = 0;
         for first in (0..N).step_by(layout.lanes) {
-            held |= code.run(&mut self.room, &rows, first, &mut to)? << first;
+            held |= code.run(&mut self.workspace, &rows, first, &mut to)? << first;
         }
         Some(held)
     }

@@ -134,7 +134,7 @@ impl<'d> Model<'d> {
         )
     }
 
-    /// The same with formulas that are to be computed beside what the spec says: further outputs, behind its own.
+    /// Resolves a spec with formulas that are to be computed beside what the spec says: further outputs, behind its own.
     pub fn resolve_with(
         spec: Spec,
         dag: &'d Dag,

@@ -65,6 +65,8 @@ pub struct Model<'d> {
     pub time: Expr<'d>,
     /// Run-time parameters, in the order of their declaration.
     pub parameters: Vec<Parameter<'d>>,
+    /// Parameters that follow from others, in the order of their declaration; expressions hold their formulas already.
+    pub derived_parameters: Vec<DerivedParameter<'d>>,
     /// Compile-time constants; expressions hold their values already.
     pub constants: Vec<Constant<'d>>,
     /// Generalized coordinates, in the order of `q`: those of the spec, then the integrals of its states of
@@ -168,6 +170,23 @@ pub struct Parameter<'d> {
     pub default: Option<Expr<'d>>,
     /// Its symbol.
     pub symbol: Expr<'d>,
+    /// Its name in the spec.
+    pub span: Span,
+}
+
+/// A parameter that follows from others: `J: kg*m^2 = m*r^2/2`.
+#[derive(Clone)]
+pub struct DerivedParameter<'d> {
+    /// Its name.
+    pub name: Name,
+    /// What the spec says about it.
+    pub docs: String,
+    /// Its unit.
+    pub unit: Unit,
+    /// Its unit as the spec writes it: `N/m` and `rad`, which are `kg/s^2` and `1` to [`Unit`].
+    pub unit_text: String,
+    /// Its value in that unit, of parameters.
+    pub value: Expr<'d>,
     /// Its name in the spec.
     pub span: Span,
 }
@@ -426,6 +445,8 @@ pub struct Contact<'d> {
     pub friction: Option<Expr<'d>>,
     /// Coefficient of friction of what sticks, where it is another.
     pub static_friction: Option<Expr<'d>>,
+    /// Coefficient of rolling resistance, a length in m; none where nothing resists rolling.
+    pub rolling_resistance: Option<Expr<'d>>,
     /// Its name in the spec.
     pub span: Span,
 }

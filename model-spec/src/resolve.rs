@@ -37,6 +37,7 @@ mod bounds;
 mod brachistochrone;
 mod contacts;
 mod derivatives;
+mod derived;
 pub(crate) mod element;
 pub(crate) mod expression;
 mod fields;
@@ -153,8 +154,12 @@ pub(crate) struct Resolver<'a, 'd, 'r> {
     pub(crate) dag: &'d Dag,
     pub(crate) space: Space,
     language: Language,
-    /// The values that the caller sets for constants.
+    /// The values that the caller sets for constants, and for parameters that are derived otherwise.
     overrides: &'r [(String, Rational)],
+    /// The parameters that the caller sets later.
+    given: Vec<String>,
+    /// The declarations of parameters whose values depend on other parameters.
+    derived: FxHashSet<usize>,
     report: &'r mut Report,
     /// What was reported where: all members of a family make the same mistake.
     said: FxHashSet<(Span, Code)>,
@@ -189,8 +194,8 @@ pub(crate) struct Resolver<'a, 'd, 'r> {
     rotors: Vec<Body<'d>>,
     /// The tables of the spec, where it is read with its files.
     tables: Option<&'r Tables>,
-    /// That tables are not asked for what is beyond their ends.
-    table_facts: Vec<Assumption<'d>>,
+    /// Facts that the spec does not say itself: that tables are not asked for what is beyond their ends, that ropes lie on pulleys.
+    further_facts: Vec<Assumption<'d>>,
 
     /// The groups of which a member is used.
     used: FxHashSet<usize>,
@@ -217,6 +222,11 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             space: space_of(&layers.specs),
             language,
             overrides,
+            given: layers
+                .specs
+                .last()
+                .map_or_else(Vec::new, |spec| spec.given.clone()),
+            derived: FxHashSet::default(),
             report,
             said: FxHashSet::default(),
             remarks: None,
@@ -239,7 +249,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             symbols: FxHashMap::default(),
             rotors: Vec::new(),
             tables: None,
-            table_facts: Vec::new(),
+            further_facts: Vec::new(),
             used: FxHashSet::default(),
             bounds: Vec::new(),
             steps: 0,
@@ -253,6 +263,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         self.check_machine(machine, layers);
         self.poses.push(self.ground());
         self.declare_all(layers);
+        self.find_derived();
         self.check_overrides(machine);
         self.expand_all();
 
@@ -261,6 +272,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
                 .parameter(member)
                 .map(|parameter| (member, parameter))
         });
+        let derived_parameters = self.each(Parameters, Self::derived_parameter);
         let constants = self.each(Constants, Self::constant);
         let mut coordinates = self.each(Coordinates, Self::coordinate);
         self.start_rates(layers, &mut coordinates);
@@ -294,7 +306,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
 
         coordinates.extend(states);
         coordinates.extend(self.relaxed_coordinates());
-        assumptions.append(&mut self.table_facts);
+        assumptions.append(&mut self.further_facts);
 
         let bounds = self.check_bounds(&assumptions, &parameters);
         self.check_not_empty(machine);
@@ -313,6 +325,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
                 .into_iter()
                 .map(|(_, parameter)| parameter)
                 .collect(),
+            derived_parameters,
             constants,
             coordinates,
             inputs,
@@ -380,7 +393,9 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             });
         }
         for section in self.language.sections {
-            for (ordinal, member) in self.members_of(*section).into_iter().enumerate() {
+            let mut members = self.members_of(*section);
+            members.retain(|&member| !self.is_derived(member));
+            for (ordinal, member) in members.into_iter().enumerate() {
                 self.ordinals.insert(member, ordinal);
             }
         }
@@ -443,15 +458,21 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         if self.incomplete {
             return;
         }
-        let constants: Vec<&'a str> = self
-            .declarations
-            .iter()
-            .filter(|declaration| declaration.section == SectionKind::Constants)
-            .map(|declaration| declaration.name.base.text.as_str())
+        let is_constant = |(_, declaration): &(usize, &Declaration<'a>)| {
+            declaration.section == SectionKind::Constants
+        };
+        let all = || self.declarations.iter().enumerate();
+        let constants: Vec<&'a str> = all()
+            .filter(is_constant)
+            .map(|(_, declaration)| declaration.name.base.text.as_str())
+            .collect();
+        let derived: Vec<&'a str> = all()
+            .filter(|(place, _)| self.derived.contains(place))
+            .map(|(_, declaration)| declaration.name.base.text.as_str())
             .collect();
         for (name, _) in self.overrides {
             let base = name.split('[').next().unwrap_or(name);
-            if constants.contains(&base) {
+            if constants.contains(&base) || derived.contains(&base) {
                 continue;
             }
             let message = format!("the machine has no constant `{name}` to be set");

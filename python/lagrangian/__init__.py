@@ -12,9 +12,10 @@ from ._command import Brachistochrone, Campbell, Check, Published
 from ._equations import Equations, Program
 from ._fit import Combination, Fit
 from ._linear import Linear, Mode, Modes
-from ._machine import Evaluation, Machine, load, loads
+from ._machine import Evaluation, Machine, from_urdf, load, loads
 from ._named import Named, State
 from ._native import __version__, set_engine, set_threads
+from ._looks import Comparison, Peaks, Section, Spectrum
 from ._orbit import Orbit
 from ._sensitive import Sensitivities
 from ._signals import Sampled, Table
@@ -46,6 +47,7 @@ __all__ = [
     "Campbell",
     "Check",
     "Combination",
+    "Comparison",
     "Diagnostic",
     "Energy",
     "Equations",
@@ -63,15 +65,18 @@ __all__ = [
     "Named",
     "Normal",
     "Orbit",
+    "Peaks",
     "Program",
     "Published",
     "Report",
     "Run",
     "RunError",
     "Sampled",
+    "Section",
     "Sensitivities",
     "SingularError",
     "SpecError",
+    "Spectrum",
     "State",
     "Sweep",
     "Symbolic",
@@ -81,6 +86,7 @@ __all__ = [
     "UnknownName",
     "__version__",
     "errors",
+    "from_urdf",
     "load",
     "loads",
     "run_chunk",

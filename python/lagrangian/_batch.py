@@ -7,6 +7,7 @@ from typing import Any, Dict, List, Mapping, Optional, Tuple
 import numpy as np
 
 from . import _native
+from ._named import integral_of, rate_names, state_of
 from .errors import SingularError, unknown
 
 
@@ -47,7 +48,34 @@ def vectors(given: Any, names: Tuple[str, ...], default: Any, what: str, kind: s
 
 def of_name(name: str, names: Tuple[str, ...]) -> List[int]:
     """The places that a name means: its own, or those of the members of a family."""
-    return [i for i, known in enumerate(names) if known == name or known.split("[")[0] == name]
+    found = [i for i, known in enumerate(names) if known == name or known.split("[")[0] == name]
+    state = None if found else state_of(name)
+    return found if state is None else of_name(state, names)
+
+
+def start_of(machine: Any, start: Any, rate: Any) -> Tuple[np.ndarray, np.ndarray]:
+    """Coordinates and rates of a start, (n,) each: as the spec has them where nothing is said. ``start`` says states of first order
+    too, under their names; or it is said by arrays, or by mappings."""
+    names, default = machine.coordinates, machine.start
+    of_states: Mapping[str, Any] = {}
+    if isinstance(start, Mapping) and machine.states:
+        of_states = {name: x for name, x in start.items() if not of_name(name, names) and of_name(name, machine.states)}
+        start = {name: x for name, x in start.items() if name not in of_states}
+    q = vectors(start, names, default.q, "start", "coordinate")
+    v = vectors(rate, rate_names(names), default.v, "rate", "coordinate")
+    if of_states:
+        v = vectors(of_states, rate_names(names), v, "start", "state")
+    for what, given in (("start", q), ("rate", v)):
+        if given.shape != (len(names),):
+            raise ValueError(f"{what} has shape {given.shape}, wanted ({len(names)},)")
+        if not np.isfinite(given).all():
+            raise ValueError(f"{what} is not finite: {given!r}")
+    return q, v
+
+
+def for_command(machine: Any, name: str) -> str:
+    """What the command calls a rate that Python calls so: that of the integral of a state."""
+    return integral_of(name) if of_name(name, machine.states) and not of_name(name, machine.coordinates) else name
 
 
 class Arguments:
@@ -60,7 +88,7 @@ class Arguments:
         names = machine.coordinates
         inputs = tuple(machine.inputs)
         q = vectors(q, names, start.q, "q", "coordinate")
-        v = vectors(v, names, start.v, "v", "coordinate")
+        v = vectors(v, rate_names(names), start.v, "v", "coordinate")
         u = vectors(u, inputs, list(machine.inputs.values()), "u", "input")
         t = number_array(0.0 if t is None else t, "t")
         varied: Dict[str, np.ndarray] = {}

@@ -37,6 +37,19 @@ def answer(machine: Any, command: str, options: Sequence[str], wrong: Sequence[i
     return document
 
 
+def imported(path: str, options: Sequence[str]) -> Dict[str, Any]:
+    """The JSON document that ``lagrangian import`` prints about a robot's file."""
+    status, out, err = _native.import_robot(path, ["--json", *options])
+    if status != 0:
+        try:
+            message = json.loads(out).get("error", "")
+        except (ValueError, AttributeError):
+            message = ""
+        raise ValueError(message or err.strip() or out.strip())
+    document: Dict[str, Any] = json.loads(out)
+    return document
+
+
 def settings(machine: Any) -> List[str]:
     """Options that set the parameters and inputs of a machine."""
     values = {**machine.parameters, **machine.inputs}
@@ -168,10 +181,12 @@ def _places(machine: Any, option: str, given: Any) -> List[str]:
     if isinstance(given, State):
         given = given.q
     if isinstance(given, Mapping):
+        of_states = machine.states if option in ("--start", "--rate") else ()
         for name in given:
-            if not _batch.of_name(name, names):
-                raise unknown("coordinate", name, names)
-        return [f"{option}={name}={float(x)!r}" for name, x in given.items()]
+            if not _batch.of_name(name, names) and not _batch.of_name(name, of_states):
+                raise unknown("coordinate", name, (*names, *of_states))
+        said = {name if option == "--start" else _batch.for_command(machine, name): x for name, x in given.items()}
+        return [f"{option}={name}={float(x)!r}" for name, x in said.items()]
     values = _batch.number_array(given, option.strip("-"))
     if values.shape != (len(names),):
         raise ValueError(f"{option.strip('-')} has shape {values.shape}, wanted ({len(names)},)")

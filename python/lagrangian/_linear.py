@@ -10,7 +10,7 @@ from typing import Any, Dict, Iterator, List, Mapping, NamedTuple, Optional, Seq
 import numpy as np
 
 from . import _batch, _native
-from ._named import Named, State
+from ._named import Named, State, rates, state_of
 from ._simulate import _written_beside
 from .errors import unknown
 
@@ -233,23 +233,16 @@ def _csv(rows: Sequence[str], columns: Sequence[str], matrix: np.ndarray) -> str
 
 
 def _state(machine: Any, t: float, q: np.ndarray, v: np.ndarray) -> State:
-    return State(t, Named(q, machine.coordinates), Named(v, machine.coordinates))
+    return State(t, Named(q, machine.coordinates), rates(v, machine.coordinates))
 
 
 def _start(machine: Any, start: Any, rate: Any, t: float) -> Tuple[float, List[float], List[float]]:
-    names = machine.coordinates
     if isinstance(start, State):
         if rate is not None:
             raise ValueError("start is a State, which has rates of its own")
         t = float(start.t) if t == 0.0 else t
         start, rate = start.q, start.v
-    q = _batch.vectors(start, names, machine.start.q, "start", "coordinate")
-    v = _batch.vectors(rate, names, machine.start.v, "rate", "coordinate")
-    for what, given in (("start", q), ("rate", v)):
-        if given.shape != (len(names),):
-            raise ValueError(f"{what} has shape {given.shape}, wanted ({len(names)},)")
-        if not np.all(np.isfinite(given)):
-            raise ValueError(f"{what} is not finite")
+    q, v = _batch.start_of(machine, start, rate)
     return float(t), q.tolist(), v.tolist()
 
 
@@ -287,9 +280,11 @@ def _outputs(machine: Any, wanted: Optional[Sequence[str]]) -> List[Tuple[str, i
     if wanted is None:
         if own:
             return [("output", k) for k in range(len(own))]
-        return [("coordinate", k) for k in range(len(names))]
+        return [("coordinate" if state_of(name) is None else "rate", k) for k, name in enumerate(names)]
     if isinstance(wanted, str):
         wanted = [wanted]
+    # States at the places of their integrals, and nothing at those of coordinates.
+    held_states = tuple(state_of(q) or "" for q in names)
     found: List[Tuple[str, int]] = []
     for name in wanted:
         rate = re.fullmatch(r"der\(\s*(.*?)\s*(?:,\s*([12])\s*)?\)", name)
@@ -299,11 +294,16 @@ def _outputs(machine: Any, wanted: Optional[Sequence[str]]) -> List[Tuple[str, i
         elif rate:
             kind = "acceleration" if rate[2] == "2" else "rate"
             places = [(kind, k) for k in _batch.of_name(rate[1], names)]
+            if not places and rate[2] != "2":
+                # The rate of a state is the acceleration of its integral.
+                places = [("acceleration", k) for k in _batch.of_name(rate[1], held_states)]
         else:
             places = [("output", k) for k in _batch.of_name(name, own)]
+            places = places or [("rate", k) for k in _batch.of_name(name, held_states)]
             places = places or [("coordinate", k) for k in _batch.of_name(name, names)]
         if not places:
-            known = (*own, *names, *(f"der({q})" for q in names), *(f"multiplier({c})" for c in held))
+            shown = [state_of(q) or q for q in names]
+            known = (*own, *shown, *(f"der({q})" for q in shown), *(f"multiplier({c})" for c in held))
             raise unknown("output", name, known)
         found += places
     return found

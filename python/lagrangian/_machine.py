@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 import os
+import re
 from fractions import Fraction
 from types import MappingProxyType
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, TypeVar, Union
 
 import numpy as np
 
-from . import _batch, _command, _fit, _linear, _native, _orbit, _sensitive, _simulate, _sweep, _sympy
+from . import _batch, _command, _fit, _linear, _looks, _native, _orbit, _sensitive, _simulate, _sweep, _sympy
 from ._equations import Equations, Program
-from ._named import Named, State
+from ._named import Named, State, rates, state_of
 from .errors import Diagnostic, SingularError, unknown
 
 Number = Union[int, float]
@@ -50,6 +51,41 @@ def loads(
     given = None if files is None else list(files.items())
     program = _native.derive(name, text, given, _constants(constants))
     return Machine._of(program)._set(parameters)
+
+
+def from_urdf(
+    path: Union[str, "os.PathLike[str]"],
+    *,
+    base: str = "fixed",
+    ball: Optional[str] = None,
+    friction: Optional[str] = None,
+    limits: str = "none",
+    drop_massless: bool = False,
+    ignore: Sequence[str] = (),
+    constants: Optional[Mapping[str, Any]] = None,
+    **parameters: Number,
+) -> "Machine":
+    """The machine of a robot in a file of URDF, whose spec ``machine.text`` is: what ``lagrangian import`` writes.
+
+    The keywords are its options: ``base`` is ``"fixed"`` or ``"floating"``; ``ball``, the axes of angles of spherical and floating
+    joints, ``"xyz"``, ``"zyx"`` or ``"zxz"``; ``friction`` ``"none"`` or ``"smooth=1e-3"``; ``limits`` ``"none"``, ``"assume"`` or
+    ``"stop"``; ``drop_massless`` leaves out joints that move no mass; ``ignore`` names elements and
+    attributes that are left out.
+
+    What was left out is told as warnings of Python. A file at fault is a ValueError that gives the line.
+    """
+    import warnings
+
+    options = [f"--base={base}", f"--limits={limits}"]
+    options += [] if ball is None else [f"--ball={ball}"]
+    options += [] if friction is None else [f"--friction={friction}"]
+    options += ["--drop-massless"] if drop_massless else []
+    options += [f"--ignore={name}" for name in ignore]
+    document = _command.imported(os.fspath(path), options)
+    for warning in document["warnings"]:
+        warnings.warn(str(warning), stacklevel=2)
+    name = os.path.splitext(os.path.basename(os.fspath(path)))[0]
+    return loads(document["text"], name=f"{name}.machine", files={}, constants=constants, **parameters)
 
 
 def _constants(constants: Optional[Mapping[str, Any]]) -> List[Tuple[str, str]]:
@@ -101,9 +137,17 @@ class Evaluation:
     ``closed`` as well."""
     ok: np.ndarray
     """Which states have accelerations; the numbers of others are NaN."""
+    columns: Mapping[str, np.ndarray] = MappingProxyType({})
+    """Of :meth:`Run.observe`: the columns of the run at the times that were asked for, S each."""
 
     def __init__(self, **numbers: Any) -> None:
         self.__dict__.update(numbers)
+
+    def __getitem__(self, name: str) -> Any:
+        """A column of the run, where a run was observed."""
+        if name not in self.columns:
+            raise unknown("column", name, tuple(self.columns))
+        return self.columns[name]
 
     def __repr__(self) -> str:
         return f"Evaluation(of shape {np.shape(self.ok)}: {', '.join(self.__dict__)})"
@@ -134,6 +178,18 @@ class Machine(_native.Machine):
         if not values:
             return self
         names, inputs = tuple(self.parameters), tuple(self.inputs)
+        formulas = self.derived_parameters
+        followers = [formulas[k] for name in values for k in _batch.of_name(name, formulas)]
+        if followers:
+            # Derived again, with parameters in the places of formulas.
+            program = self._program.with_given(followers)
+            free = type(self)._of(program)
+            known, held = self.parameters, self.inputs
+            return type(self)._with(
+                program,
+                [known.get(name, value) for name, value in free.parameters.items()],
+                [held[name] for name in free.inputs],
+            )._set(values)
         given, driven = (list(of) for of in self._values)
         sets_parameter = False
         for is_member in (False, True):
@@ -145,7 +201,7 @@ class Machine(_native.Machine):
                 number = float(value)
                 own, others = _batch.of_name(name, names), _batch.of_name(name, inputs)
                 if not own and not others:
-                    raise unknown("parameter or input", name, names + inputs)
+                    raise unknown("parameter or input", name, names + inputs + self.derived_parameters)
                 for place in own:
                     given[place] = number
                     sets_parameter = True
@@ -160,7 +216,8 @@ class Machine(_native.Machine):
     def with_parameters(self, values: Optional[Mapping[str, Number]] = None, /, **parameters: Number) -> "Machine":
         """The same program with other values of parameters and inputs: nothing is derived again.
 
-        A family's name sets all its members; what is no identifier goes through the mapping: ``{"k[3]": 2.0}``.
+        A family's name sets all its members; what is no identifier goes through the mapping: ``{"k[3]": 2.0}``. A parameter that the
+        spec has a formula for no longer follows it, and stands among :attr:`parameters`; for that the machine is derived again.
         """
         return self._set({**(values or {}), **parameters})
 
@@ -217,6 +274,23 @@ class Machine(_native.Machine):
         return self._once("coordinates", lambda: tuple(n for n, *_ in self._program.coordinates))
 
     @property
+    def states(self) -> Tuple[str, ...]:
+        """The names of states of first order: currents, temperatures, what a controller has summed up. They are rates, ``v["i"]``, of
+        the last coordinates, their integrals over time."""
+
+        def make() -> Tuple[str, ...]:
+            states = (state_of(name) for name in self.coordinates)
+            return tuple(state for state in states if state is not None)
+
+        return self._once("states", make)
+
+    @property
+    def derived_parameters(self) -> Tuple[str, ...]:
+        """The names of parameters that follow from others by a formula of the spec, ``J: kg*m^2 = m*r^2/2``. One that is given a value
+        by :func:`load` or :meth:`with_parameters` is among :attr:`parameters` instead."""
+        return self._once("derived_parameters", lambda: tuple(n for n, *_ in self._program.derived_parameters))
+
+    @property
     def outputs(self) -> Tuple[str, ...]:
         """Their names, in the order of the spec."""
         return self._once("outputs", lambda: tuple(n for n, *_ in self._program.outputs))
@@ -253,13 +327,19 @@ class Machine(_native.Machine):
 
     @property
     def units(self) -> Mapping[str, str]:
-        """The unit of every parameter, input, coordinate, rate ``der(name)``, output and ``multiplier(name)``."""
+        """The unit of every parameter, input, coordinate, state, rate ``der(name)``, output and ``multiplier(name)``."""
 
         def make() -> Mapping[str, str]:
             program = self._program
             units = {name: unit for name, unit, *_ in program.parameters + program.inputs}
+            units.update({name: unit for name, unit, _ in program.derived_parameters})
             for name, unit, _ in program.coordinates:
                 units[name] = unit
+                state = state_of(name)
+                if state is not None:
+                    # The integral of a state is in the unit of the state times s.
+                    units[state] = unit = "1" if unit == "s" else unit[: -len("*s")] if unit.endswith("*s") else unit
+                    name = state
                 units[f"der({name})"] = "1/s" if unit == "1" else f"{unit}/s"
             units.update({name: unit for name, unit, _ in program.outputs})
             units.update({f"multiplier({name})": unit for name, unit in program.constraints})
@@ -269,12 +349,25 @@ class Machine(_native.Machine):
 
     @property
     def docs_of(self) -> Mapping[str, str]:
-        """What the spec says of parameters, inputs, coordinates and outputs."""
+        """What the spec says of every name of :attr:`units`, of constraints and of contacts; empty where it says nothing. A rate
+        ``der(x)`` has what is said of x, a multiplier what is said of its constraint."""
 
         def make() -> Mapping[str, str]:
             program = self._program
-            every = program.parameters + program.inputs + program.coordinates + program.outputs
-            return MappingProxyType({of[0]: of[2] for of in every})
+            every = program.parameters + program.inputs + program.coordinates + program.outputs + program.derived_parameters
+            docs = {of[0]: of[2] for of in every}
+            docs.update({state: of[2] for of in program.coordinates if (state := state_of(of[0])) is not None})
+            docs.update({f"der({state_of(of[0]) or of[0]})": of[2] for of in program.coordinates})
+            elements = dict(program.elements)
+
+            def of_element(name: str) -> str:
+                # One that binds several numbers is several, `hinge.x` and `hinge.y`.
+                return elements.get(name) or elements.get(re.split(r"[.\[]", name)[0], "")
+
+            for name in self.constraints:
+                docs[name] = docs[f"multiplier({name})"] = of_element(name)
+            docs.update({name: of_element(name) for name in self.contacts})
+            return MappingProxyType(docs)
 
         return self._once("docs_of", make)
 
@@ -284,7 +377,7 @@ class Machine(_native.Machine):
 
         def make() -> State:
             q, v = self._start()
-            return State(0.0, Named(q, self.coordinates), Named(v, self.coordinates))
+            return State(0.0, Named(q, self.coordinates), rates(v, self.coordinates))
 
         return self._once("start", make)
 
@@ -408,6 +501,10 @@ class Machine(_native.Machine):
     brachistochrone = _command.brachistochrone
     fit = _fit.fit
     orbit = _orbit.orbit
+    spectrum = _looks.spectrum
+    peaks = _looks.peaks
+    section = _looks.section
+    compare = _looks.compare
     sympy = _sympy.symbolic
     sensitivities = _sensitive.sensitivities
 
@@ -448,7 +545,10 @@ class Machine(_native.Machine):
         for name, value in self.inputs.items():
             rows.append(("input", name, value))
         for name in self.coordinates:
-            rows.append(("coordinate", name, start.q[name]))
+            if state_of(name) is None:
+                rows.append(("coordinate", name, start.q[name]))
+        for name in self.states:
+            rows.append(("state", name, start.v[name]))
         for name in self.outputs:
             rows.append(("output", name, None))
         body = "".join(

@@ -2,15 +2,44 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, Sequence, Tuple
+from typing import Any, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 
 from .errors import unknown
 
 
+def state_of(coordinate: str) -> Optional[str]:
+    """The state of first order of which a coordinate is the integral over time, if it is that.
+
+    >>> state_of("integral(i)"), state_of("integral(T)[3]"), state_of("phi")
+    ('i', 'T[3]', None)
+    """
+    base, bracket, index = coordinate[len("integral(") :].partition(")")
+    is_integral = coordinate.startswith("integral(") and bracket and (not index or index[0] + index[-1] == "[]")
+    return base + index if is_integral else None
+
+
+def integral_of(state: str) -> str:
+    """The coordinate that is the integral of a state over time.
+
+    >>> integral_of("i"), integral_of("T[3]")
+    ('integral(i)', 'integral(T)[3]')
+    """
+    base, bracket, index = state.partition("[")
+    return f"integral({base}){bracket}{index}"
+
+
+def rate_names(coordinates: Sequence[str]) -> Tuple[str, ...]:
+    """The names of rates v: those of the coordinates, and of the integral of a state of first order the state."""
+    return tuple(state_of(name) or name for name in coordinates)
+
+
 class Named(np.ndarray):
-    """A read-only array (…, n) that is indexed by name as well: ``q["theta1"]`` is ``q[..., 0]``."""
+    """A read-only array (…, n) that is indexed by name as well: ``q["theta1"]`` is ``q[..., 0]``.
+
+    In rates v a state of first order has its own name, ``v["i"]``; ``v["integral(i)"]`` is the same number.
+    """
 
     names: Tuple[str, ...]
 
@@ -25,9 +54,10 @@ class Named(np.ndarray):
 
     def __getitem__(self, key: Any) -> Any:
         if isinstance(key, str):
-            if key not in self.names:
+            own = key if key in self.names else state_of(key)
+            if own not in self.names:
                 raise unknown("coordinate", key, self.names)
-            return np.asarray(self)[..., self.names.index(key)][()]
+            return np.asarray(self)[..., self.names.index(own)][()]
         # Rows of named arrays are named, and columns are arrays.
         found = super().__getitem__(key)
         if isinstance(found, Named) and (
@@ -51,8 +81,13 @@ class Named(np.ndarray):
         return f"Named({np.asarray(self)!r}, names={self.names!r})"
 
 
+def rates(values: Any, coordinates: Sequence[str]) -> Named:
+    """Rates of coordinates, (…, n), by name; states of first order among them."""
+    return Named(values, rate_names(coordinates))
+
+
 class State(NamedTuple):
-    """Time in s, coordinates and rates."""
+    """Time in s, coordinates and rates; states of first order are among the rates."""
 
     t: Any
     q: Named

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any, Iterable, List, Mapping, Optional, Union
+from typing import Any, Iterable, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 
 from ._command import _places, answer, settings
-from ._named import Named, State
+from ._named import Named, State, rates, state_of
 
 
 class Orbit:
@@ -18,13 +18,16 @@ class Orbit:
     start: State
     """A state of the orbit."""
     monodromy: np.ndarray
-    """How the state a period later changes with the state, coordinates, then rates, (2n, 2n)."""
+    """How the state a period later changes with the state, (k, k): the numbers that ``states`` names."""
+    states: Tuple[str, ...]
+    """The numbers of a state that constraints leave independent, all of them where there are none: coordinates, then rates
+    ``der(x)`` and states of first order."""
     multipliers: np.ndarray
-    """Floquet's multipliers, complex (2n,): that of the motion itself first, where there is one, then the greatest."""
+    """Floquet's multipliers, complex (k,): that of the motion itself first, where there is one, then the greatest."""
     errors: np.ndarray
-    """Each multiplier is known up to this, (2n,)."""
+    """Each multiplier is known up to this, (k,)."""
     trivial: np.ndarray
-    """Whether a multiplier is 1 because the same motion a little later is a motion, too, (2n,)."""
+    """Whether a multiplier is 1 because the same motion a little later is a motion, too, (k,)."""
     stability: str
     """``"stable"``, ``"unstable"``, or ``"undecided"`` where no multiplier is outside the unit circle and some are on it."""
     autonomous: bool
@@ -37,13 +40,13 @@ class Orbit:
     def __init__(self, machine: Any, document: Mapping[str, Any]) -> None:
         names = tuple(machine.coordinates)
         at, found = document["at"], document["multipliers"]
-
-        def named(what: str) -> Named:
-            return Named([at[what][name] for name in names], names)
-
+        # The integral of a state over time starts where the spec says: at 0.
+        q = [at["q"].get(name, 0.0) for name in names]
+        v = [at["v"][name] if state_of(name) is None else at["states"][state_of(name)] for name in names]
         self.period = float(document["period"])
-        self.start = State(float(at["t"]), named("q"), named("v"))
+        self.start = State(float(at["t"]), Named(q, names), rates(v, names))
         self.monodromy = np.array(document["monodromy"], dtype=float)
+        self.states = tuple(document["states"])
         self.multipliers = np.array([complex(one["re"], one["im"]) for one in found])
         self.errors = np.array([one["error"] for one in found], dtype=float)
         self.trivial = np.array([one["trivial"] for one in found], dtype=bool)

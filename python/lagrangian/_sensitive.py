@@ -10,7 +10,7 @@ from typing import Any, List, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from . import _batch, _native
-from ._named import Named
+from ._named import Named, integral_of, rates, state_of
 from .errors import unknown
 
 
@@ -33,16 +33,16 @@ class Sensitivities:
         k, n, s = len(t), len(names), len(by)
         q, v, by_q, by_v = arrays
         self.t, self.by = t, by
-        self.q, self.v = Named(q.reshape(k, n), names), Named(v.reshape(k, n), names)
+        self.q, self.v = Named(q.reshape(k, n), names), rates(v.reshape(k, n), names)
         # The native half has all coordinates for each variable.
         both = np.concatenate([by_q.reshape(k, s, n), by_v.reshape(k, s, n)], axis=2)
         self.sensitivities = np.ascontiguousarray(np.swapaxes(both, 1, 2))
         for array in (self.t, self.sensitivities):
             array.flags.writeable = False
-        self._rows = (*names, *(f"der({name})" for name in names))
+        self._rows = (*names, *(state_of(name) or f"der({name})" for name in names))
 
     def sensitivity(self, of: str, by: str) -> np.ndarray:
-        """The derivative of a coordinate or a rate ``der(x)`` by a variable, (k,)."""
+        """The derivative of a coordinate, a rate ``der(x)`` or a state of first order by a variable, (k,)."""
         if of not in self._rows:
             raise unknown("coordinate or rate", of, self._rows)
         if by not in self.by:
@@ -67,12 +67,18 @@ def sensitivities(
     every: Optional[float] = None,
     at: Optional[Sequence[float]] = None,
     max_steps: int = 10_000_000,
+    keep: Optional[Sequence[str]] = None,
 ) -> Sensitivities:
     """The motion from t0 until a time, with its derivatives by parameters, inputs, and numbers of the start.
 
     ``by``: names of parameters and inputs, ``start(x)``, ``rate(x)``. Everything else is as :meth:`simulate` has it; inputs are
     held. Numbers of the start do not follow from parameters here: where the spec computes one from a parameter, that part is not in
-    the derivative by it. A machine with constraints is a ``ValueError``.
+    the derivative by it.
+
+    A start that constraints hold changes with what it depends on as a run would move it onto them, with the numbers of ``keep`` or of
+    the spec kept, and its derivatives obey the constraints from there on. Nothing is projected on the way: where errors of steps move
+    the motion or its derivatives off the constraints by more than 1e-5 of their numbers that is a ``ValueError``, as it is of
+    constraints that follow from others.
     """
     from ._linear import _start
 
@@ -85,6 +91,8 @@ def sensitivities(
         for place in ("start", "rate"):
             if name.startswith(place + "(") and name.endswith(")"):
                 kind, inner = place, name[len(place) + 1 : -1].strip()
+        if kind == "start" and inner in self.states:
+            kind, inner = "rate", integral_of(inner)
         known = numbers if kind == "set" else self.coordinates
         if inner not in known:
             raise unknown("parameter or input" if kind == "set" else "coordinate", inner, known)
@@ -111,7 +119,10 @@ def sensitivities(
     low, high = sorted((given[0], until))
     if not ((instants >= low) & (instants <= high)).all():
         raise ValueError(f"at is outside of the run, from {given[0]} s to {until} s")
-    arrays = _native.sensitivities(machine, kinds, given, instants.tolist(), until, float(tolerance), method, int(max_steps))
+    kept = None if keep is None else list(keep)
+    arrays = _native.sensitivities(
+        machine, kinds, given, instants.tolist(), until, float(tolerance), method, int(max_steps), kept
+    )
     return Sensitivities(self, by, instants, arrays)
 
 

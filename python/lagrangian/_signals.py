@@ -14,30 +14,30 @@ from . import _batch, _native
 class Table:
     """Values at instants, which an input follows; a step of the run ends wherever it is not smooth enough.
 
-    ``between`` is ``"hold"`` (a value holds until the next), ``"linear"`` or ``"cubic"`` (a spline with two continuous
-    derivatives); ``end``, what is before the first instant and behind the last, ``"hold"``, ``"error"`` or ``"repeat"``. Times, (k,),
+    ``kind`` is ``"hold"`` (a value holds until the next), ``"linear"`` or ``"cubic"`` (a spline with two continuous
+    derivatives); ``beyond``, what is before the first instant and behind the last, ``"hold"``, ``"error"`` or ``"repeat"``. Times, (k,),
     in s, grow; values, (k,), are in the unit of the input.
     """
 
-    def __init__(self, t: Any, values: Any, between: str = "linear", end: str = "hold") -> None:
+    def __init__(self, t: Any, values: Any, kind: str = "linear", beyond: str = "hold") -> None:
         times, numbers = (_batch.number_array(x, what).ravel() for x, what in ((t, "t"), (values, "values")))
         if times.shape != numbers.shape:
             raise ValueError(f"there are {times.size} times and {numbers.size} values")
-        if between not in ("hold", "linear", "cubic"):
-            raise ValueError(f"between={between!r}: must be 'hold', 'linear' or 'cubic'")
-        if end not in ("hold", "error", "repeat"):
-            raise ValueError(f"end={end!r}: must be 'hold', 'error' or 'repeat'")
+        if kind not in ("hold", "linear", "cubic"):
+            raise ValueError(f"kind={kind!r}: must be 'hold', 'linear' or 'cubic'")
+        if beyond not in ("hold", "error", "repeat"):
+            raise ValueError(f"beyond={beyond!r}: must be 'hold', 'error' or 'repeat'")
         self.t: np.ndarray = times
         self.values: np.ndarray = numbers
-        self.between = between
-        self.end = end
+        self.kind = kind
+        self.beyond = beyond
 
     def __repr__(self) -> str:
-        return f"<Table of {self.t.size} rows, between={self.between!r}, end={self.end!r}>"
+        return f"<Table of {self.t.size} rows, kind={self.kind!r}, beyond={self.beyond!r}>"
 
     def _law(self) -> Dict[str, Any]:
         rows = {"times": self.t.tolist(), "values": self.values.tolist()}
-        return {"table": {**rows, "between": self.between, "beyond": self.end}}
+        return {"table": {**rows, "between": self.kind, "beyond": self.beyond}}
 
 
 class Sampled:

@@ -12,7 +12,7 @@ from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Seq
 import numpy as np
 
 from . import _batch, _native, _signals
-from ._named import Named, State
+from ._named import Named, State, rates
 from .errors import RunError, unknown
 
 
@@ -88,7 +88,7 @@ class Run:
         """The instants that were kept, (k,), in s."""
         self.q = Named(q.reshape(len(t), n), names)
         """Coordinates, (k, n)."""
-        self.v = Named(v.reshape(len(t), n), names)
+        self.v = rates(v.reshape(len(t), n), names)
         """Rates, (k, n)."""
         self._columns: Optional[Dict[str, np.ndarray]] = None
         self._units: Dict[str, str] = {}
@@ -140,7 +140,7 @@ class Run:
         names = self.machine.coordinates
         n = (len(names),)
         return State(
-            t.reshape(shape)[()], Named(q.reshape(shape + n), names), Named(v.reshape(shape + n), names)
+            t.reshape(shape)[()], Named(q.reshape(shape + n), names), rates(v.reshape(shape + n), names)
         )
 
     def at(self, t: Any) -> State:
@@ -163,8 +163,11 @@ class Run:
         n = len(self.machine.coordinates)
         return self._state((found[back], q.reshape(-1, n)[back], v.reshape(-1, n)[back]), times.shape)
 
-    def observe(self, t: Any) -> Mapping[str, np.ndarray]:
-        """Every column at times of any shape and order."""
+    def observe(self, t: Any) -> Any:
+        """Everything at times of any shape S and order, as :meth:`Machine.evaluate` has it, with the inputs of the run.
+
+        ``observe(t)[name]`` is a column of the run at these times, S: there a contact sticks or slides as it did in the run.
+        """
         state = self.at(t)
         times = np.asarray(state.t, dtype=np.float64)
         flat = times.ravel()
@@ -175,7 +178,15 @@ class Run:
             for name, _, values in columns
             if name in names or not name.startswith(_HIDDEN)
         }
-        return MappingProxyType(shown)
+        inputs = tuple(self.machine.inputs)
+        u = None
+        if inputs:
+            u = self._native.inputs(flat.tolist(), np.ravel(state.q).tolist(), np.ravel(state.v).tolist())
+            u = u.reshape(times.shape + (len(inputs),))
+            shown.update({name: u[..., i][()] for i, name in enumerate(inputs)})
+        made = self.machine.evaluate(state.q, state.v, state.t, u=u, singular="nan")
+        made.columns = MappingProxyType(shown)
+        return made
 
     @property
     def _start_t(self) -> float:
@@ -202,7 +213,7 @@ class Run:
         names, _, (t, q, v) = self._native.events()
         of = self.machine.coordinates
         q, v = q.reshape(len(t), len(of)), v.reshape(len(t), len(of))
-        return [Happened(float(t[i]), name, Named(q[i], of), Named(v[i], of)) for i, name in enumerate(names)]
+        return [Happened(float(t[i]), name, Named(q[i], of), rates(v[i], of)) for i, name in enumerate(names)]
 
     def event(self, name: str) -> State:
         """The states at the events of a name: t (e,), q and v (e, n)."""
@@ -541,7 +552,8 @@ def simulate(
     * What is kept: every so many seconds, or the instants ``at``; 1000 intervals if nothing is said. ``dense=False`` forgets the
       steps, which ``run.at`` needs.
     * ``tolerance`` is ``relative`` and ``absolute`` at once; ``absolute`` may be a mapping from names to numbers.
-    * ``method``: ``dop853``, ``dopri5``, ``bs32``, ``radau5`` for stiff machines, ``taylor``.
+    * ``method``: ``dop853``, ``dopri5``, ``bs32``, ``radau5``, ``radau9`` and ``radau13`` for stiff machines, ``taylor``;
+      with steps of ``longest_step`` ``rk4``, ``semi-implicit-euler``, ``gauss4``, ``gauss6``, ``gauss8``, ``rattle``, ``generalized-alpha``, ``moreau``.
     * ``keep``: numbers of the start that constraints do not move, ``"theta"`` or ``"der(theta)"``.
     * ``progress``: ``"auto"`` (a line on a terminal after 2 s), False, or ``f(fraction, t, steps)``.
 
@@ -560,13 +572,7 @@ def simulate(
         t0 = float(start.t) if t0 == 0.0 else t0
         start, rate = start.q, start.v
     until, t0 = float(until), float(t0)
-    q = _batch.vectors(start, names, machine.start.q, "start", "coordinate")
-    v = _batch.vectors(rate, names, machine.start.v, "rate", "coordinate")
-    for what, values in (("start", q), ("rate", v)):
-        if values.shape != (len(names),):
-            raise ValueError(f"{what} has shape {values.shape}, wanted ({len(names)},)")
-        if not np.isfinite(values).all():
-            raise ValueError(f"{what} is not finite: {values!r}")
+    q, v = _batch.start_of(machine, start, rate)
     if not (math.isfinite(until) and math.isfinite(t0)):
         raise ValueError(f"a run goes from one finite time to another, not from {t0} s to {until} s")
     if every is not None and at is not None:
@@ -716,7 +722,7 @@ def _named_arguments(function: Callable[..., Any], names: Tuple[str, ...]) -> Ca
     """The function, which takes coordinates and rates by name too."""
 
     def called(t: float, q: np.ndarray, v: np.ndarray) -> Any:
-        return function(t, Named(q, names), Named(v, names))
+        return function(t, Named(q, names), rates(v, names))
 
     return called
 
@@ -727,7 +733,7 @@ def _all_inputs(
     """A function of all inputs, as the list of their values."""
 
     def called(t: float, q: np.ndarray, v: np.ndarray) -> List[float]:
-        values = function(t, Named(q, names), Named(v, names))
+        values = function(t, Named(q, names), rates(v, names))
         if isinstance(values, Mapping):
             if set(values) != set(inputs):
                 raise ValueError(f"inputs: the function returned {sorted(values)}, the machine has {sorted(inputs)}")

@@ -380,7 +380,7 @@ def sweep(
     starts, rates = _by_name(start, machine, "start"), _by_name(rate, machine, "rate")
     plan = {
         "version": 1,
-        "spec": json.loads(machine._program.state()),
+        "spec": {name: value for name, value in json.loads(machine._program.state()).items() if name != "given"},
         "set": setting,
         "start": list(starts.items()),
         "rate": list(rates.items()),
@@ -480,9 +480,9 @@ def _by_name(given: Any, machine: Any, what: str) -> Dict[str, float]:
         given = given.q if what == "start" else given.v
     if isinstance(given, Mapping):
         for name in given:
-            if not _batch.of_name(name, machine.coordinates):
-                raise unknown("coordinate", name, machine.coordinates)
-        return {name: float(x) for name, x in given.items()}
+            if not _batch.of_name(name, (*machine.coordinates, *machine.states)):
+                raise unknown("coordinate", name, (*machine.coordinates, *machine.states))
+        return {name if what == "start" else _batch.for_command(machine, name): float(x) for name, x in given.items()}
     values = _batch.vectors(given, machine.coordinates, np.zeros(len(machine.coordinates)), what, "coordinate")
     return dict(zip(machine.coordinates, values.tolist()))
 

@@ -100,7 +100,7 @@ class RunError(LagrangianError, RuntimeError):
         """When, in s; None where the run could not begin."""
         self.run = run
         """What there is of it."""
-        self._arguments = (text, t, None)
+        self._arguments = (text, t, run)
 
 
 class ExportError(LagrangianError, RuntimeError):

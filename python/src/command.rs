@@ -23,6 +23,19 @@ pub fn command(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
     py.detach(|| lagrangian_cli::command(std::iter::once(name).chain(arguments)))
 }
 
+/// What `lagrangian import` answers about a robot's file: the exit status, what it prints, and what it complains of.
+#[pyfunction]
+pub fn import_robot(py: Python<'_>, path: String, options: Vec<String>) -> (u8, String, String) {
+    let robot = lagrangian_sweep::plan::SpecText {
+        name: path,
+        ..Default::default()
+    };
+    let stop = Arc::new(AtomicBool::new(false));
+    let Answer { status, out, err } =
+        py.detach(|| lagrangian_cli::answer(&robot, "import", &options, &stop));
+    (status, out, err)
+}
+
 /// What a command answers about a machine that is in memory: the exit status, what it prints, and what it complains of.
 #[pyfunction]
 pub fn answer(

@@ -95,7 +95,7 @@ fn table((name, times, values, between, beyond): Rows) -> PyResult<Table> {
         "cubic" => Between::Cubic,
         other => {
             return Err(PyValueError::new_err(format!(
-                "between={other:?}: must be 'hold', 'linear' or 'cubic'"
+                "kind={other:?}: must be 'hold', 'linear' or 'cubic'"
             )));
         }
     };
@@ -105,7 +105,7 @@ fn table((name, times, values, between, beyond): Rows) -> PyResult<Table> {
         "repeat" => Beyond::Repeat,
         other => {
             return Err(PyValueError::new_err(format!(
-                "end={other:?}: must be 'hold', 'error' or 'repeat'"
+                "beyond={other:?}: must be 'hold', 'error' or 'repeat'"
             )));
         }
     };

@@ -40,11 +40,15 @@ pub struct Derived {
     pub docs: String,
     pub parameters: Vec<(String, String, String, Option<f64>)>,
     pub inputs: Vec<(String, String, String, f64)>,
+    /// Those that follow from others.
+    pub derived_parameters: Vec<Described>,
     pub coordinates: Vec<Described>,
     pub outputs: Vec<Described>,
     /// Names and units of multipliers.
     pub constraints: Vec<(String, String)>,
     pub contacts: Vec<String>,
+    /// What the spec says of the elements that have names: constraints and contacts among them.
+    pub elements: Vec<(String, String)>,
     pub warnings: Vec<Told>,
     /// For each formula the number of its output.
     pub numbers: Vec<usize>,
@@ -140,6 +144,7 @@ impl Derived {
             };
             let mut recorded = Recorded::new(files);
             let spec = lagrangian_spec::parse(&mut sources, &text.name, &text.text, &mut report);
+            let spec = spec.with_given(text.given.iter().cloned());
             let model = Model::resolve_with(
                 spec,
                 &dag,
@@ -206,10 +211,23 @@ impl Derived {
                     (name, unit, docs, value.unwrap_or(0.0))
                 })
                 .collect(),
+            derived_parameters: model
+                .derived_parameters
+                .iter()
+                .map(|own| {
+                    let unit = own.unit_text.clone();
+                    (own.name.to_string(), unit, own.docs.clone())
+                })
+                .collect(),
             coordinates: program.coordinates.iter().map(plain).collect(),
             outputs: program.outputs[..own].iter().map(plain).collect(),
             constraints: constraints.collect(),
             contacts: contacts.chain(unilateral).collect(),
+            elements: model
+                .elements
+                .iter()
+                .map(|element| (element.name.to_string(), element.docs.clone()))
+                .collect(),
             numbers: (own..program.outputs.len()).collect(),
             warnings: told,
             machine,
@@ -232,6 +250,7 @@ impl Derived {
                 let text = &self.text;
                 let spec =
                     lagrangian_spec::parse(&mut sources, &text.name, &text.text, &mut report);
+                let spec = spec.with_given(text.given.iter().cloned());
                 let asked: Vec<Formula<'_>> = self.formulas.iter().map(asked).collect();
                 let files = &mut Kept(&text.files);
                 let model = Model::resolve_with(
@@ -292,7 +311,7 @@ impl Derived {
         })
     }
 
-    /// The same of many values at once; which of them, and what.
+    /// The first of many values that is refused, by its index, and why.
     pub fn first_refused(&self, all: &[Vec<f64>]) -> Result<Option<(usize, String)>, Trouble> {
         self.with_model(|model, _| {
             for (place, values) in all.iter().enumerate() {
@@ -344,6 +363,7 @@ pub fn derive(
         text,
         files: Vec::new(),
         constants,
+        given: Vec::new(),
     };
     made(py, text, bases, Vec::new())
 }
@@ -372,6 +392,11 @@ impl Program {
     #[getter]
     fn name(&self) -> &str {
         lagrangian::Machine::name(&self.derived.machine)
+    }
+
+    #[getter]
+    fn elements(&self) -> Vec<(String, String)> {
+        self.derived.elements.clone()
     }
 
     #[getter]
@@ -448,12 +473,12 @@ impl Program {
         self.derived.numbers.clone()
     }
 
-    /// The same with formulas beside it.
+    /// This program with formulas beside its outputs.
     fn with_formulas(&self, py: Python<'_>, formulas: Vec<Asked>) -> PyResult<Program> {
         made(py, self.derived.text.clone(), Bases::Kept, formulas)
     }
 
-    /// The same with other values of constants.
+    /// This program with other values of constants.
     fn with_constants(
         &self,
         py: Python<'_>,
@@ -461,6 +486,21 @@ impl Program {
     ) -> PyResult<Program> {
         let mut text = self.derived.text.clone();
         text.constants = constants;
+        made(py, text, Bases::Kept, Vec::new())
+    }
+
+    /// Names, units and docs of the parameters that follow from others.
+    #[getter]
+    fn derived_parameters(&self) -> Vec<Described> {
+        self.derived.derived_parameters.clone()
+    }
+
+    /// This program with values of their own for parameters that follow from others.
+    fn with_given(&self, py: Python<'_>, names: Vec<String>) -> PyResult<Program> {
+        let mut text = self.derived.text.clone();
+        text.given.extend(names);
+        text.given.sort_unstable();
+        text.given.dedup();
         made(py, text, Bases::Kept, Vec::new())
     }
 

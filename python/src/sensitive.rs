@@ -2,7 +2,9 @@
 
 use lagrangian::methods::Method;
 use lagrangian::{Error, Sensitive, Simulation, State, Varied};
-use lagrangian::{Machine as _, interpreted::Named};
+use lagrangian::{Machine as _, System as _, interpreted::Named};
+use lagrangian::interpreted::InterpretedMachine;
+use lagrangian_linear::starts::{self, Cause};
 use numpy::PyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -16,7 +18,22 @@ const BETWEEN: std::time::Duration = std::time::Duration::from_millis(50);
 /// Coordinates, rates, and their derivatives, flat: for each instant, by each variable.
 type Motions<'py> = [Bound<'py, PyArray1<f64>>; 4];
 
-/// The motion from a start at instants, and its derivatives by variables: kinds (`start`, `rate`, anything else) with names.
+/// Why there are no derivatives.
+enum Lost {
+    /// Those of the run.
+    Run(Error),
+    /// Something about constraints.
+    Held(String),
+}
+
+impl From<Error> for Lost {
+    fn from(error: Error) -> Lost {
+        Lost::Run(error)
+    }
+}
+
+/// The motion from a start at instants, and its derivatives by variables: kinds (`start`, `rate`, anything else) with names; `keep`
+/// names what constraints do not move of the start.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "they are settings")]
 pub fn sensitivities<'py>(
@@ -29,14 +46,20 @@ pub fn sensitivities<'py>(
     tolerance: f64,
     method: &str,
     max_steps: usize,
+    keep: Option<Vec<String>>,
 ) -> PyResult<Motions<'py>> {
     machine.check_parameters(py)?;
     let method = Method::named(method)
         .ok_or_else(|| PyValueError::new_err(format!("no method named {method:?}")))?;
     let stop = std::sync::atomic::AtomicBool::new(false);
     let mut raised = None;
-    let made = py.detach(|| -> Result<_, Error> {
-        let mut sensitive = Sensitive::new(&machine.machine);
+    let made = py.detach(|| -> Result<_, Lost> {
+        let own = &machine.machine;
+        let is_held = own.prepare().constraints().len() > 0;
+        let mut sensitive = Sensitive::new(own);
+        if is_held {
+            sensitive = sensitive.with_start_on_constraints();
+        }
         for (kind, name) in &by {
             sensitive = match kind.as_str() {
                 "start" => sensitive.by_start(name)?,
@@ -44,9 +67,27 @@ pub fn sensitivities<'py>(
                 _ => sensitive.by(name)?,
             };
         }
-        let mut from = machine.machine.start();
+        let mut from = own.start();
         (from.t, from.q.values, from.v.values) = start;
-        let from = sensitive.start_from(from);
+        let causes: Vec<Cause> = by.iter().map(|of| cause(machine, of)).collect();
+        if is_held {
+            from = brought(own, from, keep.as_deref()).map_err(Lost::Held)?;
+            if let Some(constraint) = starts::dependent_constraint(own, &from) {
+                return Err(Lost::Held(format!(
+                    "the constraint `{constraint}` follows from others, and accelerations have no derivatives then: leave it out"
+                )));
+            }
+        }
+        let on = from.clone();
+        let mut from = sensitive.start_from(from);
+        if is_held {
+            for (k, cause) in causes.iter().enumerate() {
+                let bring = |machine: &InterpretedMachine, from| brought(machine, from, keep.as_deref());
+                let change = starts::change(own, &on, *cause, |_| on.clone(), bring);
+                let said = |why| Lost::Held(format!("{}({}): {why}", by[k].0, by[k].1));
+                [from.q.by[k].values, from.v.by[k].values] = change.map_err(said)?;
+            }
+        }
         let mut last = std::time::Instant::now();
         let run = Simulation::new(&sensitive)
             .until(until)
@@ -66,18 +107,26 @@ pub fn sensitivities<'py>(
             .run(from)?;
         match stop.load(std::sync::atomic::Ordering::Relaxed) {
             true => Ok(Vec::new()),
-            false => run.at_each(instants),
+            false => {
+                if is_held {
+                    check_drift(own, run.end(), &causes, &by)?;
+                }
+                Ok(run.at_each(instants)?)
+            }
         }
     });
     if let Some(error) = raised {
         return Err(error);
     }
     let states = made.map_err(|error| match error {
-        Error::UnknownVariable { .. }
-        | Error::ConstrainedSensitivity { .. }
-        | Error::UnknownCoordinate { .. }
-        | Error::InvalidSetting { .. } => PyValueError::new_err(error.to_string()),
-        error => {
+        Lost::Held(why) => PyValueError::new_err(why),
+        Lost::Run(
+            error @ (Error::UnknownVariable { .. }
+            | Error::ConstrainedSensitivity { .. }
+            | Error::UnknownCoordinate { .. }
+            | Error::InvalidSetting { .. }),
+        ) => PyValueError::new_err(error.to_string()),
+        Lost::Run(error) => {
             let none: Option<f64> = None;
             errors::raise(py, "RunError", (error.to_string(), none, none))
         }
@@ -98,4 +147,62 @@ pub fn sensitivities<'py>(
         derivatives(|state| &state.q),
         derivatives(|state| &state.v),
     ])
+}
+
+/// What a start depends on, of a kind with a name.
+fn cause(machine: &Machine, (kind, name): &(String, String)) -> Cause {
+    let coordinates = &machine.derived.coordinates;
+    let place = coordinates.iter().position(|(own, ..)| own == name);
+    let parameters = &machine.derived.parameters;
+    match (kind.as_str(), place) {
+        ("start", Some(place)) => Cause::Start(place),
+        ("rate", Some(place)) => Cause::Rate(place),
+        _ => {
+            let parameter = parameters.iter().position(|(own, ..)| own == name);
+            parameter.map_or(Cause::Input, Cause::Parameter)
+        }
+    }
+}
+
+/// A start on the constraints.
+fn brought(
+    machine: &InterpretedMachine,
+    start: State<Named>,
+    keep: Option<&[String]>,
+) -> Result<State<Named>, String> {
+    let mut simulation = Simulation::new(machine).until(start.t);
+    if let Some(keep) = keep {
+        simulation = simulation.keep_none();
+        for name in keep {
+            simulation = simulation.keep(name);
+        }
+    }
+    let run = simulation.run(start).map_err(|error| error.to_string())?;
+    Ok(run.start().clone())
+}
+
+/// Whether steps have moved the motion or its derivatives off the constraints.
+fn check_drift(
+    machine: &InterpretedMachine,
+    end: &State<Varied<Named>>,
+    causes: &[Cause],
+    by: &[(String, String)],
+) -> Result<(), Lost> {
+    let at = State {
+        t: end.t,
+        q: end.q.value.clone(),
+        v: end.v.value.clone(),
+    };
+    let changes = causes.iter().enumerate().map(|(k, cause)| {
+        let change = [end.q.by[k].values.clone(), end.v.by[k].values.clone()];
+        (*cause, change)
+    });
+    match starts::drifted(machine, &at, changes) {
+        None => Ok(()),
+        Some((k, off)) => Err(Lost::Held(format!(
+            "errors of steps have moved the motion and its derivative by {} off the constraints, by {off:.1e} of its numbers: a \
+             smaller tolerance holds them closer",
+            by[k].1
+        ))),
+    }
 }

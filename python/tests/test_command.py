@@ -140,3 +140,29 @@ def test_the_package_needs_no_file_of_the_spec(tmp_path):
     base.unlink()
     assert machine.check().coordinates == 1
     assert machine.simulate(0.5).report().html
+
+
+CLOSE = 1e-11
+
+
+@pytest.mark.parametrize("name", ["arm", "leg", "hand"])
+def test_robots_move_as_pinocchio_moves_them(name):
+    # The references and the tolerance of the command's own test.
+    folder = ROOT / "cli" / "tests" / "command" / "import"
+    robot = lg.from_urdf(folder / f"{name}.urdf")
+    for point in json.loads((folder / "pinocchio.json").read_text())[name]:
+        seen = robot.evaluate(point["q"], point["v"])
+        for quantity in ("mass_matrix", "bias", "applied", "accelerations"):
+            truth = np.array(point[quantity])
+            np.testing.assert_allclose(getattr(seen, quantity), truth, rtol=0, atol=CLOSE * np.abs(truth).max())
+
+
+def test_a_robot_at_fault_is_told_with_its_line(tmp_path):
+    file = tmp_path / "robot.urdf"
+    file.write_text('<robot name="r">\n  <link name="a"/>\n  <joint name="j" type="hinge"/>\n</robot>\n')
+    with pytest.raises(ValueError, match="robot.urdf:3"):
+        lg.from_urdf(file)
+    with pytest.raises(ValueError, match="base"):
+        lg.from_urdf(file, base="flying")
+    with pytest.raises(ValueError, match="cannot read"):
+        lg.from_urdf(tmp_path / "nowhere.urdf")

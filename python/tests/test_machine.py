@@ -27,6 +27,27 @@ def test_names_values_and_units(oscillator):
         oscillator.start.q[0] = 3.0
 
 
+def test_what_the_spec_says_is_known_by_name():
+    machine = lg.loads(
+        """machine Rod in plane {
+            parameters { /// Its length.
+                l: m = 2 }
+            coordinates { /// Across.
+                x: m = 2, y: m }
+            bodies { bead { mass: 1, at: (x, y) } }
+            constraints { /// Keeps its length.
+                rod: x^2 + y^2 = l^2 }
+            outputs { r: m = x }
+            gravity (0, -9.81);
+        }"""
+    )
+    said = machine.docs_of
+    assert (said["l"], said["x"], said["der(x)"], said["y"]) == ("Its length.", "Across.", "Across.", "")
+    assert said["rod"] == said["multiplier(rod)"] == "Keeps its length." and said["r"] == ""
+    assert set(machine.units) <= set(said)
+    assert set(machine.constraints) | set(machine.contacts) <= set(said)
+
+
 def test_other_values_make_another_machine_of_the_same_program(oscillator):
     heavier = oscillator.with_parameters(m=4, force=1)
     assert (heavier.parameters["m"], heavier.inputs["force"]) == (4.0, 1.0)

@@ -36,7 +36,13 @@ def test_states_between_samples(oscillator):
     assert state.q.shape == (2, 2, 1)
     np.testing.assert_allclose(state.q["x"], np.cos(2 * times), atol=1e-9)
     assert isinstance(run.at(1.0).q["x"], float)
-    np.testing.assert_allclose(run.observe(times)["pull"], 8 * np.cos(2 * times), atol=1e-8)
+    seen = run.observe(times)
+    np.testing.assert_allclose(seen["pull"], 8 * np.cos(2 * times), atol=1e-8)
+    np.testing.assert_allclose(seen.accelerations[..., 0], -4 * np.cos(2 * times), atol=1e-8)
+    np.testing.assert_allclose(seen.kinetic_energy + seen.potential_energy, np.full((2, 2), 4.0), atol=1e-8)
+    assert seen.ok.all() and seen.mass_matrix.shape == (2, 2, 1, 1)
+    with pytest.raises(lg.UnknownName, match="pull"):
+        seen["pul"]
     for outside in (-0.1, 10.1, math.nan):
         with pytest.raises(ValueError, match="outside"):
             run.at(outside)
@@ -114,7 +120,7 @@ def test_tables_drive_inputs_to_the_bits_of_the_command(oscillator, tmp_path):
     one, two = (oscillator.simulate(3, inputs={"force": line}) for line in lines)
     assert np.array_equal(one.q, two.q) and one["force"].max() == pytest.approx(3, abs=1e-2)
     for wrong, why in (
-        (lg.Table([0, 1], [1, 2], end="error"), "ends"),
+        (lg.Table([0, 1], [1, 2], beyond="error"), "ends"),
         (lg.Table([1, 0], [1, 2]), "not later"),
         (f"{path}:speed", "no column"),
         (path.with_suffix(".txt"), "no table"),
@@ -123,7 +129,7 @@ def test_tables_drive_inputs_to_the_bits_of_the_command(oscillator, tmp_path):
             oscillator.simulate(3, inputs={"force": wrong})
     with pytest.raises(ValueError, match="no series"):
         oscillator.simulate(3, inputs={"force": "1*N*sin(1*rad/s*t)"}, method="taylor")
-    with pytest.raises(ValueError, match="between"):
+    with pytest.raises(ValueError, match="kind=.steps.: must be .hold., .linear. or .cubic."):
         lg.Table([0, 1], [1, 2], "steps")
 
 

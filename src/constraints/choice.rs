@@ -20,8 +20,8 @@ pub(crate) struct Choice<V> {
 pub(crate) enum Rank {
     /// As many as are independent by more than this.
     Revealed(f64),
-    /// The same with the first number, and beyond as many as there were only what is independent by more
-    /// than the second.
+    /// Those that are independent by more than the first number; beyond the rank there was before, only those that are
+    /// independent by more than the second.
     Followed(f64, f64),
     /// As many of positions, and as many in all, as were chosen before.
     Known,
@@ -145,7 +145,7 @@ impl<V: Vector> Choice<V> {
             .column
             .copy_from_slice(&workspace.matrix[k * n..][..n]);
         workspace.matrix[k * n..][..n].fill(0.0);
-        // Once more: a direction that little is left of has lost its right angles.
+        // Once more: a short remainder is orthogonal to fewer digits.
         for known in workspace.basis[..self.rank * n].chunks_exact(n) {
             remove(known, workspace.column);
         }

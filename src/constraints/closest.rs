@@ -25,7 +25,7 @@ pub(crate) type Miss = (usize, usize, f64);
 
 /// The rows that cannot be met by moving what is free, `kept` being not 0 for what is not: those of which
 /// something is left where the sum of the squares of all residuals is least, positions first, and
-/// only if these can be met the rates. `place` is brought there.
+/// only if these can be met the rates. `place` is projected there.
 ///
 /// Each residual counts by the distance, in the metric of the inertias, that it is worth where the start
 /// is; the method is K. Levenberg's (*A method for the solution of certain non-linear problems in least

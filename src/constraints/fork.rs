@@ -49,7 +49,7 @@ impl<V: Vector> Constraints<V> {
         hold.unwrap_or(0.0)
     }
 
-    /// The same where rows have been factorized.
+    /// [`hold`](Self::hold) where rows have been factorized.
     fn held<M: Vector>(&self, workspace: &Workspace<'_, M>, q: &V) -> f64 {
         let rank = self.choice.rank;
         let mut least: f64 = 1.0;
@@ -64,7 +64,7 @@ impl<V: Vector> Constraints<V> {
         least
     }
 
-    /// The same where rows may have been factorized; 1 where something else stood in the way of that.
+    /// [`hold`](Self::hold) where rows may have been factorized; 1 where their factorization failed for another reason.
     pub(super) fn hold_of<M: Vector>(
         &self,
         prepared: &Result<(), StepError>,

@@ -61,13 +61,15 @@ impl<M: Vector> Workspace<'_, M> {
             }
             let greatest = inertias.iter().fold(0.0, |a: f64, b| a.max(*b));
             let mut found = false;
-            for lends in [Lends::WhatIsPushed, Lends::WhatThereIs(greatest)] {
+            for substitute in [Substitute::AlongConstraint, Substitute::Uniform(greatest)] {
                 // Rows that move nothing that has inertia come last.
                 if found {
                     break;
                 }
                 for (is_weighed, row) in is_weighed.iter_mut().zip(self.matrix.chunks_exact(n)) {
-                    if *is_weighed == 0.0 && add_square(metric, row, lends.weight(row, inertias)) {
+                    if *is_weighed == 0.0
+                        && add_square(metric, row, substitute.weight(row, inertias))
+                    {
                         *is_weighed = 1.0;
                         found = true;
                     }
@@ -191,21 +193,21 @@ impl<M: Vector> Workspace<'_, M> {
     }
 }
 
-/// How much inertia a constraint lends to the coordinates that have none.
+/// The inertia that stands in for that of coordinates that have none, in the metric of a constraint.
 #[derive(Clone, Copy)]
-enum Lends {
+enum Substitute {
     /// As much as a push along the constraint meets: so no coordinate that has inertia is given more than it has, however
     /// little of the row it is.
-    WhatIsPushed,
+    AlongConstraint,
     /// This much, or any.
-    WhatThereIs(f64),
+    Uniform(f64),
 }
 
-impl Lends {
+impl Substitute {
     /// The weight of `g gᵀ`; not finite if nothing of the row has inertia.
     fn weight(self, g: &[f64], inertias: &[f64]) -> f64 {
         match self {
-            Lends::WhatIsPushed => {
+            Substitute::AlongConstraint => {
                 let pushed = g
                     .iter()
                     .zip(inertias)
@@ -213,7 +215,7 @@ impl Lends {
                 let yields: f64 = pushed.map(|(g, inertia)| g * g / inertia).sum();
                 1.0 / yields
             }
-            Lends::WhatThereIs(inertia) => {
+            Substitute::Uniform(inertia) => {
                 let any = if inertia > 0.0 { inertia } else { 1.0 };
                 any / dot(g, g)
             }

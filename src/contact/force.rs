@@ -14,11 +14,12 @@ pub struct UnilateralForce {
     pub gap: f64,
     /// How fast it opens, in m/s.
     pub gap_rate: f64,
-    /// How fast it slips, in m/s; 0 without friction.
+    /// How fast it slips, in m/s; 0 without friction. Of the [rolling](crate::UnilateralContact::rolls) of a contact how fast it turns,
+    /// in rad/s.
     pub slip: f64,
     /// What presses, in N.
     pub normal: f64,
-    /// The friction along the direction of the slip, in N.
+    /// The friction along the direction of the slip, in N; the torque that resists rolling, in N m.
     pub friction: f64,
     /// The work that has crushed its layer so far, in J; 0 where it is none.
     pub crushing_work: f64,
@@ -70,7 +71,7 @@ impl Touching {
             gap: here.gaps[k],
             gap_rate: here.rates[2 * k],
             slip: here.rates[2 * k + 1],
-            normal: reaction.forces[k][0],
+            normal: reaction.forces[self.leans(k).unwrap_or(k)][0],
             friction: reaction.forces[k][1],
             crushing_work: self.crushing_work(&here, k),
             closed: *mode != Mode::Open,

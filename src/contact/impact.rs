@@ -64,8 +64,10 @@ impl Touching {
             .enumerate()
             .map(|(k, touches)| {
                 let rounding = here.rate_rounding[2 * k].max(LEAST_BOUNCE * 1e-3 * self.speed);
-                let may =
-                    *touches && !self.yields(k) && !(as_held && self.modes()[k] != Mode::Open);
+                let may = *touches
+                    && !self.yields(k)
+                    && self.leans(k).is_none()
+                    && !(as_held && self.modes()[k] != Mode::Open);
                 may && here.rates[2 * k] < -rounding
             })
             .collect();
@@ -82,7 +84,7 @@ impl Touching {
     ) -> Option<usize> {
         let here = Here::of(system, t, q, v);
         // What yields may be pressed at the start, but for a layer: what it went through is not known.
-        let is_free = |k: usize| self.yields(k) && !self.is_layer(k);
+        let is_free = |k: usize| self.leans(k).is_some() || self.yields(k) && !self.is_layer(k);
         (0..here.gaps.len()).find(|&k| !is_free(k) && here.gaps[k] < -here.gap_rounding[k])
     }
 
@@ -98,9 +100,12 @@ impl Touching {
         }
         let here = Here::of(system, t, q, v);
         let rate = |k: &usize| here.rates[2 * k];
-        let closing = (0..touches.len()).filter(|k| touches[*k] && !self.yields(*k));
+        let may = |k: &usize| touches[*k] && !self.yields(*k) && self.leans(*k).is_none();
+        let closing = (0..touches.len()).filter(may);
         let fastest = closing.min_by(|a, b| rate(a).total_cmp(&rate(b)));
-        (0..touches.len()).map(|k| Some(k) == fastest).collect()
+        let mut next: Vec<bool> = (0..touches.len()).map(|k| Some(k) == fastest).collect();
+        self.lean(&mut next);
+        next
     }
 
     /// Whether any contact is to have a way out of Painlevé's paradox.
@@ -187,7 +192,7 @@ impl Touching {
         let inertia = Inertia::new(system, t, q).map_err(singular)?;
         // What opens already has no part in it, nor has what yields: its force is finite.
         let meets: Vec<usize> = (0..touches.len())
-            .filter(|&k| touches[k] && !self.yields(k))
+            .filter(|&k| touches[k] && !self.yields(self.leans(k).unwrap_or(k)))
             .filter(|&k| {
                 let is_held = as_held && self.modes()[k] != Mode::Open;
                 is_held || here.rates[2 * k] <= here.rate_rounding[2 * k]
@@ -231,6 +236,28 @@ impl Touching {
         Ok(impacts)
     }
 
+    /// What is asked of a contact that has this place among those that meet.
+    pub(super) fn asked_of_impact(
+        &self,
+        here: &Here,
+        (place, contact): (usize, usize),
+        beside: &[f64],
+    ) -> Asked {
+        let friction = here.friction(contact)[0];
+        match self.leans(contact) {
+            None => Asked::Both {
+                friction,
+                beside: beside[place],
+            },
+            // What it leans on comes before it.
+            Some(_) => Asked::Leaning {
+                friction,
+                beside: beside[place - 1],
+                on: place - 1,
+            },
+        }
+    }
+
     /// The impulses of contacts that meet.
     fn impulses(
         &self,
@@ -248,11 +275,8 @@ impl Touching {
         let paradox = || trouble(0, ContactTrouble::Paradox);
         let width = before.len();
         let solved = |beside: &[f64], b: &[f64]| -> Result<Answer, StepError> {
-            let asked: Vec<Asked> = (meets.iter().zip(beside))
-                .map(|(&k, &beside)| Asked::Both {
-                    friction: here.friction(k)[0],
-                    beside,
-                })
+            let asked: Vec<Asked> = (meets.iter().enumerate())
+                .map(|(place, &k)| self.asked_of_impact(here, (place, k), beside))
                 .collect();
             let answer = problem::solve(&asked, g, b).map_err(|_| paradox())?;
             match answer.residual > 1e-8 {
@@ -286,6 +310,7 @@ impl Touching {
                 let given: Vec<[f64; 2]> = (meets.iter().zip(&compression))
                     .map(|(&k, impulse)| [here.restitution(k)[0] * impulse[0], 0.0])
                     .collect();
+                // Nothing is given along the normal of what leans, whose impulse there is none.
                 let beside: Vec<f64> = given.iter().map(|given| given[0]).collect();
                 let expansion = solved(&beside, &after(&middle, &given))?.forces;
                 let sum = |((c, g), e): ((&[f64; 2], &[f64; 2]), &[f64; 2])| {
@@ -393,7 +418,7 @@ impl Touching {
         as_held: bool,
     ) -> Vec<bool> {
         let here = Here::of(system, t, q, v);
-        (touches.iter().enumerate())
+        let mut lasting: Vec<bool> = (touches.iter().enumerate())
             .map(|(k, touches)| {
                 if self.yields(k) {
                     let deep = -self.clearance(&here, k).value > here.gap_rounding[k];
@@ -405,6 +430,8 @@ impl Touching {
                 let rounding = here.rate_rounding[2 * k].max(1e-12 * self.speed);
                 *touches && here.rates[2 * k].abs() <= rounding
             })
-            .collect()
+            .collect();
+        self.lean(&mut lasting);
+        lasting
     }
 }

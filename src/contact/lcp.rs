@@ -47,6 +47,30 @@ pub(crate) fn lemke(m: &[f64], q: &[f64]) -> Result<Solution, Unsolved> {
     if !size.is_finite() || m.iter().any(|m| !m.is_finite()) {
         return Err(Unsolved);
     }
+    let found = along_paths(m, q, size);
+    if found.as_ref().is_some_and(|found| found.residual <= GOOD) {
+        return found.ok_or(Unsolved);
+    }
+    // Numbers of q that are rounding, where they are negative, may lead every path to infinity: as where contacts that
+    // stick lift together.
+    let rounded: Vec<f64> = (q.iter())
+        .map(|q| if q.abs() <= ZERO * size { 0.0 } else { *q })
+        .collect();
+    let z = match rounded.iter().all(|q| *q >= 0.0) {
+        true => Some(vec![0.0; n]),
+        false => along_paths(m, &rounded, size).map(|found| found.z),
+    };
+    let other = z.map(|z| Solution {
+        residual: residual(m, q, &z),
+        z,
+    });
+    let both = found.into_iter().chain(other);
+    both.min_by(|a, b| a.residual.total_cmp(&b.residual))
+        .ok_or(Unsolved)
+}
+
+/// The best of what is found along several paths of pivots.
+fn along_paths(m: &[f64], q: &[f64], size: f64) -> Option<Solution> {
     let mut best: Option<Solution> = None;
     for path in 0..PATHS {
         let Ok(found) = along(m, q, size, path) else {
@@ -62,7 +86,7 @@ pub(crate) fn lemke(m: &[f64], q: &[f64]) -> Result<Solution, Unsolved> {
             break;
         }
     }
-    best.ok_or(Unsolved)
+    best
 }
 
 /// One path of pivots, by a covering vector of its own.
@@ -379,6 +403,36 @@ mod tests {
             for (found, truth) in found.iter().zip(&truth) {
                 assert!((found - truth).abs() < 1e-10);
             }
+        }
+    }
+
+    /// A level rod that is about to lift at both ends, which stick: friction along the rod depends on the other one, and its
+    /// rates are rounding.
+    #[test]
+    fn rates_that_are_rounding_leave_a_solution() {
+        for (opens, slips) in [(0.84, 1e-28), (0.84, -1e-28), (1e-8, -1e-21)] {
+            // Unknowns: normal, forward, backward and slip of both ends, by inertia of translation and of rotation.
+            let (across, along, turn) = (1.0, 1.0, 0.7);
+            let row = |normal: [f64; 2], tangent: f64, slip: [f64; 2]| {
+                let part = |k: usize| [normal[k], tangent, -tangent, slip[k]];
+                [part(0), part(1)].concat()
+            };
+            let end = |k: usize| {
+                let is = |i: usize| f64::from(u8::from(i == k));
+                let normal = [0, 1].map(|i| across + if i == k { turn } else { -turn });
+                [
+                    row(normal, 0.0, [0.0; 2]),
+                    row([0.0; 2], along, [0, 1].map(is)),
+                    row([0.0; 2], -along, [0, 1].map(is)),
+                    [0, 1].map(|i| [0.3 * is(i), -is(i), -is(i), 0.0]).concat(),
+                ]
+                .concat()
+            };
+            let m = [end(0), end(1)].concat();
+            let q = [opens, slips, -slips, 0.0].repeat(2);
+            let solution = lemke(&m, &q).expect("nothing presses");
+            assert!(solution.residual <= 1e-12, "{solution:?}");
+            assert!(solution.z.iter().all(|z| *z <= 1e-12), "{solution:?}");
         }
     }
 

@@ -10,6 +10,9 @@
 //! 0 ≤ β₊ ⊥ σ + γₜ ≥ 0,   0 ≤ β₋ ⊥ σ − γₜ ≥ 0,   0 ≤ σ ⊥ μ (Λₙ + Λ₀) − β₊ − β₋ ≥ 0
 //! ```
 //!
+//! What resists rolling leans on the contact that rolls: its torque is `|τ| ≤ ρ Λₙ` of that contact's normal, against the rate of
+//! rotation, in the same form.
+//!
 //! (D. E. Stewart, J. C. Trinkle, Int. J. Numer. Methods Eng. 39 (1996) 2673–2691.) Where it is known how a contact
 //! slips, `Λₜ = κ Λₙ` and there is no question of β and σ.
 
@@ -29,6 +32,14 @@ pub(super) enum Asked {
     Tangent { friction: f64, normal: f64 },
     /// Nothing: both forces are known.
     Nothing,
+    /// The tangent, with a friction of `μ` times the normal of another contact, and of an impulse `Λ₀` beside that.
+    Leaning {
+        friction: f64,
+        beside: f64,
+        on: usize,
+    },
+    /// The tangent, whose force is `κ` times the normal one of another contact.
+    Carried { share: f64, on: usize },
 }
 
 /// Solves for normal and tangential forces or impulses of each contact. `g` has two rows and columns for each, its
@@ -42,7 +53,8 @@ pub(super) fn solve(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Uns
         let rubs = match asked {
             Asked::Both { friction, .. } => *friction > 0.0,
             Asked::Tangent { friction, normal } => friction * normal > 0.0,
-            Asked::Normal { .. } | Asked::Nothing => false,
+            Asked::Leaning { friction, .. } => *friction > 0.0,
+            Asked::Normal { .. } | Asked::Nothing | Asked::Carried { .. } => false,
         };
         if matches!(asked, Asked::Both { .. } | Asked::Normal { .. }) {
             unknowns.push((k, Kind::Normal));
@@ -60,7 +72,11 @@ pub(super) fn solve(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Uns
     }
     let unit: Vec<f64> = (0..m)
         .map(|k| {
-            let own = entry(2 * k, 2 * k);
+            // A contact and its tangent have one unit; what leans has a direction of its own.
+            let own = match asked[k] {
+                Asked::Leaning { .. } => entry(2 * k + 1, 2 * k + 1),
+                _ => entry(2 * k, 2 * k),
+            };
             if own > 0.0 { 1.0 / own } else { 1.0 }
         })
         .collect();
@@ -71,7 +87,12 @@ pub(super) fn solve(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Uns
                 Asked::Normal { share } => share,
                 _ => 0.0,
             };
-            unit[k] * (entry(row, 2 * k) + share * entry(row, 2 * k + 1))
+            let carried = (asked.iter().enumerate()).map(|(other, asked)| match asked {
+                Asked::Carried { share, on } if *on == k => share * entry(row, 2 * other + 1),
+                _ => 0.0,
+            });
+            let carried: f64 = carried.sum();
+            unit[k] * (entry(row, 2 * k) + share * entry(row, 2 * k + 1) + carried)
         }
         Kind::Forward => unit[k] * entry(row, 2 * k + 1),
         Kind::Backward => -unit[k] * entry(row, 2 * k + 1),
@@ -85,7 +106,15 @@ pub(super) fn solve(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Uns
             Asked::Both { friction, beside } => (friction, beside / (unit[k] * rate)),
             // Its own normal impulse is none, and the known one stands beside that.
             Asked::Tangent { friction, normal } => (friction, normal / (unit[k] * rate)),
-            Asked::Normal { .. } | Asked::Nothing => (0.0, 0.0),
+            Asked::Leaning {
+                friction, beside, ..
+            } => (friction, beside / (unit[k] * rate)),
+            Asked::Normal { .. } | Asked::Nothing | Asked::Carried { .. } => (0.0, 0.0),
+        };
+        // Where what presses is another contact, which, and how many of its units are one of these.
+        let leans = match asked[k] {
+            Asked::Leaning { on, .. } => Some((on, unit[on] / unit[k])),
+            _ => None,
         };
         for (entry, &unknown) in row.iter_mut().zip(&unknowns) {
             let is_own = unknown.0 == k;
@@ -94,7 +123,11 @@ pub(super) fn solve(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Uns
                 (Kind::Forward | Kind::Backward, Kind::Slip) => f64::from(u8::from(is_own)),
                 (Kind::Forward, _) => effect(2 * k + 1, unknown),
                 (Kind::Backward, _) => -effect(2 * k + 1, unknown),
-                (Kind::Slip, Kind::Normal) if is_own => friction,
+                (Kind::Slip, Kind::Normal) => match leans {
+                    Some((on, units)) if on == unknown.0 => friction * units,
+                    None if is_own => friction,
+                    _ => 0.0,
+                },
                 (Kind::Slip, Kind::Forward | Kind::Backward) if is_own => -1.0,
                 (Kind::Slip, _) => 0.0,
             };
@@ -120,6 +153,11 @@ pub(super) fn solve(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Uns
             Kind::Forward => forces[k][1] += value,
             Kind::Backward => forces[k][1] -= value,
             Kind::Slip => {}
+        }
+    }
+    for (k, asked) in asked.iter().enumerate() {
+        if let Asked::Carried { share, on } = asked {
+            forces[k][1] = share * forces[*on][0];
         }
     }
     Ok(Answer {

@@ -20,7 +20,7 @@ use super::touching::{At, Here, Reaction, SATURATED};
 use super::{ContactTrouble, Impact, ImpactLaw, ImpactOrder, Mode, Touching};
 use crate::{Singular, StepError, System, Vector};
 
-/// How often a penetration is moved out of, at most: each time squares what is left of it.
+/// How often a penetration is moved out of, at most: each time squares the remainder.
 const CORRECTIONS: usize = 16;
 
 /// Contacts that are open by no more than so many times the deepest penetration are near it.
@@ -119,11 +119,9 @@ impl Touching {
                 }
             })
             .collect();
-        let asked: Vec<Asked> = (active.iter())
-            .map(|&k| Asked::Both {
-                friction: here.friction(k)[0],
-                beside: 0.0,
-            })
+        let none = vec![0.0; active.len()];
+        let asked: Vec<Asked> = (active.iter().enumerate())
+            .map(|(place, &k)| self.asked_of_impact(&here, (place, k), &none))
             .collect();
         let unsolved = || StepError::Contact {
             contact: active[0],
@@ -161,12 +159,18 @@ impl Touching {
                 [here.rates[direction], free[direction] + by.sum::<f64>()]
             });
             // Of contacts that share a load some may press and some not, from step to step: what does not open is closed.
-            if impulse == [0.0; 2] && gap_rate[1] + way_back(k) > here.rate_rounding[2 * k] {
+            let opens =
+                impulse == [0.0; 2] && gap_rate[1] + way_back(k) > here.rate_rounding[2 * k];
+            if self.leans(k).map_or(opens, |on| modes[on] == Mode::Open) {
                 continue;
             }
             let loss = -0.5
                 * (impulse[0] * (gap_rate[0] + gap_rate[1]) + impulse[1] * (slip[0] + slip[1]));
-            let most = here.friction(k)[0] * impulse[0];
+            let pressing = match self.leans(k) {
+                Some(_) => answer.forces[place - 1][0],
+                None => impulse[0],
+            };
+            let most = here.friction(k)[0] * pressing;
             modes[k] = match self.rubs(k) {
                 false => Mode::Slides(0.0),
                 true if impulse[1].abs() < most * (1.0 - SATURATED) => Mode::Sticks,
@@ -209,7 +213,9 @@ impl Touching {
         let mut penetrated = Vec::new();
         for _ in 0..CORRECTIONS {
             let here = Here::of(system, t, q, v);
-            let is_deep = |k: &usize| here.gaps[*k] < -0.5 * here.gap_rounding[*k];
+            let is_deep = |k: &usize| {
+                self.leans(*k).is_none() && here.gaps[*k] < -0.5 * here.gap_rounding[*k]
+            };
             let deep: Vec<usize> = (0..here.gaps.len()).filter(is_deep).collect();
             if deep.is_empty() {
                 break;
@@ -220,6 +226,7 @@ impl Touching {
             penetrated.extend(deep);
             // What is near takes part, lest what is moved out of one penetrates the other.
             let touching: Vec<usize> = (0..here.gaps.len())
+                .filter(|k| self.leans(*k).is_none())
                 .filter(|k| here.gaps[*k] <= here.gap_rounding[*k].max(NEAR * deepest))
                 .collect();
             let singular = |singular: Singular| StepError::Singular { singular, t };

@@ -41,6 +41,8 @@ pub(crate) use crate::friction::Margin;
 pub(crate) struct Touching {
     modes: Vec<Mode>,
     rubs: Vec<bool>,
+    /// Of the rolling of a contact, that contact: it has its gap and its normal force, and is open where that is.
+    leans: Vec<Option<usize>>,
     /// Of contacts that yield, their law and what it remembers.
     yielding: Vec<Option<Yielding>>,
     pub(super) law: ImpactLaw,
@@ -171,6 +173,9 @@ impl Touching {
     /// All contacts open.
     pub fn new<S: System>(system: &S) -> Touching {
         let rubs: Vec<bool> = system.unilateral_contacts().map(|c| c.rubs).collect();
+        let leans = system.unilateral_contacts().enumerate();
+        let leans = leans.map(|(k, c)| if c.rolls { k.checked_sub(1) } else { None });
+        let leans = leans.collect();
         let mut bouncing = system.unilateral_contacts();
         let bouncing = bouncing.find(|c| c.compliance.is_none());
         let (law, order) = (bouncing.map(|c| c.law), bouncing.map(|c| c.order));
@@ -186,6 +191,7 @@ impl Touching {
             held: Vec::new(),
             speed: 0.0,
             openings: vec![0.0; rubs.len()],
+            leans,
             rubs,
             stepped: None,
         }
@@ -195,6 +201,31 @@ impl Touching {
     pub(super) fn set_stepped(&mut self, modes: Vec<Mode>, forces: Vec<[f64; 2]>) {
         self.modes = modes;
         self.stepped = Some(forces);
+    }
+
+    /// What is closed goes on in time stepping, where none of it is a constraint.
+    pub fn begin_stepping(&mut self) {
+        self.held = Vec::new();
+        self.stepped = Some(vec![[0.0; 2]; self.modes.len()]);
+    }
+
+    /// What was closed in the last step of time stepping goes on as constraints, slips and sticks being known when contacts meet.
+    pub fn end_stepping(&mut self) {
+        self.stepped = None;
+        let held = self.held_directions(&self.modes);
+        self.held = held;
+    }
+
+    /// How fast the motion of the contacts is, in s: how long the forces of now would take to stop the fastest rate at which any
+    /// gap closed so far. None where nothing closed, or no force closes a gap.
+    pub fn time_scale<S: System>(&self, system: &S, at: At<'_, S>) -> Option<f64> {
+        let (t, q, v, _) = at;
+        let free = Self::free(system, at).ok()?;
+        let here = Here::of(system, t, q, v);
+        let falls = (0..self.modes.len()).map(|k| -here.acceleration(2 * k, &free)[0]);
+        let fastest = falls.fold(0.0, f64::max);
+        let scale = self.speed / fastest;
+        (scale > 0.0 && scale.is_finite()).then_some(scale)
     }
 
     pub fn modes(&self) -> &[Mode] {
@@ -214,6 +245,20 @@ impl Touching {
     /// Whether nothing touches.
     pub fn is_free(&self) -> bool {
         self.modes.iter().all(|mode| *mode == Mode::Open)
+    }
+
+    /// The contact on which another leans, if that is the rolling of one.
+    pub fn leans(&self, contact: usize) -> Option<usize> {
+        self.leans[contact]
+    }
+
+    /// Says of what leans what is said of the contact that it leans on.
+    pub fn lean<T: Copy>(&self, said: &mut [T]) {
+        for (k, on) in self.leans.iter().enumerate() {
+            if let Some(on) = on {
+                said[k] = said[*on];
+            }
+        }
     }
 
     /// Whether a contact has friction.
@@ -284,6 +329,11 @@ impl Touching {
                 let normal = pressed.force;
                 reaction.forces[k] = [normal, share(k) * normal];
                 reaction.sizes[k] = normal.abs();
+            } else if let Some(on) = self.leans[k] {
+                if self.yields(on) {
+                    reaction.forces[k] = [0.0, share(k) * reaction.forces[on][0]];
+                    reaction.sizes[k] = reaction.sizes[on];
+                }
             } else {
                 unknowns.push((place, 0));
             }
@@ -298,12 +348,21 @@ impl Touching {
                 *a += by;
             }
         }
+        // Of what leans on a contact, where it stands among the closed ones and its share of the normal force.
+        let carried = |place: usize| {
+            let next = closed.get(place + 1).copied();
+            let leaning = next.filter(|next| self.leans[*next] == Some(closed[place]));
+            leaning.map(|k| (place + 1, share(k)))
+        };
         for (place, &k) in closed.iter().enumerate() {
-            if self.yields(k) {
+            if self.yields(k) || self.leans[k].is_some() {
                 continue;
             }
             let own = g[2 * place * width + 2 * place];
-            let coupled = share(k) * g[2 * place * width + 2 * place + 1];
+            let by_rolling = carried(place).map_or(0.0, |(other, share)| {
+                share * g[2 * place * width + 2 * other + 1]
+            });
+            let coupled = share(k) * g[2 * place * width + 2 * place + 1] + by_rolling;
             if own + coupled <= ROUNDING_OF_FORCES * own && coupled < 0.0 {
                 let trouble = ContactTrouble::Paradox;
                 return Err(StepError::Contact {
@@ -320,7 +379,12 @@ impl Touching {
             for (j, &(other, other_part)) in unknowns.iter().enumerate() {
                 let column = |part: usize| g[row * width + 2 * other + part];
                 left[i * size + j] = match other_part {
-                    0 => column(0) + share(closed[other]) * column(1),
+                    0 => {
+                        let own = column(0) + share(closed[other]) * column(1);
+                        carried(other).map_or(own, |(leaning, share)| {
+                            own + share * g[row * width + 2 * leaning + 1]
+                        })
+                    }
                     _ => column(1),
                 };
             }
@@ -339,6 +403,9 @@ impl Touching {
             found[place][part] += value;
             if part == 0 {
                 found[place][1] += share(closed[place]) * value;
+                if let Some((leaning, share)) = carried(place) {
+                    found[leaning][1] += share * value;
+                }
             }
         }
         for (&k, found) in closed.iter().zip(&found) {
@@ -453,15 +520,25 @@ impl Touching {
         let reaction = self.reaction(system, at)?;
         let here = Here::of(system, t, q, v);
         for (k, margin) in margins.iter_mut().enumerate() {
-            let [normal, tangential] = reaction.forces[k];
-            let rounding = ROUNDING_OF_FORCES * reaction.sizes[k];
-            let [presses, loads] = self.margins_of_yielding(&here, k).unwrap_or([
-                Margin {
-                    value: normal,
-                    rounding,
-                },
-                Margin::ENDLESS,
-            ]);
+            let tangential = reaction.forces[k][1];
+            // Where a torque resists rolling, the normal force is that of the contact, which says itself whether it presses.
+            let pressed = self.leans[k].unwrap_or(k);
+            let normal = reaction.forces[pressed][0];
+            let size = match pressed == k {
+                true => reaction.sizes[k],
+                false => reaction.sizes[k].max(here.friction(k)[1] * reaction.sizes[pressed]),
+            };
+            let rounding = ROUNDING_OF_FORCES * size;
+            let [presses, loads] = match pressed == k {
+                false => [Margin::ENDLESS; 2],
+                true => self.margins_of_yielding(&here, k).unwrap_or([
+                    Margin {
+                        value: normal,
+                        rounding,
+                    },
+                    Margin::ENDLESS,
+                ]),
+            };
             *margin = match self.modes[k] {
                 Mode::Open => continue,
                 Mode::Slides(0.0) => [presses, Margin::ENDLESS, loads],
@@ -524,8 +601,10 @@ impl Touching {
         let (t, q, v, _) = at;
         let mut modes = vec![Mode::Open; closed.len()];
         let asked_of: Vec<usize> = (0..closed.len())
-            .filter(|k| closed[*k] && known != Some((*k, Mode::Open)))
+            .filter(|k| closed[*k] && known != Some((self.leans[*k].unwrap_or(*k), Mode::Open)))
             .collect();
+        // Where among them what a contact leans on stands: before it.
+        let leans = |place: usize| self.leans[asked_of[place]].map(|_| place - 1);
         if asked_of.is_empty() {
             return Ok(modes);
         }
@@ -545,7 +624,7 @@ impl Touching {
         // The normal forces that are known, of contacts that yield.
         let pressing: Vec<Option<f64>> = (asked_of.iter())
             .map(|k| {
-                self.pressing(&here, *k)
+                self.pressing(&here, self.leans[*k].unwrap_or(*k))
                     .map(|pressed| pressed.force.max(0.0))
             })
             .collect();
@@ -571,6 +650,20 @@ impl Touching {
             let mut asked = Vec::with_capacity(asked_of.len());
             for (place, &k) in asked_of.iter().enumerate() {
                 let [friction, static_friction] = here.friction(k);
+                if let (Some(on), None) = (leans(place), pressing[place]) {
+                    asked.push(match slipping[place] {
+                        Some(sign) => Asked::Carried {
+                            share: -sign * friction,
+                            on,
+                        },
+                        None => Asked::Leaning {
+                            friction: static_friction,
+                            beside: 0.0,
+                            on,
+                        },
+                    });
+                    continue;
+                }
                 asked.push(match (slipping[place], pressing[place]) {
                     (Some(_), Some(_)) => Asked::Nothing,
                     (None, Some(normal)) => Asked::Tangent {
@@ -597,7 +690,10 @@ impl Touching {
                 let normal = pressing[place].unwrap_or(0.0);
                 let share =
                     slipping[place].map_or(0.0, |sign| -sign * here.friction(asked_of[place])[0]);
-                [normal, share * normal]
+                match leans(place) {
+                    None => [normal, share * normal],
+                    Some(_) => [0.0, share * normal],
+                }
             };
             let known: Vec<[f64; 2]> = (0..asked_of.len()).map(known).collect();
             let b: Vec<f64> = (accelerations.iter().enumerate())
@@ -629,10 +725,19 @@ impl Touching {
                 let row = 2 * place;
                 let pressed = g[row * width + row] * answer.forces[place][0];
                 modes[k] = match slipping[place] {
-                    _ if opens > rounding.max(pressed) && pressing[place].is_none() => Mode::Open,
+                    _ if leans(place).is_some_and(|on| modes[asked_of[on]] == Mode::Open) => {
+                        Mode::Open
+                    }
+                    _ if leans(place).is_none()
+                        && opens > rounding.max(pressed)
+                        && pressing[place].is_none() =>
+                    {
+                        Mode::Open
+                    }
                     Some(sign) => Mode::Slides(sign),
                     None => {
-                        let [normal, tangential] = answer.forces[place];
+                        let tangential = answer.forces[place][1];
+                        let normal = answer.forces[leans(place).unwrap_or(place)][0];
                         let normal = pressing[place].unwrap_or(normal);
                         let most = here.friction(k)[1] * normal;
                         let (slips, rounding) = after(1);

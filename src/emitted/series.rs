@@ -2,10 +2,16 @@
 
 pub use lagrangian_scalar::series::{Vanished, apply, factor, solve, sweep};
 
+use crate::system::SERIES_ROWS;
 use crate::{Scalar, Singular};
 
 /// The most coefficients that emitted code computes of each coordinate; [`TAYLOR`](crate::TAYLOR) asks for 22.
-pub const ROWS: usize = 24;
+pub const ROWS: usize = SERIES_ROWS;
+
+/// Numbers that begin where a line of the processor's cache does: a wide register of them is read in one piece.
+#[derive(Clone, Copy)]
+#[repr(align(64))]
+pub struct Aligned<T>(pub T);
 
 /// The error of a pivot that vanished among these unknowns, of a machine with so many coordinates.
 #[cold]

@@ -1,6 +1,6 @@
 //! Steps of one machine in numbers of any kind.
 
-use super::{Accelerate, Outcome, Track};
+use super::{Accelerate, Outcome, Track, check};
 use crate::control::{self, MAX_STEPS, Work};
 use crate::inputs::{HeldInputs, InputLawIn};
 use crate::interpolant::Interpolant;
@@ -318,7 +318,7 @@ impl<S: SystemIn<N>, N: Real, L> ExplicitStepperBuilder<S, N, L> {
         self
     }
 
-    /// The same, relative and for each coordinate.
+    /// The tolerances of a step: one relative, and absolute ones for each coordinate and rate in their units.
     pub fn tolerances(mut self, tolerance: Tolerance<S::Vector>) -> Self {
         self.tolerance = tolerance;
         self
@@ -420,6 +420,7 @@ impl<S: SystemIn<N>, N: Real, L> ExplicitStepperBuilder<S, N, L> {
             system.to_vector(&state.q),
             system.to_vector(&state.v),
         );
+        check::<N>(method, state.t)?;
         let mut track = Track::begin(method, tolerance, start, &With(&system, &law))?;
         track.set_longest_step(longest_step);
         if first_step.is_finite() {

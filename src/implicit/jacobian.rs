@@ -14,7 +14,7 @@ const LARGEST_RATE: f64 = 1e4;
 
 /// The derivatives `∂a/∂q` and `∂a/∂v`.
 #[derive(Clone, Debug)]
-pub(super) struct Jacobian {
+pub(crate) struct Jacobian {
     n: usize,
     /// For each coordinate, the first of the same unit.
     alike: Vec<usize>,
@@ -48,7 +48,7 @@ impl Jacobian {
     }
 
     /// Finds the derivatives at a state in a step of length `h`, by `1 + 2 n` evaluations; leaves the
-    /// accelerations in `here`. `there` is room.
+    /// accelerations in `here`. `there` is scratch memory.
     ///
     /// A difference of `√ε` times the size of a number halves its digits: the errors of rounding and
     /// of the second derivative are then alike. Rates differ by at least what moves coordinates as

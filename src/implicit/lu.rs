@@ -4,7 +4,7 @@ use core::ops::{Div, Mul, Sub};
 use std::vec::Vec;
 
 /// A number of a field.
-pub(super) trait Coefficient:
+pub(crate) trait Coefficient:
     Copy + Default + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
     /// By which pivots are compared: `|re| + |im|`.
@@ -19,7 +19,7 @@ impl Coefficient for f64 {
 
 /// A complex number.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Complex {
+pub(crate) struct Complex {
     pub re: f64,
     pub im: f64,
 }
@@ -64,9 +64,9 @@ impl Coefficient for Complex {
     }
 }
 
-/// A matrix, and the room to factorize it in again and again.
+/// A matrix, and the memory in which it is factorized again and again.
 #[derive(Clone, Debug)]
-pub(super) struct Lu<T> {
+pub(crate) struct Lu<T> {
     n: usize,
     /// `L` without its diagonal of ones, and `U`, row after row.
     entries: Vec<T>,
@@ -166,7 +166,7 @@ mod tests {
             assert!((x - exact).abs() < 1e-14, "{x}");
         }
 
-        // The same with every number turned by i: (i A)(i x) = −A x.
+        // Solved with every number multiplied by i: (i A)(i x) = −A x.
         let turned = |re: f64| Complex { re: 0.0, im: re };
         let mut lu = Lu::new(3);
         assert!(lu.factor(|i, j| turned(a[i][j])));

@@ -13,6 +13,9 @@ use std::vec::Vec;
 /// Newton's method has converged by then, or the step is too long for it.
 pub(super) const ROUNDS: usize = 8;
 
+/// So many more for each pair of stages beyond three, as in the program RADAU.
+pub(super) const ROUNDS_OF_PAIR: usize = 5;
+
 /// Errors that it leaves, relative to what is tolerable, at coarse tolerances.
 const LEFT: f64 = 0.03;
 
@@ -25,38 +28,39 @@ const CONTRACTS: f64 = 0.05;
 /// A round that leaves more of the error than this comes no closer, if those before did.
 const STANDS: f64 = 0.3;
 
-/// They did if no more than this is left of the first change.
+/// They did if the last change is no larger than this share of the first.
 const FAR: f64 = 0.01;
 
 /// The derivatives at each stage, and the matrix of all of them together.
 #[derive(Clone, Debug)]
 pub(super) struct Apart {
-    jacobians: [Jacobian; 3],
-    /// Of the accelerations of the first stage, the second, the third.
+    jacobians: Vec<Jacobian>,
+    /// Of the accelerations of the first stage, the second, and so on.
     matrix: Lu<f64>,
     x: Vec<f64>,
 }
 
 impl Apart {
-    fn new(like: &Jacobian) -> Self {
+    fn new(like: &Jacobian, stages: usize) -> Self {
         let n = like.noise.len();
         Self {
-            jacobians: core::array::from_fn(|_| like.clone()),
-            matrix: Lu::new(3 * n),
-            x: std::vec![0.0; 3 * n],
+            jacobians: std::vec![like.clone(); stages],
+            matrix: Lu::new(stages * n),
+            x: std::vec![0.0; stages * n],
         }
     }
 
     /// The derivatives at the last stage.
     pub fn last(&self) -> &Jacobian {
-        &self.jacobians[2]
+        &self.jacobians[self.jacobians.len() - 1]
     }
 
     /// Factorizes the matrix of blocks `δᵢⱼ I − h aᵢⱼ a_v(i) − h² āᵢⱼ a_q(i)`.
     fn factor<V>(&mut self, task: &Task<'_, V>) -> bool {
-        let n = self.x.len() / 3;
-        let mut weights = [[[0.0; 2]; 3]; 3];
-        for (weights, row) in weights.iter_mut().zip(&task.method.scheme.rows[1..4]) {
+        let stages = self.jacobians.len();
+        let n = self.x.len() / stages;
+        let mut weights = [[[0.0; 2]; MAX_STAGES]; MAX_STAGES];
+        for (weights, row) in weights.iter_mut().zip(&task.method.scheme.rows[1..=stages]) {
             for term in row.terms() {
                 weights[term.stage - 1] = [task.h * term.velocity, task.h * task.h * term.position];
             }
@@ -78,8 +82,8 @@ impl Apart {
     }
 
     /// From residuals to changes.
-    fn solve(&mut self, change: &mut [Vec<f64>; 3]) {
-        let n = self.x.len() / 3;
+    fn solve(&mut self, change: &mut [Vec<f64>]) {
+        let n = self.x.len() / self.jacobians.len();
         for (x, change) in self.x.chunks_exact_mut(n.max(1)).zip(&*change) {
             x.copy_from_slice(change);
         }
@@ -116,7 +120,8 @@ impl Implicit {
     /// the beginning of a run, with the acceleration there.
     fn predict<V: Vector>(&self, task: &Task<'_, V>, k: &mut [V; MAX_STAGES]) {
         let (start, stages) = k.split_at_mut(1);
-        let (c, stages) = (&task.method.tableau.c[1..4], &mut stages[..3]);
+        let count = self.known.len();
+        let (c, stages) = (&task.method.tableau.c[1..=count], &mut stages[..count]);
         if self.known_length == 0.0 {
             for stage in stages {
                 stage.clone_from(&start[0]);
@@ -127,12 +132,17 @@ impl Implicit {
         let since = (before.t - self.known_from.high) + (before.t_low - self.known_from.low);
         for (stage, c_stage) in stages.iter_mut().zip(c) {
             let x = (since + c_stage * h) / self.known_length;
-            let weight = |one: usize, two: usize, own: usize| {
-                (x - c[one]) * (x - c[two]) / ((c[own] - c[one]) * (c[own] - c[two]))
-            };
-            let weights = [weight(1, 2, 0), weight(0, 2, 1), weight(0, 1, 2)];
+            let mut weights = [0.0; MAX_STAGES];
+            for (own, weight) in weights.iter_mut().enumerate().take(count) {
+                let (mut above, mut below) = (1.0, 1.0);
+                for (_, other) in c.iter().enumerate().filter(|(other, _)| *other != own) {
+                    above *= x - other;
+                    below *= c[own] - other;
+                }
+                *weight = above / below;
+            }
             for (i, k) in stage.as_mut_slice().iter_mut().enumerate() {
-                *k = (0..3).map(|j| weights[j] * self.known[j][i]).sum();
+                *k = (0..count).map(|j| weights[j] * self.known[j][i]).sum();
             }
         }
     }
@@ -143,17 +153,18 @@ impl Implicit {
         &mut self,
         task: &Task<'_, V>,
         k: &mut [V; MAX_STAGES],
-        room: [&mut V; 2],
+        scratch: [&mut V; 2],
         accelerations: &mut impl FnMut(f64, &V, &V, &mut V) -> Result<(), StepError>,
     ) -> Result<Solved, StepError> {
         self.predict(task, k);
-        let [q, v] = room;
+        let [q, v] = scratch;
         let mut anew = self.steps_apart > 0;
         // What was known of the contraction is forgotten slowly.
         self.left = rough_power(self.left.max(f64::EPSILON), 0.8);
         self.contraction = 0.0;
         let (mut first, mut size_before) = (0.0, 0.0);
-        for round in 1..=ROUNDS {
+        let most = self.most_rounds();
+        for round in 1..=most {
             self.rounds = round;
             let solved = match self.steps_apart {
                 0 => {
@@ -182,7 +193,7 @@ impl Implicit {
                 }
                 self.left = self.contraction / (1.0 - self.contraction);
                 // What will be left after the last round there is, if it goes on like this.
-                let rest = i32::try_from(ROUNDS - round).unwrap_or(0);
+                let rest = i32::try_from(most - round).unwrap_or(0);
                 let at_last = (0..rest).fold(self.left * size, |left, _| left * self.contraction);
                 let helpless = self.steps_apart == 0 || self.contraction <= CONTRACTS;
                 if at_last >= self.standing(task) && helpless {
@@ -191,7 +202,7 @@ impl Implicit {
                     return Ok(Solved::Shorter(factor));
                 }
             }
-            for (k, change) in k[1..4].iter_mut().zip(&self.change) {
+            for (k, change) in k[1..].iter_mut().zip(&self.change) {
                 for (k, change) in k.as_mut_slice().iter_mut().zip(change) {
                     *k += change;
                 }
@@ -227,11 +238,11 @@ impl Implicit {
         [q, v]: [&mut V; 2],
         accelerations: &mut impl FnMut(f64, &V, &V, &mut V) -> Result<(), StepError>,
     ) -> Result<(), StepError> {
-        for stage in 1..4 {
+        for stage in 1..=self.change.len() {
             let t = task.go_to(stage, k, [q, v]);
-            let (k, room) = k.split_at_mut(MAX_STAGES - 1);
-            accelerations(t, q, v, &mut room[0])?;
-            subtract(&room[0], &k[stage], &mut self.change[stage - 1]);
+            let (k, scratch) = k.split_at_mut(MAX_STAGES - 1);
+            accelerations(t, q, v, &mut scratch[0])?;
+            subtract(&scratch[0], &k[stage], &mut self.change[stage - 1]);
         }
         Ok(())
     }
@@ -248,16 +259,17 @@ impl Implicit {
     ) -> Result<bool, StepError> {
         let mut apart = match self.apart.take() {
             Some(apart) => apart,
-            None => Box::new(Apart::new(&self.jacobian)),
+            None => Box::new(Apart::new(&self.jacobian, self.change.len())),
         };
         let solved = if anew {
-            let found = (1..4).try_for_each(|stage| {
+            let found = (1..=self.change.len()).try_for_each(|stage| {
                 let t = task.go_to(stage, k, [q, v]);
-                let [_, k1, k2, k3, .., here, there] = &mut *k;
-                let room = [&mut *q, &mut *v, &mut *here, there];
-                apart.jacobians[stage - 1].find((t, task.h), room, accelerations)?;
-                let k = [k1, k2, k3];
-                subtract(here, k[stage - 1], &mut self.change[stage - 1]);
+                let (k, scratch) = k.split_at_mut(MAX_STAGES - 2);
+                let (here, there) = scratch.split_at_mut(1);
+                let (here, there) = (&mut here[0], &mut there[0]);
+                let scratch = [&mut *q, &mut *v, &mut *here, there];
+                apart.jacobians[stage - 1].find((t, task.h), scratch, accelerations)?;
+                subtract(here, &k[stage], &mut self.change[stage - 1]);
                 Ok(())
             });
             found.map(|()| apart.factor(task))
@@ -282,21 +294,33 @@ impl Implicit {
             ..
         } = self;
         for i in 0..self.n {
-            let along = |weights: [f64; 3]| (0..3).map(|s| weights[s] * change[s][i]).sum::<f64>();
-            in_real[i] = along(spectrum.left_of_real);
-            in_complex[i] = Complex {
-                re: along(spectrum.left_of_complex.map(|[re, _]| re)),
-                im: along(spectrum.left_of_complex.map(|[_, im]| im)),
+            let along = |weights: &mut dyn Iterator<Item = f64>| {
+                let products = weights
+                    .zip(&*change)
+                    .map(|(weight, change)| weight * change[i]);
+                products.sum::<f64>()
             };
+            in_real[i] = along(&mut spectrum.left_of_real.iter().copied());
+            for (z, pair) in in_complex.iter_mut().zip(spectrum.pairs) {
+                z[i] = Complex {
+                    re: along(&mut pair.left.iter().map(|[re, _]| *re)),
+                    im: along(&mut pair.left.iter().map(|[_, im]| *im)),
+                };
+            }
         }
         self.real.solve(in_real);
-        self.complex.solve(in_complex);
+        for (matrix, z) in self.complex.iter().zip(&mut *in_complex) {
+            matrix.solve(z);
+        }
         for (stage, change) in change.iter_mut().enumerate() {
             let real = spectrum.right_of_real[stage];
-            let [re, im] = spectrum.right_of_complex[stage];
-            for (change, (x, z)) in change.iter_mut().zip(in_real.iter().zip(&*in_complex)) {
-                // With its conjugate, twice the real part.
-                *change = real * x + 2.0 * (re * z.re - im * z.im);
+            for (i, (change, x)) in change.iter_mut().zip(&*in_real).enumerate() {
+                *change = real * x;
+                for (z, pair) in in_complex.iter().zip(spectrum.pairs) {
+                    // With its conjugate, twice the real part.
+                    let [re, im] = pair.right[stage];
+                    *change += 2.0 * (re * z[i].re - im * z[i].im);
+                }
             }
         }
     }
@@ -326,7 +350,7 @@ impl Implicit {
                 tolerable.max(4.0 * f64::EPSILON * y + roundoff)
             };
             let (least_q, least_v) = (least(q, h * roundoff), least(v, roundoff));
-            for row in &method.scheme.rows[1..4] {
+            for row in &method.scheme.rows[1..=self.change.len()] {
                 let (mut position, mut velocity) = (0.0, 0.0);
                 for term in row.terms() {
                     let change = self.change[term.stage - 1][i];
@@ -337,6 +361,6 @@ impl Implicit {
                 sum += q * q + v * v;
             }
         }
-        sqrt(sum / (6 * self.n.max(1)) as f64)
+        sqrt(sum / (2 * self.change.len() * self.n.max(1)) as f64)
     }
 }

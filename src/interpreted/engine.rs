@@ -25,7 +25,7 @@ pub(super) struct MachineCode {
     library: Option<(Arc<lagrangian_jit::Library>, lagrangian_jit::When)>,
 }
 
-/// The same with the values of parameters.
+/// The machine code of a program with the values of parameters.
 #[derive(Clone, Debug)]
 pub(super) struct Compiled {
     #[cfg(feature = "jit")]

@@ -56,7 +56,7 @@ impl InterpretedMachine {
         Self::read(path).build()
     }
 
-    /// The same with settings: [`Reading::constant`] and others; then [`build`](Reading::build).
+    /// Reads a spec from a file with settings: [`Reading::constant`] and others; then [`build`](Reading::build).
     pub fn read(path: impl AsRef<Path>) -> Reading {
         Reading::of(Spec::File(path.as_ref().into()))
     }

@@ -166,11 +166,15 @@ impl Recording {
         }
         for contact in system.unilateral_contacts() {
             let name = contact.name;
+            let [friction, slip] = match contact.rolls {
+                true => ["N*m", "rad/s"],
+                false => ["N", "m/s"],
+            };
             for (what, unit) in [
                 ("gap", "m"),
                 ("normal", "N"),
-                ("friction", "N"),
-                ("slip", "m/s"),
+                ("friction", friction),
+                ("slip", slip),
             ] {
                 column(format!("{what}({name})"), unit.into(), Kind::Contact);
             }

@@ -133,7 +133,7 @@ impl Signals {
         Signals::default().and(machine, driven, None)
     }
 
-    /// The same with inputs beside these that are set at the start and every `period` seconds after it, to act `delay` seconds
+    /// These signals and inputs beside them that are set at the start and every `period` seconds after it, to act `delay` seconds
     /// later and to hold until they are set again. A formula reads other sampled inputs, and its own, as they were set the time
     /// before; at first as their defaults.
     ///

@@ -114,7 +114,7 @@ impl TableFile {
         }
     }
 
-    /// The same of bytes, which must be UTF-8.
+    /// Reads a table from bytes, which must be UTF-8.
     ///
     /// # Errors
     /// As [`from_text`](Self::from_text), and where the bytes are no text.
@@ -135,7 +135,7 @@ impl TableFile {
         }
     }
 
-    /// The same of cells that were read otherwise, the header first.
+    /// Makes a table of cells that were read by other means, the header first.
     ///
     /// # Errors
     /// If there is no header.
@@ -187,7 +187,7 @@ impl TableFile {
         self.read(times, (name, (self.place(name)?, 1.0)), true)
     }
 
-    /// The same in a unit, which what a header says is checked against and converted to.
+    /// Times in seconds and the numbers of a column in a unit, which the unit of its header is checked against and converted to.
     ///
     /// ```
     /// use lagrangian::interpreted::TableFile;

@@ -86,6 +86,9 @@ pub struct Tree {
     vertices: usize,
 }
 
+/// The stages of an implicit method, its beginning counted: two more have to be free for its solution.
+const MOST_IMPLICIT: usize = MAX_STAGES - 2;
+
 /// No method that a tableau can hold has a higher order than its stages.
 const MAX_VERTICES: usize = MAX_STAGES;
 
@@ -263,10 +266,10 @@ fn sizes(tableau: &Tableau) -> Result<(), MethodError> {
         "c",
         "1 at row `stages`: the new point",
     )?;
-    field(tableau.dense.len() <= MAX_DENSE, "dense", "at most 4 rows")?;
+    field(tableau.dense.len() <= MAX_DENSE, "dense", "at most 5 rows")?;
     let most = match tableau.spectrum {
-        // Three stages that depend on each other reach at most order 6 (section II.7).
-        Some(_) => 6,
+        // Stages that depend on each other reach at most twice their number (section II.7).
+        Some(_) => 2 * (stages as u32 - 1),
         None => stages as u32,
     };
     let order = tableau.order;
@@ -274,7 +277,7 @@ fn sizes(tableau: &Tableau) -> Result<(), MethodError> {
     field(
         order <= most,
         "order",
-        "at most the number of stages, 6 for an implicit method",
+        "at most the number of stages, and twice that of those that depend on each other",
     )?;
     field(tableau.error_power >= 1, "error_power", "at least 1")?;
     let is_good = (1..=MAX_VERTICES as u32).contains(&tableau.dense_order);
@@ -298,14 +301,21 @@ fn sizes(tableau: &Tableau) -> Result<(), MethodError> {
             "none where the last stage is not at the end of the step",
         )?;
     }
-    if tableau.spectrum.is_some() {
+    if let Some(spectrum) = &tableau.spectrum {
+        let dependent = 2 * spectrum.pairs.len() + 1;
+        let vectors = spectrum.pairs.iter();
+        let mut lengths = vectors.flat_map(|pair| [pair.left.len(), pair.right.len()]);
+        let reals = [spectrum.left_of_real, spectrum.right_of_real];
         field(
-            stages == 4,
+            stages == dependent + 1
+                && stages <= MOST_IMPLICIT
+                && reals.iter().all(|vector| vector.len() == dependent)
+                && lengths.all(|length| length == dependent),
             "stages",
-            "4 in an implicit method: the beginning, and three that depend on each other",
+            "in an implicit method the beginning and as many as the spectrum has eigenvalues, at most 13",
         )?;
         field(
-            tableau.a[4] == tableau.a[3],
+            tableau.a[stages] == tableau.a[stages - 1],
             "a",
             "the row of the last stage, once more, as that of the new point of an implicit method",
         )?;
@@ -326,7 +336,7 @@ fn rows(tableau: &Tableau) -> Result<(), MethodError> {
     let Tableau { stages, a, .. } = *tableau;
     for (i, row) in a.iter().enumerate() {
         let (most, needed) = match tableau.spectrum {
-            Some(_) if (1..4).contains(&i) => (4, "no longer than there are stages"),
+            Some(_) if (1..stages).contains(&i) => (stages, "no longer than there are stages"),
             _ => (i, "no longer than there are stages before it"),
         };
         check("a", i, row, most, needed)?;
@@ -423,7 +433,7 @@ fn estimates(tableau: &Tableau) -> Result<(), MethodError> {
     }
 }
 
-/// Eigenvalues and eigenvectors of the three stages that depend on each other.
+/// Eigenvalues and eigenvectors of the stages that depend on each other.
 fn spectrum_of(tableau: &Tableau, spectrum: &Spectrum) -> Result<(), MethodError> {
     type Complex = [f64; 2];
     let real = |x: f64| [x, 0.0];
@@ -438,24 +448,27 @@ fn spectrum_of(tableau: &Tableau, spectrum: &Spectrum) -> Result<(), MethodError
     let is = |x: Complex, y: Complex, terms: f64| {
         (x[0] - y[0]).abs() + (x[1] - y[1]).abs() <= 16.0 * f64::EPSILON * terms.max(1.0)
     };
-    let pairs = [
-        (
-            real(spectrum.real),
-            spectrum.left_of_real.map(real),
-            spectrum.right_of_real.map(real),
-        ),
-        (
-            spectrum.complex,
-            spectrum.left_of_complex,
-            spectrum.right_of_complex,
-        ),
-    ];
+    let stages = tableau.stages - 1;
+    let mut all = [(real(0.0), [[0.0; 2]; MAX_STAGES], [[0.0; 2]; MAX_STAGES]); MAX_STAGES];
+    let known = &mut all[..1 + spectrum.pairs.len()];
+    known[0].0 = real(spectrum.real);
+    for i in 0..stages {
+        known[0].1[i] = real(spectrum.left_of_real[i]);
+        known[0].2[i] = real(spectrum.right_of_real[i]);
+        for (known, pair) in known[1..].iter_mut().zip(spectrum.pairs) {
+            known.0 = pair.value;
+            known.1[i] = pair.left[i];
+            known.2[i] = pair.right[i];
+        }
+    }
+    let pairs = &*known;
     let fail = |condition| Err(MethodError::Spectrum { condition });
     for (mu, left, right) in pairs {
-        for i in 0..3 {
+        let mu = *mu;
+        for i in 0..stages {
             let (mut w, mut u) = ([0.0; 2], [0.0; 2]);
             let mut terms = [0.0; 2];
-            for j in 0..3 {
+            for j in 0..stages {
                 w = plus(w, product(real(a(j, i)), left[j]));
                 u = plus(u, product(real(a(i, j)), right[j]));
                 terms[0] += (a(j, i) * size(left[j])).abs();
@@ -469,7 +482,7 @@ fn spectrum_of(tableau: &Tableau, spectrum: &Spectrum) -> Result<(), MethodError
             }
         }
     }
-    for (left, own) in pairs.map(|(_, left, _)| left).iter().zip([0, 1]) {
+    for (own, (_, left, _)) in pairs.iter().enumerate() {
         for (other, (_, _, right)) in pairs.iter().enumerate() {
             let (mut sum, mut terms) = ([0.0; 2], 0.0);
             for (w, u) in left.iter().zip(right) {

@@ -16,7 +16,7 @@ use super::digits::{Beyond, Pair};
 use super::{MAX_STAGES, Tableau};
 
 /// The most rows that dense output may have beyond its cubic.
-pub(super) const MAX_DENSE: usize = 4;
+pub(super) const MAX_DENSE: usize = 5;
 
 /// A weighted sum of stages, for velocities and for positions.
 #[derive(Clone, Copy, Debug)]
@@ -92,7 +92,7 @@ impl Row {
         &self.terms[..self.length]
     }
 
-    /// The same, each with what its weights leave out.
+    /// The terms that are not zero, each with what rounding leaves out of its weights.
     #[inline(always)]
     pub fn wide_terms(&self) -> impl Iterator<Item = (&Term, &Beyonds)> {
         self.terms().iter().zip(&self.beyond)

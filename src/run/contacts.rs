@@ -10,7 +10,6 @@ use crate::contact::{Impact, Mode};
 use crate::event::{self, Crossing, Event, Triple, made, state};
 use crate::friction::Margin;
 use crate::inputs::InputLaw;
-use crate::phases::Phase;
 use crate::solution::Ending;
 use crate::step_error::StepError;
 use crate::stepper::{Cause, Happened};
@@ -69,7 +68,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             return Err(self.model.explain(error, q, v));
         }
         self.record.unilateral.losses = vec![0.0; touching.modes().len()];
-        if self.settings.method.has_fixed_steps() {
+        if self.settings.method.is_by_impulses() {
             return self.begin_stepping(&touching);
         }
         let step = self.settings.first_step.unwrap_or(0.0);
@@ -155,10 +154,14 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 trouble: ContactTrouble::Unsettled,
                 t,
             };
+            if self.hand_over_unsettled(&error)? {
+                return Ok(None);
+            }
             let (q, v) = (self.stepper.q(), self.stepper.v());
             return Err(self.model.explain(error, q, v));
         }
         self.meet_now(cause, step, false)?;
+        self.hand_over_if_crowded()?;
         self.watch_jumps()
     }
 
@@ -168,14 +171,22 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         step: f64,
         at_start: bool,
     ) -> Result<(), Error> {
+        let before = (self.settings.hands_over).then(|| self.stepper.point());
         let met = self.stepper.meet(cause, self.stop, step);
         let happened = match met {
             Ok(happened) => happened,
             Err(error) => {
-                let (q, v) = (self.stepper.q(), self.stepper.v());
-                return Err(self.model.explain(error, q, v));
+                let now = self.stepper.point();
+                if let Some(before) = before {
+                    self.stepper.bring_back(before);
+                    if self.hand_over_unsettled(&error)? {
+                        return Ok(());
+                    }
+                }
+                return Err(self.model.explain(error, &now.q, &now.v));
             }
         };
+        self.pace.take(self.stepper.t(), &happened);
         if !at_start && let Some(steps) = &mut self.record.steps {
             steps.jump(&self.stepper);
         }
@@ -183,18 +194,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             self.enter_energies();
         }
         self.tell(&happened, at_start);
-        if let Some(touching) = self.stepper.touching() {
-            self.record.unilateral.phases.push(Phase {
-                since: self.stepper.t(),
-                touching: touching.clone(),
-                constraints: self.stepper.constraints().clone(),
-            });
-        }
+        self.keep_phase();
         Ok(())
     }
 
     /// Writes down what happened.
-    fn tell(&mut self, happened: &Happened, at_start: bool) {
+    pub(super) fn tell(&mut self, happened: &Happened, at_start: bool) {
         let t = self.stepper.t();
         let mut told: Vec<Told> = Vec::new();
         let size = |impulse: [f64; 2]| impulse[0].abs().max(impulse[1].abs());
@@ -209,7 +214,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             } = impact;
             self.record.unilateral.losses[contact] += loss;
             // What is at rest and is not hit has an impulse of rounding.
-            let is_hit = size(impulse) > 1e-12 * greatest;
+            let leans = self.leans(contact);
+            let is_hit = size(impulse) > 1e-12 * greatest && !leans;
             if is_hit {
                 let impact = ContactImpact {
                     gap_rate,
@@ -225,6 +231,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             use ContactEventKind::{Closes, Lifts, Opens, Reverses, Slips, Sticks};
             let (kind, direction) = match (*before, *after) {
                 (Mode::Open, Mode::Open) => continue,
+                // What leans on a contact closes and opens with it.
+                (Mode::Open, _) | (_, Mode::Open) if self.leans(contact) => continue,
                 (Mode::Open, _) if at_start => continue,
                 (Mode::Open, _) => (Closes, 0.0),
                 (_, Mode::Open) if self.yields(contact) => (Opens, 0.0),
@@ -291,6 +299,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
     }
 
+    /// Whether a contact is the rolling of another.
+    pub(super) fn leans(&self, contact: usize) -> bool {
+        let touching = self.stepper.touching().as_ref();
+        touching.is_some_and(|touching| touching.leans(contact).is_some())
+    }
+
     fn yields(&self, contact: usize) -> bool {
         let mut contacts = self.model.system.unilateral_contacts();
         (contacts.nth(contact)).is_some_and(|contact| contact.compliance.is_some())
@@ -302,7 +316,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let turned_over: f64 = (impacts.iter())
             .map(|i| (i.impulse[0] * i.gap_rate[0]).abs() + (i.impulse[1] * i.slip[0]).abs())
             .sum();
-        if -loss <= 1e-12 * turned_over {
+        if -loss <= 1e-12 * (turned_over + self.record.kinetic_energy) {
             return;
         }
         let kept = &mut self.record.unilateral;
@@ -376,6 +390,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 let (from, to) = (before[k], now[k]);
                 let comes_near = from.rate < 0.0 && to.rate > 0.0;
                 if *mode != Mode::Open || !(to.value < 0.0 || comes_near) {
+                    continue;
+                }
+                if touching.leans(k).is_some() {
                     continue;
                 }
                 let interpolant = made(interpolant, stepper, system)?;

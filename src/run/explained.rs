@@ -29,13 +29,14 @@ pub(crate) struct Explained {
 }
 
 impl Explained {
-    /// Takes the last step into account, with the energies at its end.
+    /// Takes the last step into account, with the energies at its end. Returns what tolerance and rounding explain of the residual
+    /// of this step, in J.
     pub fn take<S: System, L: InputLaw<S>, A: Quadratures<S>>(
         &mut self,
         system: &S,
         stepper: &Stepper<'_, S, L, A>,
         energies: &Energies,
-    ) {
+    ) -> f64 {
         let (t, q, v, a) = (stepper.t(), stepper.q(), stepper.v(), stepper.a());
         let u = stepper.inputs();
         let n = q.as_slice().len();
@@ -87,7 +88,9 @@ impl Explained {
             }
             change += most * stepper.last_step().abs();
         }
-        self.by_tolerance += sqrt((2 * n) as f64) * change;
+        let of_step = sqrt((2 * n) as f64) * change;
+        self.by_tolerance += of_step;
+        MARGIN * of_step + ROUNDINGS * (f64::EPSILON * self.greatest + self.by_rounding)
     }
 
     /// Looks at what takes many evaluations.

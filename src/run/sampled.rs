@@ -133,7 +133,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             return Err(self.model.explain(error, q, v));
         }
         let at_start = self.stepper.work().steps == 0;
-        if <M::System as System>::MAY_COLLIDE && self.stepper.touching().is_some() {
+        if <M::System as System>::MAY_COLLIDE
+            && self.stepper.touching().is_some()
+            && !self.stepper.is_by_impulses()
+        {
             let step = self.stepper.next_step();
             self.meet_now(Cause::Asked, step, at_start)?;
         } else if !at_start {

@@ -46,7 +46,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let mut told: Vec<Told> = Vec::new();
         for impact in &impacts {
             self.record.unilateral.losses[impact.contact] += impact.loss;
-            if before[impact.contact] == Mode::Open {
+            if before[impact.contact] == Mode::Open && !self.leans(impact.contact) {
                 let of = ContactImpact {
                     gap_rate: impact.gap_rate,
                     slip: impact.slip,
@@ -57,12 +57,14 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             }
         }
         for (k, (before, after)) in before.iter().zip(now.modes()).enumerate() {
+            let leans = self.leans(k);
             let lasts = &mut self.record.unilateral.last[k];
             let kind = match (before, after) {
                 (Mode::Open, _) => continue,
+                (_, Mode::Open) if leans => continue,
                 (_, Mode::Open) if std::mem::take(lasts) => (Lifts, 0.0),
                 (_, Mode::Open) => continue,
-                _ if !std::mem::replace(lasts, true) => (Closes, 0.0),
+                _ if !leans && !std::mem::replace(lasts, true) => (Closes, 0.0),
                 (Mode::Slides(from), Mode::Slides(to)) if from != to => (Reverses, *to),
                 (Mode::Slides(from), Mode::Sticks) if *from != 0.0 => (Sticks, 0.0),
                 (Mode::Sticks, Mode::Slides(to)) if *to != 0.0 => (Slips, *to),
@@ -73,6 +75,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let is_new = |impact: &&Impact| before[impact.contact] == Mode::Open;
         let hits: Vec<Impact> = impacts.iter().filter(is_new).copied().collect();
         self.note_gains(&hits, self.stepper.t());
+        self.pace.take_step(told.is_empty());
         self.enter_contact_events(told, &[]);
         let is_new = !impacts.is_empty() || before != now.modes();
         if is_new {
@@ -91,7 +94,7 @@ pub(super) fn check_length(has_fixed_steps: bool, longest: f64) -> Result<(), Er
         true => Err(Error::InvalidSetting {
             setting: "longest_step",
             value: longest,
-            needed: "the length of the steps of the method `moreau`, in s",
+            needed: "the length of the steps, in s: the method takes steps of a fixed length",
         }),
         false => Ok(()),
     }

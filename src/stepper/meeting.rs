@@ -131,6 +131,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             }
             _ => {}
         }
+        touching.lean(&mut closed);
         if touching.may_jam() {
             let mut resting = touching.resting(model.system.get(), t, &now.q, &now.v);
             for (k, resting) in resting.iter_mut().enumerate() {
@@ -171,7 +172,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let mut hit: Vec<usize> = happened.impacts.iter().map(|i| i.contact).collect();
         hit.sort_unstable();
         hit.dedup();
-        for contact in hit.into_iter().filter(|k| !closed[*k]).collect::<Vec<_>>() {
+        hit.retain(|k| !closed[*k] && touching.leans(*k).is_none());
+        for contact in hit {
             let place = (t, &now.q, &now.v);
             let falls = Touching::falls(model.system.get(), place, contact, free.as_slice());
             if let Some(left) = touching.ends_bouncing(model.system.get(), place, contact, falls) {
@@ -184,12 +186,14 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             }
         }
 
+        touching.lean(&mut closed);
         // A slip that has stopped is at rest, and so is what was closed at last.
         let mut held = vec![Mode::Open; closed.len()];
         let rests = touching.resting(model.system.get(), t, &now.q, &now.v);
         for (k, _) in closed.iter().enumerate().filter(|(_, closed)| **closed) {
             // What yields has no impulse that would stop it again when an impact elsewhere has made it slip.
-            let is_torn = touching.yields(k) && !rests[k] && !happened.impacts.is_empty();
+            let pressed = touching.leans(k).unwrap_or(k);
+            let is_torn = touching.yields(pressed) && !rests[k] && !happened.impacts.is_empty();
             held[k] = match touching.modes()[k] {
                 _ if stops(k) => Mode::Sticks,
                 Mode::Open => Mode::Slides(0.0),
@@ -293,7 +297,7 @@ fn stored<S: System>(system: &S, touching: &Touching, now: &Point<S::Vector>) ->
 }
 
 /// Brings a state onto what is held; what is known of these constraints.
-fn hold<S: System>(
+pub(super) fn hold<S: System>(
     system: &S,
     touching: &Touching,
     now: &mut Point<S::Vector>,

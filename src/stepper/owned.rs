@@ -109,7 +109,7 @@ impl<S: System> StepperBuilder<S> {
         self
     }
 
-    /// The same, relative and for each coordinate.
+    /// The tolerances of a step: one relative, and absolute ones for each coordinate and rate in their units.
     pub fn tolerances(mut self, tolerance: Tolerance<S::Vector>) -> Self {
         self.tolerance = tolerance;
         self

@@ -14,6 +14,10 @@ impl System for AsList {
     type Coordinates = List;
     type Inputs = ();
     type Outputs = ();
+    // Nothing of what handles constraints and contacts is compiled for it.
+    const MAY_BE_CONSTRAINED: bool = false;
+    const MAY_SLIDE: bool = false;
+    const MAY_COLLIDE: bool = false;
 
     fn coordinates(&self) -> impl ExactSizeIterator<Item = Quantity<'_>> {
         self.0.coordinates()

@@ -111,6 +111,9 @@ impl<const N: usize, const M: usize, const NN: usize> System for Constrained<N, 
     type Coordinates = [f64; N];
     type Inputs = ();
     type Outputs = ();
+    // Nothing of what handles contacts is compiled for it.
+    const MAY_SLIDE: bool = false;
+    const MAY_COLLIDE: bool = false;
 
     fn coordinates(&self) -> impl ExactSizeIterator<Item = Quantity<'_>> {
         let named = |(name, unit): &(&'static str, &'static str)| Quantity { name, unit };
@@ -244,8 +247,8 @@ impl<const N: usize, const M: usize, const NN: usize> System for Constrained<N, 
 
     fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
         assert!(length <= constraint_workspace(N, M));
-        let mut room = [0.0; 512];
-        work(self.on_stack.then(|| &mut room[..length]))
+        let mut values = [0.0; 512];
+        work(self.on_stack.then(|| &mut values[..length]))
     }
 }
 

@@ -153,6 +153,10 @@ impl System for DoublePendulumSystem {
     type Coordinates = DoublePendulumCoordinates;
     type Inputs = DoublePendulumInputs;
     type Outputs = DoublePendulumOutputs;
+    // Nothing of what handles constraints and contacts is compiled for it.
+    const MAY_BE_CONSTRAINED: bool = false;
+    const MAY_SLIDE: bool = false;
+    const MAY_COLLIDE: bool = false;
 
     fn coordinates(&self) -> impl ExactSizeIterator<Item = Quantity<'_>> {
         COORDINATES.iter().copied()

@@ -53,6 +53,8 @@ impl<const N: usize, const M: usize, const NN: usize> System for Tampered<N, M, 
     type Coordinates = [f64; N];
     type Inputs = ();
     type Outputs = ();
+    // Nothing of what handles unilateral contacts is compiled for it.
+    const MAY_COLLIDE: bool = false;
 
     fn coordinates(&self) -> impl ExactSizeIterator<Item = Quantity<'_>> {
         System::coordinates(&self.machine)
@@ -186,10 +188,10 @@ impl<const N: usize, const M: usize, const NN: usize> System for Tampered<N, M, 
     }
 
     fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = vec![0.0; length];
+        let mut values = vec![0.0; length];
         match self.slip {
-            Slip::Workspace(length) => work(length.map(|length| &mut room[..length])),
-            _ => work(Some(&mut room)),
+            Slip::Workspace(length) => work(length.map(|length| &mut values[..length])),
+            _ => work(Some(&mut values)),
         }
     }
 }

@@ -89,6 +89,10 @@ impl<const N: usize> System for Toy<N> {
     type Coordinates = [f64; N];
     type Inputs = f64;
     type Outputs = ();
+    // Nothing of what handles constraints and contacts is compiled for it.
+    const MAY_BE_CONSTRAINED: bool = false;
+    const MAY_SLIDE: bool = false;
+    const MAY_COLLIDE: bool = false;
 
     fn coordinates(&self) -> impl ExactSizeIterator<Item = Quantity<'_>> {
         self.names.iter().map(|name| Quantity { name, unit: "m" })

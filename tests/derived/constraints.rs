@@ -28,10 +28,10 @@ fn a_described_machine_lends_its_own_room() {
     let system = machine.prepare();
     let most = lagrangian::constraint_workspace(2, 1);
     assert_eq!(
-        system.with_workspace(most, |room| room.map(|room| room.len())),
+        system.with_workspace(most, |workspace| workspace.map(|values| values.len())),
         Some(most)
     );
-    assert!(system.with_workspace(most + 1, |room| room.is_none()));
+    assert!(system.with_workspace(most + 1, |workspace| workspace.is_none()));
 
     let run = Simulation::new(&machine)
         .tolerance(1e-12)
@@ -473,7 +473,7 @@ fn what_a_description_keeps_of_its_start_stays() {
         OFF,
     );
 
-    // What goes on from an event is no start: whatever an impact makes of it is brought onto the
+    // What goes on from an event is no start: whatever an impact makes of it is projected onto the
     // constraints by the least move.
     let mut after = *run.end();
     (after.v.x, after.v.y) = (1.0, 1.0);

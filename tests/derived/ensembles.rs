@@ -5,7 +5,9 @@ use lagrangian::{
     Arrival, Batched, Ensemble, Machine, Method, State, StepError, Stepper, System, Trajectory,
     Work,
 };
-use lagrangian_machines::{CartPole, DoublePendulum, FourBar, VibratingCrusher, cart_pole};
+use lagrangian_machines::{
+    CartPole, Crusher9, DoublePendulum, FourBar, VibratingCrusher, cart_pole,
+};
 
 type Alone<S> = Result<(State<<S as System>::Coordinates>, Work), StepError>;
 
@@ -93,6 +95,11 @@ fn each_trajectory_is_what_it_is_alone() {
     }
     assert_same::<_, 2>(&pendulums, Method::DOP853, 1e-10);
     assert_same::<_, 8>(&pendulums, Method::DOP853, 1e-10);
+    // Order 20, and order 12.
+    assert_same::<_, 2>(&pendulums, Method::TAYLOR, 1e-10);
+    assert_same::<_, 4>(&pendulums, Method::TAYLOR, 1e-4);
+    assert_same::<_, 8>(&pendulums, Method::TAYLOR, 1e-14);
+    assert_same::<_, 8>(&pendulums[..3], Method::TAYLOR, 1e-10);
     // Fewer than there are lanes, and none.
     assert_same::<_, 8>(&pendulums[..3], Method::DOP853, 1e-10);
     assert_same::<_, 8>(&pendulums[..0], Method::DOP853, 1e-10);
@@ -121,6 +128,63 @@ fn each_has_its_own_inputs_and_its_own_drive() {
         })
         .collect();
     assert_same::<_, 4>(&driven, Method::DOP853, 1e-8);
+    // Its series depend on time, too.
+    let driven: Vec<_> = (0..11)
+        .map(|_| {
+            let machine = Crusher9 {
+                w: random.uniform(50.0, 200.0),
+                ..Default::default()
+            };
+            let mut trajectory = Trajectory::of(&machine, 0.0);
+            trajectory.start.t = random.uniform(-10.0, 10.0);
+            trajectory.end = trajectory.start.t + random.uniform(-0.1, 0.1);
+            trajectory
+        })
+        .collect();
+    assert_same::<_, 4>(&driven, Method::TAYLOR, 1e-9);
+}
+
+/// By series: one without mass, one that starts at what is no number, one whose numbers overflow, and one that never gets there.
+#[test]
+fn the_failure_of_one_series_is_none_of_another() {
+    let good = DoublePendulum::default();
+    let mut trajectories: Vec<_> = (1..12)
+        .map(|i| Trajectory::of(&good, 0.25 * f64::from(i)))
+        .collect();
+    let massless = DoublePendulum { m2: 0.0, ..good };
+    trajectories.insert(1, Trajectory::of(&massless, 1.0));
+    let mut nowhere = Trajectory::of(&good, 1.0);
+    nowhere.start.v.theta1 = f64::NAN;
+    trajectories.insert(3, nowhere);
+    let mut fast = Trajectory::of(&good, 1.0);
+    fast.start.v.theta2 = 1e160;
+    trajectories.insert(4, fast);
+    let mut fast = Trajectory::of(&good, 1.0);
+    fast.start.v.theta2 = 1e20;
+    trajectories.insert(6, fast);
+    assert_same::<_, 4>(&trajectories, Method::TAYLOR, 1e-9);
+    assert_same::<_, 8>(&trajectories, Method::TAYLOR, 1e-6);
+    let mut failed = 0;
+    Ensemble::<8>::new()
+        .method(Method::TAYLOR)
+        .run(trajectories, |_, arrived| {
+            failed += usize::from(arrived.is_err())
+        });
+    assert!((3..=4).contains(&failed), "{failed} failed");
+    let series = Ensemble::<2>::new().method(Method::TAYLOR);
+    series.run([Trajectory::of(&CartPole::default(), 1.0)], |_, arrived| {
+        let error = arrived.expect_err("it has no series");
+        assert!(matches!(error, StepError::NoSeries { .. }), "{error}");
+    });
+    series
+        .max_steps(5)
+        .run([Trajectory::of(&good, 10.0)], |_, arrived| {
+            let error = arrived.expect_err("it does not get there");
+            assert!(
+                matches!(error, StepError::TooManySteps { steps: 5, .. }),
+                "{error}"
+            );
+        });
 }
 
 /// One that has no accelerations and one that starts at what is no number leave the others as they are.

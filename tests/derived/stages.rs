@@ -28,7 +28,7 @@ lagrangian::machine! {
 }
 
 /// How much a rounding of every operation may change: some hundred roundings of 2⁻⁵³, of numbers
-/// a hundred times as large as what is left of them.
+/// a hundred times as large as their sums.
 const ROUNDING: f64 = 1e4 * f64::EPSILON;
 
 /// In stages and at once, with rates that change while the rest stays, and coordinates that change

@@ -190,7 +190,7 @@ fn check_steady(breakdown: f64) -> f64 {
         let [a, b] = [from, to].map(|t| run.at(t).unwrap().q.psi);
         (b - a) / (to - from)
     };
-    // What is left of running up falls by the same share in each second.
+    // The transient of running up falls by the same share in each second.
     let (before, last) = (mean(18.0, 19.0), mean(19.0, 20.0));
     let limit = 2.0 * (before - last).abs() + drift(&run);
     assert!(

@@ -119,7 +119,7 @@ fn a_compiled_run_is_an_interpreted_run() {
 fn who_does_not_ask_has_none() {
     let system = SimplePendulum::default().prepare();
     assert!(system.check_series().is_err());
-    // Beyond what emitted code has room for nothing is told.
+    // Beyond what emitted code has space for nothing is told.
     let system = DoublePendulum::default().prepare();
     let mut rows = [[1.0; 2]; 26];
     let (q, v) = ([0.1, 0.2], [0.3, 0.4]);

@@ -10,7 +10,8 @@ use crate::support::references::Row;
 use crate::support::sampling::Random;
 use crate::support::special::{agm, amplitude, elliptic_k, jacobi, kepler, mathieu_edges, mean};
 use crate::support::states::{accelerations, energy, numbers, state, vector};
-use lagrangian::{Crossing, Inputs, Machine, Outputs, Simulation, Solution, System};
+use lagrangian::methods::Method;
+use lagrangian::{Crossing, Inputs, METHODS, Machine, Outputs, Simulation, Solution, System};
 use lagrangian_machines::*;
 
 /// The tolerance of runs that are held against closed forms.
@@ -33,8 +34,7 @@ fn held<M: Machine>(
     follows(machine, &start, FINE, (rows, &scales, BOUND), view);
 }
 
-/// The same of a motion with constant accelerations, which every method follows exactly: only
-/// rounding is left.
+/// Checks a motion with constant accelerations, which every method follows exactly but for rounding.
 ///
 /// Accelerations in which terms up to `size` cancel are off by 16 roundings of that, the motion by
 /// what these give rise to, and by the roundings of each step.
@@ -87,7 +87,7 @@ fn keeps<M: Machine>(
     });
 }
 
-/// The same of its energy.
+/// Checks that a motion keeps its energy.
 fn keeps_energy<M: Machine>(machine: &M, (q, v): (&[f64], &[f64]), until: f64) {
     let start = state(machine, 0.0, q, v);
     conserves(machine, start, (until, 1e-12), energy);
@@ -524,6 +524,47 @@ fn a_pendulum_shaken_enough_stands_upside_down() {
     // It starts at 0.3 rad and sways; ripple adds a/l of that.
     assert!(most(2.0 * enough) < 0.3 * 1.2);
     assert!(most(0.9 * enough) > FRAC_PI_2);
+}
+
+/// Upright and at rest, nothing of the motion limits a step, which is as long as the run: the pivot shakes many times in it. Its work
+/// is that of a mass that goes up and down with it.
+#[test]
+fn the_work_of_a_drive_is_known_while_the_machine_rests() {
+    let pendulum = KapitzaPendulum::default();
+    let KapitzaPendulum { m, a, omega, g, .. } = pendulum;
+    let explicit =
+        |method: &&Method| !method.has_fixed_steps() && method.tableau.spectrum.is_none();
+    for method in METHODS.iter().filter(explicit) {
+        for (until, tolerance) in [(2.0, 1e-9), (20.0, 1e-6)] {
+            let run = Simulation::new(&pendulum)
+                .method(method)
+                .tolerance(tolerance)
+                .until(until)
+                .energy_balance(true)
+                .run(state(&pendulum, 0.0, &[0.0], &[0.0]))
+                .expect("it rests");
+            let balance = run.energy_balance().expect("it was kept");
+            let (sin, cos) = (omega * until).sin_cos();
+            let exact = 0.5 * m * (a * omega * sin).powi(2) + m * g * a * (cos - 1.0);
+            let name = method.tableau.name;
+            assert!(balance.explained < 1e-2 * exact.abs(), "{name} {balance:?}");
+            assert!(
+                (balance.work - exact).abs() <= balance.explained,
+                "{name} {balance:?}"
+            );
+            assert!(
+                balance.residual().abs() <= balance.explained,
+                "{name} {balance:?}"
+            );
+            // In a shake it takes m (a ω)²/2 twice, and gives it back.
+            let shakes = omega * until / TAU;
+            let to_and_fro = 2.0 * m * (a * omega).powi(2) * shakes;
+            assert!(
+                (balance.turned_over / to_and_fro - 1.0).abs() < 0.1,
+                "{name} {balance:?}"
+            );
+        }
+    }
 }
 
 // A train.

@@ -206,11 +206,11 @@ fn a_four_bar_linkage_obeys_equations_by_hand() {
 #[test]
 fn five_bars_between_two_pins_obey_equations_by_hand() {
     let chain = ClosedPendulum::default();
-    let ClosedPendulum { l, m, J, g, .. } = chain;
+    let ClosedPendulum { l, m, g, .. } = chain;
     let bars: Vec<Bar> = (0..5)
         .map(|i| Bar {
             mass: m,
-            inertia: J,
+            inertia: m * l * l / 12.0,
             angle: i,
             centre: (0..i).map(|j| (j, l)).chain([(i, l / 2.0)]).collect(),
         })

@@ -268,7 +268,7 @@ fn a_crusher_at_the_centre_names_the_angle_that_has_no_meaning() {
         let singular =
             accelerations(&system, 0.3, &q, &[1.0; 9]).expect_err("the mass matrix is singular");
         assert_eq!(singular.name(&system), angle);
-        assert_eq!(singular.ratio, 0.0, "nothing is left of the inertia");
+        assert_eq!(singular.ratio, 0.0, "the pivot of the inertia is 0");
         // A run refuses to begin there, by what its machine assumes.
         let refused = error(
             run(&crusher, 1.0, state(&crusher, 0.0, &q, &[0.0; 9])),

@@ -42,7 +42,7 @@ fn a_whole_run_of_the_core_allocates_nothing() {
             }
             assert!(stepper.work().steps > 20);
         });
-        // An implicit method has room for its matrices, made once: a run of any length takes as much.
+        // An implicit method has memory for its matrices, made once: a run of any length takes as much.
         let most = if method.tableau.spectrum.is_some() {
             ROOM_OF_IMPLICIT
         } else {
@@ -53,8 +53,8 @@ fn a_whole_run_of_the_core_allocates_nothing() {
 }
 
 /// Vectors and matrices of an implicit method: those of its derivatives (8), of both factorizations (4)
-/// and of its stages (10), in one box.
-const ROOM_OF_IMPLICIT: u64 = 9 + 4 + 10 + 1;
+/// and of its stages (10), in one box; and the lists of those of which there is one for each stage or each pair of eigenvalues (4).
+const ROOM_OF_IMPLICIT: u64 = 9 + 4 + 10 + 1 + 4;
 
 #[test]
 fn inputs_and_a_balance_of_energy_allocate_nothing() {

@@ -80,7 +80,7 @@ fn a_sampled_controller_is_its_recursion() {
     }
 }
 
-/// The same law, where a run ends at each look and the next goes on from there.
+/// The law of the controller, where a run ends at each look and the next goes on from there.
 #[test]
 fn one_sampled_run_is_as_many_runs() {
     let machine = CartPole::default();

@@ -8,6 +8,7 @@ mod by_hand;
 mod control;
 mod energy;
 mod events;
+mod fixed_steps;
 mod matrices;
 mod methods;
 mod mistakes;

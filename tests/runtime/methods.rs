@@ -3,10 +3,10 @@
 #![cfg(feature = "std")]
 
 use crate::by_hand::toy::{Toy, oscillator};
-use lagrangian::methods::{MethodError, Tableau, Tree as Rooted, Weights};
+use lagrangian::methods::{Conjugates, MethodError, Tableau, Tree as Rooted, Weights};
 use lagrangian::{
-    DefaultInputs, InputFunction, InputLaw, METHODS, Method, NoBalance, Simulation, Stepper,
-    Tolerance,
+    DefaultInputs, InputFunction, InputLaw, METHODS, Method, NoBalance, RADAU_OF_HIGH_ORDER,
+    Simulation, Stepper, Tolerance,
 };
 
 #[test]
@@ -17,6 +17,43 @@ fn steps_obey_every_order_condition() {
         let failures = failed_conditions(tableau, b, tableau.order, 1.0);
         assert!(failures.is_empty(), "{}: {failures:?}", tableau.name);
         // The order is not higher: the conditions after it are not all met.
+        assert!(!failed_conditions(tableau, b, tableau.order + 1, 1.0).is_empty());
+    }
+}
+
+/// By the trees of the library, of which the other tests show that they are all; those here would take long to grow to 13 vertices.
+#[test]
+fn radau_of_high_order_is_what_it_says_and_no_more() {
+    for method in &RADAU_OF_HIGH_ORDER {
+        let tableau = &method.tableau;
+        assert_eq!(method.check(), Ok(()), "{}", tableau.name);
+        for wrong in [
+            Tableau {
+                order: tableau.order + 1,
+                ..copy(tableau)
+            },
+            Tableau {
+                dense_order: tableau.dense_order + 1,
+                ..copy(tableau)
+            },
+            Tableau {
+                error_power: tableau.error_power + 1,
+                ..copy(tableau)
+            },
+        ] {
+            assert!(Method::try_new(wrong).is_err(), "{}", tableau.name);
+        }
+    }
+}
+
+/// Gauss's methods are as good as their stages allow, and the classical method is of order 4.
+#[test]
+fn methods_of_fixed_steps_obey_their_order_conditions() {
+    for name in ["rk4", "gauss4", "gauss6", "gauss8"] {
+        let tableau = &Method::named(name).unwrap().tableau;
+        let b = tableau.a[tableau.stages];
+        let failures = failed_conditions(tableau, b, tableau.order, 1.0);
+        assert!(failures.is_empty(), "{name}: {failures:?}");
         assert!(!failed_conditions(tableau, b, tableau.order + 1, 1.0).is_empty());
     }
 }
@@ -169,17 +206,14 @@ fn the_eigenvectors_of_implicit_methods_are_those_of_their_stages() {
     for (a, spectrum) in implicit {
         count += 1;
         let real = |x: f64| [x, 0.0];
-        let pairs = [
-            (
-                real(spectrum.real),
-                spectrum.left_of_real.map(real),
-                spectrum.right_of_real.map(real),
-            ),
-            (
-                spectrum.complex,
-                spectrum.left_of_complex,
-                spectrum.right_of_complex,
-            ),
+        let of_real = [spectrum.left_of_real, spectrum.right_of_real];
+        let [left, right] = of_real.map(|vector| vector.iter().copied().map(real).collect());
+        let [pair] = spectrum.pairs else {
+            panic!("three stages have one pair");
+        };
+        let pairs: [(_, Vec<_>, Vec<_>); 2] = [
+            (real(spectrum.real), left, right),
+            (pair.value, pair.left.to_vec(), pair.right.to_vec()),
         ];
         let sum = |terms: &mut dyn Iterator<Item = [f64; 2]>| {
             terms.fold([0.0; 2], |sum, x| [sum[0] + x[0], sum[1] + x[1]])
@@ -208,8 +242,8 @@ fn the_eigenvectors_of_implicit_methods_are_those_of_their_stages() {
             assert!(is(one, [1.0, 0.0]), "{one:?}");
         }
         // And the vectors of different eigenvalues are at right angles.
-        let other = sum(&mut (0..3)
-            .map(|j| product(real(spectrum.left_of_real[j]), spectrum.right_of_complex[j])));
+        let other =
+            sum(&mut (0..3).map(|j| product(real(spectrum.left_of_real[j]), pair.right[j])));
         assert!(is(other, [0.0; 2]), "{other:?}");
     }
     assert_eq!(count, 1);
@@ -563,12 +597,23 @@ fn a_tableau_with_any_one_coefficient_changed_is_refused() {
 fn a_spectrum_that_is_not_that_of_the_stages_is_refused() {
     let radau = &Method::named("radau5").unwrap().tableau;
     let spectrum = radau.spectrum.unwrap();
+    let pair = spectrum.pairs[0];
+    let with = |pair: Conjugates| -> &'static [Conjugates] { vec![pair].leak() };
     let mut wrong = vec![spectrum; 5];
     wrong[0].real += 1e-9;
-    wrong[1].complex[1] += 1e-9;
-    wrong[2].left_of_real[1] += 1e-9;
-    wrong[3].right_of_complex[0][1] += 1e-9;
-    wrong[4].left_of_complex = spectrum.left_of_complex.map(|w| w.map(|x| 2.0 * x));
+    let mut value = pair.value;
+    value[1] += 1e-9;
+    wrong[1].pairs = with(Conjugates { value, ..pair });
+    let mut left = spectrum.left_of_real.to_vec();
+    left[1] += 1e-9;
+    wrong[2].left_of_real = left.leak();
+    let mut right = pair.right.to_vec();
+    right[0][1] += 1e-9;
+    let right = right.leak();
+    wrong[3].pairs = with(Conjugates { right, ..pair });
+    let left = pair.left.iter().map(|w| w.map(|x| 2.0 * x));
+    let left = left.collect::<Vec<_>>().leak();
+    wrong[4].pairs = with(Conjugates { left, ..pair });
     for spectrum in wrong {
         let tableau = Tableau {
             spectrum: Some(spectrum),

@@ -4,8 +4,8 @@
 use crate::by_hand::constrained::Constrained;
 use crate::by_hand::toy::{Toy, pendulum};
 use lagrangian::{
-    Crossing, DefaultInputs, Machine, Method, NoBalance, Simulation, Solution, Stepper, Tolerance,
-    Warning,
+    Crossing, DefaultInputs, Machine, Method, NoBalance, RADAU_OF_HIGH_ORDER, Simulation, Solution,
+    Stepper, Tolerance, Warning,
 };
 use std::f64::consts::PI;
 
@@ -14,8 +14,17 @@ fn radau5() -> &'static Method {
 }
 
 fn run<M: Machine>(machine: &M, tolerance: f64, until: f64) -> Solution<M> {
+    run_by(radau5(), machine, tolerance, until)
+}
+
+fn run_by<M: Machine>(
+    method: &'static Method,
+    machine: &M,
+    tolerance: f64,
+    until: f64,
+) -> Solution<M> {
     Simulation::new(machine)
-        .method(radau5())
+        .method(method)
         .tolerance(tolerance)
         .until(until)
         .energy_balance(true)
@@ -36,6 +45,10 @@ fn roundoff_of_differences() -> f64 {
 
 /// One step of length `h`, with an error of the size of the motion itself.
 fn one_step(machine: &Toy<1>, h: f64) -> [f64; 2] {
+    one_step_by(radau5(), machine, h)
+}
+
+fn one_step_by(method: &'static Method, machine: &Toy<1>, h: f64) -> [f64; 2] {
     let tolerance = Tolerance {
         relative: 1.0,
         absolute: [1.0],
@@ -45,7 +58,7 @@ fn one_step(machine: &Toy<1>, h: f64) -> [f64; 2] {
         machine,
         DefaultInputs,
         NoBalance,
-        radau5(),
+        method,
         tolerance,
         start,
         h,
@@ -74,6 +87,97 @@ fn a_step_damps_as_its_stability_function_says_and_never_rings() {
         assert!((v - exact).abs() <= roundoff_of_differences(), "{p}: {v:e}");
         // L-stable: what is damped beyond measure is gone after a step.
         assert!(p < 1e3 || v.abs() < 4.0 / p + roundoff_of_differences());
+    }
+}
+
+/// The Padé approximant of the exponential of the degrees `k` and `j`: section IV.3, eqs. (3.28) to (3.30).
+fn pade(k: u32, j: u32, z: f64) -> f64 {
+    let sum = |degree: u32, z: f64| {
+        let (mut term, mut sum) = (1.0, 1.0);
+        for i in 0..degree {
+            term *= z * f64::from(degree - i) / (f64::from(k + j - i) * f64::from(i + 1));
+            sum += term;
+        }
+        sum
+    };
+    sum(k, z) / sum(j, -z)
+}
+
+/// With `s` stages it is that of the degrees `s − 1` and `s`, of order `2 s − 1`.
+#[test]
+fn a_step_of_high_order_damps_as_its_stability_function_says() {
+    for (method, stages) in RADAU_OF_HIGH_ORDER.iter().zip([5, 7]) {
+        for p in [0.1, 1.0, 10.0, 30.0, 1e3, 1e6] {
+            let damped = Toy {
+                p,
+                ..Toy::new(([0.0], [1.0]), |_, _, v, _, p| [-p * v[0]])
+            };
+            let exact = pade(stages - 1, stages, -p);
+            let [_, v] = one_step_by(method, &damped, 1.0);
+            let name = method.tableau.name;
+            assert!(
+                (v - exact).abs() <= roundoff_of_differences(),
+                "{name}, {p}: {v:e}"
+            );
+        }
+    }
+    // The formula is that of the test above.
+    let z: f64 = -3.0;
+    let exact = (1.0 + 2.0 * z / 5.0 + z * z / 20.0)
+        / (1.0 - 3.0 * z / 5.0 + 3.0 * z * z / 20.0 - z * z * z / 60.0);
+    assert!((pade(2, 3, z) - exact).abs() < 1e-15);
+}
+
+/// In fine tolerances, against the closed form, between steps too; and with far fewer steps than order 5.
+#[test]
+fn radau_of_high_order_follows_stiff_machines_at_fine_tolerances() {
+    for p in [1e2, 1e4, 1e6] {
+        let dragged = dragged(p);
+        let steps = [radau5(), &RADAU_OF_HIGH_ORDER[0], &RADAU_OF_HIGH_ORDER[1]].map(|method| {
+            let tolerance = 1e-11;
+            let run = run_by(method, &dragged, tolerance, 10.0);
+            let name = method.tableau.name;
+            for i in 0..=100 {
+                let state = run.at(0.1 * f64::from(i)).unwrap();
+                let exact = [1.0 - state.t.cos(), state.t.sin()];
+                let limit = 10.0 * tolerance + limit(&run, tolerance);
+                assert!(
+                    (state.q[0] - exact[0]).abs() <= limit,
+                    "{name} {p} {}",
+                    state.t
+                );
+                assert!(
+                    (state.v[0] - exact[1]).abs() <= limit,
+                    "{name} {p} {}",
+                    state.t
+                );
+            }
+            assert!(run.warnings().is_empty(), "{name} {p}");
+            println!("{p:e}, {name}: {:?}", run.statistics());
+            run.statistics().steps
+        });
+        // Steps of a method whose estimate falls as h^k grow as 1e-11^(−1/k): k is 4, 6 and 8.
+        assert!(
+            10 * steps[1] < steps[0] && 2 * steps[2] < steps[1],
+            "{p}: {steps:?}"
+        );
+    }
+}
+
+/// A spring that turns, whose stages are solved for together: the motion is that of the same machine in polar coordinates.
+#[test]
+fn radau_of_high_order_follows_a_stiff_spring_that_turns() {
+    for method in &RADAU_OF_HIGH_ORDER {
+        let tolerance = 1e-9;
+        let polar = run_by(method, &elastic_in_polar(1e6), tolerance, 2.0);
+        let cartesian = run_by(method, &elastic_in_cartesian(1e6), tolerance, 2.0);
+        let [r, theta] = polar.end().q;
+        let exact = [(1.0 + r) * theta.sin(), -(1.0 + r) * theta.cos()];
+        let limit = limit(&polar, tolerance) + limit(&cartesian, tolerance);
+        for (x, exact) in cartesian.end().q.iter().zip(exact) {
+            let name = method.tableau.name;
+            assert!((x - exact).abs() <= limit, "{name}: {x} and {exact}");
+        }
     }
 }
 
@@ -204,7 +308,7 @@ fn elastic_in_polar(k: f64) -> Toy<2> {
     }
 }
 
-/// The same in Cartesian coordinates: the stiff direction turns.
+/// The elastic pendulum in Cartesian coordinates: the stiff direction turns.
 fn elastic_in_cartesian(k: f64) -> Toy<2> {
     let r = 1.0 + G * 1.0_f64.cos() / k;
     let (sin, cos) = 1.0_f64.sin_cos();
@@ -388,7 +492,7 @@ const FLYWHEEL: f64 = 0.5;
 const CRANK: f64 = 0.1;
 const ROD: f64 = 0.3;
 
-/// The same with the flywheel on the crank: φ₀ is left alone, with an inertia of its own.
+/// The shaft with the flywheel on the crank: φ₀ is left alone, with an inertia of its own.
 fn rigid_shaft() -> Constrained<4, 2, 16> {
     let shaft = shaft(1.0, 0.0);
     Constrained {

@@ -100,7 +100,7 @@ macro_rules! for_each_machine {
     };
 }
 
-/// The same with every machine that constraints leave determined accelerations, at any state.
+/// Calls with every machine whose accelerations are determined at any state, constraints included.
 #[macro_export]
 macro_rules! for_each_constrained_machine {
     ($do:ident) => {
@@ -133,7 +133,7 @@ pub fn program(machine: &str, constants: &[(&str, i64)]) -> Proved {
     compile(&path(machine), &text(machine), constants)
 }
 
-/// The same with a choice of one's own between the ways to make each function.
+/// The program of a machine with a choice of one's own between the ways to make each function.
 pub fn program_by(
     machine: &str,
     constants: &[(&str, i64)],

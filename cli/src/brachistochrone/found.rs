@@ -328,7 +328,7 @@ impl<'a, 'd> Found<'a, 'd> {
         self.recorded(&self.moments, self.angles.as_deref())
     }
 
-    /// The same at so many equal times after the start.
+    /// The motion at a number of equal times after the start.
     pub fn at_equal_times(&self, count: u32) -> Recording {
         let time = |k: u32| self.motion.time() * f64::from(k) / f64::from(count);
         let moments: Vec<Moment> = (0..=count).map(|k| self.motion.at(time(k))).collect();

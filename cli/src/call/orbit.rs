@@ -60,6 +60,8 @@ pub struct Sensitivities {
     pub spec: Spec,
     #[command(flatten)]
     pub start: Start,
+    #[command(flatten)]
+    pub keep: Keep,
     /// By what: parameters, inputs, `start(x)`, `rate(x)`; the name of a family stands for all its members.
     #[arg(long, value_name = "NAME,…", required = true)]
     pub by: Vec<String>,

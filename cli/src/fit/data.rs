@@ -9,6 +9,7 @@ use lagrangian_fit::least_squares::Trouble;
 use lagrangian_fit::motion::{Column, Experiment, Fit, Quantity};
 use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::{Severity, nearest};
+use lagrangian_spec::unit::{self, state_of};
 use lagrangian_sweep::signals::{self, Written};
 
 use crate::call::{self, Assignment};
@@ -228,6 +229,15 @@ fn measurable(machine: &InterpretedMachine, compiled: &Compiled<'_>) -> Vec<Clas
     let system = machine.prepare();
     let mut all = Vec::new();
     for (i, of) in system.coordinates().enumerate() {
+        // A state of first order is the rate of its integral, which nobody measures.
+        if let Some(state) = state_of(of.name) {
+            all.push(Class {
+                name: state,
+                unit: unit::rate_unit(of.name, of.unit),
+                quantity: Quantity::Rate(i),
+            });
+            continue;
+        }
         all.push(Class {
             name: of.name.to_owned(),
             unit: of.unit.to_owned(),

@@ -6,6 +6,7 @@ use lagrangian_fit::combinations::Kind;
 use lagrangian_fit::motion::{Derivatives, Subject};
 use lagrangian_fit::searches::{Search, Sigmas};
 use lagrangian_fit::statistics::Standing;
+use lagrangian_spec::unit::state_of;
 use serde_json::{Value, json};
 
 use super::Fitted;
@@ -238,7 +239,11 @@ pub fn text(result: &Fitted<'_, '_>) -> String {
                 ("--start", coordinate(result, e, place))
             }
             Subject::Rate(e, place) if result.given.len() == 1 => {
-                ("--rate", coordinate(result, e, place))
+                let name = coordinate(result, e, place);
+                match state_of(&name) {
+                    Some(state) => ("--start", state),
+                    None => ("--rate", name),
+                }
             }
             _ => continue,
         };

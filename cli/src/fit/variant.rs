@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use lagrangian_fit::motion::{Sought, Subject};
+use lagrangian_spec::unit::{self, state_of};
 
 use super::{Fitted, told};
 use crate::failure::Failure;
@@ -18,6 +19,7 @@ pub fn spec(result: &Fitted<'_, '_>, file: &Destination) -> Result<String, Failu
     let program = result.machine.program();
     let minimum = &result.found.minimum;
     let (mut parameters, mut coordinates) = (String::new(), String::new());
+    let mut states = String::new();
     let several = result.given.len() > 1;
     let mut left = Vec::new();
     for (j, (one, x)) in result.fit.sought.iter().zip(&minimum.x).enumerate() {
@@ -51,6 +53,14 @@ pub fn spec(result: &Fitted<'_, '_>, file: &Destination) -> Result<String, Failu
             Subject::Rate(e, place) => {
                 let name = told::coordinate(result, e, place);
                 let unit = &program.coordinates[place].unit_text;
+                if let Some(state) = state_of(&name) {
+                    let unit = unit::rate_unit(&name, unit);
+                    let _ = writeln!(
+                        states,
+                        "        /// {error}\n        {state}: {unit} = {value},"
+                    );
+                    continue;
+                }
                 let unit = match unit.as_str() {
                     "1" => "1/s".to_owned(),
                     unit => format!("({unit})/s"),
@@ -77,6 +87,14 @@ pub fn spec(result: &Fitted<'_, '_>, file: &Destination) -> Result<String, Failu
     let name = lagrangian::Machine::name(result.machine);
     let _ = writeln!(text, "machine {name}Fitted extends \"{base}\" {{");
     for (name, value) in &result.call.spec.constants {
+        // What would be derived otherwise is a parameter with this value.
+        let mut known = program.parameters.iter();
+        let known = known.find(|slot| slot.name.to_string() == *name);
+        if let Some(slot) = known {
+            let unit = &slot.unit_text;
+            let _ = writeln!(text, "    parameters {{ {name}: {unit} = {value} }}");
+            continue;
+        }
         let _ = writeln!(text, "    constants {{ {name} = {value} }}");
     }
     if !parameters.is_empty() {
@@ -84,6 +102,9 @@ pub fn spec(result: &Fitted<'_, '_>, file: &Destination) -> Result<String, Failu
     }
     if !coordinates.is_empty() {
         let _ = write!(text, "    coordinates {{\n{coordinates}    }}\n");
+    }
+    if !states.is_empty() {
+        let _ = write!(text, "    states {{\n{states}    }}\n");
     }
     text.push_str("}\n");
     Ok(text)

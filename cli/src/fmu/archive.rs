@@ -30,7 +30,7 @@ impl Entry {
 /// If it becomes larger than an archive may be.
 pub fn bytes(entries: &[Entry]) -> io::Result<Vec<u8>> {
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
-    // The same machine, the same bytes: no clock.
+    // One machine gives one sequence of bytes: no clock.
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Stored)
         .last_modified_time(DateTime::default());

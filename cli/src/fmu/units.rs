@@ -31,7 +31,7 @@ impl Units {
         name
     }
 
-    /// The same of an SI unit.
+    /// The name of an SI unit, declared if it is new.
     pub fn of(&mut self, unit: Unit) -> String {
         let name = unit.to_string();
         if name == "1" {

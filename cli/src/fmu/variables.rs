@@ -110,7 +110,7 @@ impl Variables {
         Variables { all, is_structured }
     }
 
-    /// The same with others as outputs.
+    /// These variables with others as outputs.
     ///
     /// # Errors
     /// What `unknown` makes of a name that there is not, beside those there are.

@@ -1,24 +1,30 @@
 //! A robot as a machine: coordinates for joints, frames and bodies for links.
 
+use super::faults::Faults;
 use super::names::{self, Names, quoted};
 use super::number::{Angle, Number};
-use super::steps::{AXES, conjugated, slide, straightened, turn};
+use super::robot::{Drive, Inertial, Joint, Kind, Law, Robot, Start, TieKind};
+use super::steps::{self, AXES, conjugated, slide, straightened, turn};
 use super::tensor;
 use super::text::{self, Text};
 use super::tree::{self, Tree};
-use super::urdf::{Faults, Inertial, Joint, Kind, Robot};
 use crate::call::{Ball, Base, Friction, Import, Limits};
 use crate::diagnostics::counted;
 
 /// The sections in the order in which a reader wants them. Gravity stands behind the bodies.
-const SECTIONS: [&str; 9] = [
+const SECTIONS: [&str; 14] = [
     "parameters",
     "coordinates",
+    "inputs",
     "define",
     "assume",
     "frames",
     "bodies",
+    "rotors",
+    "springs",
     "dampers",
+    "forces",
+    "constraints",
     "dissipations",
     "contacts",
 ];
@@ -33,12 +39,7 @@ pub struct Machine {
 }
 
 /// Writes the machine of a robot, unless something is wrong.
-pub fn written(
-    robot: &Robot,
-    file: &str,
-    call: &Import,
-    faults: &mut Faults<'_>,
-) -> Option<Machine> {
+pub fn written(robot: &Robot, file: &str, call: &Import, faults: &mut Faults) -> Option<Machine> {
     let tree = tree::plant(robot, faults)?;
     let mut writer = Writer::new(robot, &tree, call);
     writer.drop_massless(faults);
@@ -51,6 +52,8 @@ pub fn written(
     writer.frames();
     writer.bodies();
     writer.along_joints(faults);
+    writer.drives();
+    writer.ties();
     if faults.is_empty() && writer.text.count("coordinates") == 0 {
         faults.add(
             0,
@@ -70,6 +73,10 @@ struct Writer<'a> {
     gravity: String,
     /// What each joint with one coordinate is called in formulas: the coordinate, or what follows it.
     value_of: Vec<String>,
+    /// What each of these is where the joint moves nothing; empty where that is 0.
+    reference_of: Vec<String>,
+    /// The coordinate that each of these follows, and the factor by which; its own and an empty one where it follows none.
+    coordinate_of: Vec<(usize, String)>,
     /// How a joint moves its link: steps from frame to frame, the origin not among them.
     motion: Vec<Vec<String>>,
     /// How the root moves.
@@ -96,6 +103,10 @@ impl<'a> Writer<'a> {
             text: Text::new(&SECTIONS),
             values,
             value_of: vec![String::new(); robot.joints.len()],
+            reference_of: vec![String::new(); robot.joints.len()],
+            coordinate_of: (0..robot.joints.len())
+                .map(|joint| (joint, String::new()))
+                .collect(),
             motion: vec![Vec::new(); robot.joints.len()],
             root_motion: Vec::new(),
             link_names: vec![String::new(); robot.links.len()],
@@ -115,7 +126,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Coordinates that move no mass have no acceleration: they are refused, or left out with what hangs on them.
-    fn drop_massless(&mut self, faults: &mut Faults<'_>) {
+    fn drop_massless(&mut self, faults: &mut Faults) {
         let (robot, tree) = (self.robot, self.tree);
         let heavy = tree.is_heavy(&robot.links);
         if self.call.base == Base::Floating && !heavy[tree.root] {
@@ -177,7 +188,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Stick does not follow from coordinates and rates alone, so Coulomb friction is not left out without a word.
-    fn check_friction(&self, faults: &mut Faults<'_>) {
+    fn check_friction(&self, faults: &mut Faults) {
         if self.call.friction.is_some() {
             return;
         }
@@ -220,25 +231,28 @@ impl<'a> Writer<'a> {
     }
 
     /// Coordinates and definitions, and the motions that they make.
-    fn coordinates(&mut self, faults: &mut Faults<'_>) {
+    fn coordinates(&mut self, faults: &mut Faults) {
         if self.call.base == Base::Floating {
             let link = &self.robot.links[self.tree.root].name;
-            let comment = format!("Link {}, which hangs on nothing.", quoted(link));
-            self.root_motion = self.floating(link, comment, "link");
+            let part = capital(self.robot.part);
+            let comment = format!("{part} {}, which hangs on nothing.", quoted(link));
+            self.root_motion = self.floating(link, comment, "link", None);
         }
         for (index, joint) in self.joints() {
-            let (parent, child) = (self.tree.parent[index], self.tree.child[index]);
-            let [parent, child] = [parent, child].map(|link| quoted(&self.robot.links[link].name));
-            let kind = joint.kind.name();
+            let [parent, child] = joint.shown.each_ref().map(|name| quoted(name));
+            let (kind, part) = (joint.label, self.robot.part);
             let name = quoted(&joint.name);
-            let mut comment = format!("Joint {name}, {kind}, link {child} on link {parent}");
+            let mut comment = format!("Joint {name}, {kind}, {part} {child} on {part} {parent}");
             comment.push_str(&said(joint));
             comment.push('.');
             self.motion[index] = match joint.kind {
                 Kind::Fixed => Vec::new(),
-                Kind::Floating => self.floating(&joint.name, comment, "joint"),
+                Kind::Floating => {
+                    self.floating(&joint.name, comment, "joint", joint.start.as_ref())
+                }
                 Kind::Spherical => {
-                    self.ball(&joint.name, comment, self.call.ball.unwrap_or(Ball::Xyz))
+                    let ball = self.call.ball.unwrap_or(Ball::Xyz);
+                    self.ball(&joint.name, comment, ball, None)
                 }
                 Kind::Planar => self.planar(joint, comment),
                 Kind::Revolute | Kind::Continuous | Kind::Prismatic => {
@@ -250,10 +264,13 @@ impl<'a> Writer<'a> {
         self.followers();
         for (index, joint) in self.joints() {
             if joint.kind.is_single() {
-                let value = &self.value_of[index];
+                let value = match self.reference_of[index].as_str() {
+                    "" => self.value_of[index].clone(),
+                    reference => format!("({} - {reference})", self.value_of[index]),
+                };
                 self.motion[index] = match joint.kind {
-                    Kind::Prismatic => vec![slide(&joint.axis, value)],
-                    _ => turn(&joint.axis, value),
+                    Kind::Prismatic => vec![slide(&joint.axis, &value)],
+                    _ => turn(&joint.axis, &value),
                 };
             }
         }
@@ -266,36 +283,63 @@ impl<'a> Writer<'a> {
         comment: String,
         kind: &str,
         list: &[(&str, &str)],
+        starts: Option<[String; 3]>,
     ) -> Vec<String> {
         let mut taken = Vec::new();
         let mut entries = Vec::new();
-        for (suffix, unit) in list {
+        for (place, (suffix, unit)) in list.iter().enumerate() {
             let coordinate = self.values.take(&format!("{name}_{suffix}"), kind);
-            entries.push(format!("{coordinate}: {unit}"));
+            let start = match &starts {
+                Some(starts) if starts[place] != "0" => format!(" = {}", starts[place]),
+                _ => String::new(),
+            };
+            entries.push(format!("{coordinate}: {unit}{start}"));
             taken.push(coordinate);
         }
         self.text.add("coordinates", Some(comment), entries);
         taken
     }
 
-    fn floating(&mut self, name: &str, comment: String, kind: &str) -> Vec<String> {
+    fn floating(
+        &mut self,
+        name: &str,
+        comment: String,
+        kind: &str,
+        start: Option<&Start>,
+    ) -> Vec<String> {
         let place = [("x", "m"), ("y", "m"), ("z", "m")];
-        let q = self.several(name, comment, kind, &place);
+        let from = start.map(|start| start.xyz.each_ref().map(Number::to_string));
+        let q = self.several(name, comment, kind, &place, from);
         let mut steps = vec![format!(".shift({}, {}, {})", q[0], q[1], q[2])];
         let angles = format!("The angles of {kind} {}.", quoted(name));
-        steps.extend(self.ball(name, angles, self.call.ball.unwrap_or(Ball::Zyx)));
+        let ball = self.call.ball.unwrap_or(Ball::Zyx);
+        steps.extend(self.ball(name, angles, ball, start));
         steps
     }
 
     /// Three angles about axes of which the second and third are turned by those before.
-    fn ball(&mut self, name: &str, comment: String, ball: Ball) -> Vec<String> {
+    fn ball(
+        &mut self,
+        name: &str,
+        comment: String,
+        ball: Ball,
+        start: Option<&Start>,
+    ) -> Vec<String> {
         let list = match ball {
             Ball::Xyz => [("about_x", "x"), ("about_y", "y"), ("about_z", "z")],
             Ball::Zyx => [("yaw", "z"), ("pitch", "y"), ("roll", "x")],
             Ball::Zxz => [("precession", "z"), ("nutation", "x"), ("spin", "z")],
         };
         let angles = list.map(|(suffix, _)| (suffix, "rad"));
-        let q = self.several(name, comment, "joint", &angles);
+        let from = start.map(|start| {
+            let angles = match ball {
+                Ball::Xyz => steps::angles(&start.axes, [0, 1, 2]),
+                Ball::Zyx => steps::angles(&start.axes, [2, 1, 0]),
+                Ball::Zxz => steps::angles(&start.axes, [2, 0, 2]),
+            };
+            angles.map(|angle| angle.to_string())
+        });
+        let q = self.several(name, comment, "joint", &angles, from);
         self.warnings.push(match ball {
             Ball::Xyz | Ball::Zyx => {
                 format!("`{}` is singular at 90° to either side; --ball chooses other angles", q[1])
@@ -323,7 +367,7 @@ impl<'a> Writer<'a> {
             false => ["u", "v"],
         };
         let list = [(first, "m"), (second, "m"), ("angle", "rad")];
-        let q = self.several(&joint.name, comment, "joint", &list);
+        let q = self.several(&joint.name, comment, "joint", &list, None);
         let mut shift = ["0"; 3];
         shift[across[0]] = &q[0];
         shift[across[1]] = &q[1];
@@ -333,13 +377,25 @@ impl<'a> Writer<'a> {
     }
 
     /// The coordinate of a joint that has one, unless it follows another.
-    fn single(&mut self, index: usize, joint: &Joint, comment: String, faults: &mut Faults<'_>) {
+    fn single(&mut self, index: usize, joint: &Joint, comment: String, faults: &mut Faults) {
         let unit = unit_of(joint);
         self.value_of[index] = self.values.take(&joint.name, "joint");
         if self.tree.leader[index].is_some() {
             return;
         }
-        let name = &self.value_of[index];
+        let name = self.value_of[index].clone();
+        if !joint.reference.is_zero() {
+            let mut entries = Vec::new();
+            let reference = measured(joint, &joint.reference);
+            self.reference_of[index] =
+                self.parameter(&mut entries, &format!("{name}_ref"), unit, &reference);
+            let comment = format!(
+                "Joint {}: its value where it moves nothing.",
+                quoted(&joint.name)
+            );
+            self.text.add("parameters", Some(comment), entries);
+        }
+        let from = joint.reference.value;
         let start = match (&joint.range, self.call.limits) {
             (Some([lower, upper]), Limits::Assume | Limits::Stop) => {
                 if lower.value >= upper.value {
@@ -350,14 +406,16 @@ impl<'a> Writer<'a> {
                     );
                 }
                 let bound = match () {
-                    () if lower.value > 0.0 => Some(lower),
-                    () if upper.value < 0.0 => Some(upper),
+                    () if lower.value > from => Some(lower),
+                    () if upper.value < from => Some(upper),
                     () => None,
                 };
-                bound.map(|bound| format!(" = {}", measured(joint, bound)))
+                bound.map(|bound| measured(joint, bound))
             }
             _ => None,
         };
+        let reference = (from != 0.0).then(|| measured(joint, &joint.reference));
+        let start = start.or(reference).map(|start| format!(" = {start}"));
         let entry = format!("{name}: {unit}{}", start.unwrap_or_default());
         self.text.add("coordinates", Some(comment), vec![entry]);
     }
@@ -373,18 +431,22 @@ impl<'a> Writer<'a> {
             let [own, of_leader] = [joint, &self.robot.joints[leader]].map(unit_of);
             let mut value = self.value_of[leader].clone();
             let is_alike = own == of_leader;
+            let (coordinate, mut factor) = self.coordinate_of[leader].clone();
             if is_alike && mimic.multiplier.value == -1.0 {
                 value = format!("-{value}");
+                factor.insert_str(0, "-1*");
             } else if !is_alike || mimic.multiplier.value != 1.0 {
                 let unit = match is_alike {
                     true => "1".to_owned(),
                     false => format!("{own}/{of_leader}"),
                 };
                 let text = mimic.multiplier.to_string();
-                let factor =
+                let multiplier =
                     self.parameter(&mut entries, &format!("{name}_multiplier"), &unit, &text);
-                value = format!("{factor}*{value}");
+                value = format!("{multiplier}*{value}");
+                factor.insert_str(0, &format!("{multiplier}*"));
             }
+            self.coordinate_of[index] = (coordinate, factor);
             if !mimic.offset.is_zero() {
                 let offset = measured(joint, &mimic.offset);
                 let offset = self.parameter(&mut entries, &format!("{name}_offset"), own, &offset);
@@ -399,7 +461,7 @@ impl<'a> Writer<'a> {
             let comment = format!(
                 "Joint {}, {}, follows {}{}.",
                 quoted(&joint.name),
-                joint.kind.name(),
+                joint.label,
                 quoted(&mimic.joint),
                 said(joint)
             );
@@ -422,10 +484,18 @@ impl<'a> Writer<'a> {
         let root = self.tree.root;
         own[root] = !self.root_motion.is_empty();
         is_used[root] = is_body(self, root);
+        // Whether steps lead to what stands between two joints.
+        let mut is_moved = vec![false; links.len()];
         for (index, joint) in self.joints() {
             let (parent, child) = (self.tree.parent[index], self.tree.child[index]);
-            let is_there = joint.xyz.iter().chain(&joint.rpy).all(Number::is_zero);
-            own[child] = !is_there || !self.motion[index].is_empty();
+            let is_there = joint.turns.is_empty() && joint.xyz.iter().all(Number::is_zero);
+            let is_apart = !is_there || !self.motion[index].is_empty() || is_moved[parent];
+            if links[child].is_between {
+                stands_on[child] = stands_on[parent];
+                is_moved[child] = is_apart;
+                continue;
+            }
+            own[child] = is_apart;
             if !own[child] {
                 stands_on[child] = stands_on[parent];
             } else {
@@ -433,10 +503,11 @@ impl<'a> Writer<'a> {
             }
             is_used[stands_on[child]] |= is_body(self, child);
         }
+        let part = self.robot.part;
         let name = |names: &mut Names, link: usize| {
             let is_marked = own[link] && !is_used[link];
             let mark = if is_marked { "_" } else { "" };
-            names.take(&format!("{mark}{}", links[link].name), "link")
+            names.take(&format!("{mark}{}", links[link].name), part)
         };
         self.link_names[root] = name(&mut names, root);
         self.frame_of[root] = match own[root] {
@@ -447,30 +518,33 @@ impl<'a> Writer<'a> {
             let frame = text::frame(&self.link_names[root], "ground", &self.root_motion);
             self.text.add("frames", None, vec![frame]);
         }
+        // The steps from the frame of a link to what stands between joints behind it.
+        let mut leading = vec![Vec::new(); links.len()];
         for (index, joint) in self.joints() {
             let (parent, child) = (self.tree.parent[index], self.tree.child[index]);
-            self.link_names[child] = name(&mut names, child);
             let base = self.frame_of[parent].clone();
-            if !own[child] {
-                self.frame_of[child] = base;
-                continue;
-            }
+            let mut steps = leading[parent].clone();
             let mut entries = Vec::new();
             let origin = format!("{}_origin", joint.name);
             let [x, y, z] = self.lengths(&mut entries, &origin, &joint.xyz);
-            let mut steps = Vec::new();
             if !entries.is_empty() {
                 steps.push(format!(".shift({x}, {y}, {z})"));
             }
             let comment = format!("Joint {}: where its origin is.", quoted(&joint.name));
             self.text.add("parameters", Some(comment), entries);
-            for axis in [2, 1, 0] {
-                let angle = Angle::of(&joint.rpy[axis]);
-                if !angle.is_zero() {
-                    steps.push(format!(".turn({}, {angle})", AXES[axis]));
-                }
-            }
+            let turn = |(axis, angle): &(usize, Angle)| format!(".turn({}, {angle})", AXES[*axis]);
+            steps.extend(joint.turns.iter().map(turn));
             steps.extend(std::mem::take(&mut self.motion[index]));
+            if links[child].is_between {
+                self.frame_of[child] = base;
+                leading[child] = steps;
+                continue;
+            }
+            self.link_names[child] = name(&mut names, child);
+            if !own[child] {
+                self.frame_of[child] = base;
+                continue;
+            }
             let frame = text::frame(&self.link_names[child], &base, &steps);
             self.text.add("frames", None, vec![frame]);
             self.frame_of[child] = self.link_names[child].clone();
@@ -496,12 +570,20 @@ impl<'a> Writer<'a> {
         }
         if !resting.is_empty() {
             let many = resting.len() > 1;
-            let (link, stand, masses) = match many {
-                true => ("links", "stand", "their masses are"),
-                false => ("link", "stands", "its mass is"),
+            let (several, stand, masses) = match many {
+                true => ("s", "stand", "their masses are"),
+                false => ("", "stands", "its mass is"),
+            };
+            let part = match (self.robot.part, many) {
+                ("body", true) => "bodie",
+                (part, _) => part,
+            };
+            let help = match self.robot.gravity {
+                None => "; with --base floating the robot hangs on nothing",
+                Some(_) => "",
             };
             self.warnings.push(format!(
-                "{link} {} {stand} on the ground, so {masses} left out; with --base floating the robot hangs on nothing",
+                "{part}{several} {} {stand} on the ground, so {masses} left out{help}",
                 resting.join(", ")
             ));
         }
@@ -511,8 +593,9 @@ impl<'a> Writer<'a> {
         let Inertial {
             mass,
             xyz,
-            rpy,
+            turns,
             tensor,
+            source,
         } = inertial;
         let name = self.link_names[link].clone();
         let frame = self.frame_of[link].clone();
@@ -532,7 +615,7 @@ impl<'a> Writer<'a> {
         };
         let mut parts = vec![format!("mass: {mass}")];
         if has_tensor {
-            let turned = tensor::turned(tensor, rpy);
+            let turned = tensor::turned(tensor, turns);
             let labels = ["Ixx", "Iyy", "Izz", "Ixy", "Ixz", "Iyz"];
             let inertia: Vec<String> = labels
                 .iter()
@@ -554,28 +637,29 @@ impl<'a> Writer<'a> {
             parts.push(format!("at: {place}"));
         }
         let comment = match has_tensor {
-            true => "mass, mass centre, and tensor of inertia about it in the link's axes",
+            true => match self.robot.part {
+                "link" => "mass, mass centre, and tensor of inertia about it in the link's axes",
+                _ => "mass, mass centre, and tensor of inertia about it in the body's axes",
+            },
             false => "mass and mass centre",
         };
         let label = quoted(&self.robot.links[link].name);
-        let is_turned = has_tensor && !rpy.iter().all(Number::is_zero);
-        let file = if is_turned {
-            "; the file gives it in axes turned by `rpy`"
-        } else {
-            ""
-        };
-        let comment = format!("Link {label}: {comment}{file}.");
+        let (part, source) = (
+            capital(self.robot.part),
+            if has_tensor { *source } else { "" },
+        );
+        let comment = format!("{part} {label}: {comment}{source}.");
         self.text.add("parameters", Some(comment), entries);
         let comment = match joint {
-            Some(joint) => format!("Link {label}, held by joint {}.", quoted(&joint.name)),
-            None => format!("Link {label}."),
+            Some(joint) => format!("{part} {label}, held by joint {}.", quoted(&joint.name)),
+            None => format!("{part} {label}."),
         };
         self.text
             .add("bodies", Some(comment), vec![text::body(&name, &parts)]);
     }
 
     /// Dampers, friction and stops.
-    fn along_joints(&mut self, faults: &mut Faults<'_>) {
+    fn along_joints(&mut self, faults: &mut Faults) {
         let mut left_out = Vec::new();
         let mut limited = 0;
         let [mut smoothing, mut restitution] = [None, None].map(|none: Option<String>| none);
@@ -584,6 +668,31 @@ impl<'a> Writer<'a> {
             let value = self.value_of[index].clone();
             let is_turning = joint.kind != Kind::Prismatic;
             let mut entries = Vec::new();
+            if !joint.stiffness.is_zero() {
+                let unit = if is_turning { "N*m" } else { "N/m" };
+                let text = joint.stiffness.to_string();
+                let stiffness =
+                    self.parameter(&mut entries, &format!("{value}_stiffness"), unit, &text);
+                let stretch = match joint.free_at.is_zero() {
+                    true => value.clone(),
+                    false => {
+                        let (name, text) =
+                            (format!("{value}_free_at"), measured(joint, &joint.free_at));
+                        let free = self.parameter(&mut entries, &name, unit_of(joint), &text);
+                        format!("{value} - {free}")
+                    }
+                };
+                let spring = format!("{value} {{ stiffness: {stiffness}, stretch: {stretch} }}");
+                self.text.add("springs", None, vec![spring]);
+            }
+            if !joint.armature.is_zero() {
+                let unit = if is_turning { "kg*m^2" } else { "kg" };
+                let text = joint.armature.to_string();
+                let inertia =
+                    self.parameter(&mut entries, &format!("{value}_armature"), unit, &text);
+                let rotor = format!("{value} {{ inertia: {inertia}, angle: {value} }}");
+                self.text.add("rotors", None, vec![rotor]);
+            }
             if !joint.damping.is_zero() {
                 let unit = if is_turning { "N*m*s" } else { "N*s/m" };
                 let text = joint.damping.to_string();
@@ -658,7 +767,7 @@ impl<'a> Writer<'a> {
         range: [&Number; 2],
         entries: &mut Vec<String>,
         restitution: &mut Option<String>,
-        faults: &mut Faults<'_>,
+        faults: &mut Faults,
     ) {
         if range[0].value >= range[1].value && joint.mimic.is_some() {
             let name = quoted(&joint.name);
@@ -699,14 +808,223 @@ impl<'a> Writer<'a> {
         }
     }
 
+    /// Inputs, and the forces that follow from them.
+    fn drives(&mut self) {
+        for drive in &self.robot.drives {
+            self.drive(drive);
+        }
+    }
+
+    fn drive(&mut self, drive: &Drive) {
+        let joint = &self.robot.joints[drive.joint];
+        if self.is_dropped[drive.joint] {
+            let name = quoted(&drive.name);
+            return self
+                .warnings
+                .push(format!("drive {name} is left out with its joint"));
+        }
+        let value = self.value_of[drive.joint].clone();
+        let is_turning = joint.kind != Kind::Prismatic;
+        let [force, travel, rate, stiffness, damping, mass] = match is_turning {
+            true => ["N*m", "rad", "rad/s", "N*m", "N*m*s", "kg*m^2"],
+            false => ["N", "m", "m/s", "N/m", "N*s/m", "kg"],
+        };
+        let suffix = match (&drive.law, is_turning) {
+            (Law::Force, true) => "torque",
+            (Law::Force, false) => "force",
+            (Law::Affine { .. }, _) => "control",
+            (Law::Position { .. }, _) => "target",
+            (Law::Rate { .. }, _) => "target_rate",
+        };
+        let name = match drive.name.is_empty() || drive.name == joint.name {
+            true => format!("{}_{suffix}", joint.name),
+            false => drive.name.clone(),
+        };
+        let input = self.values.take(&name, "input");
+        let mut entries = Vec::new();
+        let mut added = |writer: &mut Self, suffix: &str, unit: &str, number: &Number| {
+            let name = format!("{input}_{suffix}");
+            writer.parameter(&mut entries, &name, unit, &number.to_string())
+        };
+        let gear = match drive.gear.value == 1.0 {
+            true => String::new(),
+            false => format!("{}*", added(self, "gear", "1", &drive.gear)),
+        };
+        let (unit, law) = match &drive.law {
+            Law::Force => (force, input.clone()),
+            Law::Position {
+                stiffness: k,
+                damping: b,
+            } => {
+                let k = added(self, "stiffness", stiffness, k);
+                let mut law = format!("{k}*({input} - {gear}{value})");
+                if !b.is_zero() {
+                    let b = added(self, "damping", damping, b);
+                    law.push_str(&format!(" - {b}*{gear}der({value})"));
+                }
+                if !gear.is_empty() && !b.is_zero() {
+                    law = format!("({law})");
+                }
+                (travel, law)
+            }
+            Law::Rate { damping: b } => {
+                let b = added(self, "damping", damping, b);
+                (rate, format!("{b}*({input} - {gear}der({value}))"))
+            }
+            Law::Affine {
+                gain,
+                constant,
+                of_length,
+                of_rate,
+            } => {
+                let mut law = format!("{}*{input}", added(self, "gain", force, gain));
+                let terms = [
+                    (constant, "constant", force, String::new()),
+                    (of_length, "of_length", stiffness, format!("*{gear}{value}")),
+                    (of_rate, "of_rate", damping, format!("*{gear}der({value})")),
+                ];
+                for (number, suffix, unit, times) in terms {
+                    if !number.is_zero() {
+                        law.push_str(&format!(" + {}{times}", added(self, suffix, unit, number)));
+                    }
+                }
+                ("1", format!("({law})"))
+            }
+        };
+        let (coordinate, factor) = self.coordinate_of[drive.joint].clone();
+        let on = self.value_of[coordinate].clone();
+        let law = match factor.is_empty() || law.starts_with('(') {
+            true => law,
+            false => format!("({law})"),
+        };
+        let force = format!("{input} {{ on: {on}, value: {factor}{gear}{law} }}");
+        if !drive.inertia.is_zero() {
+            let inertia = added(self, "inertia", mass, &drive.inertia);
+            let rotor = format!("{input} {{ inertia: {inertia}, angle: {gear}{value} }}");
+            self.text.add("rotors", None, vec![rotor]);
+        }
+        self.text.add("forces", None, vec![force]);
+        let shown = match drive.name.is_empty() {
+            true => String::new(),
+            false => format!(" {}", quoted(&drive.name)),
+        };
+        let comment = format!("Drive{shown} of joint {}.", quoted(&joint.name));
+        self.text.add("parameters", Some(comment.clone()), entries);
+        self.text
+            .add("inputs", Some(comment), vec![format!("{input}: {unit}")]);
+    }
+
+    /// Equations between coordinates.
+    fn ties(&mut self) {
+        let mut names = Names::default();
+        for tie in &self.robot.ties {
+            let TieKind::Polynomial {
+                follower,
+                leader,
+                coefficients,
+            } = &tie.kind;
+            let name = names.take(&tie.name, "constraint");
+            let relative = |writer: &Self, joint: usize| match writer.reference_of[joint].as_str() {
+                "" => writer.value_of[joint].clone(),
+                reference => format!("({} - {reference})", writer.value_of[joint]),
+            };
+            let own = unit_of(&self.robot.joints[*follower]);
+            let mut entries = Vec::new();
+            let mut terms = Vec::new();
+            for (power, coefficient) in coefficients.iter().enumerate() {
+                if coefficient.is_zero() {
+                    continue;
+                }
+                let led = leader.map(|leader| {
+                    let unit = unit_of(&self.robot.joints[leader]);
+                    (relative(self, leader), unit)
+                });
+                let (times, unit) = match (power, led) {
+                    (0, _) | (_, None) => (String::new(), own.to_owned()),
+                    (1, Some((led, of))) if of == own => {
+                        if coefficient.value == 1.0 {
+                            terms.push(led);
+                            continue;
+                        }
+                        (format!("*{led}"), "1".to_owned())
+                    }
+                    (1, Some((led, of))) => (format!("*{led}"), format!("{own}/{of}")),
+                    (_, Some((led, of))) => {
+                        (format!("*{led}^{power}"), format!("{own}/{of}^{power}"))
+                    }
+                };
+                let name = format!("{name}_c{power}");
+                let text = coefficient.to_string();
+                let coefficient = self.parameter(&mut entries, &name, &unit, &text);
+                terms.push(format!("{coefficient}{times}"));
+            }
+            let sum = if terms.is_empty() {
+                "0".to_owned()
+            } else {
+                terms.join(" + ")
+            };
+            let left = relative(self, *follower);
+            let comment = format!("Constraint {}.", quoted(&tie.name));
+            self.text.add("parameters", Some(comment.clone()), entries);
+            self.text.add(
+                "constraints",
+                Some(comment),
+                vec![format!("{name}: {left} = {sum}")],
+            );
+        }
+    }
+
+    /// Gravity, as a vector or as what says that there is none.
+    fn gravity(&mut self) -> String {
+        let numbers = match &self.robot.gravity {
+            None => [Number::zero(), Number::zero(), Number::computed(-9.81)],
+            Some(numbers) => numbers.clone(),
+        };
+        if numbers.iter().all(Number::is_zero) {
+            return "none".to_owned();
+        }
+        let against = match self.robot.gravity {
+            None => "; the file has none",
+            Some(_) => "",
+        };
+        let [x, y, z] = &numbers;
+        let is_down = x.is_zero() && y.is_zero() && z.value < 0.0;
+        let g = self.gravity.clone();
+        let mut entries = Vec::new();
+        let (comment, vector) = match is_down {
+            true => {
+                entries.push(format!("{g}: m/s^2 = {}", z.negated()));
+                (
+                    format!("The acceleration of gravity, against z{against}."),
+                    format!("(0, 0, -{g})"),
+                )
+            }
+            false => {
+                let parts: [String; 3] =
+                    std::array::from_fn(|axis| match numbers[axis].is_zero() {
+                        true => "0".to_owned(),
+                        false => {
+                            let (name, text) =
+                                (format!("{g}_{}", AXES[axis]), numbers[axis].to_string());
+                            self.parameter(&mut entries, &name, "m/s^2", &text)
+                        }
+                    });
+                (
+                    "The acceleration of gravity.".to_owned(),
+                    format!("({})", parts.join(", ")),
+                )
+            }
+        };
+        self.text.add("parameters", Some(comment), entries);
+        vector
+    }
+
     fn finish(mut self, file: &str) -> Machine {
-        let gravity = &self.gravity;
-        let entry = vec![format!("{gravity}: m/s^2 = 9.81")];
-        let comment = "The acceleration of gravity, against z; the file has none.";
-        self.text.add("parameters", Some(comment.to_owned()), entry);
+        let gravity = self.gravity();
         let mut comment = vec![format!(
-            "Robot {}, imported from the URDF file {}. Angles are in radians, lengths in metres.",
+            "Robot {}, imported from the {} file {}. Angles are in radians, lengths in metres.",
             quoted(&self.robot.name),
+            self.robot.format,
             quoted(file)
         )];
         if !self.robot.left_out.is_empty() {
@@ -719,16 +1037,21 @@ impl<'a> Writer<'a> {
             self.warnings.push(message);
         }
         let name = names::machine(&self.robot.name);
-        let text = self
-            .text
-            .written(&name, &comment, &format!("(0, 0, -{gravity})"));
+        let text = self.text.written(&name, &comment, &gravity);
         Machine {
             counts: ["coordinates", "bodies", "parameters"].map(|section| self.text.count(section)),
             name,
             text,
-            warnings: self.warnings,
+            warnings: [self.warnings, self.robot.warnings.clone()].concat(),
         }
     }
+}
+
+/// A word with a capital letter, at the beginning of a sentence.
+fn capital(word: &str) -> String {
+    let mut letters = word.chars();
+    let first = letters.next().into_iter().flat_map(char::to_uppercase);
+    first.chain(letters).collect()
 }
 
 /// The unit of what a joint moves by.

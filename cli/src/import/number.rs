@@ -37,6 +37,20 @@ impl Number {
         }
     }
 
+    /// Its negative, with the same digits.
+    pub fn negated(&self) -> Number {
+        let text = match self.text.strip_prefix('-') {
+            Some(text) => text.to_owned(),
+            None if self.is_zero() => self.text.clone(),
+            None => format!("-{}", self.text),
+        };
+        Number {
+            value: -self.value,
+            text,
+            ..*self
+        }
+    }
+
     /// A number that was computed, with the fewest digits that read back to it.
     pub fn computed(value: f64) -> Number {
         let text = format!("{value:?}");
@@ -119,6 +133,12 @@ impl Number {
     }
 }
 
+impl Default for Number {
+    fn default() -> Number {
+        Number::zero()
+    }
+}
+
 impl fmt::Display for Number {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.text)
@@ -161,6 +181,24 @@ impl Angle {
         }
     }
 
+    /// Its value in radians.
+    pub fn value(&self) -> f64 {
+        match self {
+            Angle::Twelfths(k) => f64::from(*k) * TWELFTH,
+            Angle::Radians(number) => number.value,
+        }
+    }
+
+    /// So many degrees; multiples of 15 exactly.
+    pub fn of_degrees(number: &Number) -> Angle {
+        let twelfths = number.value / 15.0;
+        let is_whole = twelfths.fract() == 0.0 && twelfths.abs() <= MOST_TWELFTHS;
+        match is_whole {
+            true => Angle::Twelfths(twelfths as i32),
+            false => Angle::Radians(Number::computed(number.value.to_radians())),
+        }
+    }
+
     /// Whether it turns nothing.
     pub fn is_zero(&self) -> bool {
         *self == Angle::Twelfths(0)
@@ -170,17 +208,7 @@ impl Angle {
     pub fn negated(&self) -> Angle {
         match self {
             Angle::Twelfths(k) => Angle::Twelfths(-k),
-            Angle::Radians(number) => {
-                let text = match number.text.strip_prefix('-') {
-                    Some(text) => text.to_owned(),
-                    None => format!("-{}", number.text),
-                };
-                Angle::Radians(Number {
-                    value: -number.value,
-                    text,
-                    ..*number
-                })
-            }
+            Angle::Radians(number) => Angle::Radians(number.negated()),
         }
     }
 }

@@ -1,6 +1,17 @@
 //! Steps from frame to frame: shifts along axes, and turns about them.
 
+use nalgebra::Matrix3;
+
 use super::number::{Angle, Number};
+
+/// Below this sine or cosine of the middle one of three angles the others are not told apart.
+const SINGULAR: f64 = 1e-12;
+
+/// Angles that are this small come from rounding.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// Turns about axes of the frame itself, 0 to 2, one after the other.
+pub type Turns = Vec<(usize, Angle)>;
 
 /// The axes of a frame.
 pub const AXES: [&str; 3] = ["x", "y", "z"];
@@ -9,10 +20,18 @@ pub const AXES: [&str; 3] = ["x", "y", "z"];
 fn scaled(factor: f64, value: &str) -> String {
     match factor {
         0.0 => "0".to_owned(),
-        1.0 => value.to_owned(),
+        1.0 => bare(value).to_owned(),
         -1.0 => format!("-{value}"),
         _ => format!("{}*{value}", Number::computed(factor)),
     }
+}
+
+/// A value without the brackets that it would need behind a sign or a factor.
+fn bare(value: &str) -> &str {
+    let inner = value
+        .strip_prefix('(')
+        .and_then(|rest| rest.strip_suffix(')'));
+    inner.unwrap_or(value)
 }
 
 /// The step along an axis.
@@ -24,7 +43,11 @@ pub fn slide(axis: &[f64; 3], value: &str) -> String {
 /// The turn about any axis: about one of the frame's own, between turns that lead there and back.
 pub fn turn(axis: &[f64; 3], value: &str) -> Vec<String> {
     let (there, own, sign) = straightened(axis);
-    conjugated(&there, vec![format!(".turn({}, {sign}{value})", AXES[own])])
+    let value = match sign {
+        "" => bare(value).to_owned(),
+        sign => format!("{sign}{value}"),
+    };
+    conjugated(&there, vec![format!(".turn({}, {value})", AXES[own])])
 }
 
 /// Steps between constant turns and those back.
@@ -38,9 +61,25 @@ pub fn conjugated(there: &[(usize, Angle)], steps: Vec<String>) -> Vec<String> {
     lead.chain(steps).chain(back).collect()
 }
 
+/// The turn by a constant angle about any axis.
+pub fn conjugating(axis: &[f64; 3], angle: Angle) -> Turns {
+    let (there, own, sign) = straightened(axis);
+    let angle = if sign.is_empty() {
+        angle
+    } else {
+        angle.negated()
+    };
+    let back = there
+        .iter()
+        .rev()
+        .map(|(axis, angle)| (*axis, angle.negated()));
+    let lead = there.iter().cloned().chain([(own, angle)]);
+    lead.chain(back).collect()
+}
+
 /// Constant turns that lead one of a frame's own axes to a unit vector: the turns, the axis, and `-` where it leads to its
 /// opposite.
-pub fn straightened(axis: &[f64; 3]) -> (Vec<(usize, Angle)>, usize, &'static str) {
+pub fn straightened(axis: &[f64; 3]) -> (Turns, usize, &'static str) {
     let [x, y, z] = *axis;
     let of = Angle::computed;
     for (own, along) in axis.iter().enumerate() {
@@ -57,4 +96,122 @@ pub fn straightened(axis: &[f64; 3]) -> (Vec<(usize, Angle)>, usize, &'static st
         _ => (vec![(2, of(y.atan2(x))), (1, of(x.hypot(y).atan2(z)))], 2),
     };
     (there, own, "")
+}
+
+/// The angles of three turns, one after the other, about axes of the frame itself, that lead to a frame with these axes as columns.
+/// Where the middle one leaves the others undetermined, the last is 0.
+pub fn angles(rotation: &Matrix3<f64>, sequence: [usize; 3]) -> [Angle; 3] {
+    let [first, middle, last] = sequence;
+    let r = |i: usize, j: usize| rotation[(i, j)];
+    let is_proper = first == last;
+    let third = 3 - first - middle;
+    // 1 where first, middle and the third axis follow each other as x, y and z do.
+    let order = if (middle + 3 - first) % 3 == 1 {
+        1.0
+    } else {
+        -1.0
+    };
+    let (sin, cos) = match is_proper {
+        true => (r(first, middle).hypot(r(first, third)), r(first, first)),
+        false => (order * r(first, last), r(last, last).hypot(r(middle, last))),
+    };
+    let middle_angle = sin.atan2(cos);
+    let is_singular = match is_proper {
+        true => sin <= SINGULAR,
+        false => cos <= SINGULAR,
+    };
+    let (start, end) = match (is_proper, is_singular) {
+        (_, true) => ((order * r(third, middle)).atan2(r(middle, middle)), 0.0),
+        (true, false) => (
+            r(middle, first).atan2(-order * r(third, first)),
+            r(first, middle).atan2(order * r(first, third)),
+        ),
+        (false, false) => (
+            (-order * r(middle, last)).atan2(r(last, last)),
+            (-order * r(first, middle)).atan2(r(first, first)),
+        ),
+    };
+    [start, middle_angle, end].map(Angle::computed)
+}
+
+/// Turns that lead to a frame with these axes as columns: none, one, or three.
+pub fn turns(rotation: &Matrix3<f64>) -> Turns {
+    // Of Cardan's angles and Euler's not both are singular.
+    let is_steep = rotation[(2, 0)].abs() > 0.9;
+    let sequence = if is_steep { [2, 0, 2] } else { [2, 1, 0] };
+    let angles = angles(rotation, sequence);
+    let turns = sequence.into_iter().zip(angles);
+    turns
+        .filter(|(_, angle)| angle.value().abs() > ROUNDING)
+        .collect()
+}
+
+/// The axes, as columns, of a frame that is turned.
+pub fn axes(turns: &Turns) -> Matrix3<f64> {
+    turns
+        .iter()
+        .fold(Matrix3::identity(), |axes, (axis, angle)| {
+            let (sin, cos) = match angle {
+                Angle::Twelfths(k) if k % 6 == 0 => {
+                    [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)]
+                        [(k / 6).rem_euclid(4) as usize]
+                }
+                angle => angle.value().sin_cos(),
+            };
+            let [next, last] = [(axis + 1) % 3, (axis + 2) % 3];
+            let mut turn = Matrix3::identity();
+            turn[(next, next)] = cos;
+            turn[(next, last)] = -sin;
+            turn[(last, next)] = sin;
+            turn[(last, last)] = cos;
+            axes * turn
+        })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    use super::*;
+
+    /// Every sequence of a file leads back to the axes that it came from.
+    #[test]
+    fn angles_lead_to_the_axes_that_they_are_of() {
+        let turned = |list: [(usize, f64); 3]| {
+            axes(
+                &list
+                    .map(|(axis, angle)| (axis, Angle::computed(angle)))
+                    .to_vec(),
+            )
+        };
+        for angles_of in [
+            [0.3, -1.1, 2.4],
+            [-2.0, 0.7, 0.1],
+            [0.0, FRAC_PI_2, 0.4],
+            [0.5, 0.0, 0.0],
+            [1.0, -FRAC_PI_2, 0.2],
+            [0.3, PI, 0.1],
+        ] {
+            for sequence in [
+                [0, 1, 2],
+                [2, 1, 0],
+                [2, 0, 2],
+                [1, 2, 0],
+                [1, 0, 1],
+                [0, 2, 0],
+            ] {
+                let place = |i: usize| (sequence[i], angles_of[i]);
+                let goal = turned([place(0), place(1), place(2)]);
+                let found = angles(&goal, sequence);
+                let place = |i: usize| (sequence[i], found[i].value());
+                let again = turned([place(0), place(1), place(2)]);
+                // Some ten roundings of numbers up to 1, and of angles up to pi.
+                assert!((again - goal).amax() <= 1e-14, "{angles_of:?} {sequence:?}");
+                assert!(
+                    (axes(&turns(&goal)) - goal).amax() <= 1e-14,
+                    "{angles_of:?}"
+                );
+            }
+        }
+    }
 }

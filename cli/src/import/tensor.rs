@@ -4,6 +4,7 @@ use lagrangian_scalar::{DoubleDouble, Scalar};
 use nalgebra::{Matrix3, SymmetricEigen};
 
 use super::number::{Angle, Number};
+use super::steps::Turns;
 
 /// By how much of the largest entry a tensor may miss what a body obeys: files give few digits.
 const SLACK: f64 = 1e-6;
@@ -52,14 +53,16 @@ pub fn flaw(tensor: &Tensor) -> Option<String> {
         .then(|| format!("{shown}, and of no body is one greater than the sum of the others"))
 }
 
-/// The tensor in the axes of a frame in which its own axes are turned by roll, pitch and yaw: R I Rᵀ, R = Rz Ry Rx. Computed with
-/// 106 bits and rounded once; what is not turned keeps its digits.
-pub fn turned(tensor: &Tensor, rpy: &[Number; 3]) -> Tensor {
-    let [roll, pitch, yaw] = rpy.each_ref().map(Angle::of);
-    if [&roll, &pitch, &yaw].into_iter().all(Angle::is_zero) {
+/// The tensor in the axes of a frame, given in axes that are turned from these: R I Rᵀ. Computed with 106 bits and rounded once; what
+/// is not turned keeps its digits.
+pub fn turned(tensor: &Tensor, turns: &Turns) -> Tensor {
+    if turns.iter().all(|(_, angle)| angle.is_zero()) {
         return tensor.clone();
     }
-    let rotation = times(&about(2, &yaw), &times(&about(1, &pitch), &about(0, &roll)));
+    let mut rotation = about(0, &Angle::Twelfths(0));
+    for (axis, angle) in turns {
+        rotation = times(&rotation, &about(*axis, angle));
+    }
     let entries = tensor
         .each_ref()
         .map(|entry| DoubleDouble::from(entry.value));
@@ -119,6 +122,11 @@ mod tests {
         texts.map(|text| Number::read(text).expect(text))
     }
 
+    fn turns(rpy: [&str; 3]) -> Turns {
+        let [roll, pitch, yaw] = numbers(rpy).map(|number| Angle::of(&number));
+        vec![(2, yaw), (1, pitch), (0, roll)]
+    }
+
     fn texts(tensor: &Tensor) -> [String; 6] {
         tensor.each_ref().map(Number::to_string)
     }
@@ -128,11 +136,11 @@ mod tests {
         let tensor = numbers(["1", "2.5", "3", "0.1", "0.2", "0.3"]);
         let half_pi = "1.5707963267948966";
         // About z, x becomes y and y becomes -x.
-        let about_z = turned(&tensor, &numbers(["0", "0", half_pi]));
+        let about_z = turned(&tensor, &turns(["0", "0", half_pi]));
         assert_eq!(texts(&about_z), ["2.5", "1", "3", "-0.1", "-0.3", "0.2"]);
-        let about_x = turned(&tensor, &numbers([half_pi, "0", "0"]));
+        let about_x = turned(&tensor, &turns([half_pi, "0", "0"]));
         assert_eq!(texts(&about_x), ["1", "3", "2.5", "-0.2", "0.1", "-0.3"]);
-        assert_eq!(turned(&tensor, &numbers(["0", "0", "0"])), tensor);
+        assert_eq!(turned(&tensor, &turns(["0", "0", "0"])), tensor);
     }
 
     /// A rod along its own z, whose tensor is m l²/12 (1 - u uᵀ) where u is where z points.
@@ -140,7 +148,7 @@ mod tests {
     fn a_rod_in_any_direction() {
         let (roll, pitch, yaw): (f64, f64, f64) = (0.3, -0.7, 1.9);
         let rod = numbers(["0.25", "0.25", "0", "0", "0", "0"]);
-        let turned = turned(&rod, &numbers(["0.3", "-0.7", "1.9"]));
+        let turned = turned(&rod, &turns(["0.3", "-0.7", "1.9"]));
         let (flat, height) = (roll.cos() * pitch.sin(), roll.cos() * pitch.cos());
         let u = [
             yaw.cos() * flat + yaw.sin() * roll.sin(),

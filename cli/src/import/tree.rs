@@ -2,8 +2,9 @@
 
 use std::collections::HashMap;
 
+use super::faults::Faults;
 use super::names::quoted;
-use super::urdf::{Faults, Joint, Link, Robot};
+use super::robot::{Joint, Link, Robot};
 
 /// The joints of a robot as a tree.
 #[derive(Debug)]
@@ -23,7 +24,7 @@ pub struct Tree {
 fn index<'r>(
     names: impl Iterator<Item = (&'r str, usize)>,
     kind: &str,
-    faults: &mut Faults<'_>,
+    faults: &mut Faults,
 ) -> HashMap<&'r str, usize> {
     let mut places = HashMap::new();
     for (index, (name, at)) in names.enumerate() {
@@ -35,7 +36,7 @@ fn index<'r>(
 }
 
 /// Finds the tree.
-pub fn plant(robot: &Robot, faults: &mut Faults<'_>) -> Option<Tree> {
+pub fn plant(robot: &Robot, faults: &mut Faults) -> Option<Tree> {
     let Robot { links, joints, .. } = robot;
     let of_link = |link: &'_ Link| link.at;
     let places = index(
@@ -137,7 +138,7 @@ pub fn plant(robot: &Robot, faults: &mut Faults<'_>) -> Option<Tree> {
 fn leaders(
     joints: &[Joint],
     by_name: &HashMap<&str, usize>,
-    faults: &mut Faults<'_>,
+    faults: &mut Faults,
 ) -> Vec<Option<usize>> {
     let mut leaders = vec![None; joints.len()];
     for (index, joint) in joints.iter().enumerate() {
@@ -152,7 +153,7 @@ fn leaders(
             }
             Some(leader) => format!(
                 "that is {}, without a value of its own",
-                joints[*leader].kind.name()
+                joints[*leader].label
             ),
         };
         let (follower, leader) = (quoted(&joint.name), quoted(&mimic.joint));

@@ -2,54 +2,15 @@
 //!
 //! Formats: <https://wiki.ros.org/urdf/XML>.
 
-use roxmltree::{Attribute, Document, Node, ParsingOptions};
+use roxmltree::{Attribute, Node};
 
+use super::faults::Faults;
 use super::names::quoted;
-use super::number::Number;
-use super::tensor::{self, Tensor};
-
-/// A robot as its file has it.
-#[derive(Debug, Default)]
-pub struct Robot {
-    pub name: String,
-    pub links: Vec<Link>,
-    pub joints: Vec<Joint>,
-    /// What was left out because the call says so, and what has no part in the motion but is no geometry.
-    pub left_out: Vec<String>,
-    /// What the call wants to be left out, and is not there.
-    pub unneeded: Vec<String>,
-}
-
-/// A rigid body, or a frame without mass.
-#[derive(Debug)]
-pub struct Link {
-    pub name: String,
-    /// None where there is no mass.
-    pub inertial: Option<Inertial>,
-    /// Where it stands in the text.
-    pub at: usize,
-}
-
-/// Mass, mass centre in the link's frame, and the tensor about it in axes turned by `rpy`.
-#[derive(Debug)]
-pub struct Inertial {
-    pub mass: Number,
-    pub xyz: [Number; 3],
-    pub rpy: [Number; 3],
-    pub tensor: Tensor,
-}
-
-/// How a joint moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    Revolute,
-    Continuous,
-    Prismatic,
-    Fixed,
-    Floating,
-    Planar,
-    Spherical,
-}
+use super::number::{Angle, Number};
+use super::robot::{Drive, Inertial, Joint, Kind, Law, Link, Mimic, Robot};
+use super::steps::Turns;
+use super::tensor;
+use super::xml;
 
 /// The types by name.
 const KINDS: [(&str, Kind); 7] = [
@@ -62,91 +23,17 @@ const KINDS: [(&str, Kind); 7] = [
     ("spherical", Kind::Spherical),
 ];
 
-impl Kind {
-    pub fn name(self) -> &'static str {
-        KINDS
-            .iter()
-            .find(|(_, kind)| *kind == self)
-            .map_or("", |(name, _)| name)
-    }
-
-    /// Whether it has one coordinate, which limits, damping and others are about.
-    pub fn is_single(self) -> bool {
-        matches!(self, Kind::Revolute | Kind::Continuous | Kind::Prismatic)
-    }
+/// What a type is called.
+fn label(kind: Kind) -> &'static str {
+    let named = KINDS.iter().find(|(_, known)| *known == kind);
+    named.map_or("", |(name, _)| name)
 }
 
-/// What joins a link to its parent.
-#[derive(Debug)]
-pub struct Joint {
-    pub name: String,
-    pub kind: Kind,
-    pub parent: String,
-    pub child: String,
-    pub xyz: [Number; 3],
-    pub rpy: [Number; 3],
-    pub axis: [f64; 3],
-    pub damping: Number,
-    pub friction: Number,
-    /// The least and the greatest value.
-    pub range: Option<[Number; 2]>,
-    /// Bounds of velocity and effort, soft limits: what a comment says.
-    pub remarks: Vec<(&'static str, Number)>,
-    pub mimic: Option<Mimic>,
-    pub at: usize,
-}
-
-/// A joint that follows another: multiplier times its value and offset.
-#[derive(Debug)]
-pub struct Mimic {
-    pub joint: String,
-    pub multiplier: Number,
-    pub offset: Number,
-    pub at: usize,
-}
-
-/// What is wrong with a file.
-pub struct Faults<'a> {
-    file: &'a str,
-    text: &'a str,
-    found: Vec<(usize, String)>,
-}
-
-impl<'a> Faults<'a> {
-    pub fn new(file: &'a str, text: &'a str) -> Faults<'a> {
-        Faults {
-            file,
-            text,
-            found: Vec::new(),
-        }
-    }
-
-    /// Something is wrong at a place in the text.
-    pub fn add(&mut self, at: usize, message: impl Into<String>) {
-        self.found.push((at, message.into()));
-    }
-
-    pub fn is_empty(&self) -> bool {
-        self.found.is_empty()
-    }
-
-    /// All of it in the order of the file, a line each, as `file:line:column: message`.
-    pub fn told(mut self) -> String {
-        const MOST: usize = 20;
-        self.found.sort();
-        let mut lines: Vec<String> = Vec::new();
-        for (at, message) in self.found.iter().take(MOST) {
-            let before = self.text.get(..*at).unwrap_or_default();
-            let line = before.matches('\n').count() + 1;
-            let start = before.rfind('\n').map_or(0, |end| end + 1);
-            let column = before[start..].chars().count() + 1;
-            lines.push(format!("{}:{line}:{column}: {message}", self.file));
-        }
-        if self.found.len() > MOST {
-            lines.push(format!("and {} more", self.found.len() - MOST));
-        }
-        lines.join("\n")
-    }
+/// Roll, pitch and yaw as turns: yaw about z, then pitch about y, then roll about x.
+fn turns(rpy: &[Number; 3]) -> Turns {
+    let angle = |axis: usize| (axis, Angle::of(&rpy[axis]));
+    let is_some = |(_, angle): &(usize, Angle)| !angle.is_zero();
+    [2, 1, 0].map(angle).into_iter().filter(is_some).collect()
 }
 
 /// Elements below a link or a joint that do not change how it moves.
@@ -170,67 +57,22 @@ const MOTION_OF_GAZEBO: [&str; 7] = [
     "joint",
 ];
 
-/// The reader of XML compares every attribute of an element with every other.
-const MOST_ATTRIBUTES: usize = 1000;
-
-/// Where an element begins that has more attributes than can be read in a moment.
-fn overlong_element(text: &str) -> Option<usize> {
-    let mut at = 0;
-    for element in text.split('<') {
-        let is_element = !element.starts_with(['!', '?']);
-        let mut quoted = 0;
-        let mut before = b' ';
-        for byte in element.bytes().filter(|byte| !byte.is_ascii_whitespace()) {
-            quoted += usize::from(before == b'=' && matches!(byte, b'"' | b'\''));
-            before = byte;
-        }
-        if is_element && quoted > MOST_ATTRIBUTES {
-            return Some(at.max(1) - 1);
-        }
-        at += element.len() + 1;
-    }
-    None
-}
-
 /// Reads a robot.
-pub fn read(text: &str, ignored: &[String], faults: &mut Faults<'_>) -> Option<Robot> {
-    if let Some(at) = overlong_element(text) {
-        let message = format!("an element has more than {MOST_ATTRIBUTES} attributes");
-        faults.add(at, message);
-        return None;
-    }
-    let options = ParsingOptions {
-        allow_dtd: false,
-        ..ParsingOptions::default()
-    };
-    let document = match Document::parse_with_options(text, options) {
-        Ok(document) => document,
-        Err(error) => {
-            let place = error.pos();
-            let line = place.row as usize;
-            let before = text.split_inclusive('\n').take(line.saturating_sub(1));
-            let start: usize = before.map(str::len).sum();
-            let rest = text[start..].char_indices();
-            let column = rest
-                .map(|(at, _)| at)
-                .nth(place.col.saturating_sub(1) as usize);
-            let at = start + column.unwrap_or(0);
-            let message = error.to_string();
-            let message = match message.rsplit_once(" at ") {
-                Some((what, _)) => what,
-                None => &message,
-            };
-            faults.add(at, format!("no XML: {message}"));
-            return None;
-        }
-    };
+pub fn read(text: &str, ignored: &[String], faults: &mut Faults) -> Option<Robot> {
+    let document = xml::open(text, 0, faults)?;
     let mut reader = Reader {
         ignored,
         faults,
-        robot: Robot::default(),
+        robot: Robot {
+            format: "URDF",
+            part: "link",
+            ..Robot::default()
+        },
+        motors: Vec::new(),
         counts: Vec::new(),
     };
     reader.robot(document.root_element());
+    reader.place_motors();
     let Reader {
         mut robot, counts, ..
     } = reader;
@@ -245,10 +87,12 @@ pub fn read(text: &str, ignored: &[String], faults: &mut Faults<'_>) -> Option<R
     Some(robot)
 }
 
-struct Reader<'r, 'f, 't> {
+struct Reader<'r, 'f> {
     ignored: &'r [String],
-    faults: &'f mut Faults<'t>,
+    faults: &'f mut Faults,
     robot: Robot,
+    /// What moves joints, with the names of these and where each stands in the text.
+    motors: Vec<(String, usize, Drive)>,
     /// Elements that are left out, with how many there are.
     counts: Vec<(String, usize)>,
 }
@@ -267,12 +111,12 @@ fn place(attribute: &Attribute<'_, '_>) -> usize {
     attribute.range_value().start
 }
 
-impl Reader<'_, '_, '_> {
+impl Reader<'_, '_> {
     fn robot(&mut self, root: Node<'_, '_>) {
         let name = root.tag_name().name();
         if name != "robot" {
             let what = match name {
-                "mujoco" => "this is MJCF, which is not read yet".to_owned(),
+                "mujoco" => "this is MJCF: give its file the ending `.xml`".to_owned(),
                 "sdf" => "this is SDF, which is not read".to_owned(),
                 _ => format!("`{}` is no robot", name.escape_debug()),
             };
@@ -338,6 +182,7 @@ impl Reader<'_, '_, '_> {
         );
     }
 
+    /// A motor behind a gear: one joint and one actuator. What joins several of them is left out, unless rotors turn in it.
     fn transmission(&mut self, node: Node<'_, '_>) {
         const ROTORS: [&str; 4] = [
             "motorInertia",
@@ -345,19 +190,105 @@ impl Reader<'_, '_, '_> {
             "rotorInertia",
             "rotor_inertia",
         ];
+        let parts = |name: &'static str| {
+            let children = node.children();
+            children.filter(move |part| part.tag_name().name() == name)
+        };
+        let is_one = ["joint", "actuator"].map(|name| parts(name).count() == 1) == [true; 2];
         let rotor = node.descendants().find(|inner| {
             ROTORS.contains(&inner.tag_name().name())
                 && inner.text().and_then(|text| text.trim().parse().ok()) != Some(0.0)
         });
-        match rotor {
-            Some(rotor) if !self.is_ignored("transmission") => self.faults.add(
+        match (rotor, is_one && !self.is_ignored("transmission")) {
+            (_, true) => self.motor(node, parts("joint").next(), parts("actuator").next(), rotor),
+            (Some(rotor), false) if !self.is_ignored("transmission") => self.faults.add(
                 rotor.range().start,
                 format!(
-                    "{}: inertia of a rotor behind a gear is not in the language yet; --ignore transmission leaves it out",
+                    "{}: how a rotor turns with several joints is not read; --ignore transmission leaves it out",
                     called(node)
                 ),
             ),
             _ => self.leave_out("transmission"),
+        }
+    }
+
+    fn motor(
+        &mut self,
+        node: Node<'_, '_>,
+        joint: Option<Node<'_, '_>>,
+        actuator: Option<Node<'_, '_>>,
+        rotor: Option<Node<'_, '_>>,
+    ) {
+        let name = joint.and_then(|joint| joint.attribute("name"));
+        let Some(name) = name else {
+            let message = format!("{} does not say which joint it moves", called(node));
+            return self.faults.add(node.range().start, message);
+        };
+        let number = |reader: &mut Self, inner: Node<'_, '_>| {
+            let text = inner.text().unwrap_or_default().trim();
+            Number::read(text).unwrap_or_else(|wrong| {
+                let message = format!("{} of {}: {wrong}", inner.tag_name().name(), called(node));
+                reader.faults.add(inner.range().start, message);
+                Number::zero()
+            })
+        };
+        let is_gear = |inner: &Node<'_, '_>| inner.tag_name().name() == "mechanicalReduction";
+        let gear = match node.descendants().find(is_gear) {
+            Some(inner) => {
+                let gear = number(self, inner);
+                if gear.is_zero() {
+                    let message = format!("the reduction of {} is 0", called(node));
+                    self.faults.add(inner.range().start, message);
+                }
+                gear
+            }
+            None => Number::computed(1.0),
+        };
+        let inertia = rotor.map(|rotor| number(self, rotor)).unwrap_or_default();
+        if inertia.value < 0.0 {
+            let message = format!("the rotor of {} has a negative inertia", called(node));
+            self.faults.add(node.range().start, message);
+        }
+        let actuator = actuator.and_then(|actuator| actuator.attribute("name"));
+        self.motors.push((
+            name.to_owned(),
+            node.range().start,
+            Drive {
+                name: actuator.unwrap_or_default().to_owned(),
+                joint: 0,
+                gear,
+                law: Law::Force,
+                inertia,
+            },
+        ));
+    }
+
+    /// Puts motors to the joints that they name.
+    fn place_motors(&mut self) {
+        for (name, at, drive) in std::mem::take(&mut self.motors) {
+            let mut joints = self.robot.joints.iter();
+            match joints.position(|joint| joint.name == name) {
+                Some(joint) if self.robot.joints[joint].kind.is_single() => {
+                    self.robot.drives.push(Drive { joint, ..drive });
+                }
+                Some(joint) if self.robot.joints[joint].kind == Kind::Fixed => {
+                    self.leave_out("transmission");
+                }
+                Some(_) => {
+                    let message = format!(
+                        "a transmission moves joint {}, which has not one coordinate; --ignore transmission leaves it out",
+                        quoted(&name)
+                    );
+                    self.faults.add(at, message);
+                }
+                None => {
+                    let message = format!(
+                        "a transmission moves joint {}, and there is no such joint",
+                        quoted(&name)
+                    );
+                    self.faults.add(at, message);
+                }
+            }
         }
     }
 
@@ -510,7 +441,12 @@ impl Reader<'_, '_, '_> {
         let [inertial] = self.parts(node, &owner, ["inertial"]);
         let inertial = inertial.and_then(|inertial| self.inertial(inertial, &owner));
         let at = node.range().start;
-        self.robot.links.push(Link { name, inertial, at });
+        self.robot.links.push(Link {
+            name,
+            inertial,
+            at,
+            ..Link::default()
+        });
     }
 
     /// What a link weighs, if it weighs anything.
@@ -541,11 +477,16 @@ impl Reader<'_, '_, '_> {
             let message = format!("the tensor of inertia of {owner} is that of no body: {flaw}");
             self.faults.add(inertia_node.range().start, message);
         }
+        let is_turned = !rpy.iter().all(Number::is_zero);
         (!mass.is_zero()).then_some(Inertial {
             mass,
             xyz,
-            rpy,
+            turns: turns(&rpy),
             tensor,
+            source: match is_turned {
+                true => "; the file gives it in axes turned by `rpy`",
+                false => "",
+            },
         })
     }
 
@@ -598,10 +539,12 @@ impl Reader<'_, '_, '_> {
         self.robot.joints.push(Joint {
             name,
             kind,
+            label: label(kind),
+            shown: [parent.clone(), child.clone()],
             parent,
             child,
             xyz,
-            rpy,
+            turns: turns(&rpy),
             axis,
             damping,
             friction,
@@ -609,6 +552,7 @@ impl Reader<'_, '_, '_> {
             remarks,
             mimic,
             at,
+            ..Joint::default()
         });
     }
 
@@ -728,7 +672,7 @@ impl Reader<'_, '_, '_> {
         if has_any && !kind.is_single() && kind != Kind::Fixed {
             let message = format!(
                 "`dynamics` of {owner}: URDF does not say what damping and friction of a {} joint are: take them out",
-                kind.name()
+                label(kind)
             );
             self.faults.add(node.range().start, message);
         }
@@ -745,7 +689,7 @@ impl Reader<'_, '_, '_> {
             return None;
         };
         if !kind.is_single() {
-            let message = format!("{owner} is {}, and cannot mimic another", kind.name());
+            let message = format!("{owner} is {}, and cannot mimic another", label(kind));
             self.faults.add(at, message);
             return None;
         }

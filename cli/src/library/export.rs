@@ -57,28 +57,45 @@ macro_rules! numbers {
 
 numbers! {
     f64: One, f64, f64;
-    Lanes<2>: Two, [f64; 2], lanes::Plain<2>;
-    Lanes<4>: Four, [f64; 4], lanes::Plain<4>;
+    Lanes<2>: Two, [f64; 2], plain::Plain<2>;
+    Lanes<4>: Four, [f64; 4], plain::Plain<4>;
 }
 
 #[cfg(target_feature = "avx512vl")]
-numbers! { Lanes<8>: Eight, [f64; 8], lanes::Plain<8>; }
+numbers! { Lanes<8>: Eight, [f64; 8], plain::Plain<8>; }
 #[cfg(not(target_feature = "avx512vl"))]
-numbers! { Lanes<8>: TwiceFour, [f64; 8], lanes::Plain<8>; }
+numbers! { Lanes<8>: TwiceFour, [f64; 8], plain::Plain<8>; }
 
 /// The mass matrix cannot be inverted, or constraints depend on each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Singular;
 
-impl Singular {
-    #[cold]
-    pub fn new(_coordinate: usize, _pivot: f64, _diagonal: f64) -> Self {
-        Singular
+/// The pivots of a machine's eliminations, as `lagrangian::emitted` has them. Which row it was is of no use here.
+#[derive(Clone, Copy)]
+pub struct Pivots {
+    pub coordinates: usize,
+    pub tolerance: f64,
+}
+
+impl Pivots {
+    /// Whether a pivot exceeds its tolerance times the diagonal element, in all lanes; one that is no number does not.
+    #[inline(always)]
+    pub fn hold<N: Scalar>(self, pivot: N, diagonal: N) -> bool {
+        pivot.exceeds(N::from_f64(self.tolerance) * diagonal)
     }
 
-    #[cold]
-    pub fn constraint(_constraint: usize, _pivot: f64, _diagonal: f64) -> Self {
-        Singular
+    #[inline(always)]
+    pub fn vanished<N: Scalar, const K: usize>(self, pivots: [(usize, N, N); K]) -> Option<Singular> {
+        let all_hold = pivots.iter().all(|&(_, pivot, diagonal)| self.hold(pivot, diagonal));
+        if all_hold { None } else { Some(Singular) }
+    }
+
+    #[inline(always)]
+    pub fn check<N: Scalar, const K: usize>(self, pivots: [(usize, N, N); K]) -> Result<(), Singular> {
+        match self.vanished(pivots) {
+            Some(singular) => Err(singular),
+            None => Ok(()),
+        }
     }
 }
 

@@ -14,7 +14,7 @@ use super::arrays::{Array, Content};
 /// If it becomes larger than an archive may be.
 pub fn bytes(arrays: &[Array]) -> io::Result<Vec<u8>> {
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
-    // The same model, the same bytes: no clock.
+    // One model gives one sequence of bytes: no clock.
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Stored)
         .last_modified_time(DateTime::default());

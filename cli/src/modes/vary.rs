@@ -349,7 +349,7 @@ impl<'a> Tracer<'a> {
         )
     }
 
-    /// The same motion at another value.
+    /// The motion at another value of the parameter.
     fn follow(&self, from: &At, value: f64, halvings: usize) -> Result<Motion, Failure> {
         let found = self.from(&from.motion, value);
         match found {

@@ -83,7 +83,7 @@ impl Destination {
         })
     }
 
-    /// The same of an option that the call may leave out.
+    /// The destination of an option that the call may leave out.
     ///
     /// # Errors
     /// As [`new`](Self::new).
@@ -128,7 +128,7 @@ impl Destination {
         self.write_with_mode(0o666, content)
     }
 
-    /// The same for a file that may be run, as linkers make libraries.
+    /// Writes a file that may be executed, as linkers make libraries.
     ///
     /// # Errors
     /// As [`write`](Self::write).

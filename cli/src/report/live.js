@@ -17,8 +17,8 @@ class Integrator {
     return Math.sqrt(sum / Math.max(1, vector.length));
   }
 
-  /** Brings the state `y` from time `t` to each of the times in turn, and tells each; what stops it is thrown. */
-  run(f, y, times, tell) {
+  /** Brings the state `y` to each of the times in turn, and tells each; `hold` moves it after each step. What stops it is thrown. */
+  run(f, y, times, tell, hold) {
     const { a, c, error, coarse, power, stages, change: [least, most] } = this.method;
     const forward = times[times.length - 1] >= times[0] ? 1 : -1;
     const slopes = Array.from({ length: stages + 1 }, () => new Float64Array(y.length));
@@ -65,6 +65,7 @@ class Integrator {
         if (off <= 1) {
           t = last ? until : t + step;
           y.set(next);
+          hold(t, y);
           f(t, y, slopes[0]);
           const longer = Math.abs(step) * Math.min(Math.max(factor, least), most);
           if (!last || longer > h) h = longer;
@@ -75,6 +76,156 @@ class Integrator {
       }
       tell(y, index);
     }
+  }
+}
+
+/**
+ * What holds a state on the constraints of the machine: the least change by its inertia, dq = W Gᵀ (G W Gᵀ)⁻¹ (−g) with W the inverse
+ * of the mass matrix, and the same of rates with their residuals. Coordinates that the spec keeps stay as they are at the start.
+ */
+class Constraints {
+  constructor(p, { holonomic, kept }, n) {
+    // Those of positions first: rates obey all of them, positions these.
+    const order = [true, false].flatMap((wanted) => holonomic.flatMap((is, k) => (is === wanted ? [k] : [])));
+    Object.assign(this, { p, holonomic, kept, n, order });
+  }
+
+  /** The residuals of each constraint in positions and in rates, by the sizes of their terms. */
+  residuals(t, y) {
+    const { p, n } = this;
+    const [q, v] = [y.subarray(0, n), y.subarray(n)];
+    const rows = machine.constraint_matrix(p, t, q);
+    const sizes = (x) => rows.map((row) => row.reduce((sum, g, i) => sum + Math.abs(g * x[i]), 0) || 1);
+    return {
+      positions: { residuals: machine.constraint_positions(p, t, q), sizes: sizes(q) },
+      rates: { residuals: machine.constraint_rates(p, t, q, v), sizes: sizes(v) },
+    };
+  }
+
+  /** How far the state is off, as a share of the sizes of the terms. */
+  off(t, y) {
+    const { positions, rates } = this.residuals(t, y);
+    const share = ({ residuals, sizes }) => residuals.map((x, k) => Math.abs(x) / sizes[k]);
+    return Math.max(...share(positions), ...share(rates));
+  }
+
+  /** Cholesky's factor of the mass matrix without the coordinates that are kept; none where it is not positive definite. */
+  factor(t, y, kept) {
+    const { p, n } = this;
+    const m = machine.mass_matrix(p, t, y.subarray(0, n)).map((row) => Array.from(row));
+    for (let i = 0; i < n; i++) {
+      for (let j = 0; j <= i; j++) {
+        const apart = kept && (kept[i] || kept[j]);
+        let sum = apart ? Number(i === j) : m[i][j];
+        for (let k = 0; k < j; k++) sum -= m[i][k] * m[j][k];
+        if (i !== j) {
+          m[i][j] = sum / m[j][j];
+        } else {
+          if (!(sum > 1e-14 * (apart ? 1 : m[i][i]))) return null;
+          m[i][i] = Math.sqrt(sum);
+        }
+      }
+    }
+    return m;
+  }
+
+  /** The matrices of a pose: the factor of inertia, and the rows of the constraints made orthogonal in its metric. */
+  prepare(t, y, kept) {
+    const { n } = this;
+    const m = this.factor(t, y, kept);
+    const dot = (a, b) => a.reduce((sum, value, i) => sum + value * b[i], 0);
+    const basis = [];
+    const rows = machine.constraint_matrix(this.p, t, y.subarray(0, n));
+    this.order.forEach((k) => {
+      const row = rows[k];
+      const carried = new Float64Array(n);
+      for (let i = 0; i < n; i++) {
+        let sum = kept && kept[i] ? 0 : row[i];
+        if (m) {
+          for (let j = 0; j < i; j++) sum -= m[i][j] * carried[j];
+          sum /= m[i][i];
+        }
+        carried[i] = sum;
+      }
+      const whole = dot(carried, carried);
+      let rest = carried;
+      const along = basis.map(() => 0);
+      // Twice is enough.
+      for (let pass = 0; pass < 2; pass++) {
+        basis.forEach(({ unit }, j) => {
+          const part = dot(rest, unit);
+          along[j] += part;
+          rest = rest.map((entry, i) => entry - part * unit[i]);
+        });
+      }
+      const square = dot(rest, rest);
+      // What depends on rows before it says nothing new.
+      if (square > 1e-12 * whole) basis.push({ k, along, size: Math.sqrt(square), unit: rest.map((entry) => entry / Math.sqrt(square)) });
+    });
+    return { m, basis };
+  }
+
+  /** Residuals along the orthogonal rows: their length is how far the state has to go, in the metric of inertia. */
+  along({ basis }, residuals, level) {
+    const values = [];
+    for (const { k, along, size } of basis) {
+      if (level === 'positions' && !this.holonomic[k]) break;
+      values.push((residuals[k] - along.reduce((sum, part, j) => sum + part * values[j], 0)) / size);
+    }
+    return values;
+  }
+
+  /** Takes what stands along the rows off `x`, by the least move. */
+  moveBack({ m, basis }, values, kept, x) {
+    const { n } = this;
+    const change = new Float64Array(n);
+    values.forEach((value, j) => basis[j].unit.forEach((entry, i) => { change[i] += entry * value; }));
+    for (let i = n - 1; i >= 0; i--) {
+      if (m) {
+        for (let j = i + 1; j < n; j++) change[i] -= m[j][i] * change[j];
+        change[i] /= m[i][i];
+      }
+      if (!(kept && kept[i])) x[i] -= change[i];
+    }
+  }
+
+  /** Newton's method on positions or on rates, with the matrices of one pose while it contracts, as the command has it. */
+  newton(t, y, level, matrices, kept, x) {
+    const length = (values) => Math.hypot(...values);
+    const seen = () => this.residuals(t, y)[level];
+    const isOn = ({ residuals, sizes }) => residuals.every((r, k) => Math.abs(r) <= 1e-15 * sizes[k]);
+    let found = seen();
+    let values = this.along(matrices, found.residuals, level);
+    let far = length(values);
+    let fresh = true;
+    for (let round = 0; round < 50 && !isOn(found); round++) {
+      this.moveBack(matrices, values, kept, x);
+      found = seen();
+      values = this.along(matrices, found.residuals, level);
+      let near = length(values);
+      if (isOn(found) || (fresh && !(near <= 0.875 * far))) break;
+      fresh = !(near <= 0.1 * far);
+      if (fresh) {
+        Object.assign(matrices, this.prepare(t, y, kept));
+        values = this.along(matrices, found.residuals, level);
+        near = length(values);
+      }
+      far = near;
+    }
+  }
+
+  /** Moves a state onto the constraints; what is not there in the end is thrown. */
+  hold(t, y, isStart) {
+    if (!this.order.length || !(this.off(t, y) > (isStart ? 1e-15 : 1e-10))) return;
+    const { n } = this;
+    // Rates begin with the matrices with which positions ended, unless other ones are kept.
+    let matrices = null;
+    for (const [level, from] of [['positions', 0], ['rates', n]]) {
+      const kept = isStart && this.kept.includes(true) ? this.kept.slice(from, from + n) : null;
+      if (!matrices || kept) matrices = this.prepare(t, y, kept);
+      this.newton(t, y, level, matrices, kept, y.subarray(from, from + n));
+    }
+    if (!(this.off(t, y) <= 1e-10)) throw new Error(`no state that obeys the constraints was found at t = ${t} s`);
   }
 }
 
@@ -159,7 +310,9 @@ class Live {
           slopes[n + i] = a[i];
         }
       };
-      integrator.run(f, y, times, (state, k) => states.set(state, 2 * n * k));
+      const constraints = new Constraints(p, data.constraints, n);
+      constraints.hold(times[0], y, true);
+      integrator.run(f, y, times, (state, k) => states.set(state, 2 * n * k), (t, state) => constraints.hold(t, state, false));
       motion.states = states;
       motion.parameters.set(this.parameters);
       player.plots.forEach((plot) => plot.curves.forEach((curve) => this.refresh(curve, p, times, states)));
@@ -194,6 +347,7 @@ class Live {
       if (live?.energy === 'kinetic') return kinetic();
       if (live?.energy === 'potential') return potential();
       if (live?.energy === 'total') return kinetic() + potential();
+      if (live?.multiplier !== undefined) return machine.multipliers(p, t, q, v, u)[live.multiplier];
       if (live?.input !== undefined) return u[live.input];
       return NaN;
     };

@@ -34,13 +34,13 @@ pub const SECTION: &str = r#"<section id="live" aria-labelledby="live-title">
 const EXPLICIT: [&str; 3] = ["dop853", "dopri5", "bs32"];
 
 /// Why a page cannot run a machine; `None` where it can.
-pub fn objection(program: &Program, method: &Method, is_driven: bool) -> Option<String> {
-    let what = if let Some(constraint) = program.constraints.first() {
-        format!(
-            "`{}` is a constraint, on which the page does not hold its states; write the machine with as many coordinates as it has degrees of freedom",
-            constraint.name
-        )
-    } else if let Some(contact) = program.contacts.first() {
+pub fn objection(
+    program: &Program,
+    method: &Method,
+    is_driven: bool,
+    kept: &[String],
+) -> Option<String> {
+    let what = if let Some(contact) = program.contacts.first() {
         format!("`{contact}` of `sliding` sticks or slides, which the page does not decide")
     } else if let Some(contact) = program.unilateral.first() {
         format!(
@@ -53,11 +53,15 @@ pub fn objection(program: &Program, method: &Method, is_driven: bool) -> Option<
         .find_map(|slot| state_of(&slot.name.to_string()))
     {
         format!("`{state}` of `states` is of first order, which the page does not show")
+    } else if let Some(name) = kept.first() {
+        format!(
+            "the page keeps start values that the spec keeps: write `keep {{ {name} }}` in place of --keep"
+        )
     } else if is_driven {
         "the page holds inputs at constant values: leave out --input".to_owned()
     } else if !EXPLICIT.contains(&method.tableau.name) {
         format!(
-            "the page has explicit methods, and `{}` is none: --method dop853",
+            "the page has explicit methods with control of the step, and `{}` is none: --method dop853",
             method.tableau.name
         )
     } else {
@@ -111,11 +115,20 @@ impl Live {
             .zip(pairs())
             .map(|((name, unit), (value, _))| json!({ "name": name, "unit": unit, "value": value }))
             .collect();
+        let kept = states.iter().map(|state| {
+            let name = state["name"].as_str().unwrap_or_default();
+            program.kept.iter().any(|kept| kept == name)
+        });
+        let kept: Vec<bool> = kept.collect();
         let value = json!({
             "parameters": report.machine.parameter_values(),
             "inputs": report.machine.prepare().default_inputs().values,
             "start": said,
             "states": states,
+            "constraints": {
+                "holonomic": program.constraints.iter().map(|it| it.holonomic).collect::<Vec<_>>(),
+                "kept": kept,
+            },
             "tolerance": self.tolerance,
             "steps": self.most_steps,
             "method": {

@@ -249,6 +249,28 @@ fn parameters(report: &Report<'_, '_>) -> String {
     if !rows.is_empty() {
         html.push_str(&html::table("Parameters", &head, &rows));
     }
+    let model = &compiled.model;
+    let known = |symbol| {
+        let mut known = model.parameters.iter().zip(machine.parameter_values());
+        let found = known.find(|(parameter, _)| parameter.symbol.as_symbol() == Some(symbol));
+        found.map_or(f64::NAN, |(_, value)| *value)
+    };
+    let derived: Vec<Vec<Cell>> = model
+        .derived_parameters
+        .iter()
+        .map(|parameter| {
+            let value = lagrangian_symbolic::evaluate(model.dag, &[parameter.value], known);
+            vec![
+                name(&parameter.name),
+                figure(value[0]),
+                Cell::Words(unit(&parameter.unit_text)),
+                words(&parameter.docs),
+            ]
+        })
+        .collect();
+    if !derived.is_empty() {
+        html.push_str(&html::table("Parameters that follow", &head, &derived));
+    }
     let constants: Vec<Vec<Cell>> = compiled
         .model
         .constants
@@ -504,7 +526,7 @@ fn counts(program: &Program) -> String {
     html::table("Operations of one call", &head, &rows)
 }
 
-/// The derivation, as far as there is room for it: the shortest formulas of all.
+/// The derivation, as far as it fits: the shortest formulas of all.
 fn equations(compiled: &Compiled<'_>) -> String {
     let mut document = Document::new(compiled);
     let sections = document.sections.iter().enumerate();
@@ -515,11 +537,11 @@ fn equations(compiled: &Compiled<'_>) -> String {
         })
         .collect();
     lengths.sort_unstable();
-    let mut room = DERIVATION;
+    let mut left = DERIVATION;
     let mut left_out = false;
     for (length, [s, b]) in lengths {
-        if length <= room {
-            room -= length;
+        if length <= left {
+            left -= length;
             continue;
         }
         if let Some(block) = document

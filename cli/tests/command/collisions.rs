@@ -173,6 +173,124 @@ fn the_walls_of_a_shaken_box_work_on_the_ball() {
     close(number(&run["energy_residual"]), 0.0, 1e-12);
 }
 
+/// E. J. Routh: a ball that is thrown with the speed v and slips at u = v + rω rolls after 2u/(7μg), at v − 2u/7; friction
+/// has then taken m u²/7.
+#[test]
+fn a_ball_slips_until_it_rolls() {
+    let (m, r, mu, g, v) = (7.0, 0.108, 0.1, 9.81, 8.0);
+    // Without spin, thrown with back spin, and with so much that it rolls back.
+    for spin in [0.0, 30.0, 300.0] {
+        let u = v + r * spin;
+        let until = 2.0 * u / (7.0 * mu * g);
+        let spec = "machines/contacts/bowling_ball.machine";
+        let run = simulate(spec, until + 1.0, &[&format!("spin={spin}")]);
+        is_good(&run);
+        let sticks = events(&run, "sticks");
+        assert_eq!(sticks.len(), 1, "{run:#}");
+        close(number(&sticks[0]["t"]), until, 1e-12 * (1.0 + until));
+        let rolls = v - 2.0 * u / 7.0;
+        close(number(&run["v"]["x"]), rolls, 1e-12 * u);
+        close(number(&run["v"]["theta"]), -rolls / r, 1e-11 * u / r);
+        close(
+            number(&run["dissipated"]),
+            m * u * u / 7.0,
+            1e-11 * m * u * u,
+        );
+    }
+}
+
+/// A disc that rolls off a round hump from the angle φ₀ slips where its friction, mg sin φ/3, is all that there is of
+/// μ mg (7 cos φ − 4 cos φ₀)/3; without friction it leaves the hump at cos φ = ⅔ cos φ₀ and flies along a parabola.
+#[test]
+fn a_disc_slips_on_a_hump_and_leaves_it() {
+    let spec = "machines/contacts/disc_over_hump.machine";
+    let (m, r, length, tilt, mu, g) = (0.2, 0.05, 0.55, 0.1_f64, 0.5, 9.81);
+    let angle = |event: &Value| number(&event["q"]["x"]).atan2(number(&event["q"]["y"]));
+
+    let run = simulate(spec, 1.0, &[]);
+    is_good(&run);
+    let reserve = |phi: f64| mu * (7.0 * phi.cos() - 4.0 * tilt.cos()) - phi.sin();
+    let (mut low, mut high) = (tilt, PI / 2.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        match reserve(middle) > 0.0 {
+            true => low = middle,
+            false => high = middle,
+        }
+    }
+    let slips = events(&run, "slips");
+    close(angle(slips[0]), low, 1e-10);
+    let lifts = events(&run, "lifts");
+    assert_eq!(lifts[0]["contact"], "top");
+    assert!(angle(lifts[0]) > low, "{run:#}");
+
+    let run = simulate(spec, 1.0, &["mu=0"]);
+    is_good(&run);
+    let lifts = events(&run, "lifts");
+    let leaves = (2.0 / 3.0 * tilt.cos()).acos();
+    close(angle(lifts[0]), leaves, 1e-10);
+    let speed = (g * length * leaves.cos()).sqrt();
+    let (down, height) = (speed * leaves.sin(), length * leaves.cos() - r);
+    let fall = ((down * down + 2.0 * g * height).sqrt() - down) / g;
+    let impacts = events(&run, "impact");
+    assert_eq!(impacts[0]["contact"], "floor");
+    let flight = number(&impacts[0]["t"]) - number(&lifts[0]["t"]);
+    close(flight, fall, 1e-10);
+    // It keeps what it had along the ground.
+    let lost = 0.5 * m * (down * down + 2.0 * g * height);
+    close(number(&run["impact_loss"]), lost, 1e-9);
+}
+
+/// A level dimer goes with its plate as one ball does: both ends stick, lift and meet the plate together, though their
+/// friction along the rod depends on each other. It leaves the plate where that falls away by g.
+#[test]
+fn both_ends_of_a_level_dimer_lift_together() {
+    let spec = "machines/contacts/dimer.machine";
+    let dimer = simulate(spec, 0.06, &[]);
+    is_good(&dimer);
+    let ball = Scratch::new(
+        "ball.machine",
+        "machine Ball in plane {
+            parameters {
+                m: kg = 0.0012, h: m = 0.002, A: m = 0.0008, w: rad/s = 157.07963267948966, e: 1 = 0.5, g: m/s^2 = 9.81,
+            }
+            coordinates { y: m = h }
+            bodies { ball { mass: m, at: (0, y) } }
+            gravity (0, -g);
+            contacts { plate { gap: y - A*sin(w*t), restitution: e } }
+        }",
+    );
+    let ball = simulate(ball.path(), 0.06, &[]);
+    is_good(&ball);
+    let omega: f64 = 157.079_632_679_489_66;
+    let leaves = (2.0 * PI + (9.81 / (0.0008 * omega * omega)).asin()) / omega;
+    let lifts = events(&dimer, "lifts");
+    assert_eq!(lifts.len(), 2, "{dimer:#}");
+    for lift in &lifts {
+        close(number(&lift["t"]), leaves, 1e-9);
+    }
+    let (of_dimer, of_ball) = (events(&dimer, "impact"), events(&ball, "impact"));
+    assert_eq!(of_dimer.len(), 2 * of_ball.len());
+    for (pair, single) in of_dimer.chunks(2).zip(&of_ball) {
+        for impact in pair {
+            close(number(&impact["t"]), number(&single["t"]), 1e-9);
+        }
+    }
+    close(
+        number(&dimer["q"]["y"]) - 0.0025,
+        number(&ball["q"]["y"]),
+        1e-9,
+    );
+    close(number(&dimer["q"]["x"]), 0.0, 1e-12);
+    close(number(&dimer["q"]["theta"]), 0.0, 1e-9);
+
+    // Without friction nothing moves the mass centre sideways, however the dimer tumbles.
+    let tumbling = simulate(spec, 0.2, &["tilt=0.3", "h=0.004", "mu=0"]);
+    is_good(&tumbling);
+    assert!(events(&tumbling, "impact").len() > 5);
+    close(number(&tumbling["q"]["x"]), 0.0, 1e-12);
+}
+
 /// The crusher's first twelve impacts without friction, recomputed elsewhere in quadruple precision: time, contact,
 /// rate of the gap and impulse.
 #[test]
@@ -500,6 +618,60 @@ fn random_discs_in_a_box_keep_their_energy() {
                 let place = number(&run["q"][format!("{axis}{k}")]);
                 assert!(place.abs() <= 1.0 - radius + 1e-12, "seed {seed}");
             }
+        }
+    }
+}
+
+/// A box that slides towards the edge of a step tips where friction would have its support beyond the edge, at x = −μ h; then it tumbles
+/// from step to step, never into one, and rests: all that it had, at the start and by its fall, is lost.
+#[test]
+fn a_box_tumbles_down_a_stair() {
+    let spec = "machines/contacts/box_on_stair.machine";
+    let run = simulate(spec, 2.0, &[]);
+    is_good(&run);
+    let (m, h, mu, g, start, speed) = (2.0, 0.08, 0.4, 9.81, -0.05, 1.2);
+    let tips = (speed - f64::sqrt(speed * speed + 2.0 * mu * g * (start + mu * h))) / (mu * g);
+    let lifts = events(&run, "lifts");
+    assert_eq!(lifts[0]["contact"], "r[1]");
+    // Forces are known to 1e-11 of their terms, and so is where one vanishes.
+    close(number(&lifts[0]["t"]), tips, 1e-11);
+    close(number(&lifts[0]["q"]["x"]), -mu * h, 1e-11);
+    // Upside down on the lowest step.
+    close(number(&run["q"]["theta"]), -PI, 1e-12);
+    close(number(&run["q"]["y"]), 0.18 + h, 1e-12);
+    let had = 0.5 * m * speed * speed + m * g * 2.0 * 0.18;
+    close(number(&run["dissipated"]), had, 1e-9 * had);
+    let lost = number(&run["impact_loss"]);
+    assert!(lost > 0.0 && lost < had, "{lost}");
+
+    let table = Scratch::new("stair.csv", "");
+    std::fs::remove_file(table.path()).expect("removed");
+    let output = lagrangian(&[
+        "simulate",
+        spec,
+        "--until",
+        "1",
+        "--every",
+        "0.002",
+        "--out",
+        table.path(),
+    ]);
+    assert!(output.status.success());
+    let text = std::fs::read_to_string(table.path()).expect("table");
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().expect("header").split(',').collect();
+    let gaps: Vec<usize> = (0..names.len())
+        .filter(|k| names[*k].contains("gap("))
+        .collect();
+    assert_eq!(gaps.len(), 4 + 3 + 12);
+    for line in lines {
+        let row: Vec<f64> = line
+            .split(',')
+            .map(|x| x.parse().expect("number"))
+            .collect();
+        for &k in &gaps {
+            // The dense output of a step is as exact as its tolerance of 1e-9.
+            assert!(row[k] > -1e-9, "{} = {} at {}", names[k], row[k], row[0]);
         }
     }
 }

@@ -719,6 +719,55 @@ fn warnings_are_told_and_denied_on_demand() {
     assert_eq!(status(&output), 0, "{}", err(&output));
 }
 
+/// `√(1 + w²) − w` loses its digits where w is great, and `1/(√(1 + w²) + w)`, the same number, keeps them: six operations and no
+/// difference, each off by half a unit at most. Half a unit of the result is unavoidable, and as much for w and for τ at most.
+#[test]
+fn a_formula_that_loses_digits_is_told_from_one_that_keeps_them() {
+    let text = "machine Wheel in plane { parameters { tau: s = 1 } coordinates { phi: rad, der(phi): rad/s = 3 } \
+                bodies { wheel { mass: 1, inertia: 1, at: (0, 0), angle: phi } } gravity none; assume { der(phi) > 0 } \
+                outputs { poor: 1 = sqrt(1 + (tau*der(phi))^2) - tau*der(phi), good: 1 = 1/(sqrt(1 + (tau*der(phi))^2) + tau*der(phi)) } }";
+    let spec = Scratch::new("wheel.machine", text);
+    let found = json(&lagrangian(&["check", spec.path(), "--accuracy", "--json"]));
+    let quantity = |name: &str| {
+        let all = found["accuracy"].as_array().expect("a list");
+        let is_it = |found: &&Value| found["quantity"] == format!("output {name}").as_str();
+        all.iter().find(is_it).expect("the output").clone()
+    };
+    let number = |value: &Value| value.as_f64().expect("a number");
+    let good = quantity("good");
+    assert!(number(&good["worst"]) <= 6.0, "{good}");
+    let poor = quantity("poor");
+    assert_eq!(poor["kind"], "extreme");
+    let w = number(&poor["state"]["v"]["phi"]);
+    assert!(w > 1e4, "{poor}");
+    // What the command says of that state, against the number without a difference.
+    let point = Scratch::new("point.json", &format!("[{}]", poor["state"]));
+    let there = json(&lagrangian(&[
+        "evaluate",
+        spec.path(),
+        "--at",
+        point.path(),
+    ]));
+    let exact = 1.0 / ((1.0 + w * w).sqrt() + w);
+    let error = (number(&there[0]["outputs"]["poor"]) - exact).abs();
+    let half_unit = f64::EPSILON / 2.0 * exact;
+    assert!(
+        (number(&poor["error"]) - error).abs() <= 8.0 * half_unit,
+        "{poor}"
+    );
+    let share = number(&poor["worst"]);
+    assert!(
+        (error / (4.0 * half_unit)..=1.001 * error / half_unit).contains(&share),
+        "{poor}"
+    );
+    // The table for readers names the formula and the state.
+    let text = out(&lagrangian(&["check", spec.path(), "--accuracy"]));
+    assert!(
+        text.contains("the worst state, for output poor: {\"t\":"),
+        "{text}"
+    );
+}
+
 #[test]
 fn the_freedom_that_constraints_leave_is_told() {
     let check = |name: &str| lagrangian(&["check", name, "--json"]);

@@ -68,6 +68,7 @@ struct Case<'a> {
     machine: &'a str,
     constants: &'a [&'a str],
     until: f64,
+    method: &'a str,
 }
 
 const CASES: &[Case<'_>] = &[
@@ -75,28 +76,33 @@ const CASES: &[Case<'_>] = &[
         machine: "double_pendulum",
         constants: &[],
         until: 1.0,
+        method: "dop853",
     },
     // Driven at 100 rad/s, with facts.
     Case {
         machine: "crusher9",
         constants: &[],
         until: 0.2,
+        method: "dop853",
     },
     Case {
         machine: "heavy_top",
         constants: &[],
         until: 1.0,
+        method: "dop853",
     },
     Case {
         machine: "chain",
         constants: &["--const", "N=4"],
         until: 1.0,
+        method: "dopri5",
     },
     // An input and outputs, one of them of accelerations.
     Case {
         machine: "cart_pole",
         constants: &[],
         until: 1.0,
+        method: "dop853",
     },
 ];
 
@@ -106,16 +112,19 @@ const CONSTRAINED: &[Case<'_>] = &[
         machine: "four_bar",
         constants: &[],
         until: 1.0,
+        method: "dop853",
     },
     Case {
         machine: "slider_crank",
         constants: &[],
         until: 0.5,
+        method: "dop853",
     },
     Case {
         machine: "chaplygin_sleigh",
         constants: &[],
         until: 1.0,
+        method: "dop853",
     },
 ];
 
@@ -124,7 +133,11 @@ fn check(case: &Case<'_>, version: &str, driver: &str, header: &str) {
     let spec = format!("machines/{}.machine", case.machine);
     let at = Scratch::new("Machine.fmu", "");
     let folder = at.0.parent().expect("a folder");
-    let made = unit(&spec, &at, &[&["--fmi", version], case.constants].concat());
+    let made = unit(
+        &spec,
+        &at,
+        &[&["--fmi", version, "--method", case.method], case.constants].concat(),
+    );
     let files = files(&at.0);
     let description = text(&files, "modelDescription.xml");
     for (name, content) in &files {
@@ -328,6 +341,7 @@ fn the_same_machine_is_the_same_unit() {
         "fmi3Functions.h",
         "fmi3PlatformTypes.h",
         "machine.c",
+        "method.c",
         "runtime.c",
     ];
     let sources = sources.map(|name| format!("sources/{name}"));
@@ -465,6 +479,18 @@ fn what_no_unit_can_be_is_refused() {
             2,
             "did you mean `theta1`?",
         ),
+        (
+            "bricard",
+            &["--sources-only"],
+            1,
+            "`machine BricardUnit extends \"bricard.machine\" { remove constraints.",
+        ),
+        (
+            "double_pendulum",
+            &["--method", "rk4"],
+            2,
+            "[possible values: dop853, dopri5]",
+        ),
         ("double_pendulum", &["--fmi", "1"], 2, "1 is not in 2..=3"),
         (
             "double_pendulum",
@@ -531,6 +557,7 @@ fn fmpy_validates_and_simulates() {
         machine: rod.path(),
         constants: &[],
         until: 1.0,
+        method: "dop853",
     }];
     for case in CASES.iter().chain(CONSTRAINED).chain(&off) {
         let spec = match case.machine.ends_with(".machine") {

@@ -1,5 +1,7 @@
 //! Machines whose parts collide: what is known of them from elsewhere, and orders of impacts.
 
+use std::f64::consts::PI;
+
 use serde_json::Value;
 
 use crate::collisions::{close, events, is_good, number, simulate};
@@ -237,4 +239,46 @@ fn discs_pile_up_in_a_bowl() {
         }
     }
     close(number(&run["energy_residual"]), 0.0, 1e-9);
+}
+
+/// The motion of an impact pair with two impacts in each period: between the walls the mass flies with v = 2 ω (d − A sin φ)/π, and Newton's
+/// law leaves it so where A ω cos φ = v (1 − e)/(1 + e). Of the two phases that obey this the later one repels, and a run leaves it; about
+/// the other one errors fade, and every impact is where it should be.
+#[test]
+fn an_impact_pair_keeps_its_period() {
+    let (m, amplitude, w) = (1.0_f64, 0.01_f64, 10.0_f64);
+    for (e, play) in [(0.7_f64, 2.0_f64), (0.5, 3.0), (0.3, 2.0)] {
+        let d = play * amplitude;
+        let share = (1.0 - e) / (1.0 + e);
+        // Newton's method from the side of the phases that attract.
+        let mut phase = -1.2_f64;
+        for _ in 0..50 {
+            let k = 2.0 / PI * share;
+            let f = phase.cos() - k * (play - phase.sin());
+            phase -= f / (k * phase.cos() - phase.sin());
+        }
+        let v = 2.0 * w * (d - amplitude * phase.sin()) / PI;
+        close(amplitude * w * phase.cos(), v * share, 1e-15);
+        let settings = [
+            format!("e={e:?}"),
+            format!("d={d:?}"),
+            format!("phase={phase:?}"),
+        ];
+        let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
+        let run = simulate("machines/contacts/impact_pair.machine", 12.5, &settings);
+        is_good(&run);
+        let impacts = events(&run, "impact");
+        assert_eq!(impacts.len(), (12.5 * w / PI).floor() as usize);
+        let closing = 2.0 * v / (1.0 + e);
+        for (k, impact) in impacts.iter().enumerate() {
+            let wall = if k % 2 == 0 { "right" } else { "left" };
+            assert_eq!(impact["contact"], wall);
+            close(number(&impact["t"]), (k + 1) as f64 * PI / w, 1e-12);
+            close(number(&impact["gap_rate"][0]), -closing, 1e-11 * closing);
+            let loss = 0.5 * m * (1.0 - e * e) * closing * closing;
+            close(number(&impact["loss"]), loss, 1e-11 * loss);
+        }
+        // What impacts take is the work of the carriage.
+        close(number(&run["work"]), number(&run["impact_loss"]), 1e-12);
+    }
 }

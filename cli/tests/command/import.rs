@@ -1,4 +1,4 @@
-//! `lagrangian import` against Pinocchio, whose numbers are stored, and against a recursive Newton–Euler typed from a book.
+//! `lagrangian import` against Pinocchio and MuJoCo, whose numbers are stored, and against a recursive Newton–Euler typed from a book.
 
 use std::collections::hash_map::RandomState;
 use std::f64::consts::PI;
@@ -86,6 +86,68 @@ fn robots_move_as_pinocchio_moves_them() {
                 let truth = numbers(&truth[quantity]);
                 let what = format!("{quantity} of {name}");
                 assert_close(&numbers(&found[quantity]), &truth, largest(&truth), &what);
+            }
+        }
+    }
+}
+
+/// What MuJoCo and we may differ by, as a share of the largest acceleration: it finds principal axes to 1e-12 (`mju_eig3`).
+const CLOSE_TO_MUJOCO: f64 = 1e-12;
+
+/// The models of `import/mujoco`, with the number of coordinates that each has.
+const MODELS: [(&str, usize); 6] = [
+    ("ant", 14),
+    ("crane", 8),
+    ("gripper", 5),
+    ("half_cheetah", 9),
+    ("hopper", 6),
+    ("walker2d", 9),
+];
+
+/// `import/mujoco/by_mujoco.py` says how the numbers were made, by MuJoCo 4.0.0.
+#[test]
+fn models_move_as_mujoco_moves_them() {
+    let folder = "cli/tests/command/import/mujoco";
+    let path = root().join(folder).join("mujoco.json");
+    let stored = std::fs::read_to_string(path).expect("a file");
+    let stored: Value = serde_json::from_str(&stored).expect("JSON");
+    for (name, coordinates) in MODELS {
+        let machine = imported(&format!("{folder}/{name}.xml"), &[]);
+        let states = stored[name].as_array().expect("states");
+        let text = std::fs::read_to_string(&machine.0).expect("a file");
+        let inputs = text.split_once("    inputs {").map_or("", |(_, rest)| rest);
+        let inputs = inputs.split_once("    }").map_or("", |(inside, _)| inside);
+        let inputs: Vec<&str> = inputs
+            .lines()
+            .filter(|line| !line.contains("///"))
+            .flat_map(|line| line.split(','))
+            .filter_map(|entry| entry.split_once(':'))
+            .map(|(name, _)| name.trim())
+            .collect();
+        let points: Vec<Value> = states
+            .iter()
+            .map(|state| {
+                let values = numbers(&state["inputs"]);
+                let set = inputs.iter().zip(values);
+                let set: serde_json::Map<String, Value> = set
+                    .map(|(name, value)| ((*name).to_owned(), json!(value)))
+                    .collect();
+                json!({ "q": state["q"], "v": state["v"], "inputs": set })
+            })
+            .collect();
+        let found = evaluated(&machine, &json!(points));
+        assert_eq!(found.len(), 3, "{name}");
+        for (found, truth) in found.iter().zip(states) {
+            assert_eq!(inputs.len(), numbers(&truth["inputs"]).len(), "{name}");
+            let truth = numbers(&truth["accelerations"]);
+            let found = numbers(&found["accelerations"]);
+            assert_eq!(found.len(), coordinates, "{name}");
+            for (a, b) in found.iter().zip(&truth) {
+                let off = (a - b).abs() / largest(&truth);
+                assert!(
+                    off <= CLOSE_TO_MUJOCO,
+                    "{name}: {a:?}, not {b:?}, off by {off:.1e}"
+                );
             }
         }
     }
@@ -191,7 +253,7 @@ fn blocks(a: Matrix3<f64>, b: Matrix3<f64>, c: Matrix3<f64>, d: Matrix3<f64>) ->
     Matrix6::from_fn(|i, j| parts[i / 3][j / 3][(i % 3, j % 3)])
 }
 
-/// The same, eq. 2.63: mass, mass centre, and the tensor about it.
+/// Featherstone, eq. 2.63: mass, mass centre, and the tensor about it.
 fn spatial_inertia(mass: f64, centre: &Vector3<f64>, tensor: &Matrix3<f64>) -> Matrix6<f64> {
     let c = centre.cross_matrix();
     blocks(
@@ -202,7 +264,7 @@ fn spatial_inertia(mass: f64, centre: &Vector3<f64>, tensor: &Matrix3<f64>) -> M
     )
 }
 
-/// The same, eq. 2.31: v ×; v ×* is minus its transpose.
+/// Featherstone, eq. 2.31: v ×; v ×* is minus its transpose.
 fn cross(v: &Vector6<f64>) -> Matrix6<f64> {
     let (angular, linear) = (
         Vector3::new(v[0], v[1], v[2]),
@@ -212,7 +274,7 @@ fn cross(v: &Vector6<f64>) -> Matrix6<f64> {
     blocks(w, Matrix3::zeros(), l, w)
 }
 
-/// The same, table 5.1: the forces along the coordinates that give these accelerations under gravity `g`. A number for each link.
+/// Featherstone, table 5.1: the forces along the coordinates that give these accelerations under gravity `g`. A number for each link.
 fn newton_euler(links: &[Link], q: &[f64], v: &[f64], a: &[f64], g: f64) -> Vec<f64> {
     let ground = Vector6::new(0.0, 0.0, 0.0, 0.0, 0.0, g);
     let mut velocity: Vec<Vector6<f64>> = Vec::new();
@@ -599,7 +661,7 @@ fn what_is_wrong_is_told_with_its_place() {
         (with("0 1 0\"/>", "0 1 0\"/><mimic joint=\"p\"/>"), "mimics \"p\", and there is no such joint"),
         (with("0 1 0\"/>", "0 1 0\"/><mimic joint=\"pivot\"/>"), "in a circle"),
         (with("<robot", "<mujoco"), "no XML"),
-        ("<mujoco/>".to_owned(), "this is MJCF"),
+        ("<mujoco/>".to_owned(), "this is MJCF: give its file the ending `.xml`"),
         ("<robot name=\"r\"><link name=\"a\"".to_owned(), "1:"),
         (String::new(), "no XML"),
         (
@@ -677,11 +739,313 @@ fn what_is_wrong_is_told_with_its_place() {
     );
 }
 
+/// What a model of MuJoCo may have, below its body.
+fn model(body: &str, rest: &str) -> String {
+    format!("<mujoco>\n<worldbody><body name=\"bob\">{body}</body></worldbody>\n{rest}</mujoco>\n")
+}
+
+/// A machine from a model of MuJoCo, with files beside it.
+fn imported_model(text: &str, files: &[(&str, &[u8])], options: &[&str]) -> Scratch {
+    let model = Scratch::new("model.xml", text);
+    for (name, content) in files {
+        std::fs::write(model.0.with_file_name(name), content).expect("a file");
+    }
+    imported(model.path(), options)
+}
+
+const SWING: &str = "<joint name=\"pivot\" axis=\"0 1 0\"/>";
+
+const WEIGHT: &str = "<inertial pos=\"0 0 -0.5\" mass=\"2\" diaginertia=\"0 0 0\"/>";
+
+#[test]
+fn what_is_wrong_with_a_model_is_told_with_its_place() {
+    let swing = format!("{SWING}{WEIGHT}");
+    let mut missed = Vec::new();
+    for (text, words) in [
+        (
+            model(&swing.replace("\"2\"", "\"2,5\""), ""),
+            "2:94: `mass` of body \"bob\": `2,5` is no number",
+        ),
+        (
+            model(&swing.replace("0 1 0", "0 0 0"), ""),
+            "the axis of joint \"pivot\" has no direction",
+        ),
+        (
+            model(&swing.replace("name", "type=\"screw\" name"), ""),
+            "the type \"screw\" of joint \"pivot\" is not known",
+        ),
+        (
+            model(&swing.replace("name", "class=\"c\" name"), ""),
+            "there is no class \"c\"",
+        ),
+        (
+            model(&swing.replace("name", "quat=\"1 0 0 0\" name"), ""),
+            "`quat` of `joint` of joint \"pivot\" is not read",
+        ),
+        (
+            model(&swing.replace("name", "frictionloss=\"1\" name"), ""),
+            "joint \"pivot\" has friction",
+        ),
+        (
+            model(&format!("{SWING}<freejoint/>{WEIGHT}"), ""),
+            "it must be the only joint of a body of the world",
+        ),
+        (
+            model(&format!("<joint type=\"ball\" damping=\"1\"/>{WEIGHT}"), ""),
+            "`damping` of a joint without a name is that of a ball joint",
+        ),
+        (model(SWING, ""), "joint \"pivot\" moves no mass"),
+        (
+            model(&format!("{SWING}<geom size=\"-1\"/>"), ""),
+            "1 positive numbers are expected of a sphere",
+        ),
+        (
+            model(&format!("{SWING}<geom type=\"mesh\" mesh=\"m\"/>"), ""),
+            "there is no mesh \"m\"",
+        ),
+        (
+            model(
+                &format!("{SWING}<geom type=\"mesh\" mesh=\"m\"/>"),
+                "<asset><mesh name=\"m\" file=\"m.stl\"/></asset>",
+            ),
+            "cannot read",
+        ),
+        (
+            model(&swing, "<option density=\"1.2\"/>"),
+            "`density` of a fluid changes the motion",
+        ),
+        (
+            model(&swing, "<option><flag damper=\"disable\"/></option>"),
+            "`damper` is switched off",
+        ),
+        (
+            model(&swing, "<actuator><motor joint=\"p\"/></actuator>"),
+            "is \"p\", and there is no such joint",
+        ),
+        (
+            model(&swing, "<actuator><muscle joint=\"pivot\"/></actuator>"),
+            "`muscle` of the actuators is not read",
+        ),
+        (
+            model(
+                &swing,
+                "<actuator><general joint=\"pivot\" dyntype=\"filter\"/></actuator>",
+            ),
+            "`dyntype` of a general without a name is \"filter\"",
+        ),
+        (
+            model(&swing, "<equality><weld body1=\"bob\"/></equality>"),
+            "3:11: `weld` of the equality constraints is not read",
+        ),
+        (
+            model(&swing, "<equality><joint joint1=\"q\"/></equality>"),
+            "there is no such joint",
+        ),
+        (
+            model(&swing, "<include file=\"missing.xml\"/>"),
+            "cannot read",
+        ),
+        (
+            model(&swing, "<deformable/>"),
+            "`deformable` of a model is not read",
+        ),
+        (
+            model(&swing, "<compiler eulerseq=\"abc\"/>"),
+            "`eulerseq` has three of the letters",
+        ),
+        (model(&"<body>".repeat(5), ""), "no XML"),
+        (
+            model(
+                &format!("{}{}", "<body>".repeat(250), "</body>".repeat(250)),
+                "",
+            ),
+            "stand in each other more than 200 deep",
+        ),
+        (
+            "<robot/>".to_owned(),
+            "this is URDF: give its file the ending `.urdf`",
+        ),
+        ("<sdf/>".to_owned(), "a file of MJCF begins with `<mujoco>`"),
+        ("<mujoco/>".to_owned(), "nothing moves"),
+    ] {
+        let file = Scratch::new("model.xml", &text);
+        let output = lagrangian(&["import", file.path()]);
+        let said = String::from_utf8_lossy(&output.stderr);
+        if output.status.code() != Some(1) || !said.contains(words) {
+            missed.push(format!("{words:?} is not in {said:?}"));
+        }
+    }
+    assert!(missed.is_empty(), "{missed:#?}");
+    let left_out = model(&swing, "<equality><weld body1=\"bob\"/></equality>");
+    let machine = imported_model(&left_out, &[], &["--ignore", "weld"]);
+    let spec = std::fs::read_to_string(&machine.0).expect("a file");
+    assert!(
+        spec.contains("/// Not carried over: 1 element `weld`."),
+        "{spec}"
+    );
+}
+
+/// A swinging box of 0.2 by 0.4 by 0.6, as a box, as an OBJ in another unit and place, and from a file that is included.
+#[test]
+fn a_mesh_weighs_what_its_shape_does() {
+    let mut obj = String::new();
+    for corner in 0..8 {
+        let side = |bit: i32, half: i32| if corner >> bit & 1 == 1 { half } else { -half };
+        obj.push_str(&format!(
+            "v {} {} {}\n",
+            500 + side(0, 100),
+            side(1, 200),
+            side(2, 300)
+        ));
+    }
+    obj.push_str("f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n");
+    let body = |geom: &str| format!("{SWING}{geom}");
+    let exact = model(
+        &body("<geom type=\"box\" size=\"0.1 0.2 0.3\" pos=\"0 0 -1\"/>"),
+        "",
+    );
+    let mesh = "<geom type=\"mesh\" mesh=\"block\" pos=\"0 0 -1\"/>";
+    let assets =
+        "<asset><mesh file=\"block.obj\" scale=\"0.001 0.001 -0.001\" refpos=\"500 0 0\"/></asset>";
+    let meshed = model(&body(mesh), assets);
+    let included = model(&body(mesh), "<include file=\"assets.xml\"/>");
+    let assets = format!("<mujocoinclude>{assets}</mujocoinclude>");
+    let files = [
+        ("block.obj", obj.as_bytes()),
+        ("assets.xml", assets.as_bytes()),
+    ];
+    let points = json!([{ "q": [0.7] }]);
+    // I = m (0.2² + 0.6²)/12 + m, and the weight acts at 1 m.
+    let inertia = 48.0 * (0.4 / 12.0 + 1.0);
+    let truth = [inertia, -48.0 * 9.81 * 0.7_f64.sin() / inertia];
+    for text in [exact, meshed, included] {
+        let found = evaluated(&imported_model(&text, &files, &[]), &points).remove(0);
+        let found = [
+            numbers(&found["mass_matrix"])[0],
+            numbers(&found["accelerations"])[0],
+        ];
+        assert_close(&found, &truth, 50.0, &text);
+    }
+}
+
+/// An L, which is seen from its middle in part from outside, scaled, shifted and turned, as MuJoCo 4.0.0 compiles it: mass, mass centre
+/// and tensor (`body_mass`, `body_ipos`, and `body_inertia` turned by `body_iquat`, printed).
+#[test]
+fn meshes_weigh_what_mujoco_says() {
+    let mesh = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 3 0\nv 0 3 0\nv 0 0 1\nv 2 0 1\nv 2 1 1\nv 1 1 1\nv 1 3 1\nv 0 3 1\n\
+                f 6 5 4 3 2 1\nf 7 8 9 10 11 12\nf 1 2 8 7\nf 2 3 9 8\nf 3 4 10 9\nf 4 5 11 10\nf 5 6 12 11\nf 6 1 7 12\n"
+        .replace("f 6 5 4 3 2 1", "f 3 2 1\nf 4 3 1\nf 5 4 1\nf 6 5 1")
+        .replace("f 7 8 9 10 11 12", "f 7 8 9\nf 7 9 10\nf 7 10 11\nf 7 11 12");
+    let truths = [
+        (
+            "",
+            [
+                32.510437000813084,
+                -0.158058966615645,
+                0.254184363930466,
+                0.366064387050333,
+            ],
+            [
+                2.987161793092729,
+                3.810619373297407,
+                0.946250632735572,
+                0.019832835240556,
+                -0.746656934781764,
+                0.103673962967364,
+            ],
+        ),
+        (
+            "inertia=\"exact\"",
+            [
+                31.25,
+                -0.15622332859175,
+                0.255298719772404,
+                0.355654338549075,
+            ],
+            [
+                2.899359904402855,
+                3.721476690101819,
+                0.941003346631124,
+                0.021317679470907,
+                -0.762353289064933,
+                0.097345154666977,
+            ],
+        ),
+    ];
+    for (inertia, weight, tensor) in truths {
+        let text = model(
+            "<freejoint name=\"f\"/><geom type=\"mesh\" mesh=\"l\" pos=\"0.1 0.2 0.3\" quat=\"0.5 0.5 -0.5 0.6\" density=\"500\"/>",
+            &format!(
+                "<asset><mesh name=\"l\" file=\"l.obj\" scale=\"0.5 0.25 0.125\" refpos=\"0.5 0.25 1\" refquat=\"0.9 0.1 0.3 \
+                 -0.2\" {inertia}/></asset>"
+            ),
+        );
+        let machine = imported_model(&text, &[("l.obj", mesh.as_bytes())], &[]);
+        let spec = std::fs::read_to_string(&machine.0).expect("a file");
+        let value = |name: &str| -> f64 {
+            let (_, rest) = spec.split_once(&format!("bob_{name}: ")).expect(name);
+            let (_, rest) = rest.split_once(" = ").expect(name);
+            rest.split_once(',').expect(name).0.parse().expect(name)
+        };
+        let found = ["mass", "com_x", "com_y", "com_z"].map(value);
+        // Printed with 15 decimals.
+        assert_close(&found, &weight, 40.0, "weight");
+        let found = ["Ixx", "Iyy", "Izz", "Ixy", "Ixz", "Iyz"].map(value);
+        // MuJoCo keeps the principal moments and their axes, and these of a mesh to some 1e-7.
+        for (found, truth) in found.iter().zip(tensor) {
+            assert!((found - truth).abs() <= 1e-6, "{found}, not {truth}");
+        }
+    }
+}
+
+/// A motor behind a gear of URDF: its torque counts n times, its rotor n² times.
+#[test]
+fn transmissions_are_motors() {
+    let motor = "<transmission name=\"t\"><type>SimpleTransmission</type><joint name=\"pivot\"/><actuator \
+                 name=\"drive\"><mechanicalReduction>50</mechanicalReduction><rotorInertia>2e-4</rotorInertia></actuator></transmission>";
+    let text = pendulum("continuous", "<axis xyz=\"0 1 0\"/>")
+        .replace("</robot>", &format!("{motor}</robot>"));
+    let machine = imported_text(&text, &[]);
+    let found = evaluated(
+        &machine,
+        &json!([{ "q": [0.4], "inputs": { "drive": 0.3 } }]),
+    )
+    .remove(0);
+    let inertia = 2.0 * 0.25 + 2500.0 * 2e-4;
+    let torque = 50.0 * 0.3 - 2.0 * 9.81 * 0.5 * 0.4_f64.sin();
+    let found = [
+        numbers(&found["mass_matrix"])[0],
+        numbers(&found["accelerations"])[0],
+    ];
+    assert_close(&found, &[inertia, torque / inertia], 20.0, "a motor");
+    let machine = imported_text(&text, &["--ignore", "transmission"]);
+    let found = evaluated(&machine, &json!([{ "q": [0.4] }])).remove(0);
+    assert_close(&numbers(&found["mass_matrix"]), &[0.5], 1.0, "no motor");
+    let said = refused(&text.replace("pivot\"/><actuator", "p\"/><actuator"), &[]);
+    assert!(
+        said.contains("a transmission moves joint \"p\", and there is no such joint"),
+        "{said}"
+    );
+    let two = text.replace(
+        "<joint name=\"pivot\"/>",
+        "<joint name=\"pivot\"/><joint name=\"q\"/>",
+    );
+    assert!(refused(&two, &[]).contains("how a rotor turns with several joints is not read"));
+}
+
 #[test]
 fn calls_are_told_what_they_lack() {
     for (arguments, words) in [
-        (&["scene.xml"][..], "with the ending `.urdf`"),
+        (&["scene.sdf"][..], "with the ending `.urdf`"),
         (&["missing.urdf"], "cannot read missing.urdf"),
+        (
+            &[
+                "cli/tests/command/import/mujoco/hopper.xml",
+                "--base",
+                "floating",
+            ],
+            "says itself which bodies float",
+        ),
         (&["a.urdf", "--out", "a.txt"], "writes `.machine`"),
         (&["a.urdf", "--friction", "smooth=0"], "a rate above 0"),
         (

@@ -118,6 +118,139 @@ fn kapitzas_pendulum_upright_has_the_multipliers_of_mathieus_equation() {
     }
 }
 
+/// Kapitza's pendulum in the coordinates of its bob, on a rod from the pivot that is shaken: a constraint that moves.
+#[test]
+fn on_a_shaken_rod_the_multipliers_are_those_of_the_angle() {
+    let spec = Scratch::new(
+        "rod.machine",
+        "machine Rod in plane {
+            parameters { l: m = 1, a: m = 0.1, omega: rad/s = 88, g: m/s^2 = 9.81 }
+            coordinates { x: m = 0, y: m = l + a }
+            bodies { bob { mass: 2, at: (x, y) } }
+            gravity (0, -g);
+            constraints { rod: x^2 + (y - a*cos(omega*t))^2 = l^2 }
+        }",
+    );
+    for (a, omega, exact) in [
+        (
+            "a=0.1",
+            "omega=88",
+            [
+                (0.926_172_254_050_953, 0.377_100_723_714_734_8),
+                (0.926_172_254_050_953, -0.377_100_723_714_734_8),
+            ],
+        ),
+        (
+            "a=0.5",
+            "omega=88",
+            [
+                (-2.378_748_545_901_472, 0.0),
+                (-0.420_389_116_673_545_3, 0.0),
+            ],
+        ),
+    ] {
+        let found = orbit(&[
+            spec.path(),
+            "--set",
+            a,
+            "--set",
+            omega,
+            "--period",
+            "2*pi/omega",
+        ]);
+        assert_multipliers(&found, &exact);
+        assert_eq!(found["states"], serde_json::json!(["x", "der(x)"]));
+        assert!(number(&found["at"]["q"]["x"]).abs() < CLOSE);
+    }
+}
+
+/// A skate on a slope that turns at ω goes down by `g sin²(ωt)/(2ω²)` and back up, and across by `g (ωt − sin(2ωt)/2)/(2ω²)`. With speed u along
+/// the blade and φ(0) = 0, in general
+///
+/// ```text
+/// u̇ = g cos φ,   x(T) = x₀ + ∫ u cos φ dt,   y(T) = y₀ + ∫ u sin φ dt
+/// ```
+///
+/// differentiated by the start where u(0) = 0 and ωT = 2π: ∂y/∂ω = −2πg/ω³, ∂φ/∂ω = T, ∂u/∂ω = gT/ω; all else as it was.
+#[test]
+fn a_skate_on_a_slope_has_its_monodromy_in_closed_form() {
+    let spec = Scratch::new(
+        "skate.machine",
+        "machine Skate in plane {
+            parameters { g: m/s^2 = 1 }
+            coordinates { x: m, y: m, phi: rad }
+            bodies { skate { mass: 3, inertia: 0.7, at: (x, y), angle: phi } }
+            gravity (g, 0);
+            constraints { blade: cos(phi)*der(y) = sin(phi)*der(x) }
+        }",
+    );
+    let across = (PI / 4.0).to_string();
+    let found = orbit(&[
+        spec.path(),
+        "--rate",
+        "phi=2.1",
+        "--keep",
+        "phi,der(x)",
+        "--period",
+        "pi*s",
+        "--advance",
+        "phi=2*pi",
+        "--advance",
+        &format!("y={across}"),
+    ]);
+    assert_eq!(
+        found["states"],
+        serde_json::json!(["x", "y", "phi", "der(x)", "der(phi)"])
+    );
+    assert!((number(&found["at"]["v"]["phi"]) - 2.0).abs() < CLOSE);
+    let turned = number(&found["at"]["q"]["phi"]);
+    assert!(turned.abs() < CLOSE, "{turned}");
+    let mut exact = [[0.0; 5]; 5];
+    for (k, row) in exact.iter_mut().enumerate() {
+        row[k] = 1.0;
+    }
+    (exact[1][4], exact[2][4], exact[3][4]) = (-PI / 4.0, PI, PI / 2.0);
+    for (row, exact) in found["monodromy"].as_array().unwrap().iter().zip(exact) {
+        for (x, exact) in row.as_array().unwrap().iter().zip(exact) {
+            assert!((number(x) - exact).abs() < 10.0 * CLOSE, "{found:#}");
+        }
+    }
+    assert_eq!(found["multipliers"].as_array().unwrap().len(), 5);
+}
+
+/// The period of a free pendulum is an elliptic integral, also where its bob has two coordinates, and the start is projected onto the
+/// rod.
+#[test]
+fn a_pendulum_on_a_rod_has_the_period_of_its_angle() {
+    let spec = Scratch::new(
+        "bob.machine",
+        "machine Bob in plane {
+            parameters { l: m = 0.8, g: m/s^2 = 9.81 }
+            coordinates { x: m = 0.6, y: m = -0.5 }
+            bodies { bob { mass: 0.3, at: (x, y) } }
+            gravity (0, -g);
+            constraints { rod: x^2 + y^2 = l^2 }
+        }",
+    );
+    let found = orbit(&[spec.path(), "--keep", "x,der(x)"]);
+    let x = number(&found["at"]["q"]["x"]);
+    assert_eq!(x, 0.6);
+    let half = 0.5 * (0.6_f64 / 0.8).asin();
+    // T = 2π √(l/g) / agm(1, cos(θ₀/2)).
+    let (mut a, mut b) = (1.0, half.cos());
+    for _ in 0..8 {
+        (a, b) = (0.5 * (a + b), f64::sqrt(a * b));
+    }
+    let exact = TAU * (0.8_f64 / 9.81).sqrt() / a;
+    assert!((number(&found["period"]) - exact).abs() < CLOSE);
+    let all = multipliers(&found);
+    assert_eq!(all.len(), 2);
+    for (re, im, error, _) in all {
+        assert!((re - 1.0).hypot(im) < CLOSE.max(error), "{found:#}");
+    }
+    assert_eq!(found["family"], 1);
+}
+
 #[test]
 fn upright_is_found_from_beside_it() {
     let found = orbit(&[
@@ -282,6 +415,104 @@ fn van_der_pols_cycle_has_its_period_to_ten_digits() {
     assert_eq!(number(&kept["at"]["v"]["x"]), 0.0);
 }
 
+/// λ² + 3λ + 1 = 0.
+const AT_REST: [f64; 2] = [-0.381_966_011_250_105, -2.618_033_988_749_895];
+
+#[test]
+fn van_der_pols_cycle_is_the_same_with_states_of_first_order() {
+    let spec = Scratch::new(
+        "vdp.machine",
+        "machine VanDerPol in plane {
+            parameters { mu: 1/s = 1, k: 1/s^2 = 1, size: m = 1 }
+            // What is at rest beside the states: e^{λt} with λ² + 3λ + 1 = 0.
+            coordinates { rest: m }
+            bodies { block { mass: 1, at: (rest, 0) } }
+            gravity none;
+            springs { back { stiffness: 1, stretch: rest } }
+            dampers { oil { damping: 3, stretch: rest } }
+            states {
+                x: m = 2, der(x) = y,
+                y: m/s = 0, der(y) = mu*(1 - (x/size)^2)*y - k*x,
+            }
+        }",
+    );
+    let found = orbit(&[spec.path()]);
+    assert!(
+        (number(&found["period"]) / 6.663_286_859_323_13 - 1.0).abs() < 1e-10,
+        "{found:#}"
+    );
+    assert_eq!(
+        found["states"],
+        serde_json::json!(["rest", "der(rest)", "x", "y"])
+    );
+    let beside = AT_REST.map(|rate| ((rate * 6.663_286_859_323_13).exp(), 0.0));
+    let own = (8.596_950_636_038_052e-4, 0.0);
+    assert_multipliers(&found, &[(1.0, 0.0), beside[0], own, beside[1]]);
+    let kept = orbit(&[spec.path(), "--keep", "y"]);
+    assert!(
+        (number(&kept["at"]["states"]["x"]) - 2.008_619_860_874_843).abs() < CLOSE,
+        "{kept:#}"
+    );
+    assert_eq!(number(&kept["at"]["states"]["y"]), 0.0);
+    // As text the states stand under their names, and nothing is said of their integrals.
+    let said = lagrangian(&["orbit", spec.path(), "--keep", "y"]);
+    let said = String::from_utf8(said.stdout).expect("text");
+    assert!(
+        said.contains("\n  x    = 2.00861986")
+            && said.contains("\n  y    = 0")
+            && !said.contains("integral"),
+        "{said}"
+    );
+    let (status, said) = refused(&[spec.path(), "--advance", "x=1"]);
+    assert_eq!(status, 2, "{said}");
+    assert!(said.contains("comes back to its value"), "{said}");
+}
+
+#[test]
+fn a_circuit_on_a_sine_has_its_phase_and_forgets_by_its_time_constant() {
+    // τ u′ = U sin Ωt − u: u = U (sin Ωt − Ωτ cos Ωt)/(1 + Ω²τ²), and what is beside it goes with e^{−t/τ}.
+    let spec = Scratch::new(
+        "filter.machine",
+        "machine Filter in plane {
+            parameters { R: ohm = 1e3, C: F = 1e-6, U: V = 2, Omega: rad/s = 2000 }
+            // What is at rest beside the circuit: e^{λt} with λ² + 3λ + 1 = 0.
+            coordinates { rest: m }
+            bodies { block { mass: 1, at: (rest, 0) } }
+            gravity none;
+            springs { back { stiffness: 1, stretch: rest } }
+            dampers { oil { damping: 3, stretch: rest } }
+            states { u: V = 0, der(u) = (U*sin(Omega*t) - u)/(R*C) }
+        }",
+    );
+    let found = orbit(&[spec.path(), "--period", "2*pi/Omega"]);
+    let (turn, period) = (2.0, TAU / 2000.0); // Ωτ
+    let start = -2.0 * turn / (1.0 + turn * turn);
+    assert!((number(&found["at"]["states"]["u"]) - start).abs() < CLOSE);
+    let with = |tau: f64| {
+        let [slow, fast] = AT_REST.map(|rate| ((rate * period).exp(), 0.0));
+        [slow, fast, ((-period / tau).exp(), 0.0)]
+    };
+    assert_multipliers(&found, &with(1e-3));
+    assert_eq!(found["stability"], "stable");
+    // The state settles before, or is followed along a resistance.
+    let settled = orbit(&[spec.path(), "--period", "2*pi/Omega", "--settle", "0.02"]);
+    assert!((number(&settled["at"]["states"]["u"]) - start).abs() < CLOSE);
+    let along = orbit(&[
+        spec.path(),
+        "--period",
+        "2*pi/Omega",
+        "--along",
+        "R=1e3..2e3:3",
+    ]);
+    let points = along["points"].as_array().expect("a list");
+    for (point, tau) in points.iter().zip([1e-3, 1.5e-3, 2e-3]) {
+        assert_multipliers(point, &with(tau));
+    }
+    // A period that is none is said of the state.
+    let (_, said) = refused(&[spec.path(), "--period", "3/Omega"]);
+    assert!(said.contains("the rate of `u` is another one"), "{said}");
+}
+
 #[test]
 fn a_driven_oscillator_answers_as_its_frequency_response_says() {
     // x″ + 2 δ x′ + ω₀² x = F cos Ω t: amplitude F/|ω₀² − Ω² + 2iδΩ|, multipliers e^{(−δ ± iω) T}.
@@ -360,6 +591,18 @@ fn a_wheel_that_turns_has_an_orbit_up_to_whole_turns() {
 
 #[test]
 fn what_cannot_be_is_said_with_what_helps() {
+    let rods = |rods: &str| {
+        let text = "machine Twice in plane {
+            coordinates { x: m = 0.6, y: m = -0.8 }
+            bodies { bob { mass: 1, at: (x, y) } }
+            gravity (0, -9.81*m/s^2);
+            constraints { RODS }
+        }";
+        text.replace("RODS", rods)
+    };
+    let once = Scratch::new("once.machine", &rods("rod: x^2 + y^2 = 1*m^2"));
+    let twice = rods("rod: x^2 + y^2 = 1*m^2, again: 2*x^2 + 2*y^2 = 2*m^2");
+    let twice = Scratch::new("twice.machine", &twice);
     let spec = Scratch::new("swing.machine", SWING);
     let kapitza = "machines/kapitza_pendulum.machine";
     for (arguments, status, words) in [
@@ -397,7 +640,8 @@ fn what_cannot_be_is_said_with_what_helps() {
         ),
         (&[spec.path(), "--start", "theta=0"], 1, &["at rest"]),
         (&[spec.path(), "--advance", "phi=1"], 2, &["phi"]),
-        (&["machines/four_bar.machine"], 1, &["constraints"]),
+        (&[twice.path()], 1, &["constraint `again`", "leave it out"]),
+        (&[once.path(), "--keep", "x,y"], 1, &["kept", "--keep"]),
         (&["machines/stick_slip.machine"], 1, &["sliding"]),
         (
             &[spec.path(), "--out", "orbit.txt"],

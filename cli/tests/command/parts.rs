@@ -1,4 +1,4 @@
-//! Parts that machines are made of, run from end to end, against closed forms.
+//! Parts that machines are made of, and the machines of the library that show them, run from end to end, against closed forms.
 
 use serde_json::Value;
 
@@ -8,6 +8,26 @@ use crate::support::Scratch;
 /// A run at a tolerance of 1e-13, whose state is good to a thousand times that where the motion is not
 /// sensitive: errors of some hundred steps add up.
 const WITHIN: f64 = 1e-10;
+
+/// A run with rates at its start.
+fn pushed(spec: &str, until: f64, rates: &[&str]) -> Value {
+    let until = format!("{until:?}");
+    let mut arguments = vec![
+        "simulate",
+        spec,
+        "--until",
+        &until,
+        "--json",
+        "--tolerance",
+        "1e-13",
+    ];
+    for rate in rates {
+        arguments.extend(["--rate", rate]);
+    }
+    let output = crate::support::lagrangian(&arguments);
+    serde_json::from_slice(&output.stdout)
+        .unwrap_or_else(|error| panic!("{error}: {}", String::from_utf8_lossy(&output.stderr)))
+}
 
 fn run(name: &str, text: &str, until: f64) -> Value {
     let spec = Scratch::new(&format!("{name}.machine"), text);
@@ -141,4 +161,274 @@ fn a_stop_is_half_a_swing_of_its_spring() {
     is_good(&run);
     close(number(&run["q"]["x"]), 0.1, 1e-8);
     close(number(&run["v"]["x"]), -2.0, 1e-8);
+}
+
+/// The library's gear, with three planets: the sun has to turn what all wheels and the carrier have as it sees them.
+#[test]
+fn the_planetary_gear_of_the_library_obeys_willis() {
+    let run = simulate("machines/parts/planetary_gear.machine", 0.5, &[]);
+    is_good(&run);
+    let (z1, z2, z3, m) = (20.0, 30.0, 80.0, 2e-3);
+    let r: f64 = m * (z1 + z2) / 2.0;
+    let (of_sun, of_planet) = (
+        0.3 * f64::powi(m * z1, 2) / 8.0,
+        0.5 * f64::powi(m * z2, 2) / 8.0,
+    );
+    // Of the carrier, and of a planet in the room.
+    let (arm, planet) = (1.0 / 5.0, (1.0 - z3 / z2) / 5.0);
+    let reduced =
+        of_sun + (4e-4 + 3.0 * 0.5 * r * r) * arm * arm + 3.0 * of_planet * planet * planet;
+    let turned = 0.5 * (3.0 - 10.0 * arm) / reduced * 0.25;
+    close(number(&run["q"]["sun"]), turned, WITHIN * turned.abs());
+    close(
+        number(&run["q"]["arm"]),
+        turned * arm,
+        WITHIN * turned.abs(),
+    );
+    for i in 1..=3 {
+        // As the carrier sees it.
+        let own = number(&run["q"][format!("planet[{i}]")]);
+        close(own, turned * (planet - arm), WITHIN * turned.abs());
+    }
+}
+
+/// To a stop, half a swing in it, and back to the other.
+#[test]
+fn the_door_of_the_library_goes_to_and_fro() {
+    let (inertia, a, rate) = (25.0 * 0.81 / 3.0, 80_f64.to_radians(), 1.2);
+    let period = 4.0 * a / rate + 2.0 * std::f64::consts::PI * f64::sqrt(inertia / 4000.0);
+    for (part, sign) in [(0.5, -1.0), (1.0, 1.0)] {
+        let run = simulate("machines/parts/stopped_door.machine", part * period, &[]);
+        is_good(&run);
+        // Steps that go over the edge of a stop keep the tolerance by their error estimate alone.
+        close(number(&run["q"]["phi"]), 0.0, 1e-8);
+        close(number(&run["v"]["phi"]), sign * rate, 1e-8);
+    }
+}
+
+#[test]
+fn the_parachutist_of_the_library_falls_as_the_hyperbolic_cosine() {
+    let run = simulate("machines/parts/parachutist.machine", 3.0, &[]);
+    is_good(&run);
+    let terminal = f64::sqrt(2.0 * 95.0 * 9.81 / (1.2 * 1.4 * 25.0));
+    let fallen = terminal * terminal / 9.81 * f64::ln(f64::cosh(9.81 * 3.0 / terminal));
+    close(number(&run["q"]["y"]), 800.0 - fallen, WITHIN * 800.0);
+    close(number(&run["q"]["x"]), 0.0, WITHIN);
+    // In a wind the canopy, slow against the air, drifts as if the air stood still, seen from it.
+    let windy = simulate("machines/parts/parachutist.machine", 3.0, &["w=4"]);
+    let carried = pushed("machines/parts/parachutist.machine", 3.0, &["x=-4"]);
+    close(
+        number(&windy["q"]["x"]),
+        number(&carried["q"]["x"]) + 12.0,
+        WITHIN * 12.0,
+    );
+    close(
+        number(&windy["q"]["y"]),
+        number(&carried["q"]["y"]),
+        WITHIN * 800.0,
+    );
+}
+
+/// The load rises with (M/R − m g)/(m + J/R² + J₁/r²).
+#[test]
+fn the_hoist_of_the_library_lifts_by_its_reduced_mass() {
+    let run = simulate("machines/parts/hoist.machine", 1.5, &[]);
+    is_good(&run);
+    // Of discs J/R² is half their mass.
+    let rises = (700.0 / 0.3 - 200.0 * 9.81) / (200.0 + 40.0 + 10.0);
+    let lifted = 0.5 * rises * 1.5 * 1.5;
+    close(number(&run["q"]["y"]), 1.0 + lifted, WITHIN);
+    close(number(&run["q"]["x"]), 1.7, WITHIN);
+    close(number(&run["q"]["drum"]), -lifted / 0.3, WITHIN);
+    // The rope crosses over to the other side of the sheave, which turns to the left.
+    close(number(&run["q"]["sheave"]), lifted / 0.2, WITHIN);
+}
+
+/// Swinging, the rope rolls off the sheave and onto it. With ψ the direction of the hanging part and ℓ its length, the load is at
+/// `c + r n + ℓ e`, and `ℓ = ℓ₀ + r (ψ − ψ₀) + R φ` with φ the turn of the drum: a machine of two coordinates that no rope ties.
+#[test]
+fn a_load_swings_on_the_involute_of_its_sheave() {
+    let free = "machine Involute in plane {
+        parameters {
+            m: kg = 200, md: kg = 80, ms: kg = 20, R: m = 0.3, r: m = 0.2, J: kg*m^2 = md*R^2/2, J1: kg*m^2 = ms*r^2/2,
+            a: m = 1.5, H: m = 6, M: N*m = 700, hung: m = 5, g: m/s^2 = 9.81,
+        }
+        coordinates { psi: rad = -pi/2, drum: rad, der(psi): rad/s = 0.3 }
+        define { length = hung + r*(psi + pi/2) + R*drum }
+        bodies {
+            load { mass: m, at: (a, H) + r*(-sin(psi), cos(psi)) + polar(length, psi) },
+            drum { mass: md, inertia: J, at: (0, 0), angle: drum },
+        }
+        rotors { sheave { inertia: J1, angle: -R/r*drum } }
+        gravity (0, -g);
+        torques { winch { on: drum, torque: -M } }
+        outputs {
+            x: m = a - r*sin(psi) + length*cos(psi),
+            y: m = H + r*cos(psi) + length*sin(psi),
+        }
+    }";
+    let free = run("involute", free, 2.0);
+    is_good(&free);
+    // The load begins at 5 m · 0.3 rad/s along x; a pendulum of that length swings by a third of a radian.
+    let tied = pushed("machines/parts/hoist.machine", 2.0, &["x=1.5"]);
+    is_good(&tied);
+    let (psi, turned) = (number(&free["q"]["psi"]), number(&free["q"]["drum"]));
+    let length = 5.0 + 0.2 * (psi + std::f64::consts::FRAC_PI_2) + 0.3 * turned;
+    assert!(
+        (psi + std::f64::consts::FRAC_PI_2).abs() > 0.05,
+        "it swings: {psi}"
+    );
+    // The rope is held as a rate, so its length errs as places do: some hundred steps of 1e-13.
+    let x = 1.5 - 0.2 * psi.sin() + length * psi.cos();
+    let y = 6.0 + 0.2 * psi.cos() + length * psi.sin();
+    close(number(&tied["q"]["x"]), x, WITHIN);
+    close(number(&tied["q"]["y"]), y, WITHIN);
+    close(number(&tied["q"]["drum"]), turned, WITHIN);
+    close(number(&tied["q"]["sheave"]), -1.5 * turned, WITHIN);
+}
+
+/// A rope from a hook down under a loose pulley, up over a fixed one and down to a counterweight.
+const TACKLE: &str = "machine Tackle in plane {
+    parameters { M: kg = 3, m: kg = 1, p: m = 0.3, q: m = 0.1, g: m/s^2 = 9.81, L: m = 2 + 1.5 + 0.4*pi }
+    coordinates { x: m, y: m = -1, X: m = p + 2*q, Y: m = -1.5 }
+    bodies { block { mass: M, at: (x, y) }, counterweight { mass: m, at: (X, Y) } }
+    gravity (0, -g);
+    ropes { rope { path: ((-p, 0), block.at, (p + q, 0), counterweight.at), radii: (0, p, -q, 0), length: L } }
+}";
+
+/// Where all parts hang the arcs stay, and the pulleys move as Atwood's.
+#[test]
+fn a_tackle_of_pulleys_with_radii_that_hangs_is_atwoods_machine() {
+    let run = run("tackle", TACKLE, 0.5);
+    is_good(&run);
+    let (heavy, light) = (3.0, 1.0);
+    let a = 9.81 * (heavy / 2.0 - light) / (heavy / 2.0 + 2.0 * light);
+    close(number(&run["q"]["y"]), -1.0 - 0.5 * a * 0.25, WITHIN);
+    close(number(&run["q"]["Y"]), -1.5 + a * 0.25, WITHIN);
+    close(number(&run["q"]["x"]), 0.0, WITHIN);
+    close(number(&run["q"]["X"]), 0.5, WITHIN);
+}
+
+/// The length of a rope by the angles of its tangents, as drawn with compasses: a part is at asin(h/d) from the line of centres.
+fn drawn(path: &[([f64; 2], f64)]) -> f64 {
+    let parts: Vec<(f64, f64)> = path
+        .windows(2)
+        .map(|ends| {
+            let (dx, dy) = (ends[1].0[0] - ends[0].0[0], ends[1].0[1] - ends[0].0[1]);
+            let (d, h) = (dx.hypot(dy), ends[1].1 - ends[0].1);
+            ((d * d - h * h).sqrt(), dy.atan2(dx) - (h / d).asin())
+        })
+        .collect();
+    let straight: f64 = parts.iter().map(|(length, _)| length).sum();
+    let arcs = (1..path.len() - 1).map(|k| {
+        let turn = (parts[k].1 - parts[k - 1].1) * path[k].1.signum();
+        path[k].1.abs() * turn.rem_euclid(std::f64::consts::TAU)
+    });
+    straight + arcs.sum::<f64>()
+}
+
+/// Swinging wildly, the rope is as long as its drawing throughout, and takes no energy.
+#[test]
+fn a_tackle_that_swings_keeps_the_length_of_its_rope() {
+    let spec = Scratch::new("swinging.machine", TACKLE);
+    for until in [0.3, 0.6, 0.9] {
+        let run = pushed(spec.path(), until, &["x=1.2", "X=-0.7"]);
+        is_good(&run);
+        let at = |name: &str| number(&run["q"][name]);
+        assert!(at("x").abs() > 0.05, "{run:#}");
+        let path = [
+            ([-0.3, 0.0], 0.0),
+            ([at("x"), at("y")], 0.3),
+            ([0.4, 0.0], -0.1),
+            ([at("X"), at("Y")], 0.0),
+        ];
+        let length = 3.5 + 0.4 * std::f64::consts::PI;
+        // Constraints are kept to 1e-13 of their terms.
+        close(drawn(&path), length, 1e-11);
+        close(number(&run["energy_residual"]), 0.0, WITHIN);
+    }
+}
+
+/// On a heavy pulley that it does not slip on, the rope pulls harder before it by what turns it.
+#[test]
+fn a_pulley_with_inertia_takes_its_share_of_the_pull() {
+    let spec = "machine Atwood in plane {
+        parameters { M: kg = 3, m: kg = 1, r: m = 0.25, J: kg*m^2 = 0.125, g: m/s^2 = 9.81 }
+        coordinates { y: m = -1, z: m = -2, turn: rad }
+        bodies {
+            heavy { mass: M, at: (-r, y) }, light { mass: m, at: (r, z) },
+            wheel { mass: 4, inertia: J, at: (0, 0), angle: turn },
+        }
+        gravity (0, -g);
+        ropes { rope { path: (heavy.at, wheel.at, light.at), radii: (0, -r, 0), turns: (0, wheel, 0), length: 3 + pi*r } }
+        outputs { before: N = M*(g + der(der(y))) }
+    }";
+    let end = run("pulley", spec, 0.4);
+    is_good(&end);
+    // J/r² is 2 kg.
+    let a = 9.81 * (3.0 - 1.0) / (3.0 + 1.0 + 2.0);
+    close(number(&end["q"]["y"]), -1.0 - 0.5 * a * 0.16, WITHIN);
+    close(number(&end["q"]["z"]), -2.0 + 0.5 * a * 0.16, WITHIN);
+    // Over the heavy end's fall the wheel turns to the left.
+    close(number(&end["q"]["turn"]), 0.5 * a * 0.16 / 0.25, WITHIN);
+    let spec = Scratch::new("pulley.machine", spec);
+    let output = crate::support::lagrangian(&["evaluate", spec.path()]);
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let found: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let behind = -number(&found[0]["multipliers"]["rope"]);
+    let difference = -number(&found[0]["multipliers"]["rope.pulley1"]);
+    close(behind, 9.81 + a, WITHIN);
+    close(behind + difference, 3.0 * (9.81 - a), WITHIN);
+    close(
+        number(&found[0]["outputs"]["before"]),
+        3.0 * (9.81 - a),
+        WITHIN,
+    );
+}
+
+/// A rope that is lifted off its pulley would push on it from the other side: no run goes on there.
+#[test]
+fn a_rope_that_leaves_its_pulley_ends_the_run() {
+    let end = |spec: &str, until: &str, rate: &str| {
+        let spec = Scratch::new("lifted.machine", spec);
+        let call = [
+            "simulate",
+            spec.path(),
+            "--until",
+            until,
+            "--rate",
+            rate,
+            "--json",
+        ];
+        let output = crate::support::lagrangian(&call);
+        serde_json::from_slice::<Value>(&output.stdout).expect("JSON")
+    };
+    let hung = "machine Lifted in plane {
+        parameters { m: kg = 1, r: m = 0.1, R: m = 0.05, J: kg*m^2 = 0.1, g: m/s^2 = 9.81 }
+        coordinates { x: m = 1, y: m = -0.3, drum: rad }
+        bodies { load { mass: m, at: (x, y) }, drum { mass: 1, inertia: J, at: (-1, -0.2), angle: drum } }
+        gravity (0, -g);
+        ropes { rope { ROPE } }
+    }";
+    // Off a drum, and of a length of its own.
+    let wound = "path: (drum.at, (0, 0), load.at), radii: (R, -r, 0), turns: (drum, 0, 0)";
+    let length = drawn(&[([-1.0, -0.2], 0.0), ([0.0, 0.0], -0.1), ([1.0, -0.3], 0.0)]);
+    let tied =
+        format!("path: ((-1, -0.2), (0, 0), load.at), radii: (0, -r, 0), length: {length:?}");
+    for (rope, ending) in [
+        (wound, "lies on pulley 1"),
+        (&tied, "the motion has a jump"),
+    ] {
+        let spec = hung.replace("ROPE", rope);
+        let thrown = end(&spec, "0.3", "y=5");
+        let why = thrown["error"].as_str().unwrap_or_default();
+        assert!(why.contains(ending), "{thrown:#}");
+        // Let go, it hangs on.
+        let dropped = end(&spec, "0.05", "y=0");
+        assert_eq!(dropped["error"], Value::Null, "{dropped:#}");
+    }
 }

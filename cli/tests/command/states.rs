@@ -438,3 +438,170 @@ fn what_a_state_cannot_do_is_said_at_the_word() {
         assert!(said.contains(word), "{extra} {rate}: {said}");
     }
 }
+
+/// A loudspeaker on a sine: a membrane of 20 g, and a coil of which it is half, tied to it or one with it.
+fn loudspeaker(is_tied: bool) -> String {
+    let (coordinates, parts, tie) = match is_tied {
+        true => (
+            "x: m, z: m",
+            "membrane { mass: m/2, at: (x, 0) }, coil { mass: m/2, at: (z, 0) }",
+            "constraints { glue: z = x }",
+        ),
+        false => ("x: m", "membrane { mass: m, at: (x, 0) }", ""),
+    };
+    format!(
+        "machine Loudspeaker in plane {{
+            parameters {{ m: kg = 0.02, k: N/m = 2e3, b: N*s/m = 1, Bl: N/A = 5, R: ohm = 6, L: H = 2e-3, U: V = 4, Omega: rad/s = 400 }}
+            coordinates {{ {coordinates} }}
+            states {{ i: A = 0, der(i) = (U*sin(Omega*t) - R*i - Bl*der(x))/L }}
+            bodies {{ {parts} }}
+            gravity none;
+            springs {{ back {{ stiffness: k, stretch: x }} }}
+            dampers {{ air {{ damping: b, stretch: x }} }}
+            forces {{ magnet {{ on: x, value: Bl*i }} }}
+            {tie}
+        }}"
+    )
+}
+
+#[test]
+fn a_period_of_a_machine_with_a_state_is_the_exponential_of_its_matrix() {
+    let (m, k, b, bl, r, l, u, omega) = (0.02, 2e3, 1.0, 5.0, 6.0, 2e-3, 4.0, 400.0);
+    // x, v, i, and the sine and cosine that drive them.
+    let matrix = [
+        [0.0, 1.0, 0.0, 0.0, 0.0],
+        [-k / m, -b / m, bl / m, 0.0, 0.0],
+        [0.0, -bl / l, -r / l, u / l, 0.0],
+        [0.0, 0.0, 0.0, 0.0, omega],
+        [0.0, 0.0, 0.0, -omega, 0.0],
+    ];
+    let period = std::f64::consts::TAU / omega;
+    for is_tied in [false, true] {
+        let spec = Scratch::new("loudspeaker.machine", &loudspeaker(is_tied));
+        let found = json(&["orbit", spec.path(), "--period", "2*pi/Omega", "--json"]);
+        let states: Vec<&str> = found["states"]
+            .as_array()
+            .expect("a list")
+            .iter()
+            .filter_map(Value::as_str)
+            .collect();
+        // Tied, either of the two coordinates tells where both are.
+        let is_of = |name: &str, of: &str| name.replace('z', "x") == of;
+        assert!(
+            states.len() == 3
+                && is_of(states[0], "x")
+                && is_of(states[1], "der(x)")
+                && states[2] == "i",
+            "{states:?}"
+        );
+        // Steps err by 1e-11 of the largest number, of rates some 200 times places; a hundred steps.
+        for column in 0..3 {
+            let mut unit = [0.0; 5];
+            unit[column] = 1.0;
+            let expected = exponential(matrix, period, unit);
+            for row in 0..3 {
+                let value = number(&found["monodromy"][row][column]);
+                close(
+                    value,
+                    expected[row],
+                    1e-7,
+                    &format!("{row} {column} {is_tied}"),
+                );
+            }
+        }
+        // The start comes back.
+        let at = &found["at"];
+        let start = [
+            number(&at["q"]["x"]),
+            number(&at["v"]["x"]),
+            number(&at["states"]["i"]),
+            0.0,
+            1.0,
+        ];
+        let there = exponential(matrix, period, start);
+        for (from, to) in start.iter().zip(there) {
+            close(to, *from, 1e-8, "the start");
+        }
+        assert!(start[2].abs() > 0.1, "{start:?}");
+    }
+}
+
+/// A current that dies away through a resistance, i = i₀ e^{−Rt/L}, beside a block that is of no matter.
+const WINDING: &str = "machine Winding in plane {
+    parameters { R: ohm = 2, L: H = 0.5, first: A = 3 }
+    coordinates { x: m }
+    states { i: A = first, der(i) = -R*i/L }
+    bodies { block { mass: 1, at: (x, 0) } }
+    gravity none;
+}
+";
+
+#[test]
+fn the_start_of_a_state_is_varied_and_fitted_under_its_name() {
+    let spec = Scratch::new("winding.machine", WINDING);
+    let found = json(&[
+        "sensitivities",
+        spec.path(),
+        "--by",
+        "start(i),R,first",
+        "--until",
+        "0.5",
+        "--tolerance",
+        "1e-11",
+        "--of",
+        "i",
+        "--json",
+    ]);
+    let left = f64::exp(-2.0);
+    // By the start, by R: −(t/L) i, and by the parameter that the start follows.
+    for (k, known) in [left, -3.0 * left, left].into_iter().enumerate() {
+        let values = found["derivatives"][k]["values"]
+            .as_array()
+            .expect("a list");
+        close(
+            number(&values[values.len() - 1]),
+            known,
+            1e-8,
+            "sensitivity",
+        );
+    }
+    let named = |k: usize| found["derivatives"][k]["name"].as_str().expect("a name");
+    assert_eq!([named(0), named(1)], ["i by start(i)", "i by R"]);
+    assert_eq!(found["derivatives"][0]["unit"], "A/A");
+
+    // Measured in closed form with 4 A and 3 ohm.
+    let mut rows = String::from("t,i [A]\n");
+    for k in 0..=20 {
+        let t = f64::from(k) / 40.0;
+        rows.push_str(&format!("{t},{:e}\n", 4.0 * f64::exp(-6.0 * t)));
+    }
+    let data = Scratch::new("data.csv", &rows);
+    let out = data.0.with_file_name("fitted.machine");
+    let out = out.to_str().expect("text");
+    let call = [
+        "fit",
+        spec.path(),
+        "--data",
+        data.path(),
+        "--fit",
+        "start(i),R",
+    ];
+    let found = json(&[&call[..], &["--json", "--out", out]].concat());
+    close(number(&found["fitted"][0]["value"]), 4.0, 1e-6, "start");
+    close(number(&found["fitted"][1]["value"]), 3.0, 1e-6, "R");
+    assert_eq!(found["fitted"][0]["name"], "start(i)");
+    assert_eq!(found["fitted"][0]["unit"], "A");
+    // The variant starts there.
+    let found = run(out, "0.5", &[]);
+    close(
+        number(&found["states"]["i"]),
+        4.0 * f64::exp(-3.0),
+        1e-6,
+        "fitted",
+    );
+    for name in ["start(j)", "rate(integral(i))", "start(integral(i))"] {
+        let call = ["fit", spec.path(), "--data", data.path(), "--fit", name];
+        let output = lagrangian(&call);
+        assert_eq!(output.status.code(), Some(2), "{name}");
+    }
+}

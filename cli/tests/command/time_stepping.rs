@@ -239,3 +239,79 @@ fn what_time_stepping_does_not_know_is_refused() {
     let sweep = said(&arguments);
     assert!(sweep.contains("fixed length"), "{sweep}");
 }
+
+fn auto(spec: &str, until: &str, more: &[&str]) -> Value {
+    let mut arguments = vec!["simulate", spec, "--until", until, "--json"];
+    arguments.extend(more);
+    let output = lagrangian(&arguments);
+    let text = String::from_utf8(output.stdout).expect("text");
+    let said = String::from_utf8_lossy(&output.stderr);
+    let run: Value = serde_json::from_str(&text).unwrap_or_else(|e| panic!("{e}: {text}{said}"));
+    assert_eq!(run["error"], Value::Null, "{run:#}");
+    run
+}
+
+/// Without any option discs fall into a bowl and come to rest: where they touch too often the run goes on by time stepping, and says
+/// when, in which steps, and that nothing bounds their error. The books close as those of time stepping do.
+#[test]
+fn a_run_hands_over_where_discs_pile_up() {
+    let run = auto("machines/contacts/pile.machine", "6", &["--const", "N=8"]);
+    close(number(&run["t"]), 6.0, 0.0);
+    let handovers = run["handovers"].as_array().expect("handovers");
+    assert_eq!(handovers[0]["to"], "moreau", "{handovers:#?}");
+    let (t, step) = (number(&handovers[0]["t"]), number(&handovers[0]["step"]));
+    // A disc falls to the bottom within √(2·0.45/g) ≈ 0.30 s, at 3 m/s, which gravity stops in as long: and a step is a 256th of it.
+    assert!(
+        t > 0.1 && t < 1.5 && step > 1e-4 && step < 2e-3,
+        "{t} {step}"
+    );
+    let warnings = run["warnings"].as_array().expect("warnings");
+    let said = warnings.iter().filter_map(Value::as_str);
+    let said: Vec<&str> = said
+        .filter(|said| said.contains("time stepping in steps of"))
+        .collect();
+    assert!(
+        said.len() == 1 && said[0].contains("nothing bounds"),
+        "{warnings:?}"
+    );
+    for (name, rate) in run["v"].as_object().expect("rates") {
+        assert!(number(rate).abs() <= 1e-9, "der({name}) = {rate}");
+    }
+    let lost = number(&run["impact_loss"]);
+    // Until it hands over the books close to the tolerance of 1e-9, after it to rounding.
+    assert!(
+        lost > 0.0 && number(&run["energy_residual"]).abs() < 1e-7 * lost,
+        "{run:#}"
+    );
+    // At rest steps become longer: as many as 6 s of the first ones would be 10 times what it takes.
+    assert!(number(&run["steps"]) < 6.0 / step, "{}", run["steps"]);
+}
+
+/// Where nothing piles up a run by `auto` is that of `dop853`, to the bit.
+#[test]
+fn a_run_that_finds_every_event_stays_as_it_is() {
+    for (spec, until) in [
+        ("machines/contacts/bouncing_ball.machine", "5"),
+        ("machines/contacts/rocking_block.machine", "4"),
+        ("machines/contacts/colliding_crusher.machine", "0.5"),
+    ] {
+        let [mut one, mut other] =
+            [&[][..], &["--method", "dop853"][..]].map(|more| auto(spec, until, more));
+        assert_eq!(one["handovers"], Value::Null);
+        for run in [&mut one, &mut other] {
+            run["seconds"] = Value::Null;
+        }
+        assert_eq!(one, other);
+    }
+}
+
+/// Contacts whose law time stepping does not know are followed as they are, whatever is asked.
+#[test]
+fn a_law_that_time_stepping_does_not_know_is_not_handed_over() {
+    let run = auto(
+        "machines/contacts/newtons_cradle.machine",
+        "1.5",
+        &["--method", "auto"],
+    );
+    assert_eq!(run["handovers"], Value::Null);
+}

@@ -231,7 +231,7 @@ impl Expected {
                 doubled: false,
             }));
         }
-        // The same by the evaluator, in plain numbers: its conditioning, and whether the rewriting is one.
+        // The numbers by the evaluator, in f64: its conditioning, and whether the rewriting is one.
         let state = State {
             t: t.to_f64(),
             q: plain(&q),
@@ -450,7 +450,7 @@ impl Held<'_> {
         }
     }
 
-    /// The same as a run sees it, in plain numbers.
+    /// The numbers as a run sees them, in f64.
     fn as_run(&mut self, program: &Proved, expected: &Expected) {
         let machine = InterpretedMachine::new(program.clone());
         let system = machine.prepare();

@@ -173,7 +173,7 @@ impl<'m, S: Scalar> World<'m, S> {
         &self.q[n + 2 * guide..][..2]
     }
 
-    /// The same with something changed.
+    /// This machine with something changed.
     fn with(&self, change: impl FnOnce(&mut Self)) -> Self {
         let mut world = self.clone();
         change(&mut world);

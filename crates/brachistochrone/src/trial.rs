@@ -33,7 +33,7 @@ pub enum Outcome {
         /// The time that it takes, in s.
         time: f64,
     },
-    /// The same motion, or the same way of straight pieces, as another start led to.
+    /// A motion, or a path of straight pieces, that another start led to as well.
     Same {
         /// Which, in the order of the trials.
         trial: usize,

@@ -568,7 +568,7 @@ impl<'a> Emitter<'a> {
 
     fn signature(&self, writer: &mut Writer, head: &str, arguments: &[String]) {
         let line = format!("{head}({}) {{", arguments.join(", "));
-        if width(&line) <= writer.room() {
+        if width(&line) <= writer.columns() {
             return writer.open(line);
         }
         writer.line(format!("{head}("));
@@ -741,7 +741,7 @@ fn function_name(function: symbolic::Function) -> &'static str {
 
 fn comment(writer: &mut Writer, text: &str, formulas: &[String]) {
     let text = harmless(text);
-    if text.lines().count() == 1 && formulas.is_empty() && width(&text) + 6 <= writer.room() {
+    if text.lines().count() == 1 && formulas.is_empty() && width(&text) + 6 <= writer.columns() {
         return writer.line(format!("/* {text} */"));
     }
     if text.is_empty() && formulas.is_empty() {

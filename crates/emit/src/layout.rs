@@ -125,7 +125,7 @@ fn is_simple(text: &str) -> bool {
         .all(|c| c.is_alphanumeric() || "_.[]#".contains(c))
 }
 
-/// As many items to a line as there is room for; rustfmt leaves the last column free.
+/// As many items to a line as fit; rustfmt leaves the last column free.
 fn fill(out: &mut String, indent: usize, items: &[&str]) {
     let pad = " ".repeat(indent);
     let mut line = String::new();
@@ -175,7 +175,7 @@ impl Writer {
     }
 
     /// The columns that are left on a line.
-    pub fn room(&self) -> usize {
+    pub fn columns(&self) -> usize {
         WIDTH - self.indent
     }
 
@@ -191,7 +191,7 @@ impl Writer {
 
     /// `head tail`, on two lines if it does not fit one.
     pub fn statement(&mut self, head: &str, tail: &str) {
-        if width(head) + 1 + width(tail) <= self.room() {
+        if width(head) + 1 + width(tail) <= self.columns() {
             return self.line(format!("{head} {tail}"));
         }
         self.open(head);
@@ -236,7 +236,7 @@ impl Writer {
             None => ") {".to_owned(),
         };
         let line = format!("{head}({}{end}", arguments.join(", "));
-        if width(&line) <= self.room() {
+        if width(&line) <= self.columns() {
             return self.open(line);
         }
         self.open(format!("{head}("));
@@ -250,7 +250,7 @@ impl Writer {
     /// A comment, each line behind `mark`. Lines wider than the page are wrapped: prose between words, formulas (between
     /// lines of three backquotes) before the signs of terms.
     pub fn comment(&mut self, mark: &str, text: &str) {
-        let room = self.room() - width(mark) - 1;
+        let columns = self.columns() - width(mark) - 1;
         let mut is_formula = false;
         for line in text.lines() {
             is_formula ^= line.starts_with("```");
@@ -258,7 +258,7 @@ impl Writer {
                 self.formula(mark, line);
                 continue;
             }
-            for piece in wrap(&words(line), room, 0) {
+            for piece in wrap(&words(line), columns, 0) {
                 self.line(format!("{mark} {piece}").trim_end());
             }
         }
@@ -266,8 +266,8 @@ impl Writer {
 
     /// A formula as a comment, wrapped before the signs of terms.
     pub fn formula(&mut self, mark: &str, line: &str) {
-        let room = self.room() - width(mark) - 1;
-        for piece in wrap(&terms(line), room, 4) {
+        let columns = self.columns() - width(mark) - 1;
+        for piece in wrap(&terms(line), columns, 4) {
             self.line(format!("{mark} {piece}").trim_end());
         }
     }
@@ -311,16 +311,16 @@ fn terms(line: &str) -> Vec<String> {
     terms
 }
 
-/// Fills lines of at most `room` columns; all but the first are indented by `hang`. A part that is too long for a line is
+/// Fills lines of at most `columns` columns; all but the first are indented by `hang`. A part that is too long for a line is
 /// broken between its words.
-fn wrap(parts: &[String], room: usize, hang: usize) -> Vec<String> {
+fn wrap(parts: &[String], columns: usize, hang: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     let mut put = |part: &str| {
         let indent = if lines.len() > 1 { hang } else { 0 };
         let line = lines.last_mut().expect("there is one from the start");
         if line.is_empty() {
             line.push_str(part);
-        } else if indent + width(line) + 1 + width(part) <= room {
+        } else if indent + width(line) + 1 + width(part) <= columns {
             line.push(' ');
             line.push_str(part);
         } else {
@@ -328,7 +328,7 @@ fn wrap(parts: &[String], room: usize, hang: usize) -> Vec<String> {
         }
     };
     for part in parts {
-        if width(part) + hang <= room {
+        if width(part) + hang <= columns {
             put(part);
         } else {
             part.split(' ').for_each(&mut put);

@@ -3,22 +3,19 @@
 //! The module needs `core` and the runtime only. Its arithmetic is in plain functions, generic over the number and taking
 //! the arguments that they use; `Machine` and `System` are implemented on top of them for `f64`.
 
-mod constraints;
-mod contacts;
 mod derivatives;
 mod docs;
 mod functions;
+mod implement;
 mod kernel;
-mod lanes;
 mod language;
 mod library;
-mod numbers;
+mod pivots;
 mod prepared;
 mod series;
 mod stages;
 mod structs;
 mod stub;
-mod traits;
 mod types;
 
 use std::collections::BTreeMap;
@@ -219,6 +216,7 @@ impl<'a> Emitter<'a> {
         self.inputs();
         self.outputs();
         self.prepared();
+        self.pivots();
         self.derivatives();
         self.stages();
         for function in &self.program.functions {
@@ -230,19 +228,9 @@ impl<'a> Emitter<'a> {
             self.all_outputs();
         }
         self.series_kernel();
-        self.tables();
-        self.table_of_constraints();
-        self.table_of_contacts();
-        self.table_of_unilateral_contacts();
-        self.impl_machine();
-        self.impl_system();
         self.impl_linearize();
         self.impl_staged();
-        if self.program.contacts.is_empty() && self.program.unilateral.is_empty() {
-            self.impl_batched();
-        }
-        self.impl_in_numbers();
-        self.helpers();
+        self.implementations();
         self.writer.finish()
     }
 

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use lagrangian::interpreted::{InterpretedMachine, Named, Signal, Signals};
 use lagrangian::methods::Method;
 use lagrangian::{Machine, Simulation, State, System};
+use lagrangian_linear::starts;
 use nalgebra::DMatrix;
 
 use crate::combinations::{Combination, combinations};
@@ -128,6 +129,34 @@ pub struct Fit<'a> {
     pub refusal: Refusal<'a>,
     /// How often motions were run, and how often with their derivatives.
     pub runs: [usize; 2],
+    /// What is known of the derivatives of machines with constraints; nothing at the beginning.
+    pub held: Held,
+}
+
+/// What is known of the derivatives of motions that constraints hold.
+///
+/// They are integrated from derivatives of the start that obey the constraints, and nothing is projected on the way, as
+/// accelerations keep the second derivatives of constraints 0. So what steps err by grows with time, and is measured at the end.
+#[derive(Clone, Debug, Default)]
+pub struct Held {
+    /// Why they are differences of runs after all.
+    pub why: Option<String>,
+    /// How far motions or derivatives were off the constraints, at most, as a share of their numbers.
+    pub off: f64,
+}
+
+/// Why there are no integrated derivatives.
+enum Lost {
+    /// There is no motion, or somebody asked to stop.
+    Trouble(Trouble),
+    /// There is a motion, and its derivatives have to be found by differences; why.
+    Held(String),
+}
+
+impl From<Trouble> for Lost {
+    fn from(trouble: Trouble) -> Lost {
+        Lost::Trouble(trouble)
+    }
 }
 
 /// What was found.
@@ -148,6 +177,9 @@ pub struct Found {
 /// Integrated derivatives are as exact as this many tolerances, and differences as this many roots of the tolerance's square.
 const SHARE: f64 = 100.0;
 
+/// Derivatives on the way of a search may be this many times as far off constraints as those that were looked at.
+const ELSEWHERE: f64 = 10.0;
+
 /// Derivatives of one kind are no more exact than that.
 const MOST_EXACT: f64 = 1e-11;
 
@@ -165,7 +197,6 @@ impl Fit<'_> {
     pub fn derivatives(&self) -> (Derivatives, Option<String>) {
         let why = self.experiments.iter().find_map(|experiment| {
             let program = experiment.machine.program();
-            let system = experiment.machine.prepare();
             if experiment.signals.is_sampled() {
                 return Some("an input is sampled");
             }
@@ -176,26 +207,34 @@ impl Fit<'_> {
             if !program.unilateral.is_empty() {
                 return Some("the machine has contacts");
             }
-            if !program.contacts.is_empty() {
-                return Some("the machine has sliding friction");
-            }
-            (system.constraints().len() > 0).then_some("the machine has constraints")
+            (!program.contacts.is_empty()).then_some("the machine has sliding friction")
         });
-        match why {
+        match why.map(str::to_owned).or_else(|| self.held.why.clone()) {
             None => (Derivatives::Integrated, None),
-            Some(why) => (Derivatives::Differences, Some(why.to_owned())),
+            Some(why) => (Derivatives::Differences, Some(why)),
         }
     }
 
     /// How exact derivatives are, as a share of each.
     fn exact(&self) -> f64 {
-        let tolerance = self.running.tolerance;
         let exact = match self.derivatives().0 {
-            Derivatives::Integrated => SHARE * tolerance,
-            // An error of the third order against one of the tolerance over the distance.
-            Derivatives::Differences => SHARE * tolerance.powf(2.0 / 3.0),
+            Derivatives::Integrated => {
+                (SHARE * self.running.tolerance).max(ELSEWHERE * self.held.off)
+            }
+            Derivatives::Differences => self.exact_differences(),
         };
         exact.max(MOST_EXACT)
+    }
+
+    /// How exact differences of runs are: an error of the third order against one of the tolerance over the distance.
+    fn exact_differences(&self) -> f64 {
+        SHARE * self.running.tolerance.powf(2.0 / 3.0)
+    }
+
+    /// Whether constraints hold the machine of an experiment.
+    fn is_held(&self, experiment: usize) -> bool {
+        let system = self.experiments[experiment].machine.prepare();
+        system.constraints().len() > 0
     }
 
     /// Numbers of the size of each that is fitted: what it starts from, or what its bounds allow where that is 0.
@@ -221,6 +260,13 @@ impl Fit<'_> {
     /// # Errors
     /// If there is no motion there, or no derivatives of one on the way.
     pub fn search(&mut self, from: &[f64]) -> Result<Minimum, Trouble> {
+        let is_held = (0..self.experiments.len()).any(|experiment| self.is_held(experiment));
+        if is_held && self.derivatives().0 == Derivatives::Integrated {
+            // How exact derivatives are is to be known before they are relied on. What is wrong here is said where the search begins.
+            if let Err(Trouble::Stopped) = self.jacobian(from) {
+                return Err(Trouble::Stopped);
+            }
+        }
         let options = Options {
             derivatives: self.exact(),
             ..Options::default()
@@ -331,14 +377,7 @@ impl Fit<'_> {
         let own = &self.experiments[experiment];
         let system = machine.prepare();
         let simulation = own.signals.drive(Simulation::new(&machine), &machine);
-        let mut simulation = self.set(simulation, own);
-        if let Some(kept) = &self.running.kept {
-            simulation = kept
-                .iter()
-                .fold(simulation.keep_none(), |simulation, name| {
-                    simulation.keep(name)
-                });
-        }
+        let simulation = self.keep(self.set(simulation, own));
         let mut rows: Vec<Row> = Vec::with_capacity(own.times.len());
         let seen = &mut rows;
         let run = simulation
@@ -385,6 +424,65 @@ impl Fit<'_> {
             .stop_if(move |_| stop())
     }
 
+    /// A run that keeps of its start what is to be kept.
+    fn keep<'s, M: Machine, L: lagrangian::InputLaw<M::System>>(
+        &self,
+        simulation: Simulation<'s, M, L>,
+    ) -> Simulation<'s, M, L> {
+        match &self.running.kept {
+            None => simulation,
+            Some(kept) => {
+                let keep = |simulation: Simulation<'s, M, L>, name: &String| simulation.keep(name);
+                kept.iter().fold(simulation.keep_none(), keep)
+            }
+        }
+    }
+
+    /// Where an experiment starts with what is fitted, on the constraints.
+    fn start_on_constraints(&self, experiment: usize, x: &[f64]) -> Result<State<Named>, Trouble> {
+        let machine = self.machine(experiment, x)?;
+        let start = self.start(experiment, x)?;
+        let simulation = self.keep(Simulation::new(&machine).until(start.t));
+        let run = simulation.run(start);
+        let run = run.map_err(|error| self.trouble(&self.experiments[experiment], error))?;
+        Ok(run.start().clone())
+    }
+
+    /// How that start changes with what is fitted, by numbers of size 1.
+    fn change_on_constraints(
+        &self,
+        experiment: usize,
+        x: &[f64],
+        sought: usize,
+    ) -> Result<starts::Change, Lost> {
+        let machine = self.machine(experiment, x)?;
+        let size = self.sizes()[sought];
+        let parameter = match self.sought[sought].subject {
+            Subject::Parameter(index) => Some(index),
+            _ => None,
+        };
+        let at = |by: f64| -> Result<State<Named>, String> {
+            let mut there = x.to_vec();
+            there[sought] += by;
+            let start = self.start_on_constraints(experiment, &there);
+            start.map_err(|trouble| match trouble {
+                Trouble::NoValue(why) => why,
+                Trouble::Stopped => "stopped".to_owned(),
+            })
+        };
+        let width = if x[sought] == 0.0 {
+            size
+        } else {
+            x[sought].abs()
+        };
+        let change = starts::derivative(&machine, at, width, parameter);
+        let change = change.map_err(|why| match (self.running.stop)() {
+            true => Lost::Trouble(Trouble::Stopped),
+            false => Lost::Held(format!("{}: {why}", self.sought[sought].name)),
+        })?;
+        Ok(change.map(|list| list.into_iter().map(|by| by * size).collect()))
+    }
+
     fn trouble(&self, experiment: &Experiment, error: lagrangian::Error) -> Trouble {
         match (self.running.stop)() {
             true => Trouble::Stopped,
@@ -404,8 +502,9 @@ impl Fit<'_> {
         }
     }
 
-    /// The motion with its derivatives, which are exact but for the tolerance.
-    fn run_with_derivatives(&self, experiment: usize, x: &[f64]) -> Result<Vec<Row>, Trouble> {
+    /// The motion with its derivatives, which are exact but for the tolerance; and how far it is off constraints at its end, as a
+    /// share of its numbers.
+    fn run_with_derivatives(&self, experiment: usize, x: &[f64]) -> Result<(Vec<Row>, f64), Lost> {
         let machine = self.machine(experiment, x)?;
         let own = &self.experiments[experiment];
         let sizes = self.sizes();
@@ -456,6 +555,22 @@ impl Fit<'_> {
                 }
             }
         }
+        let is_held = self.is_held(experiment);
+        if is_held {
+            let on = self.start_on_constraints(experiment, x)?;
+            if let Some(constraint) = starts::dependent_constraint(&machine, &on) {
+                return Err(Lost::Held(format!(
+                    "the constraint `{constraint}` follows from others"
+                )));
+            }
+            for (k, j) in here.iter().enumerate() {
+                let [q, v] = self.change_on_constraints(experiment, x, *j)?;
+                start.q[(k + 1) * n..(k + 2) * n].copy_from_slice(&q);
+                start.v[(k + 1) * n..(k + 2) * n].copy_from_slice(&v);
+            }
+            start.q[..n].copy_from_slice(&on.q.values);
+            start.v[..n].copy_from_slice(&on.v.values);
+        }
         let system = varied.prepare();
         let simulation = Simulation::new(&varied).law(VariedLaw(&own.signals));
         let simulation = self.set(simulation, own);
@@ -494,8 +609,52 @@ impl Fit<'_> {
                 Ok(())
             })
             .run(start);
-        run.map_err(|error| self.trouble(own, error))?;
-        self.whole(own, rows)
+        let run = run.map_err(|error| self.trouble(own, error))?;
+        let off = match is_held {
+            true => self.off_constraints(experiment, x, run.end(), here),
+            false => 0.0,
+        };
+        // Where differences of runs, which are held on the constraints, are as exact, they are taken.
+        if off.is_nan() || ELSEWHERE * off > self.exact_differences() {
+            return Err(Lost::Held(format!(
+                "errors of steps move derivatives by {off:.1e} of their numbers off the constraints"
+            )));
+        }
+        Ok((self.whole(own, rows)?, off))
+    }
+
+    /// How far a motion and its derivatives by numbers of size 1 are off the constraints, as a share of their numbers.
+    fn off_constraints(
+        &self,
+        experiment: usize,
+        x: &[f64],
+        end: &State<Vec<f64>>,
+        sought: &[usize],
+    ) -> f64 {
+        let Ok(machine) = self.machine(experiment, x) else {
+            return f64::NAN;
+        };
+        let n = machine.program().dimension();
+        let mut at = machine.start();
+        at.t = end.t;
+        at.q.values.copy_from_slice(&end.q[..n]);
+        at.v.values.copy_from_slice(&end.v[..n]);
+        let sizes = self.sizes();
+        let shares = sought.iter().enumerate().map(|(k, j)| {
+            let part = (k + 1) * n..(k + 2) * n;
+            let parameter = match self.sought[*j].subject {
+                Subject::Parameter(index) => Some((index, sizes[*j])),
+                _ => None,
+            };
+            let change = [&end.q[part.clone()], &end.v[part]];
+            starts::off_constraints(&machine, &at, change, parameter)
+        });
+        // A number that is none is none of the greatest, and is to be seen.
+        shares.fold(0.0, |most: f64, off| match off.is_nan() {
+            true => off,
+            false if most.is_nan() => most,
+            false => most.max(off),
+        })
     }
 
     /// The derivatives of all residuals by central differences of runs.
@@ -618,7 +777,17 @@ impl Problem for Fit<'_> {
         let mut rows = Vec::new();
         for experiment in 0..self.experiments.len() {
             self.runs[1] += 1;
-            rows.push(self.run_with_derivatives(experiment, x)?);
+            match self.run_with_derivatives(experiment, x) {
+                Ok((own, off)) => {
+                    self.held.off = self.held.off.max(off);
+                    rows.push(own);
+                }
+                Err(Lost::Trouble(trouble)) => return Err(trouble),
+                Err(Lost::Held(why)) => {
+                    self.held.why = Some(why);
+                    return self.differences(x);
+                }
+            }
         }
         let all: Vec<_> = self.measurements().collect();
         Ok(DMatrix::from_fn(all.len(), x.len(), |i, j| {

@@ -5,6 +5,7 @@
 //! evaluated over dual numbers of 32 digits, never over differences of finite steps. [`orbit`] finds periodic motions and their
 //! multipliers, by integration of the variational equations.
 
+mod chart;
 pub mod model;
 pub mod motion;
 pub mod orbit;
@@ -15,6 +16,7 @@ pub mod reduced;
 pub mod response;
 pub mod search;
 pub mod spectrum;
+pub mod starts;
 pub mod steady;
 pub mod zeros;
 

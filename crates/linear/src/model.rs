@@ -100,11 +100,11 @@ pub enum NoModel {
     Multiplier(usize),
     /// The equations have a corner or a jump at the state, in a coordinate or a rate by its name where it is one alone.
     Kink(Option<String>),
-    /// So has this output.
+    /// This output has a corner or a jump at the state.
     OutputKink(String),
     /// Its part in the model changes as the machine moves steadily: an input by its name, and which coordinate moves.
     InputTurns(String, Moving),
-    /// The same of an output.
+    /// The part of this output in the model changes as the machine moves steadily, and which coordinate moves.
     OutputTurns(String, Moving),
 }
 
@@ -306,7 +306,7 @@ pub fn about(
     let mut reduced = Reduced::new(machine, &system, &inputs, &states(q, v));
     reduced.set_time(t);
     let mut wide: Vec<DoubleDouble> = q.iter().map(|x| (*x).into()).collect();
-    reduced.bring(&mut wide, &|_| true)?;
+    reduced.project(&mut wide, &|_| true)?;
     let near: Vec<f64> = wide.iter().map(|x| x.hi()).collect();
     let n = near.len();
     let choice = reduced.choose(&near, &vec![false; n])?;

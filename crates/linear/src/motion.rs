@@ -85,8 +85,8 @@ pub(crate) fn elsewhere(
         let mut there = place.clone();
         let by = shift * there.q[j].hi().abs().max(1.0);
         there.q[j] = there.q[j] + by.into();
-        let brought = reduced.bring(&mut there.q, &|i| choice.tied.contains(&i));
-        brought.is_ok().then_some(there)
+        let projected = reduced.project(&mut there.q, &|i| choice.tied.contains(&i));
+        projected.is_ok().then_some(there)
     });
     moved.collect()
 }
@@ -287,7 +287,7 @@ fn of_states(mut modes: Modes, integrals: &[bool]) -> Modes {
                 pairs.for_each(|(x, y)| *x -= along * y);
             }
             let norm = mode.shape.iter().map(|x| x.norm_sqr()).sum::<f64>().sqrt();
-            // The shapes are of size 1, and what is left of a dependent one is rounding.
+            // The shapes are of size 1, and the remainder of a dependent one is rounding.
             if norm <= 1e-9 {
                 return false;
             }

@@ -15,17 +15,26 @@
 //! for every energy. (E55) then has many solutions, and that is taken which moves the start the least, measured by
 //! inertia, `δqᵀ M δq (2π/T)² + δvᵀ M δv`: so neither units nor the choice of coordinates matter. What is kept of a start does not
 //! move at all.
+//!
+//! A start that constraints hold moves along them only. It is told by as many numbers as are independent there, coordinates that
+//! may be displaced at will and rates ([`crate::reduced`]), and (E55) is one of these numbers: M has a row and a column for
+//! each, and as many multipliers, which do not depend on the choice.
+//!
+//! A state of first order is the rate of a coordinate, its integral over time, which comes back after no period and on which nothing
+//! depends. So the integral is none of the numbers of (E55), and the state is one.
 
 use std::f64::consts::TAU;
 use std::fmt;
 
 use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::{Crossing, Machine, Sensitive, Simulation, State, System};
+use lagrangian_units::{rate_name, state_of};
 use nalgebra::{Complex, DMatrix, DVector};
 
+use crate::chart::Chart;
 use crate::poles::poles;
 use crate::search::{MOST_STEPS, Wanted};
-use crate::steady;
+use crate::{starts, steady};
 
 /// Which period an orbit is to have.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -126,7 +135,9 @@ pub struct Orbit {
     pub start: State<Named>,
     /// Its period, in s.
     pub period: f64,
-    /// M, of coordinates, then rates.
+    /// The numbers of a state that are independent, all of them without constraints: coordinates, then rates.
+    pub states: Vec<usize>,
+    /// M, of these numbers.
     pub monodromy: DMatrix<f64>,
     /// What integration may have made of each number of M.
     pub bounds: DMatrix<f64>,
@@ -159,11 +170,16 @@ impl Orbit {
 pub enum NoOrbit {
     /// The machine has what has no variational equations; what that is.
     Refused(String),
+    /// The start cannot be projected onto the constraints; why.
+    Start(String),
+    /// What is kept of the start depends on other numbers, or the constraints say nothing of rates there.
+    Constraints,
     /// Its equations change with time, and no period was given; the parameters each of which stops that by being 0.
     Driven(Vec<String>),
-    /// They change with time, and not with this period: of this coordinate the acceleration is another one a period later.
+    /// They change with time, and not with this period: this, the acceleration of a coordinate or the rate of a state, is another one a
+    /// period later.
     OtherPeriod(String, f64),
-    /// They are not the same where coordinates have gone on by what they are to: the acceleration of this coordinate is another.
+    /// They are not the same where coordinates have gone on by what they are to: this is another one there.
     OtherPlace(String),
     /// The period is not greater than 0 or not finite.
     NoPeriod(f64),
@@ -185,7 +201,11 @@ pub enum NoOrbit {
 impl fmt::Display for NoOrbit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            NoOrbit::Refused(why) => write!(f, "{why}"),
+            NoOrbit::Refused(why) | NoOrbit::Start(why) => write!(f, "{why}"),
+            NoOrbit::Constraints => f.write_str(
+                "the constraints do not say how the start may move: what is kept of it depends on other numbers, or the machine is in \
+                 a singular pose",
+            ),
             NoOrbit::Driven(names) => {
                 write!(f, "the equations change with time: a period is to be given, that of the drive or a multiple of it")?;
                 match names.as_slice() {
@@ -193,14 +213,13 @@ impl fmt::Display for NoOrbit {
                     names => write!(f, "; they do not with {} = 0", names.join(" = 0, or ")),
                 }
             }
-            NoOrbit::OtherPeriod(name, period) => write!(
+            NoOrbit::OtherPeriod(what, period) => write!(
                 f,
-                "the equations change with time, and not with the period {period} s: a period later the acceleration of `{name}` is \
-                 another one"
+                "the equations change with time, and not with the period {period} s: a period later {what} is another one"
             ),
-            NoOrbit::OtherPlace(name) => write!(
+            NoOrbit::OtherPlace(what) => write!(
                 f,
-                "a machine that has gone on so far is another one: the acceleration of `{name}` differs there"
+                "a machine that has gone on so far is another one: {what} differs there"
             ),
             NoOrbit::NoPeriod(period) => {
                 write!(f, "{period} s is no period: it is to be greater than 0")
@@ -254,7 +273,7 @@ struct Passage {
     x: DVector<f64>,
     /// M.
     monodromy: DMatrix<f64>,
-    /// The rate of the state there.
+    /// The rate of the independent numbers there.
     rate: DVector<f64>,
 }
 
@@ -264,6 +283,8 @@ struct Search<'a> {
     n: usize,
     /// d, with nothing for rates.
     advance: DVector<f64>,
+    /// Which coordinates are integrals of states of first order, which do not come back.
+    is_integral: Vec<bool>,
 }
 
 /// An orbit near a start.
@@ -273,10 +294,6 @@ struct Search<'a> {
 pub fn find(machine: &InterpretedMachine, sought: &Sought) -> Result<Orbit, NoOrbit> {
     let system = machine.prepare();
     for (count, what) in [
-        (
-            system.constraints().len(),
-            "constraints, whose start would have to move along them, so that it has no variational equations",
-        ),
         (
             system.contacts().len(),
             "friction that sticks, which has no variational equations",
@@ -298,11 +315,16 @@ pub fn find(machine: &InterpretedMachine, sought: &Sought) -> Result<Orbit, NoOr
     for (to, from) in advance.iter_mut().zip(&sought.advance) {
         *to = *from;
     }
+    let is_integral = system
+        .coordinates()
+        .map(|of| state_of(of.name).is_some())
+        .collect();
     let search = Search {
         machine,
         sought,
         n,
         advance,
+        is_integral,
     };
     search.run()
 }
@@ -311,7 +333,9 @@ impl Search<'_> {
     fn run(&self) -> Result<Orbit, NoOrbit> {
         let drive = self.drives();
         let is_autonomous = drive.is_ok();
-        let x = self.state();
+        let x = self.state()?;
+        // Whether there are numbers that tell its neighbours.
+        self.chart(&x)?;
         let (mut period, is_free) = match (self.sought.period, drive) {
             (Period::Given(period), _) => (period, false),
             (Period::Near(period), Ok(())) => (period, true),
@@ -324,15 +348,22 @@ impl Search<'_> {
         self.check_invariance(&x, period, is_autonomous)?;
         let (x, rounds) = self.newton(x, &mut period, is_free, is_autonomous)?;
         let tolerance = self.sought.tolerance;
-        let passage = self.passage(&x, period, tolerance)?;
-        self.check_differences(&x, period, &passage)?;
+        let chart = &self.chart(&x)?;
+        let passage = self.passage(chart, &x, period, tolerance)?;
+        self.check_differences(chart, &x, period, &passage)?;
         // What ten times the tolerance changes is ten times what the tolerance leaves, or more.
-        let coarse = self.passage(&x, period, (10.0 * tolerance).min(1e-4))?;
+        let coarse = self.passage(chart, &x, period, (10.0 * tolerance).min(1e-4))?;
         let size = passage.monodromy.amax();
         let bounds = (&passage.monodromy - coarse.monodromy).map(|x| x.abs().max(tolerance * size));
-        let (multipliers, family) =
-            self.multipliers(&x, period, (&passage, &bounds), (is_autonomous, is_free))?;
+        let (multipliers, family) = self.multipliers(
+            chart,
+            &x,
+            period,
+            (&passage, &bounds),
+            (is_autonomous, is_free),
+        )?;
         Ok(Orbit {
+            states: chart.picked().to_vec(),
             residual: self.share(&self.gap(&x, &passage.x), &x),
             start: self.named(&x),
             period,
@@ -357,12 +388,45 @@ impl Search<'_> {
         steady::drives(self.machine, &self.sought.start.q.values, &wanted)
     }
 
-    fn state(&self) -> DVector<f64> {
+    /// The start, on the constraints.
+    fn state(&self) -> Result<DVector<f64>, NoOrbit> {
         let start = &self.sought.start;
-        DVector::from_iterator(
-            2 * self.n,
-            start.q.values.iter().chain(&start.v.values).copied(),
-        )
+        let all = |state: &State<Named>| {
+            let all = state.q.values.iter().chain(&state.v.values);
+            DVector::from_iterator(2 * self.n, all.copied())
+        };
+        let system = self.machine.prepare();
+        if system.constraints().len() == 0 {
+            return Ok(all(start));
+        }
+        let mut run = Simulation::new(self.machine).until(start.t);
+        let kept = &self.sought.kept;
+        if kept.contains(&true) {
+            run = run.keep_none();
+            for (k, of) in system.coordinates().enumerate() {
+                if kept[k] {
+                    run = run.keep(of.name);
+                }
+                if kept[self.n + k] {
+                    run = run.keep(&rate_name(of.name, ""));
+                }
+            }
+        }
+        let run = run.run(start.clone());
+        let run = run.map_err(|error| NoOrbit::Start(error.to_string()))?;
+        Ok(all(run.start()))
+    }
+
+    /// The numbers that tell states near `x`.
+    fn chart(&self, x: &DVector<f64>) -> Result<Chart, NoOrbit> {
+        let chart = Chart::at(self.machine, x, &self.sought.kept);
+        let chart = chart.map_err(|_| NoOrbit::Constraints)?;
+        match starts::dependent_constraint(self.machine, &self.named(x)) {
+            Some(constraint) => Err(NoOrbit::Refused(format!(
+                "the constraint `{constraint}` follows from others, and accelerations have no derivatives then: leave it out"
+            ))),
+            None => Ok(chart),
+        }
     }
 
     fn named(&self, x: &DVector<f64>) -> State<Named> {
@@ -372,9 +436,15 @@ impl Search<'_> {
         state
     }
 
-    /// `Φ(x) − x − d`.
+    /// `Φ(x) − x − d`, and nothing for integrals of states.
     fn gap(&self, x: &DVector<f64>, there: &DVector<f64>) -> DVector<f64> {
-        there - x - &self.advance
+        let mut gap = there - x - &self.advance;
+        for (gap, is_integral) in gap.iter_mut().zip(&self.is_integral) {
+            if *is_integral {
+                *gap = 0.0;
+            }
+        }
+        gap
     }
 
     /// The largest number, each over `max(1, |x|)`.
@@ -413,11 +483,34 @@ impl Search<'_> {
     }
 
     /// The state a period later, with derivatives.
-    fn passage(&self, x: &DVector<f64>, period: f64, tolerance: f64) -> Result<Passage, NoOrbit> {
+    fn passage(
+        &self,
+        chart: &Chart,
+        x: &DVector<f64>,
+        period: f64,
+        tolerance: f64,
+    ) -> Result<Passage, NoOrbit> {
         let failed = |error: lagrangian::Error| NoOrbit::Run(error.to_string());
-        let sensitive = Sensitive::new(self.machine).by_state().map_err(failed)?;
-        let start = sensitive.start_from(self.named(x));
+        let n = self.n;
+        let system = self.machine.prepare();
+        let names: Vec<&str> = system.coordinates().map(|of| of.name).collect();
+        let mut sensitive = Sensitive::new(self.machine).with_start_on_constraints();
+        for &of in chart.picked() {
+            sensitive = match of < n {
+                true => sensitive.by_start(names[of]),
+                false => sensitive.by_start_rate(names[of - n]),
+            }
+            .map_err(failed)?;
+        }
+        let mut start = sensitive.start_from(self.named(x));
         let t = start.t + period;
+        let spread = chart.spread(self.machine, start.t, x);
+        let spread = spread.map_err(|_| NoOrbit::Constraints)?;
+        for (k, column) in spread.column_iter().enumerate() {
+            let (q, v) = (&mut start.q.by[k].values, &mut start.v.by[k].values);
+            q.copy_from_slice(&column.as_slice()[..n]);
+            v.copy_from_slice(&column.as_slice()[n..]);
+        }
         let run = Simulation::new(&sensitive)
             .tolerance(tolerance)
             .until(t)
@@ -425,61 +518,101 @@ impl Search<'_> {
             .run(start)
             .map_err(failed)?;
         let (q, v) = (&run.end().q, &run.end().v);
-        let n = self.n;
         let there = q.value.values.iter().chain(&v.value.values).copied();
-        let there = DVector::from_iterator(2 * n, there);
-        let monodromy = DMatrix::from_fn(2 * n, 2 * n, |i, j| match i < n {
-            true => q.by[j].values[i],
-            false => v.by[j].values[i - n],
+        let mut there = DVector::from_iterator(2 * n, there);
+        let picked = chart.picked();
+        let monodromy = DMatrix::from_fn(picked.len(), picked.len(), |i, j| match picked[i] {
+            of if of < n => q.by[j].values[of],
+            of => v.by[j].values[of - n],
         });
+        if chart.rank() > 0 {
+            // The motion itself is that of a run that is kept on the constraints.
+            there = self.end(x, period, tolerance)?;
+        }
         let none = || NoOrbit::Run(format!("there are no accelerations at t = {t} s"));
         Ok(Passage {
-            rate: self.rate(t, &there).ok_or_else(none)?,
+            rate: chart.of(&self.rate(t, &there).ok_or_else(none)?),
             x: there,
             monodromy,
         })
     }
 
-    /// S with `|S δx|² = δqᵀ M δq (2π/T)² + δvᵀ M δv`; where there is no positive mass matrix, by the sizes of coordinates.
-    fn scale(&self, x: &DVector<f64>, period: f64) -> DMatrix<f64> {
+    /// S with `|S δx|² = δqᵀ M δq (2π/T)² + δvᵀ M δv` of the independent numbers, where the rates that `δv` is are those of places
+    /// that do not move; where there is no positive mass matrix, by the sizes of coordinates.
+    fn scale(&self, chart: &Chart, x: &DVector<f64>, period: f64) -> Result<DMatrix<f64>, NoOrbit> {
         let (n, omega) = (self.n, TAU / period);
         let system = self.machine.prepare();
         let mut mass = vec![0.0; n * n];
         let q = x.as_slice()[..n].to_vec();
         system.mass_matrix(self.sought.start.t, &q, &mut mass);
         let mass = DMatrix::from_row_slice(n, n, &mass);
-        let factor = mass.cholesky().map(|cholesky| cholesky.l().transpose());
-        let factor = factor.filter(|factor| factor.iter().all(|x| x.is_finite()));
-        let factor = factor.unwrap_or_else(|| DMatrix::identity(n, n));
-        let mut scale = DMatrix::zeros(2 * n, 2 * n);
-        scale.view_mut((0, 0), (n, n)).copy_from(&(&factor * omega));
-        scale.view_mut((n, n), (n, n)).copy_from(&factor);
+        let spread = chart.spread(self.machine, self.sought.start.t, x);
+        let spread = spread.map_err(|_| NoOrbit::Constraints)?;
+        let places = chart.picked().iter().filter(|of| **of < n).count();
+        let (size, speeds) = (chart.size(), chart.size() - places);
+        let factor = |across: DMatrix<f64>| -> DMatrix<f64> {
+            let size = across.ncols();
+            if size == 0 {
+                return DMatrix::zeros(0, 0);
+            }
+            let mass = match chart.rank() {
+                0 if size == n => mass.clone(),
+                _ => across.transpose() * &mass * across,
+            };
+            let factor = mass.cholesky().map(|cholesky| cholesky.l().transpose());
+            let factor = factor.filter(|factor| factor.iter().all(|x| x.is_finite()));
+            factor.unwrap_or_else(|| DMatrix::identity(size, size))
+        };
+        let mut scale = DMatrix::zeros(size, size);
+        let of_places = factor(spread.view((0, 0), (n, places)).into_owned());
+        let of_rates = factor(spread.view((n, places), (n, speeds)).into_owned());
         scale
+            .view_mut((0, 0), (places, places))
+            .copy_from(&(of_places * omega));
+        scale
+            .view_mut((places, places), (speeds, speeds))
+            .copy_from(&of_rates);
+        Ok(scale)
     }
 
     /// The period after which the motion from a start comes nearest to it, passing it in the direction in which it left.
     fn first_return(&self, x: &DVector<f64>) -> Result<f64, NoOrbit> {
         let start = self.named(x);
         let rate = self.rate(start.t, x).ok_or(NoOrbit::NoReturn)?;
-        // About how long a radian takes: states are weighed with it, which decides nothing.
-        let (n, size) = (self.n, |part: &[f64]| {
-            DVector::from_column_slice(part).norm()
-        });
-        let speeds = [&rate.as_slice()[..n], &rate.as_slice()[n..]].map(size);
-        let omega = match (speeds[0] > 0.0, speeds[1] > 0.0) {
-            (_, false) if speeds[0] == 0.0 => return Err(NoOrbit::Rest),
-            (true, true) => speeds[1] / speeds[0],
-            _ => 1.0,
+        // About how long a radian takes: states are weighed with it, which decides nothing. States of first order are as large as
+        // they are at the start.
+        let n = self.n;
+        let size = |part: &[f64], of_states: bool| {
+            let own = part.iter().zip(&self.is_integral);
+            let own = own.filter(|(_, is_integral)| **is_integral == of_states);
+            own.map(|(x, _)| x * x).sum::<f64>().sqrt()
         };
-        let scale = self.scale(x, TAU / omega);
+        let [sizes, rates] = [&rate.as_slice()[..n], &rate.as_slice()[n..]];
+        let ratio = |of_states: bool| {
+            let (size, rate) = (size(sizes, of_states), size(rates, of_states));
+            (size > 0.0 && rate > 0.0).then(|| rate / size)
+        };
+        if size(sizes, false) == 0.0 && rates.iter().all(|rate| *rate == 0.0) {
+            return Err(NoOrbit::Rest);
+        }
+        let omega = ratio(false).or_else(|| ratio(true)).unwrap_or(1.0);
+        let chart = &self.chart(x)?;
+        let rate = chart.of(&rate);
+        let scale = self.scale(chart, x, TAU / omega)?;
         let place = x + &self.advance;
         let normal = scale.transpose() * (&scale * &rate);
         let distance = {
             let (normal, place) = (normal.clone(), place.clone());
+            let picked = chart.picked().to_vec();
             move |state: &State<Named>| -> f64 {
-                let all = state.q.values.iter().chain(&state.v.values);
-                let terms = all.zip(normal.iter().zip(place.iter()));
-                terms.map(|(x, (normal, place))| normal * (x - place)).sum()
+                let number = |k: usize| match k < n {
+                    true => state.q.values[k],
+                    false => state.v.values[k - n],
+                };
+                let terms = picked.iter().zip(normal.iter());
+                terms
+                    .map(|(k, normal)| normal * (number(*k) - place[*k]))
+                    .sum()
             }
         };
         let t = start.t;
@@ -497,7 +630,8 @@ impl Search<'_> {
             .map(|event| {
                 let all = event.state.q.values.iter().chain(&event.state.v.values);
                 let there = DVector::from_iterator(2 * n, all.copied());
-                ((&scale * (there - &place)).norm(), event.state.t - t)
+                let off = chart.of(&(there - &place));
+                ((&scale * off).norm(), event.state.t - t)
             })
             .collect();
         let least = gaps
@@ -522,7 +656,11 @@ impl Search<'_> {
         let system = self.machine.prepare();
         let name = |k: usize| {
             let coordinate = system.coordinates().nth(k);
-            coordinate.map_or_else(|| "?".to_owned(), |coordinate| coordinate.name.to_owned())
+            let name = coordinate.map_or("?", |coordinate| coordinate.name);
+            match state_of(name) {
+                Some(state) => format!("the rate of `{state}`"),
+                None => format!("the acceleration of `{name}`"),
+            }
         };
         let t = self.sought.start.t;
         // States beside the start, which have nothing in common with it, and times within the period.
@@ -566,25 +704,32 @@ impl Search<'_> {
         is_autonomous: bool,
     ) -> Result<(DVector<f64>, usize), NoOrbit> {
         let tolerance = self.sought.tolerance;
-        let mut passage = self.passage(&x, *period, tolerance)?;
+        let mut chart = self.chart(&x)?;
+        let mut passage = self.passage(&chart, &x, *period, tolerance)?;
         let mut rounds = 0;
         loop {
             let gap = self.gap(&x, &passage.x);
-            let scale = self.scale(&x, *period);
-            let off = (&scale * &gap).norm();
+            let scale = self.scale(&chart, &x, *period)?;
+            let own_gap = chart.of(&gap);
+            let off = (&scale * &own_gap).norm();
             if self.share(&gap, &x) <= tolerance {
                 break;
             }
             let better = (rounds < MOST_ROUNDS).then(|| {
-                let (dx, dt) = self.step(&scale, &passage, &gap, is_free)?;
+                let (dx, dt) = self.step(&chart, &scale, &passage, &own_gap, is_free)?;
                 let mut part = 1.0;
                 for _ in 0..MOST_HALVINGS {
-                    let (next, length) = (&x + &dx * part, *period + dt * part);
+                    let t = self.sought.start.t;
+                    let next = chart.moved(self.machine, t, &x, &(&dx * part));
+                    let length = *period + dt * part;
                     // A period that vanishes is none, and one that is doubled has left what was sought.
-                    if length > 0.5 * *period && length < 2.0 * *period {
-                        let there = self.passage(&next, length, tolerance);
+                    if let Ok(next) = next
+                        && length > 0.5 * *period
+                        && length < 2.0 * *period
+                    {
+                        let there = self.passage(&chart, &next, length, tolerance);
                         if let Ok(there) = there {
-                            let off_there = (&scale * self.gap(&next, &there.x)).norm();
+                            let off_there = (&scale * chart.of(&self.gap(&next, &there.x))).norm();
                             if off_there < (1.0 - 0.1 * part) * off {
                                 return Some((next, length, there));
                             }
@@ -598,15 +743,20 @@ impl Search<'_> {
                 Some((next, length, there)) => {
                     (x, *period, passage) = (next, length, there);
                     rounds += 1;
+                    let other = self.chart(&x)?;
+                    if other.picked() != chart.picked() {
+                        passage = self.passage(&other, &x, *period, tolerance)?;
+                        chart = other;
+                    }
                 }
                 None if self.share(&gap, &x) <= CLOSED * tolerance => break,
                 None => return Err(NoOrbit::Lost(self.share(&gap, &x), rounds)),
             }
         }
         // A state at rest comes back after any time.
-        let scale = self.scale(&x, *period);
+        let scale = self.scale(&chart, &x, *period)?;
         let moves = (&scale * &passage.rate).norm() * *period;
-        let size = (&scale * x.map(|x| x.abs().max(1.0))).norm();
+        let size = (&scale * chart.of(&x).map(|x| x.abs().max(1.0))).norm();
         match is_autonomous && self.advance.amax() == 0.0 && moves <= 1e-6 * size {
             true => Err(NoOrbit::Rest),
             false => Ok((x, rounds)),
@@ -616,13 +766,15 @@ impl Search<'_> {
     /// The least change of the start that solves (E55) as far as it can be solved, and that of the period.
     fn step(
         &self,
+        chart: &Chart,
         scale: &DMatrix<f64>,
         passage: &Passage,
         gap: &DVector<f64>,
         is_free: bool,
     ) -> Option<(DVector<f64>, f64)> {
-        let size = 2 * self.n;
-        let free: Vec<usize> = (0..size).filter(|k| !self.sought.kept[*k]).collect();
+        let size = chart.size();
+        let is_free_number = |k: &usize| !self.sought.kept[chart.picked()[*k]];
+        let free: Vec<usize> = (0..size).filter(is_free_number).collect();
         let columns = DMatrix::from_fn(size, free.len(), |i, j| f64::from(i == free[j]));
         let metric = columns.transpose() * scale.transpose() * scale * &columns;
         let factor = metric.cholesky()?.l().transpose();
@@ -654,18 +806,24 @@ impl Search<'_> {
     /// Whether runs differ as the variational equations say, along a direction without any pattern.
     fn check_differences(
         &self,
+        chart: &Chart,
         x: &DVector<f64>,
         period: f64,
         passage: &Passage,
     ) -> Result<(), NoOrbit> {
         let tolerance = self.sought.tolerance;
-        let direction = DVector::from_fn(2 * self.n, |j, _| {
-            (((3 + 7 * j) * 29 % 97) as f64 / 97.0 - 0.4) * x[j].abs().max(1.0)
+        let direction = DVector::from_fn(chart.size(), |j, _| {
+            (((3 + 7 * j) * 29 % 97) as f64 / 97.0 - 0.4) * x[chart.picked()[j]].abs().max(1.0)
         });
         let direction = &direction / direction.norm();
         let difference = |h: f64| -> Result<DVector<f64>, NoOrbit> {
-            let [plus, minus] = [h, -h].map(|h| self.end(&(x + &direction * h), period, tolerance));
-            Ok((plus? - minus?) / (2.0 * h))
+            let [plus, minus] = [h, -h].map(|h| {
+                let t = self.sought.start.t;
+                let from = chart.moved(self.machine, t, x, &(&direction * h));
+                let from = from.map_err(|_| NoOrbit::Constraints)?;
+                self.end(&from, period, tolerance)
+            });
+            Ok(chart.of(&(plus? - minus?)) / (2.0 * h))
         };
         let [coarse, fine] = [2e-5, 1e-5].map(difference);
         let (coarse, fine) = (coarse?, fine?);
@@ -689,13 +847,14 @@ impl Search<'_> {
     /// its error only.
     fn multipliers(
         &self,
+        chart: &Chart,
         x: &DVector<f64>,
         period: f64,
         (passage, bounds): (&Passage, &DMatrix<f64>),
         (is_autonomous, is_free): (bool, bool),
     ) -> Result<(Vec<Multiplier>, usize), NoOrbit> {
-        let size = 2 * self.n;
-        let scale = self.scale(x, period);
+        let size = chart.size();
+        let scale = self.scale(chart, x, period)?;
         let back = scale.clone().try_inverse().ok_or(NoOrbit::Eigenvalues)?;
         let scaled = &scale * &passage.monodromy * &back;
         let scaled_bounds = scale.abs() * bounds * back.abs();

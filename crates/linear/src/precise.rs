@@ -375,7 +375,7 @@ pub fn pairs(a: &DMatrix<f64>, bounds: &DMatrix<f64>) -> Option<Vec<Pair>> {
     let eigenvalues = matrix.clone().eigenvalues()?;
     let mut pairs: Vec<Pair> = Vec::new();
     for (index, lambda) in without_conjugates(&eigenvalues) {
-        // The same eigenvalue once more has another vector, if there is one.
+        // An eigenvalue that repeats has another vector, if there is one.
         let size = lambda.nearest().norm();
         let is_same = |other: &&Pair| (other.lambda - lambda.nearest()).norm() <= 1e-8 * size;
         let before: Vec<&Pair> = pairs.iter().filter(is_same).collect();

@@ -8,8 +8,8 @@
 //! (Tᵀ M T) ṡ = r(q, s) = Tᵀ (f − M a°)                                              (E39)
 //! ```
 //!
-//! without multipliers. Constraints of positions tie coordinates too: `D` begins with as many, `q_H`, as there are of those. What
-//! is left, `z` of I and of the other dependent coordinates, F, may be displaced at will, `δq = H δz`.
+//! without multipliers. Constraints of positions tie coordinates too: `D` begins with as many, `q_H`, as there are of those. The
+//! others, `z` of I and of the other dependent coordinates, F, may be displaced at will, `δq = H δz`.
 //!
 //! All of it is evaluated over dual numbers of 32 digits, which leaves derivatives without any differences (`Dual`), and
 //! none of them with a digit of an `f64` wrong. What rounding of parameters and of the state may make of each number is
@@ -20,15 +20,15 @@ use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem};
 use lagrangian_program::{Arguments, Interpreter, Role, Shape};
 use lagrangian_scalar::{DoubleDouble, Dual, Scalar};
 use lagrangian_units::state_of;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Dyn, SVD};
 
 use crate::precise;
 
 /// A number of 32 digits with a derivative.
 pub(crate) type Number = Dual<DoubleDouble>;
 
-/// A row of G holds nothing that others do not hold if less than this is left of it beside them; a coordinate follows from no
-/// row in which it has less than this.
+/// A row of G depends on others if its part that is orthogonal to them is shorter than this; a coordinate follows from no
+/// row in which its entry is smaller than this.
 const INDEPENDENT: f64 = 1e-8;
 
 /// Of coordinates that may follow, one on which nothing depends is preferred if it has this share in the row.
@@ -41,7 +41,17 @@ const ROUNDINGS: usize = 6;
 const SAFETY: f64 = 4.0;
 
 /// The most steps onto the constraints.
-const MOST_STEPS: usize = 60;
+const MOST_STEPS: usize = 200;
+
+/// Where the whole step is no longer than this, in rad, m, or as a share of its coordinate, residuals are rounding and
+/// need not become smaller.
+const NEARLY_MET: f64 = 1e-14;
+
+/// The least damping beside nothing, where rows of the constraints have the length 1.
+const LEAST_DAMPING: f64 = 1e-3;
+
+/// With this much damping a step is too short to change the residuals: they have a minimum that is not 0.
+const MOST_DAMPING: f64 = 1e8;
 
 /// Which coordinates follow from which constraints.
 #[derive(Clone, Debug, PartialEq)]
@@ -107,7 +117,7 @@ pub struct Linearized {
     pub mass: DMatrix<f64>,
     /// ∂r/∂z.
     pub by_places: DMatrix<f64>,
-    /// The same without what T turns of the forces that are not balanced, `(∂T/∂z)ᵀ M b` with `b = T (Tᵀ M T)⁻¹ r`: what is 0 of
+    /// ∂r/∂z without the part that the change of T makes of unbalanced forces, `(∂T/∂z)ᵀ M b` with `b = T (Tᵀ M T)⁻¹ r`: what is 0 of
     /// r in one choice of I is so in each.
     pub as_balanced: DMatrix<f64>,
     /// The covariant derivative of r in the metric M: that without what M itself bends,
@@ -166,7 +176,7 @@ impl Linearized {
         &self.covariant * self.displaced(choice)
     }
 
-    /// The same in the coordinates: what does not change r there stays where it is.
+    /// How r depends on displacements, as [`as_balanced`](Linearized::as_balanced): what does not change r there stays where it is.
     pub fn dependence(&self, choice: &Choice) -> DMatrix<f64> {
         &self.as_balanced * self.displaced(choice)
     }
@@ -442,14 +452,50 @@ impl<'a> Reduced<'a> {
         })
     }
 
-    /// Moves coordinates onto the constraints of positions by the least that inertia allows; those that `may` not stay.
+    /// The constraints of positions: 0 where they are met, each in its own unit.
+    fn positions(&mut self, q: &[DoubleDouble]) -> Vec<f64> {
+        let wide: Vec<Number> = q.iter().copied().map(Dual::constant).collect();
+        let still = vec![Number::ZERO; q.len()];
+        let count = self.holonomic.len();
+        let values = self.call(Role::ConstraintPositions, (&wide, &still), count, self.time);
+        values.iter().map(|x| x.value.hi()).collect()
+    }
+
+    /// Moves coordinates onto the constraints of positions by the least that inertia allows; those that `may` not stay. Where whole
+    /// steps do not lead there from afar, damped ones may.
     ///
     /// # Errors
-    /// If that cannot be done near the place.
-    pub fn bring(
+    /// If none is found.
+    pub fn project(
         &mut self,
         q: &mut [DoubleDouble],
         may: &dyn Fn(usize) -> bool,
+    ) -> Result<(), Fault> {
+        let start = q.to_vec();
+        self.project_near(q, may).or_else(|_| {
+            q.copy_from_slice(&start);
+            self.project_in_steps(q, may, true)
+        })
+    }
+
+    /// [`project`](Self::project) from a place that is near the constraints: in whole steps, which would rather fail than lead to
+    /// another branch.
+    ///
+    /// # Errors
+    /// If that cannot be done near the place.
+    pub fn project_near(
+        &mut self,
+        q: &mut [DoubleDouble],
+        may: &dyn Fn(usize) -> bool,
+    ) -> Result<(), Fault> {
+        self.project_in_steps(q, may, false)
+    }
+
+    fn project_in_steps(
+        &mut self,
+        q: &mut [DoubleDouble],
+        may: &dyn Fn(usize) -> bool,
+        is_damped: bool,
     ) -> Result<(), Fault> {
         let n = q.len();
         let m = self.holonomic.len();
@@ -457,66 +503,81 @@ impl<'a> Reduced<'a> {
         if held.is_empty() {
             return Ok(());
         }
-        let v = vec![Number::ZERO; n];
         let mut before = f64::INFINITY;
+        // The damping of Levenberg and Marquardt: nothing, as long as whole steps lower the residuals.
+        let mut damping = 0.0;
         for _ in 0..MOST_STEPS {
-            let wide: Vec<Number> = q.iter().copied().map(Dual::constant).collect();
-            let off = self.call(Role::ConstraintPositions, (&wide, &v), m, self.time);
             let near: Vec<f64> = q.iter().map(|x| x.hi()).collect();
             let (rows, lower) = (self.rows(&near), self.metric(&near));
+            let off = self.positions(q);
             let mut matrix = DMatrix::zeros(held.len(), n);
-            let mut residuals = DVector::zeros(held.len());
+            let mut scale = DVector::zeros(held.len());
             for (i, &k) in held.iter().enumerate() {
                 let row = DVector::from_fn(n, |j, _| if may(j) { rows[(k, j)] } else { 0.0 });
                 let measured = lower
                     .solve_lower_triangular(&row)
                     .ok_or(Fault::Singular(0))?;
                 let size = measured.norm();
-                let size = if size > 0.0 { size } else { 1.0 };
-                matrix.set_row(i, &(measured / size).transpose());
-                residuals[i] = off[k].value.hi() / size;
+                scale[i] = if size > 0.0 { size } else { 1.0 };
+                matrix.set_row(i, &(measured / scale[i]).transpose());
             }
+            let scaled = |off: &[f64]| DVector::from_fn(held.len(), |i, _| off[held[i]] / scale[i]);
+            let residuals = scaled(&off);
             if !residuals.iter().chain(matrix.iter()).all(|x| x.is_finite()) {
                 return Err(Fault::Unmet(held[0]));
             }
             let worst = held[residuals.icamax()];
-            let Some(svd) = matrix.try_svd(true, true, f64::EPSILON, 10_000) else {
-                return Err(Fault::Unmet(worst));
+            let svd = matrix
+                .try_svd(true, true, f64::EPSILON, 10_000)
+                .ok_or(Fault::Unmet(worst))?;
+            // Far from the constraints a whole step may lead further away, as where links are nearly
+            // stretched: the damping grows until the residuals become smaller.
+            let (step, longest) = loop {
+                let step = damped(&svd, &residuals, damping).ok_or(Fault::Unmet(worst))?;
+                let step = lower.transpose().solve_upper_triangular(&step);
+                let mut step = step.ok_or(Fault::Singular(0))?;
+                (0..n).filter(|j| !may(*j)).for_each(|j| step[j] = 0.0);
+                let longest = share(&step, &near);
+                if !longest.is_finite() {
+                    return Err(Fault::Unmet(worst));
+                }
+                step *= (1.0 / longest).min(1.0);
+                if !is_damped || longest <= NEARLY_MET {
+                    break (step, longest);
+                }
+                let tried: Vec<DoubleDouble> = moved(q, &step);
+                if scaled(&self.positions(&tried)).norm() < residuals.norm() {
+                    damping = if damping < LEAST_DAMPING {
+                        0.0
+                    } else {
+                        damping / 8.0
+                    };
+                    break (step, longest);
+                }
+                damping = (4.0 * damping).max(LEAST_DAMPING);
+                if damping > MOST_DAMPING {
+                    return Err(Fault::Unmet(worst));
+                }
             };
-            let step = svd
-                .solve(&residuals, INDEPENDENT)
-                .map_err(|_| Fault::Unmet(worst))?;
-            let step = lower.transpose().solve_upper_triangular(&step);
-            let mut step = step.ok_or(Fault::Singular(0))?;
-            (0..n).filter(|j| !may(*j)).for_each(|j| step[j] = 0.0);
-            let longest = share(&step, &near);
-            if !longest.is_finite() {
-                return Err(Fault::Unmet(worst));
-            }
             // The corrections are rounding, and become no smaller.
-            if longest == 0.0 || (longest <= 1e-14 && longest >= 0.25 * before) {
+            if longest == 0.0 || (longest <= NEARLY_MET && longest >= 0.25 * before) {
                 break;
             }
-            let part = (1.0 / longest).min(1.0);
-            for (x, step) in q.iter_mut().zip(step.iter()) {
-                *x = *x - DoubleDouble::from(part * step);
-            }
+            q.copy_from_slice(&moved(q, &step));
             if longest <= 1e-26 {
                 break;
             }
             before = longest;
         }
         // Whether the rows hold, each beside what rounding makes of it.
-        let wide: Vec<Number> = q.iter().copied().map(Dual::constant).collect();
-        let off = self.call(Role::ConstraintPositions, (&wide, &v), m, self.time);
+        let off = self.positions(q);
         let near: Vec<f64> = q.iter().map(|x| x.hi()).collect();
         let rows = self.rows(&near);
         let unmet = held.iter().copied().find(|&k| {
             let size: f64 = (0..n)
                 .map(|j| (rows[(k, j)] * near[j].abs().max(1.0)).abs())
                 .sum();
-            let off = off[k].value.hi();
-            off.is_nan() || off.abs() > 1e-12 * size
+            off[k].is_nan() || off[k].abs() > 1e-12 * size
         });
         unmet.map_or(Ok(()), |k| Err(Fault::Unmet(k)))
     }
@@ -858,6 +919,32 @@ fn across(known: &[DVector<f64>], vector: &DVector<f64>, least: f64) -> Option<D
     }
     let length = left.norm();
     (length > least * vector.norm()).then(|| left / length)
+}
+
+/// The solution of least squares of `A x = r` by the decomposition of A, each part of it held back where its singular
+/// value is not large beside the damping: `x = V (S² + d²)⁻¹ S Uᵀ r` (Marquardt, An algorithm for least-squares
+/// estimation of nonlinear parameters, 1963). `None` where there are no singular vectors.
+fn damped(
+    svd: &SVD<f64, Dyn, Dyn>,
+    residuals: &DVector<f64>,
+    damping: f64,
+) -> Option<DVector<f64>> {
+    if damping == 0.0 {
+        return svd.solve(residuals, INDEPENDENT).ok();
+    }
+    let mut parts = svd.u.as_ref()?.transpose() * residuals;
+    for (part, s) in parts.iter_mut().zip(svd.singular_values.iter()) {
+        *part *= s / (s * s + damping * damping);
+    }
+    Some(svd.v_t.as_ref()?.transpose() * parts)
+}
+
+/// Coordinates after a step.
+fn moved(q: &[DoubleDouble], step: &DVector<f64>) -> Vec<DoubleDouble> {
+    let pairs = q.iter().zip(step.iter());
+    pairs
+        .map(|(q, step)| *q - DoubleDouble::from(*step))
+        .collect()
 }
 
 /// The largest of the changes, each in rad, m, or as a share of its coordinate.

@@ -68,7 +68,7 @@ pub struct Wanted {
 }
 
 impl Wanted {
-    /// The same where states of first order, which are the rates of these coordinates, are to be found too.
+    /// These quantities, and states of first order, which are the rates of these coordinates.
     pub fn with_states(&self, integrals: &[bool]) -> Wanted {
         let mut wanted = self.clone();
         for (j, _) in integrals.iter().enumerate().filter(|(_, is)| **is) {
@@ -124,7 +124,7 @@ impl From<Fault> for Lost {
 /// If there is none on its way.
 pub fn find(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> Result<Found, Lost> {
     let mut q: Vec<DoubleDouble> = q.iter().map(|x| (*x).into()).collect();
-    reduced.bring(&mut q, &|_| true)?;
+    reduced.project(&mut q, &|_| true)?;
     let near: Vec<f64> = q.iter().map(|x| x.hi()).collect();
     let mut rates = wanted.rates.clone();
     let choice = reduced.choose(&near, &wanted.steady)?;
@@ -335,7 +335,7 @@ impl Point {
         self.step_for(&self.scaled)
     }
 
-    /// The same for other forces, damped as is right for these.
+    /// The step for other forces, with the damping that these ask for.
     fn step_for(&self, forces: &DVector<f64>) -> Step {
         let count = self.scaled.len();
         let mut along = DVector::zeros(count);
@@ -355,7 +355,7 @@ impl Point {
             if force.abs() <= rounding {
                 continue;
             }
-            // How far the stiffest direction of this part would yield to all that is left of its forces, at most 1.
+            // How far the stiffest direction of this part would yield to the whole residual of its forces, at most 1.
             let shares = direction.part.iter().map(|&i| {
                 let yields = damping[i] / direction.largest / self.lower[(i, i)];
                 yields.abs() / q[self.choice.independent[i]].hi().abs().max(1.0)
@@ -412,9 +412,9 @@ impl Point {
         // What is given and what stays does not give way to the constraints.
         let gives = |j: usize| displaced[j] != 0.0 || self.choice.tied.contains(&j);
         let alone = q.clone();
-        if reduced.bring(&mut q, &gives).is_err() {
+        if reduced.project_near(&mut q, &gives).is_err() {
             q = alone;
-            reduced.bring(&mut q, &|_| true)?;
+            reduced.project_near(&mut q, &|_| true)?;
         }
         for (c, x) in self.solved.iter().zip(self.rates_of(step).iter()) {
             rates[self.choice.independent[*c]] += part * x;
@@ -552,7 +552,7 @@ fn factor(mass: &DMatrix<f64>, bounds: &DMatrix<f64>) -> Result<DMatrix<f64>, us
             let known: f64 = (0..j).map(|k| lower[(i, k)] * lower[(j, k)]).sum();
             let left = mass[(i, j)] - known;
             if i == j {
-                // Nothing but rounding is left of it.
+                // The remainder is rounding.
                 let rounding = bounds[(j, j)].max(rank::tolerance(n) * mass[(j, j)].abs());
                 if left.is_nan() || left <= rounding {
                     return Err(j);

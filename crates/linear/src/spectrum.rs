@@ -72,7 +72,7 @@ pub struct Linear {
     pub b: DMatrix<f64>,
     /// What rounding may have made of each number in K over P.
     pub k_bounds: DMatrix<f64>,
-    /// The same in C.
+    /// What rounding may have made of each number in C.
     pub c_bounds: DMatrix<f64>,
 }
 

@@ -54,7 +54,7 @@ fn start_is_unsteady(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> O
         return None;
     }
     let mut wide: Vec<_> = q.iter().map(|x| (*x).into()).collect();
-    reduced.bring(&mut wide, &|_| true).ok()?;
+    reduced.project(&mut wide, &|_| true).ok()?;
     let choice = reduced.choose(q, &wanted.steady).ok()?;
     let s = choice.independent.iter().map(|j| match wanted.steady[*j] {
         true => wanted.rates[*j].into(),

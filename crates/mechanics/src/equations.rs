@@ -195,7 +195,7 @@ impl<'d> Equations<'d> {
         {
             return None;
         }
-        // Whatever the machine: what is left undefined by the bound is refused below.
+        // Whatever the machine: what the bound leaves undefined is refused below.
         model.dag.set_limit(refusal::MOST_SIZE);
         let equations = Equations::within_bounds(model, report);
         model.dag.set_limit(usize::MAX);

@@ -6,7 +6,7 @@ mod closed;
 mod derivatives;
 mod friction;
 mod stages;
-mod states;
+pub(crate) mod states;
 
 use lagrangian_symbolic::{self as symbolic, Dag, Expr, Stage, Symbol, nearest, reachable};
 use rustc_hash::FxHashMap;
@@ -19,7 +19,7 @@ use lagrangian_program::formula::formula;
 use lagrangian_program::graph::{Graph, Id, Scaled};
 use lagrangian_program::net::Net;
 use lagrangian_program::quantity::Sizes;
-use lagrangian_program::rounding::States;
+use lagrangian_program::rounding::{self, States};
 use lagrangian_program::schedule::{Code, LARGEST_FACTORED, prepared, schedule};
 use lagrangian_program::solve::{self, Elimination, Pivot, Solution, System};
 use lagrangian_program::{
@@ -121,6 +121,7 @@ pub fn lower_by<'d>(
         painleve: u.painleve,
         compliance: u.compliance,
         rubs: u.rubs,
+        rolls: u.rolls,
     });
     program.unilateral = unilateral.collect();
     debug_assert_eq!(program.verify(), Ok(()));
@@ -214,7 +215,7 @@ fn build<'d>(
     let start = start.only(&mut lowering.graph).function;
     let mut choices = Vec::new();
     let mut drafts: Vec<Draft> = Vec::new();
-    let states = states::around_start(model);
+    let states = states::around_start(model, 1, rounding::STATES);
     let mut take = |candidates: Vec<Draft>, graph: &Graph| {
         let (draft, choice) = taken(candidates, graph, &states, choose);
         choices.extend(choice);

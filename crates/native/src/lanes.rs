@@ -21,7 +21,7 @@ use core::ops::{Add, Div, Index, IndexMut, Mul, Neg, Sub};
 pub struct Lanes<const N: usize>(pub [f64; N]);
 
 impl<const N: usize> Lanes<N> {
-    /// The same number in every lane.
+    /// One number in every lane.
     #[inline(always)]
     pub const fn splat(x: f64) -> Self {
         Lanes([x; N])
@@ -66,17 +66,22 @@ macro_rules! lane_by_lane {
 
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                Lanes(core::array::from_fn(|lane| self.0[lane] $sign other.0[lane]))
+                // A loop and no closure: what is called for each lane is not inlined into code for wide registers.
+                let mut lanes = self;
+                for (lane, other) in lanes.0.iter_mut().zip(other.0) {
+                    *lane $sign other;
+                }
+                lanes
             }
         }
     )*};
 }
 
 lane_by_lane! {
-    Add, add, +;
-    Sub, sub, -;
-    Mul, mul, *;
-    Div, div, /;
+    Add, add, +=;
+    Sub, sub, -=;
+    Mul, mul, *=;
+    Div, div, /=;
 }
 
 impl<const N: usize> Neg for Lanes<N> {
@@ -84,6 +89,10 @@ impl<const N: usize> Neg for Lanes<N> {
 
     #[inline(always)]
     fn neg(self) -> Self {
-        Lanes(self.0.map(|x| -x))
+        let mut lanes = self;
+        for lane in &mut lanes.0 {
+            *lane = -*lane;
+        }
+        lanes
     }
 }

@@ -4,6 +4,8 @@
 pub const CIRCULAR: &str = include_str!("circular.rs");
 /// Numbers side by side.
 pub const LANES: &str = include_str!("lanes.rs");
+/// Numbers side by side, each with the arithmetic of one.
+pub const PLAIN: &str = include_str!("plain.rs");
 /// Registers.
 pub const REGISTER: &str = include_str!("register.rs");
 /// Sine and cosine.

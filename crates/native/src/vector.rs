@@ -31,7 +31,7 @@ pub trait Vector: Copy {
     fn load(stored: Self::Stored) -> Self;
     /// The numbers to memory.
     fn store(self) -> Self::Stored;
-    /// The same number everywhere.
+    /// One number in every lane.
     fn splat(x: f64) -> Self;
 
     /// `self + other`.

@@ -231,9 +231,9 @@ impl Row {
     ///
     /// What does not fit the page even so, such as a very long fraction, is left out: the line says so.
     pub fn lines(math: &Math, indent: usize, note: &str) -> Vec<Row> {
-        let room = LINE - if note.is_empty() { 0.0 } else { NOTE };
-        let room = |steps: usize| room - INDENT * steps as f32;
-        let mut lines = math.lines(room(indent), room(indent + 2));
+        let width = LINE - if note.is_empty() { 0.0 } else { NOTE };
+        let width = |steps: usize| width - INDENT * steps as f32;
+        let mut lines = math.lines(width(indent), width(indent + 2));
         let margin = LINE + TOLERANCE - INDENT * (indent + 2) as f32;
         if lines.iter().any(|line| line.width() > margin) {
             lines = vec![left_out(math, margin)];
@@ -254,7 +254,7 @@ impl Row {
 
 /// A formula without what stands on its right side, or without its left side where that is too wide
 /// by itself, or without all but its sign.
-fn left_out(math: &Math, room: f32) -> Math {
+fn left_out(math: &Math, width: f32) -> Math {
     let marks = math.marks();
     let row = |marks: &[Mark]| Math::row(marks.iter().cloned().map(Math::mark));
     let note = || Math::text("(too wide for a page, not shown)");
@@ -271,7 +271,7 @@ fn left_out(math: &Math, room: f32) -> Math {
     let without_right = Math::row([row(&marks[..=equals]), note()]);
     let without_left = Math::row([sign.clone(), note(), row(&marks[equals..])]);
     let shortened = [without_right, without_left];
-    let fits = |formula: &Math| formula.width() <= room;
+    let fits = |formula: &Math| formula.width() <= width;
     shortened
         .into_iter()
         .find(fits)

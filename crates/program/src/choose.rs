@@ -17,8 +17,7 @@ use super::{Cost, Counts, Program, Role, Rounding};
 
 /// How many times the rounding of the most exact candidate that of another may be.
 ///
-/// Rounding is all that is left of the error of a run once its tolerance is small: no tolerance
-/// takes it back, whereas time can be bought. But what is below this factor, a bit, is not worth
+/// Rounding is the whole error of a run once its tolerance is small: no tolerance takes it back, whereas time can be bought. But what is below this factor, a bit, is not worth
 /// any time, and could not be told for certain: a [`Rounding`] is the median of a few states, and
 /// the ratio of two is right to a factor of one and a half. So whatever is taken is truly at most
 /// three times as far off as the most exact candidate, which tests hold for every machine of the

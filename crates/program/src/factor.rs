@@ -125,7 +125,7 @@ impl Net {
         }
     }
 
-    /// The same sum with common factors taken out.
+    /// The sum with common factors taken out.
     fn factored(
         &mut self,
         mut terms: Vec<Monomial>,

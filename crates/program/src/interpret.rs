@@ -176,6 +176,18 @@ impl<S: Scalar<Stored = S>> Interpreter<S> {
         tape.check(registers)
     }
 
+    /// The least share of its scale that a pivot had in the last call, which was of this role; infinite where there is no pivot.
+    pub fn margin(&self, role: Role) -> f64 {
+        let tape = self.functions.iter().find(|tape| tape.role == role);
+        let checks = tape.map_or(&[][..], |tape| &tape.checks);
+        let shares = checks.iter().map(|check| {
+            let [pivot, scale] =
+                [check.pivot, check.scale].map(|value| self.registers[value as usize].to_f64());
+            pivot / scale
+        });
+        shares.fold(f64::INFINITY, f64::min)
+    }
+
     /// Hands the results of [`Role::AtTime`] or [`Role::AtPosition`] to the calls of the next
     /// stage.
     ///
@@ -572,7 +584,7 @@ impl<S: Scalar> Tape<S> {
         assert_eq!(
             results.len(),
             self.results.len(),
-            "room for the results of {}",
+            "space for the results of {}",
             self.role.name()
         );
         for (result, value) in results.iter_mut().zip(&self.results) {
@@ -588,7 +600,7 @@ impl<S: Scalar> Tape<S> {
             );
             if !pivot.exceeds(check.tolerance * scale) {
                 let (pivot, scale) = (pivot.to_f64(), scale.to_f64());
-                // Nothing is left of nothing.
+                // A scale of 0 has a pivot of 0: the ratio 0/0 is told as 0.
                 let ratio = if pivot == 0.0 { 0.0 } else { pivot / scale };
                 return Err(Singular {
                     coordinate: check.coordinate,

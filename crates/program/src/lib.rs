@@ -31,6 +31,7 @@ use lagrangian_units::{
     Compliance, ImpactLaw, ImpactOrder, Name, Painleve, Stages, Unit, Variable, state_of,
 };
 
+pub mod accuracy;
 pub mod choose;
 mod cost;
 mod count;
@@ -190,6 +191,10 @@ pub struct Unilateral {
     pub compliance: Option<Compliance>,
     /// Whether there is friction.
     pub rubs: bool,
+    /// Whether it is the rolling of the contact before it, on which it leans: it has the gap and the normal force of that
+    /// contact, its slip is how fast one body turns relative to the other, in rad/s, its friction the torque that resists
+    /// this, in N m, and its coefficient of friction a length, in m.
+    pub rolls: bool,
 }
 
 /// How the results of [`Role::Friction`] are arranged.

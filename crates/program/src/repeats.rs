@@ -82,7 +82,7 @@ pub enum Operand {
     Same(Value),
     /// A value of the iteration before, by its name in the first; and what the first has instead.
     Carried(Value, Value),
-    /// The same value in all iterations, known before.
+    /// One value in all iterations, known before.
     Invariant(Value),
     /// For each iteration a value that is known before the first.
     Column(Vec<Value>),
@@ -541,7 +541,7 @@ impl<'a> Finder<'a> {
                 start = next.max(start + 1);
                 continue;
             }
-            // The same stretch, cut into iterations elsewhere, may carry less; an iteration later, all
+            // The stretch may carry less where it is cut into iterations elsewhere; an iteration later, all
             // that it reads may be counted.
             let best = (start..start + 2 * period)
                 .step_by(period.div_ceil(MOST_PHASES))

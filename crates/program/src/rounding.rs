@@ -36,7 +36,7 @@ use lagrangian_scalar::{DoubleDouble, Dual, Scalar};
 use rustc_hash::FxHashMap;
 
 use super::interpret::{binary, unary};
-use super::{Contractions, Function, Op, Source, Value};
+use super::{Arguments, Contractions, Function, Op, Source, Value};
 
 /// The error that rounding leaves in the results of a function, as a share of them: ‖Δr‖/‖r‖ in
 /// the Euclidean norm, at the median of some states of the machine.
@@ -90,17 +90,18 @@ pub struct States {
 }
 
 /// The arguments of a call, each list in the order of the program's.
-pub struct State {
+#[derive(Clone, Debug, PartialEq)]
+pub struct State<N = f64> {
     /// The time, in s.
-    pub t: f64,
+    pub t: N,
     /// Coordinates.
-    pub q: Vec<f64>,
+    pub q: Vec<N>,
     /// Their rates.
-    pub v: Vec<f64>,
+    pub v: Vec<N>,
     /// Inputs.
-    pub u: Vec<f64>,
+    pub u: Vec<N>,
     /// Accelerations.
-    pub a: Vec<f64>,
+    pub a: Vec<N>,
 }
 
 impl States {
@@ -165,7 +166,31 @@ impl States {
     }
 }
 
+impl<N: Copy> State<N> {
+    /// As the arguments of an interpreter.
+    pub fn arguments(&self) -> Arguments<'_, N> {
+        Arguments {
+            t: self.t,
+            q: &self.q,
+            v: &self.v,
+            u: &self.u,
+            a: &self.a,
+        }
+    }
+}
+
 impl State {
+    /// Its numbers as others, row by row.
+    pub fn mapped<N: Copy>(&self, mut map: impl FnMut(&[f64]) -> Vec<N>) -> State<N> {
+        State {
+            t: map(&[self.t])[0],
+            q: map(&self.q),
+            v: map(&self.v),
+            u: map(&self.u),
+            a: map(&self.a),
+        }
+    }
+
     /// The value of an argument; NaN for what is no part of a state.
     pub fn read(&self, source: Source) -> f64 {
         let (list, index) = match source {
@@ -387,6 +412,7 @@ fn rounds(function: &Function, op: &Op) -> bool {
 
 /// G. L. Steele, D. Lea and C. H. Flood, *Fast splittable pseudorandom number generators*, OOPSLA
 /// 2014: the same numbers everywhere.
+#[derive(Clone, Debug)]
 pub struct SplitMix(pub u64);
 
 impl SplitMix {

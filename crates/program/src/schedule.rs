@@ -468,16 +468,16 @@ fn is_known(op: &Op) -> bool {
 }
 
 /// The operations that the roots need, each as late as its first use allows, the operand that needs
-/// more room first.
+/// more registers first.
 ///
 /// R. Sethi and J. D. Ullman, *The generation of optimal code for arithmetic expressions*, J. ACM
 /// 17 (1970) 715–728: exact for trees; shared values are counted at each use here.
 fn reorder(code: &[Op], roots: &[Value]) -> (Vec<Op>, Vec<Value>) {
-    let mut room: Vec<u32> = Vec::with_capacity(code.len());
+    let mut registers: Vec<u32> = Vec::with_capacity(code.len());
     let mut partner: FxHashMap<(Value, bool), Value> = FxHashMap::default();
     for (index, op) in code.iter().enumerate() {
-        let mut needs = op.operands().map(|operand| room[operand.index()]);
-        room.push(match (needs.next(), needs.next()) {
+        let mut needs = op.operands().map(|operand| registers[operand.index()]);
+        registers.push(match (needs.next(), needs.next()) {
             (Some(a), Some(b)) if a == b => a.saturating_add(1),
             (Some(a), Some(b)) => a.max(b),
             (Some(a), None) => a,
@@ -502,7 +502,7 @@ fn reorder(code: &[Op], roots: &[Value]) -> (Vec<Op>, Vec<Value>) {
             stack.push((value, true));
             let mut list: Vec<Value> = op.operands().collect();
             list.reverse();
-            list.sort_by_key(|operand| room[operand.index()]);
+            list.sort_by_key(|operand| registers[operand.index()]);
             stack.extend(list.into_iter().map(|operand| (operand, false)));
             continue;
         }

@@ -158,26 +158,26 @@ fn invert<N: Scalar>(n: usize, m: &mut [N::Stored]) {
     }
 }
 
-/// Solves for `x`, which holds the right-hand side, with what [`factor`] made; `room` is for as many numbers.
+/// Solves for `x`, which holds the right-hand side, with what [`factor`] made; `scratch` holds as many numbers.
 #[inline(always)]
 pub fn solve<N: Scalar>(
     n: usize,
     matrix: &[N::Stored],
     x: &mut [N::Stored],
-    room: &mut [N::Stored],
+    scratch: &mut [N::Stored],
 ) {
-    let (m, x, room) = (&matrix[..n * n], &mut x[..n], &mut room[..n]);
+    let (m, x, scratch) = (&matrix[..n * n], &mut x[..n], &mut scratch[..n]);
     if n <= MOST_INVERTED {
-        room.fill(N::ZERO.store());
+        scratch.fill(N::ZERO.store());
         for j in 0..n {
             let known = N::load(x[j]);
             for i in 0..n {
-                room[i] = N::load(m[j * n + i])
-                    .mul_add(known, N::load(room[i]))
+                scratch[i] = N::load(m[j * n + i])
+                    .mul_add(known, N::load(scratch[i]))
                     .store();
             }
         }
-        x.copy_from_slice(room);
+        x.copy_from_slice(scratch);
         return;
     }
     for i in 0..n {

@@ -72,6 +72,9 @@ pub struct SpecText {
     pub files: Vec<ReadFile>,
     /// Values of constants.
     pub constants: Vec<(String, String)>,
+    /// Parameters that have values of their own, though the spec has formulas for them; a plan knows those that it sets itself.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub given: Vec<String>,
 }
 
 /// A file that a spec has named.
@@ -94,7 +97,7 @@ pub struct ReadFile {
 pub enum Law {
     /// An expression of the spec's language in time and state.
     Formula(String),
-    /// The same, evaluated at the start and every so often after it, to act a time later and to hold until then.
+    /// A formula that is evaluated at the start and at a period after it, to act after a delay and to hold until the next.
     Sampled {
         /// The expression.
         formula: String,
@@ -192,6 +195,13 @@ impl Function {
 }
 
 impl Plan {
+    /// The parameters and inputs that it gives values to: none of these parameters follows from others.
+    pub(crate) fn given(&self) -> Vec<String> {
+        let set = self.set.iter().map(|(name, _)| name.as_str());
+        let varied = self.design.iter().flat_map(Factor::names);
+        set.chain(varied).map(str::to_owned).collect()
+    }
+
     /// How many runs there are.
     pub fn runs(&self) -> u64 {
         design::runs(&self.design).unwrap_or(0)

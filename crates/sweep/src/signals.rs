@@ -18,7 +18,7 @@ use crate::table;
 pub enum Written {
     /// A formula of the spec's language.
     Formula(String),
-    /// The same, evaluated every so often, to act a time later and to hold until then: both in s.
+    /// A formula that is evaluated at a period, to act after a delay and to hold until the next: both in s.
     Sampled {
         /// The formula.
         formula: String,

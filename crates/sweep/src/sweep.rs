@@ -337,7 +337,7 @@ impl Sweep {
         &self.plan
     }
 
-    /// The same with chunks of another length, which changes no row.
+    /// Cuts the sweep into chunks of another length, which changes no row.
     pub fn set_chunk(&mut self, chunk: u64) {
         self.plan.chunk = chunk;
     }
@@ -724,6 +724,7 @@ fn model<'d>(
 ) -> Option<Model<'d>> {
     let text = &plan.spec;
     let spec = lagrangian_spec::parse(sources, &text.name, &text.text, report);
+    let spec = spec.with_given(plan.spec.given.iter().cloned().chain(plan.given()));
     let files = &mut Kept(&text.files);
     Model::resolve_with(spec, dag, constants, formulas, files, sources, report)
 }

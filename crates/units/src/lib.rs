@@ -238,7 +238,7 @@ impl Unit {
         self.scaled
     }
 
-    /// The same unit of what was given in SI units, or in others.
+    /// This unit, for a quantity that was given in SI units or in others.
     pub fn as_written(self, scaled: bool) -> Unit {
         Unit { scaled, ..self }
     }

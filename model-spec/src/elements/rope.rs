@@ -1,4 +1,4 @@
-//! Ropes: of a given length, from point to point over pulleys whose size does not matter.
+//! Ropes: of a given length, from point to point and over pulleys.
 //!
 //! ```text
 //! |p₂ − p₁| + |p₃ − p₂| + … = length
@@ -6,18 +6,46 @@
 //!
 //! The length may change, as on a winch. The rope pulls with the multiplier, reversed; it is taken to be
 //! tight throughout.
+//!
+//! Pulleys of the plane may have radii: s, positive where the rope turns left around the pulley and negative where it
+//! turns right. The part from one to the next, with D from centre to centre and h = s' − s, is straight along e,
+//!
+//! ```text
+//! ℓ = √(D² − h²),    e = (ℓ D − h D⊥)/D²,    D⊥ = (−D_y, D_x),
+//! ```
+//!
+//! since the centres are at s n and s' n from the rope, n being e turned left: D = ℓ e + h n. On a pulley lies the arc
+//! |s| w, w being the turn from the part before to the part behind,
+//!
+//! ```text
+//! |s| w = |s| π + s atan2(−e × e', −e · e'),    0 < w < 2π.
+//! ```
+//!
+//! As D·n = h stays, n·Ḋ = ℓ ψ̇ with ψ the direction of e, and the rate of ℓ is e·Ḋ + h ψ̇. In the sum with the rates of the
+//! arcs, s (ψ̇' − ψ̇), all ψ̇ cancel: the rope grows by Σ e·Ḋ. Where it does not slip on a pulley that is turned by θ, what comes
+//! to it goes around with it:
+//!
+//! ```text
+//! Σ e·Ḋ of the parts before + s θ̇ = 0,
+//! ```
+//!
+//! and an end that is wound on a drum gives −s θ̇ of the first point, +s θ̇ of the last to both. So what does not slip is an equation
+//! between rates, and where an end is wound up the rope is one, too: how much of it is on the drum is as it is at the start.
 
 use lagrangian_symbolic::Expr;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::element::{Constraint, Contribution};
-use crate::model::stage;
+use crate::model::{Assumption, Name, Space, stage};
 use crate::resolve::Resolver;
 use crate::resolve::element::{Meaning, Resolved, Row};
 use crate::resolve::motion::to_point;
-use crate::resolve::value::{Limit, MemberId, limit};
-use crate::syntax::{ExpressionKind, Form, Section};
+use crate::resolve::value::{Limit, MemberId, POSITIONS, limit};
+use crate::source::Span;
+use crate::syntax::{Expression, ExpressionKind, Form, Record, Section};
 use crate::unit::Unit;
+
+use super::transmission::turn_of;
 
 pub(super) const ROW: Row = Row {
     section: &SECTION,
@@ -28,8 +56,8 @@ const SECTION: Section = Section {
     word: "ropes",
     item: "a rope",
     noun: "rope",
-    form: Form::Records(&["path", "length"]),
-    help: "a rope is `name { path: (point, point, …), length: … }`",
+    form: Form::Records(&["path", "length", "radii", "turns"]),
+    help: "a rope is `name { path: (point, point, …), length: … }`, and where needed `radii: (0, r, …)` and `turns: (0, angle, …)`",
 };
 
 static LENGTH: Limit = limit(
@@ -38,13 +66,45 @@ static LENGTH: Limit = limit(
     "only coordinates, parameters and `t` can stand here",
 );
 
+static RADIUS: Limit = limit(
+    stage::PARAMETER,
+    "the radius of a pulley",
+    "only parameters can stand here",
+);
+
+static TURN: Limit = limit(stage::POSITION, "the turn of a pulley", POSITIONS);
+
+/// A point of the path: its place, and of a pulley its radius and its turn.
+struct Stop<'d> {
+    at: Vec<Expr<'d>>,
+    /// With its sign; 0 of what has no size.
+    radius: Expr<'d>,
+    turn: Option<Expr<'d>>,
+}
+
+/// A straight part.
+struct Part<'d> {
+    length: Expr<'d>,
+    /// Its direction, times `norm`.
+    along: Vec<Expr<'d>>,
+    norm: Expr<'d>,
+    /// From centre to centre.
+    line: Vec<Expr<'d>>,
+}
+
 fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<Resolved<'d>> {
     let record = resolver.record(member)?;
     let path = resolver.field(member, record, "path");
-    let length = resolver.field(member, record, "length");
+    let is_wound = is_wound(record);
+    let length = match (record.get("length"), is_wound) {
+        (None, true) => None,
+        _ => resolver.field(member, record, "length"),
+    };
     let scope = resolver.scope(member, &LENGTH);
-    let length =
-        length.and_then(|said| resolver.scalar_in(said, Unit::METRE, "a length is in m", scope));
+    let length = length.map(|said| {
+        let length = resolver.scalar_in(said, Unit::METRE, "a length is in m", scope);
+        (length, said.span)
+    });
     let path = path?;
     let points = match &path.kind {
         ExpressionKind::Error => return None,
@@ -60,23 +120,264 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         .map(|point| resolver.point(member, point))
         .collect();
     let points: Vec<Vec<Expr<'d>>> = points.into_iter().collect::<Option<_>>()?;
-    let parts = points.windows(2).map(|ends| {
-        let line = to_point(&ends[0], &ends[1]);
-        resolver.distance(&line)
-    });
-    let parts: Vec<Expr<'d>> = parts.collect();
-    let taken = resolver.dag.sum(parts);
-    let expression = taken - length?.expr;
-    if expression.stage() < stage::POSITION {
+    let stops = stops(resolver, member, record, points)?;
+    let parts: Vec<Part<'d>> = stops
+        .windows(2)
+        .map(|ends| part(resolver, &ends[0], &ends[1]))
+        .collect();
+    let mut constraints = Vec::new();
+    let has_drum =
+        stops.first().is_some_and(Stop::has_size) || stops.last().is_some_and(Stop::has_size);
+    if has_drum {
+        if let Some((_, span)) = length {
+            let message = "a rope on a drum is as long as it is at the start";
+            let diagnostic = Diagnostic::new(Code::ConflictingFields, span, message);
+            resolver.push(diagnostic.help("leave `length` out"));
+            return None;
+        }
+        let expression = growth(resolver, (&stops, &parts), stops.len() - 1, path.span)?;
+        constraints.push((None, expression, Unit::METRE.rate()));
+    } else {
+        let Some((length, _)) = length else {
+            let base = resolver.base_name(member);
+            let message = format!("a rope needs `length`, and `{base}` has none");
+            resolver.missing_field(member, message);
+            return None;
+        };
+        let mut lengths: Vec<Expr<'d>> = parts.iter().map(|part| part.length).collect();
+        for k in 1..stops.len() - 1 {
+            lengths.extend(arc(resolver, member, (&stops, &parts), (k, path.span)));
+        }
+        let expression = resolver.dag.sum(lengths) - length?.expr;
+        constraints.push((None, expression, Unit::METRE));
+    }
+    for k in 1..stops.len() - 1 {
+        if stops[k].turn.is_some() {
+            let expression = growth(resolver, (&stops, &parts), k, path.span)?;
+            constraints.push((Some(k), expression, Unit::METRE.rate()));
+        }
+        if has_drum {
+            let _ = arc(resolver, member, (&stops, &parts), (k, path.span));
+        }
+    }
+    let mut all = constraints.iter();
+    if all.any(|(_, expression, _)| expression.stage() < stage::POSITION) {
         let message = "this rope holds nothing: no point of its path moves";
         let diagnostic = Diagnostic::new(Code::NoCoordinates, path.span, message);
         resolver.push(diagnostic.help("an end of it is a point of a body, as `load.at`"));
         return None;
     }
-    Some(Resolved::of([Contribution::Constraint(Constraint {
-        name: resolver.name(member),
-        expression,
-        unit: Unit::METRE,
-        span: resolver.span(member),
-    })]))
+    let (own, span) = (resolver.name(member), resolver.span(member));
+    let constraints = constraints.into_iter().map(|(pulley, expression, unit)| {
+        Contribution::Constraint(Constraint {
+            name: match pulley {
+                None => own.clone(),
+                Some(k) => Name {
+                    base: format!("{own}.pulley{k}"),
+                    index: None,
+                },
+            },
+            expression,
+            unit,
+            span,
+        })
+    });
+    Some(Resolved::of(constraints))
+}
+
+impl Stop<'_> {
+    fn has_size(&self) -> bool {
+        !self.radius.is_zero()
+    }
+}
+
+/// Whether an end of the path is said to have a radius, as far as can be seen before anything is resolved.
+fn is_wound(record: &Record) -> bool {
+    let Some(ExpressionKind::Tuple(radii)) = record.get("radii").map(|radii| &radii.kind) else {
+        return false;
+    };
+    let is_zero = |end: &Expression| matches!(&end.kind, ExpressionKind::Number(number) if number.parse() == Ok(0.0));
+    [radii.first(), radii.last()]
+        .into_iter()
+        .flatten()
+        .any(|end| !is_zero(end))
+}
+
+/// The points of the path with their radii and turns.
+fn stops<'a, 'd>(
+    resolver: &mut Resolver<'a, 'd, '_>,
+    member: MemberId,
+    record: &'a Record,
+    points: Vec<Vec<Expr<'d>>>,
+) -> Option<Vec<Stop<'d>>> {
+    let zero = resolver.dag.zero();
+    let radii = match record.get("radii") {
+        None => vec![(zero, None); points.len()],
+        Some(said) if resolver.space == Space::Space => {
+            let message = "ropes go around pulleys with radii only in the plane";
+            let diagnostic = Diagnostic::new(Code::WrongSpace, said.span, message);
+            resolver.push(
+                diagnostic.help("in space a rope goes from point to point: leave `radii` out"),
+            );
+            return None;
+        }
+        Some(said) => {
+            let scope = resolver.scope(member, &RADIUS);
+            let radii = list(resolver, said, points.len(), "radii")?.iter();
+            let radii: Vec<_> = radii
+                .map(|radius| {
+                    let scalar =
+                        resolver.scalar_in(radius, Unit::METRE, "a radius is in m", scope)?;
+                    Some((scalar.expr, Some(radius.span)))
+                })
+                .collect();
+            radii.into_iter().collect::<Option<Vec<_>>>()?
+        }
+    };
+    let turns = match record.get("turns") {
+        None => vec![None; points.len()],
+        Some(said) => {
+            let turns = list(resolver, said, points.len(), "turns")?.iter();
+            let turns: Vec<_> = turns
+                .map(|turn| {
+                    let scalar = turn_of(resolver, member, turn, &TURN)?;
+                    if scalar.expr.is_zero() {
+                        return Some(None);
+                    }
+                    let unit = scalar.unit.unwrap_or(Unit::RADIAN);
+                    let why = "a pulley turns by an angle";
+                    resolver.demand(Some(Unit::RADIAN), unit, turn.span, why);
+                    Some(Some((scalar.expr, turn.span)))
+                })
+                .collect();
+            turns.into_iter().collect::<Option<Vec<_>>>()?
+        }
+    };
+    let last = points.len() - 1;
+    let mut stops = Vec::with_capacity(points.len());
+    for (k, ((at, (radius, span)), turn)) in points.into_iter().zip(radii).zip(turns).enumerate() {
+        match (turn, span) {
+            (Some((_, span)), _) if radius.is_zero() => {
+                let message = "what has no radius does not turn with the rope";
+                let diagnostic = Diagnostic::new(Code::ConflictingFields, span, message);
+                resolver.push(diagnostic.help("give its radius in `radii`, or 0 here"));
+                return None;
+            }
+            (None, Some(span)) if (k == 0 || k == last) && !radius.is_zero() => {
+                let message = "a rope ends on a drum that is turned by an angle";
+                let diagnostic = Diagnostic::new(Code::MissingField, span, message);
+                resolver.push(
+                    diagnostic.help(
+                        "give the angle in `turns`, or 0 here where the rope ends at a point",
+                    ),
+                );
+                return None;
+            }
+            _ => {}
+        }
+        stops.push(Stop {
+            at,
+            radius,
+            turn: turn.map(|(turn, _)| turn),
+        });
+    }
+    Some(stops)
+}
+
+/// As many expressions in brackets as the path has points.
+fn list<'a>(
+    resolver: &mut Resolver<'a, '_, '_>,
+    said: &'a Expression,
+    count: usize,
+    field: &str,
+) -> Option<&'a [Expression]> {
+    match &said.kind {
+        ExpressionKind::Error => None,
+        ExpressionKind::Tuple(parts) if parts.len() == count => Some(parts),
+        _ => {
+            let message = format!(
+                "`{field}` has one for each of the {count} points of `path`, 0 where there is none"
+            );
+            resolver.error(Code::WrongDimension, said.span, message);
+            None
+        }
+    }
+}
+
+/// The straight part between two points or pulleys.
+fn part<'d>(resolver: &Resolver<'_, 'd, '_>, from: &Stop<'d>, to: &Stop<'d>) -> Part<'d> {
+    let line = to_point(&from.at, &to.at);
+    let h = to.radius - from.radius;
+    if h.is_zero() {
+        let length = resolver.distance(&line);
+        return Part {
+            length,
+            along: line.clone(),
+            norm: length,
+            line,
+        };
+    }
+    let square = resolver.dag.sum(line.iter().map(|x| x.square()));
+    let length = (square - h.square()).sqrt();
+    Part {
+        length,
+        along: vec![
+            length * line[0] + h * line[1],
+            length * line[1] - h * line[0],
+        ],
+        norm: square,
+        line,
+    }
+}
+
+/// What lies on the pulley at a point of the path, and the fact that it does; nothing where there is no pulley.
+fn arc<'d>(
+    resolver: &mut Resolver<'_, 'd, '_>,
+    member: MemberId,
+    (stops, parts): (&[Stop<'d>], &[Part<'d>]),
+    (k, span): (usize, Span),
+) -> Option<Expr<'d>> {
+    let radius = stops[k].radius;
+    if radius.is_zero() {
+        return None;
+    }
+    let (before, behind) = (&parts[k - 1], &parts[k]);
+    let [u, v] = [&before.along, &behind.along];
+    let (across, along) = (u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]);
+    // 1 − cos w ± sin w, times what is positive: 0 where w is 0 and three quarters of a turn, positive between.
+    let excess = radius.abs() * (before.norm * behind.norm - along) + radius * across;
+    let text = format!(
+        "the rope `{}` lies on pulley {k}, by less than 3/4 of a turn",
+        resolver.name(member)
+    );
+    resolver.add_fact(Assumption {
+        text,
+        excess,
+        strict: true,
+        span,
+    });
+    Some(radius.abs() * resolver.dag.pi() + radius * (-across).atan2(-along))
+}
+
+/// The rate by which the rope up to a pulley or the last point grows, wound parts counted.
+fn growth<'d>(
+    resolver: &mut Resolver<'_, 'd, '_>,
+    (stops, parts): (&[Stop<'d>], &[Part<'d>]),
+    to: usize,
+    span: Span,
+) -> Option<Expr<'d>> {
+    let mut terms = Vec::new();
+    for part in &parts[..to] {
+        let mut along = Vec::new();
+        for (&e, &line) in part.along.iter().zip(&part.line) {
+            along.push(e * resolver.rate(line, span)?);
+        }
+        terms.push(resolver.dag.sum(along) / part.norm);
+    }
+    for (stop, sign) in [(&stops[0], -1), (&stops[to], 1)] {
+        if let Some(turn) = stop.turn {
+            terms.push(resolver.dag.int(sign) * stop.radius * resolver.rate(turn, span)?);
+        }
+    }
+    Some(resolver.dag.sum(terms))
 }

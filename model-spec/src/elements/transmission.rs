@@ -58,12 +58,12 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     let turns = resolver.field(member, record, "turns");
     let pair = turns.and_then(|turns| pair(resolver, turns, "two turns"));
     let pair = pair.and_then(|pair| {
-        let [first, second] = pair.map(|turn| turn_of(resolver, member, turn));
+        let [first, second] = pair.map(|turn| turn_of(resolver, member, turn, &TURN));
         Some([first?, second?])
     });
     let carrier = match record.get("carrier") {
         None => Some(None),
-        Some(carrier) => turn_of(resolver, member, carrier).map(Some),
+        Some(carrier) => turn_of(resolver, member, carrier, &TURN).map(Some),
     };
     let ([first, second], carrier) = (pair?, carrier?);
     let unit = first.unit.unwrap_or(Unit::ONE);
@@ -149,12 +149,13 @@ fn pair<'a>(
 }
 
 /// How far a wheel is turned: the angle of a frame or a body in the plane, or any expression.
-fn turn_of<'a, 'd>(
+pub(super) fn turn_of<'a, 'd>(
     resolver: &mut Resolver<'a, 'd, '_>,
     member: MemberId,
     said: &'a Expression,
+    limit: &'static Limit,
 ) -> Option<Scalar<'d>> {
-    let scope: Scope<'a> = resolver.scope(member, &TURN);
+    let scope: Scope<'a> = resolver.scope(member, limit);
     let value = match &said.kind {
         ExpressionKind::Name(_) | ExpressionKind::Chain(_) => resolver.value(said, scope),
         _ => return resolver.scalar(said, scope),

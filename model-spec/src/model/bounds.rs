@@ -32,6 +32,8 @@ pub enum BoundKind<'d> {
     Radius,
     /// A coefficient of friction, which is not negative.
     Friction,
+    /// A coefficient of rolling resistance, which is not negative.
+    RollingResistance,
     /// A coefficient of static friction, which is not below that of friction.
     StaticFriction(Expr<'d>),
     /// A coefficient of restitution, which is between 0 and 1.
@@ -48,6 +50,8 @@ pub enum BoundKind<'d> {
     Damping,
     /// A factor of a drag, which is not negative.
     Drag,
+    /// A parameter that follows from others, which is a finite number where these are known.
+    Derived,
 }
 
 impl BoundKind<'_> {
@@ -70,6 +74,11 @@ impl BoundKind<'_> {
                 value < 0.0,
                 Code::NotPositive,
                 "a coefficient of friction is not negative",
+            ),
+            BoundKind::RollingResistance => (
+                value < 0.0,
+                Code::NotPositive,
+                "a coefficient of rolling resistance is not negative",
             ),
             BoundKind::StaticFriction(_) => {
                 let words = "what sticks is held by no less friction than what slides";
@@ -106,6 +115,11 @@ impl BoundKind<'_> {
                 Code::NotPositive,
                 "a drag holds back: its coefficient, area and density are not negative",
             ),
+            BoundKind::Derived => (
+                !value.is_finite(),
+                Code::OutsideDomain,
+                "a derived parameter is a finite number",
+            ),
             BoundKind::Damping => (
                 value < 0.0,
                 Code::NegativeCoefficient,
@@ -120,8 +134,16 @@ impl BoundKind<'_> {
 pub(crate) fn broken(
     dag: &Dag,
     bounds: &[Bound<'_>],
-    value: impl FnMut(Symbol) -> f64,
+    mut value: impl FnMut(Symbol) -> f64,
 ) -> Vec<(usize, Code, String)> {
+    let is_unknown = |bound: &Bound<'_>, value: &mut dyn FnMut(Symbol) -> f64| {
+        let mut symbols = bound.value.symbols().into_iter();
+        matches!(bound.kind, BoundKind::Derived) && symbols.any(|symbol| value(symbol).is_nan())
+    };
+    let unknown: Vec<bool> = bounds
+        .iter()
+        .map(|bound| is_unknown(bound, &mut value))
+        .collect();
     let other = |bound: &Bound<'_>| match bound.kind {
         BoundKind::StaticFriction(other) | BoundKind::Unloading(other) => other.id(),
         _ => bound.value.id(),
@@ -134,7 +156,7 @@ pub(crate) fn broken(
     let all = bounds.iter().zip(numbers.chunks(2)).enumerate();
     all.filter_map(|(place, (bound, pair))| {
         let vanishes = matches!(bound.kind, BoundKind::Mass) && pair[0] == 0.0;
-        if vanishes && bound.value.stage() > stage::CONSTANT {
+        if unknown[place] || (vanishes && bound.value.stage() > stage::CONSTANT) {
             return None;
         }
         let (code, message) = bound.kind.complaint(pair[0], pair[1])?;

@@ -103,6 +103,18 @@ pub fn contact<'d>(model: &Model<'d>, touching: &Touching, rate: &mut Tangent<'d
     )
 }
 
+/// How fast a circle turns relative to what it touches, in rad/s.
+pub fn rolling<'d>(model: &Model<'d>, touching: &Touching, rate: &mut Tangent<'d>) -> Expr<'d> {
+    let own = turning(model, &model.circles[touching.circle], rate);
+    let other = match touching.surface {
+        Surface::Inside(other) | Surface::Outside(other) => {
+            turning(model, &model.circles[other], rate)
+        }
+        Surface::Along(pose) => rate.of(model.poses[pose.index()].angle),
+    };
+    difference(own, other)
+}
+
 /// How a circle, which need not be one of the machine's, touches a surface.
 pub fn touch<'d>(
     model: &Model<'d>,

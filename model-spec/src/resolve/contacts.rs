@@ -120,12 +120,25 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
             sticking
         });
+        let rolling = record.get("rolling_resistance").map(|said| {
+            for other in ["gap", "slip", "point", "corners"] {
+                if record.field(other).is_some() {
+                    self.conflict(record, "rolling_resistance", other);
+                }
+            }
+            let scope = self.scope(member, &limits::FRICTION);
+            let why = "a coefficient of rolling resistance is a length, in m";
+            let scalar = self.scalar_in(said, Unit::METRE, why, scope)?;
+            self.bound(BoundKind::RollingResistance, scalar.expr, said.span);
+            Some(scalar.expr)
+        });
         // What is said and wrong has been reported.
         let good = |said: Option<Option<Expr<'d>>>| match said {
             Some(value) => value.map(Some),
             None => Some(None),
         };
         let (response, friction, static_friction) = (response?, good(friction)?, good(sticking)?);
+        let rolling_resistance = good(rolling)?;
         let span = self.span(member);
         let contact = |(name, geometry)| Contact {
             name,
@@ -133,6 +146,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             response,
             friction,
             static_friction,
+            rolling_resistance,
             span,
         };
         Some(geometries?.into_iter().map(contact).collect())

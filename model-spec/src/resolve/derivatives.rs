@@ -33,7 +33,8 @@ impl Resolver<'_, '_, '_> {
                 "inputs" => Variable::Input,
                 _ => Variable::Parameter,
             };
-            let mut count = self.members_of(*section).len();
+            let members = self.members_of(*section).into_iter();
+            let mut count = members.filter(|&member| !self.is_derived(member)).count();
             if *section == SectionKind::Coordinates {
                 // A state is the rate of a coordinate.
                 count += self.members_of(SectionKind::States).len();
@@ -56,6 +57,10 @@ impl Resolver<'_, '_, '_> {
         let mut variables = Vec::new();
         for member in members {
             let section = self.declaration(member).section;
+            if self.is_derived(member) {
+                self.derivative_by_derived(member, name.span);
+                continue;
+            }
             if section == SectionKind::Parameters {
                 variables.extend(self.ordinal(member).map(Variable::Parameter));
                 continue;

@@ -9,7 +9,7 @@ use super::value::{Limit, MemberId, Scope, Value, limits};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::identity;
 use crate::model::bounds::BoundKind;
-use crate::model::{Place, Rotation, Surface, Touching, circles};
+use crate::model::{Assumption, Place, Rotation, Surface, Touching, circles, stage};
 use crate::source::Span;
 use crate::syntax::{self, Equation, Expression, ExpressionKind, Quantity, Record, SectionKind};
 use crate::unit::Unit;
@@ -297,6 +297,15 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     /// How far apart two points are: √(u·u), or what is assumed not to be negative and has that square.
     pub fn distance(&self, line: &[Expr<'d>]) -> Expr<'d> {
         circles::distance(line, &self.facts)
+    }
+
+    /// Adds a fact that a run checks and the spec does not say itself, unless it is known or holds everywhere.
+    pub fn add_fact(&mut self, fact: Assumption<'d>) {
+        let mut known = self.further_facts.iter();
+        let is_known = known.any(|known| known.excess == fact.excess);
+        if !is_known && fact.excess.stage() > stage::CONSTANT {
+            self.further_facts.push(fact);
+        }
     }
 
     /// Left side less right side, of one unit.

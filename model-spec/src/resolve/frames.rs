@@ -564,6 +564,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             (SectionKind::Constants, Content::Quantity(quantity)) => {
                 self.constant_value(member, quantity)
             }
+            (SectionKind::Parameters, Content::Quantity(quantity)) => {
+                self.derived_value(member, quantity)
+            }
             (SectionKind::Define, Content::Expression(expression)) => {
                 let scope = self.scope(member, &limits::DEFINITION);
                 match self.value(expression, scope) {

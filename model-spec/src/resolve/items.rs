@@ -24,7 +24,6 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     /// The value of a constant: what the caller sets, or what the spec says.
     pub fn constant_value(&mut self, member: MemberId, quantity: &'a Quantity) -> Value<'d> {
         let measure = declared_measure(quantity);
-        let unit = measure.as_ref().map(|measure| measure.unit);
         let name = self.name(member).to_string();
         let set = self.overrides.iter().find(|(known, _)| *known == name);
         let mut scalar = match (set, &quantity.value) {
@@ -38,12 +37,18 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
             (None, None) => return Value::Unknown, // the parser has said that it is missing
         };
+        self.measured_in_si(&mut scalar, measure);
+        Value::Scalar(scalar)
+    }
+
+    /// Turns a value that is measured in a declared unit into SI units, as formulas are.
+    pub(super) fn measured_in_si(&self, scalar: &mut Scalar<'d>, measure: Option<Measure>) {
+        let unit = measure.as_ref().map(|measure| measure.unit);
         if let Some(measure) = measure.filter(|measure| !measure.is_si()) {
             scalar.expr = measure.in_si(self.dag) * scalar.expr;
             scalar.number = scalar.number.map(|number| number * measure.to_f64());
         }
         scalar.unit = unit.or(scalar.unit);
-        Value::Scalar(scalar)
     }
 
     /// A value, measured in the unit that is declared for it: what is made of bare numbers is, and
@@ -122,10 +127,20 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let quantity = self.quantity(member)?;
         let measure = declared_measure(quantity);
         let unit = measure.as_ref().map(|measure| measure.unit);
+        if self.is_derived(member) {
+            return None;
+        }
         self.check_symbol_name(member);
-        let scope = self.scope(member, &limits::DEFAULT);
         let default = match &quantity.value {
-            Some(value) => Some(self.quantity_value(value, measure.as_ref(), scope)?.expr),
+            // What is derived is checked even where somebody gives it a value.
+            Some(_) if self.has_formula(member) => {
+                self.derived_value(member, quantity);
+                self.given_value(member)
+            }
+            Some(value) => {
+                let scope = self.scope(member, &limits::DEFAULT);
+                Some(self.quantity_value(value, measure.as_ref(), scope)?.expr)
+            }
             None => None,
         };
         let [symbol, ..] = self.members[member].symbols?;

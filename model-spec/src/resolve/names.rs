@@ -510,8 +510,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         member
     }
 
-    /// Parameters, coordinates and inputs are symbols, known as soon as they are declared.
+    /// Parameters, coordinates and inputs are symbols, known as soon as they are declared; a parameter that follows from others
+    /// is none.
     fn make_symbols(&mut self, member: MemberId) {
+        if self.is_derived(member) {
+            return;
+        }
         let Declaration {
             section, content, ..
         } = self.declaration(member);

@@ -438,16 +438,13 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 self.push(diagnostic.help(HELP));
                 return false;
             }
-            let is_known = self.table_facts.iter().any(|fact| fact.excess == excess);
-            if !is_known && excess.stage() > stage::CONSTANT {
-                let shown = text::shown(argument, scope.index);
-                self.table_facts.push(Assumption {
-                    text: format!("{shown} {sign} {}, the end of {path}", first.shown(bound)),
-                    excess,
-                    strict: false,
-                    span: argument.span,
-                });
-            }
+            let shown = text::shown(argument, scope.index);
+            self.add_fact(Assumption {
+                text: format!("{shown} {sign} {}, the end of {path}", first.shown(bound)),
+                excess,
+                strict: false,
+                span: argument.span,
+            });
         }
         true
     }

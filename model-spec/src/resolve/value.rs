@@ -161,6 +161,11 @@ pub(crate) mod limits {
     pub static INDEX: Limit = limit(stage::CONSTANT, "an index", FOLDED);
     pub static CONSTANT: Limit = limit(stage::CONSTANT, "a constant", FOLDED);
     pub static DEFAULT: Limit = limit(stage::CONSTANT, "a default", FOLDED);
+    pub static DERIVED: Limit = limit(
+        stage::PARAMETER,
+        "a derived parameter",
+        "it is computed once, from parameters and constants",
+    );
     pub static START: Limit = limit(
         stage::PARAMETER,
         "a start value",

@@ -84,11 +84,21 @@ pub struct Spec {
     /// True where something had to be skipped that may have declared names: then a name that is
     /// declared nowhere is no mistake of its own.
     pub incomplete: bool,
+    /// Parameters to which the program that reads the spec gives values of their own, by name or as one member of a family. Where the
+    /// spec derives one of them from others, its formula gives way. No text says it.
+    pub given: Vec<String>,
     /// From `machine` to the closing brace.
     pub span: Span,
 }
 
 impl Spec {
+    /// The same spec, where these parameters are given values and are not derived from others. Names that are
+    /// no derived parameters change nothing.
+    pub fn with_given(mut self, names: impl IntoIterator<Item = String>) -> Spec {
+        self.given.extend(names);
+        self
+    }
+
     /// The heading of a section, where the machine has it: the first one, if it repeats.
     pub fn section(&self, kind: SectionKind) -> Option<Span> {
         self.sections
@@ -247,6 +257,7 @@ impl SectionKind {
                 "tangential_restitution",
                 "friction",
                 "static_friction",
+                "rolling_resistance",
                 "law",
                 "order",
                 "painleve",

@@ -224,6 +224,155 @@ fn constants_from_outside() {
     );
 }
 
+/// The parameters of a model that are to be set, those that follow from others with their values for these parameters, and the mass
+/// of the first body for the same.
+fn parameters(model: &Model<'_>, values: &[f64]) -> (String, String, f64) {
+    let value = |symbol| {
+        let mut known = model.parameters.iter().zip(values);
+        let found = known.find(|(parameter, _)| parameter.symbol.as_symbol() == Some(symbol));
+        found.map_or(f64::NAN, |(_, value)| *value)
+    };
+    let derived = model.derived_parameters.iter().map(|parameter| {
+        let number = evaluate(model.dag, &[parameter.value], value)[0];
+        format!("{} = {number} {}", parameter.name, parameter.unit_text)
+    });
+    let derived: Vec<String> = derived.collect();
+    let mass = evaluate(model.dag, &[model.bodies[0].mass], value)[0];
+    let own = listed(model.parameters.iter().map(|parameter| &parameter.name));
+    (own, derived.join(", "), mass)
+}
+
+/// A mass that follows from a density, a length in mm, and a definition; a family of stiffnesses; and what names only constants, which
+/// is a default.
+const DERIVED: &str = "machine Test in plane {
+    constants { N = 2, f = 3 }
+    define { area = d*w, twice = 2*f }
+    parameters { M: kg = rho*area*L, rho: kg/m^3 = 1024, d: mm = w/4, w: m = 0.25, L: m = 0.5, c: 1 = twice,
+        k[i in 1..N]: N/m = i*k0*c, k0: N/m = 10 }
+    coordinates { x: m }
+    bodies { b { mass: M, at: (x, 0) } }
+    springs { s[i in 1..N] { stiffness: k[i], stretch: x } }
+}";
+
+#[test]
+fn parameters_follow_from_others() {
+    let dag = Dag::new();
+    let model = sound(&dag, DERIVED);
+    let defaults = [1024.0, 0.25, 0.5, 6.0, 10.0];
+    let found: Vec<f64> = model
+        .parameters
+        .iter()
+        .map(|parameter| lagrangian_symbolic::nearest(parameter.default.expect("a default")))
+        .collect();
+    assert_eq!(found, defaults);
+    // ρ d w L with d = w/4 = 62.5 mm: 1024 * 0.0625 * 0.25 * 0.5; all of it is exact in doubles.
+    let (own, derived, mass) = parameters(&model, &defaults);
+    assert_eq!(own, "rho w L c k0");
+    assert_eq!(
+        derived,
+        "M = 8 kg, d = 62.5 mm, k[1] = 60 N/m, k[2] = 120 N/m"
+    );
+    assert_eq!(mass, 8.0);
+    // The width acts twice, by d too.
+    let (_, derived, mass) = parameters(&model, &[1024.0, 0.5, 0.5, 6.0, 1.0]);
+    assert_eq!(
+        derived,
+        "M = 32 kg, d = 125 mm, k[1] = 6 N/m, k[2] = 12 N/m"
+    );
+    assert_eq!(mass, 32.0);
+}
+
+#[test]
+fn a_parameter_that_is_given_follows_no_more() {
+    let dag = Dag::new();
+    // A value beside the spec, in the declared unit, is the default.
+    let model = sized(&dag, DERIVED, &[("d", Rational::from(125))]);
+    assert_eq!(model.parameters[1].default, Some(dag.int(125)));
+    let values = [1024.0, 125.0, 0.25, 0.5, 6.0, 10.0];
+    let (own, derived, mass) = parameters(&model, &values);
+    assert_eq!(own, "rho d w L c k0");
+    assert_eq!(derived, "M = 16 kg, k[1] = 60 N/m, k[2] = 120 N/m");
+    assert_eq!(mass, 16.0);
+    // A name alone leaves it without a value; one member of a family leaves the others.
+    let (mut sources, mut report) = (Sources::new(), Report::new());
+    let spec = lagrangian_spec::parse(&mut sources, "test.machine", DERIVED, &mut report);
+    let spec = spec.with_given(["M", "k[2]", "rho", "nothing"].map(str::to_owned));
+    let model = Model::resolve(spec, &dag, &[], &mut files(), &mut sources, &mut report);
+    let model = model.unwrap_or_else(|| panic!("{}", report.render_short(&sources)));
+    let (own, derived, mass) = parameters(&model, &[7.0, 1.0, 0.25, 0.5, 6.0, 3.0, 10.0]);
+    assert_eq!(own, "M rho w L c k[2] k0");
+    assert_eq!(derived, "d = 62.5 mm, k[1] = 60 N/m");
+    assert_eq!(mass, 7.0);
+    assert_eq!(model.parameters[0].default, None);
+    // What its formula alone used is not unused.
+    assert!(
+        report.diagnostics().is_empty(),
+        "{}",
+        report.render_short(&sources)
+    );
+    // The variant of a spec may say a number, or another formula.
+    for (said, expected) in [("9", 9.0), ("2*rho*L*d*w", 16.0)] {
+        let (mut sources, mut report) = (Sources::new(), Report::new());
+        let variant =
+            format!("machine V extends \"derived.machine\" {{ parameters {{ M: kg = {said} }} }}");
+        let files = &mut InMemory::new().with("derived.machine", DERIVED);
+        let spec = lagrangian_spec::parse(&mut sources, "v.machine", &variant, &mut report);
+        let model = Model::resolve(spec, &dag, &[], files, &mut sources, &mut report);
+        let model = model.unwrap_or_else(|| panic!("{}", report.render_short(&sources)));
+        let values: Vec<f64> = model
+            .parameters
+            .iter()
+            .map(|parameter| lagrangian_symbolic::nearest(parameter.default.expect("a default")))
+            .collect();
+        assert_eq!(parameters(&model, &values).2, expected);
+    }
+}
+
+#[test]
+fn values_for_which_a_derived_parameter_is_no_number_are_refused() {
+    let dag = Dag::new();
+    let text = "machine Test in plane {
+        parameters { a: m = 2, b: m = 1, M: kg = (1*kg*m)/(a - b), w: 1 = sqrt(a/b) }
+        coordinates { x: m }
+        bodies { b { mass: w*M, at: (x, 0) } }
+    }";
+    let model = sound(&dag, text);
+    let refused = |values: &[f64]| -> Vec<String> {
+        let said = model.refused_values(values).into_iter();
+        said.map(|diagnostic| diagnostic.message).collect()
+    };
+    assert_eq!(refused(&[2.0, 1.0]), Vec::<String>::new());
+    assert_eq!(
+        refused(&[1.0, 1.0]),
+        ["a derived parameter is a finite number, found inf"]
+    );
+    assert_eq!(
+        refused(&[1.0, -1.0]),
+        ["a derived parameter is a finite number, found NaN"]
+    );
+    // Of what is not known nothing is said.
+    assert_eq!(refused(&[f64::NAN, 1.0]), Vec::<String>::new());
+}
+
+#[test]
+fn a_long_chain_of_derived_parameters_is_read_in_time() {
+    let chain: String = (1..=20_000)
+        .map(|i| format!("p{}: m = p{i}, ", i - 1))
+        .collect();
+    let dag = Dag::new();
+    let text = format!(
+        "machine Test in plane {{ parameters {{ {chain} p20000: m = 3 }} coordinates {{ x: m }}
+         bodies {{ b {{ mass: 1, at: (x + p0, 0) }} }} }}"
+    );
+    let model = sound(&dag, &text);
+    assert_eq!(model.parameters.len(), 1);
+    assert_eq!(model.derived_parameters.len(), 20_000);
+    assert_eq!(
+        model.derived_parameters[0].value,
+        model.parameters[0].symbol
+    );
+}
+
 #[test]
 fn definitions_stand_in_any_order() {
     let forward: String = (1..=2000)

@@ -48,7 +48,7 @@ fn says(text: &str, expected: &[(Code, &str)]) -> (Spec, Report) {
     (spec, report)
 }
 
-/// The same for the inside of a machine.
+/// Exactly these mistakes are reported inside a machine.
 #[track_caller]
 fn inside(text: &str, expected: &[(Code, &str)]) -> (Spec, Report) {
     says(&format!("machine Test in plane {{ {text} }}"), expected)

@@ -125,7 +125,7 @@ impl Touching {
         is_closed.then(|| own.pressed(here.restitution(contact), here.depth(contact)))
     }
 
-    /// The same, of one that is about to be closed.
+    /// Force and energies of a contact that yields and is about to close.
     pub(super) fn pressing(&self, here: &Here, contact: usize) -> Option<Pressed> {
         let own = self.yielding[contact]?;
         Some(own.pressed(here.restitution(contact), here.depth(contact)))

@@ -72,7 +72,7 @@ impl Touching {
     pub(super) fn held_directions(&self, modes: &[Mode]) -> Vec<usize> {
         let mut held = Vec::new();
         for (k, mode) in modes.iter().enumerate() {
-            if *mode != Mode::Open && !self.yields(k) {
+            if *mode != Mode::Open && !self.yields(k) && self.leans(k).is_none() {
                 held.push(2 * k);
             }
             if *mode == Mode::Sticks && self.rubs(k) {
@@ -119,8 +119,16 @@ impl<S: System> System for Held<'_, S> {
         let names: Vec<UnilateralContact<'_>> = self.system.unilateral_contacts().collect();
         let held = self.directions.iter().map(|direction| Constraint {
             name: names[direction / 2].name,
-            unit: if direction % 2 == 0 { "m" } else { "m/s" },
-            multiplier_unit: "N",
+            unit: match direction % 2 {
+                0 => "m",
+                _ if names[direction / 2].rolls => "rad/s",
+                _ => "m/s",
+            },
+            multiplier_unit: if names[direction / 2].rolls {
+                "N*m"
+            } else {
+                "N"
+            },
             holonomic: direction % 2 == 0,
         });
         let all: Vec<Constraint<'_>> = self.system.constraints().chain(held).collect();

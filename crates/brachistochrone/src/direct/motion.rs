@@ -307,7 +307,7 @@ impl<T: Terrain> Sought<T> {
         None
     }
 
-    /// The same of a motion that ends at rest, where nothing is lost: it can be gone backwards too, so extremals from the
+    /// The search for a motion that ends at rest, where no energy is lost: it can be gone backwards too, so extremals from the
     /// start are looked at, which all have its energy. They differ by their multipliers p, but for the multiple of `∂V`
     /// that changes nothing, and n of their places, q̇ among them, are to stay independent.
     fn conjugate_to_start(&self, transitions: &[Vec<Vec<f64>>], level: &Level) -> Option<usize> {

@@ -144,7 +144,7 @@ impl Emitter<'_> {
     /// `Differentiate`: the same with what else is differentiated by.
     fn impl_differentiate(&mut self, arguments: &[String], call: &str) {
         let runtime = self.options.runtime.clone();
-        let [f64, str] = ["f64", "str"].map(|name| self.types.known(name));
+        let f64 = self.types.known("f64");
         let result = format!("{}<(), {runtime}::Singular>", self.types.known("Result"));
         let iterator = self.types.known("ExactSizeIterator");
         let n = self.program.dimension();
@@ -155,9 +155,11 @@ impl Emitter<'_> {
                 Variable::Input(i) => &self.program.inputs[*i],
                 Variable::Parameter(i) => &self.program.parameters[*i],
             };
-            format!("({:?}, {:?})", slot.name.to_string(), slot.label())
+            let items = [slot.name.to_string(), slot.label().to_owned()];
+            let items = items.map(|item| Layout::Atom(format!("{item:?}")));
+            Layout::List(format!("{runtime}::Quantity::new("), items.to_vec(), ")")
         });
-        let table = Layout::array(names);
+        let table = Layout::nested(names);
         let width = others.len();
         // The fields after the first two.
         let fields: Vec<&str> = self.derivative_fields()[2..]
@@ -173,15 +175,15 @@ impl Emitter<'_> {
         let quantities = format!("impl {iterator}<Item = {runtime}::Quantity<'_>>");
         self.writer
             .signature("fn variables", &["&self".into()], Some(&quantities));
-        let head = format!("const VARIABLES: [(&{str}, &{str}); {width}] = ");
+        let head = format!("let variables: [{runtime}::Quantity<'_>; {width}] = ");
         self.writer.expression(&head, &table, ";");
-        self.writer.line("VARIABLES.iter().map(quantity)");
+        self.writer.line("variables.into_iter()");
         self.writer.close("}");
 
         self.writer.gap();
         let mut arguments = arguments.to_vec();
-        let room = if width > 0 { "by_variables" } else { "_" };
-        arguments.push(format!("{room}: &mut [{f64}]"));
+        let values = if width > 0 { "by_variables" } else { "_" };
+        arguments.push(format!("{values}: &mut [{f64}]"));
         self.writer
             .signature("fn differentiate", &arguments, Some(&result));
         self.writer.line(format!("let derivatives = {call}?;"));

@@ -317,36 +317,19 @@ impl<'a> Emitter<'a> {
     /// The names that the code of a function finds taken.
     pub(super) fn scope(&self) -> Scope {
         Scope::with(&[
-            "p",
-            "t",
-            "q",
-            "v",
-            "a",
-            "at",
-            "u",
-            "f",
-            "w",
-            "n",
-            "angles",
-            "circular",
-            "singular",
-            "check",
-            "sound",
-            "are_near",
-            "result",
-            "vanishes",
-            "None",
-            "Some",
-            "Ok",
-            "Err",
-            "PARAMETERS",
-            "COORDINATES",
-            "INPUTS",
-            "CONSTRAINTS",
-            "constraint",
-            "fill",
-            "OUTPUTS",
+            "p", "t", "q", "v", "a", "at", "u", "f", "w", "n", "angles", "circular", "singular",
+            "sound", "are_near", "result", "pivots", "PIVOTS", "None", "Some", "Ok", "Err",
         ])
+    }
+
+    /// The call of a function from a method of the prepared values.
+    pub(super) fn call_with(&self, name: &str, needs: Reads) -> String {
+        let arguments = self.arguments(needs);
+        let passed: Vec<&str> = arguments
+            .iter()
+            .map(|(name, _)| if *name == "p" { "self" } else { name })
+            .collect();
+        format!("{name}({})", passed.join(", "))
     }
 
     /// What the outputs together are to be given.

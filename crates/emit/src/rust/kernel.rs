@@ -10,7 +10,7 @@
 //! A function that is too long for that is cut into pieces, each a value of its own.
 
 use super::Emitter;
-use super::language::{Rust, number};
+use super::language::Rust;
 use super::types::Types;
 use crate::body::{self, Binding, Plan, Unchecked};
 use crate::cut::{self, Cut, Piece};
@@ -213,7 +213,6 @@ impl Emitter<'_> {
         if body.guards.is_empty() {
             return;
         }
-        let guards = || function.guards.iter().zip(&body.guards);
         let mut conditions = self.exceeding(function, body);
         conditions.push(format!("{}.is_finite()", results[body.latest]));
         // As rustfmt has it, which generated code is held to: on one line of a method, on the next, or
@@ -238,21 +237,17 @@ impl Emitter<'_> {
             }
         }
         self.writer.open("if !sound {");
-        for (guard, [pivot, scale]) in guards() {
-            let share = number(guard.tolerance);
-            let coordinate = guard.coordinate;
-            self.writer
-                .line(format!("check({pivot}, {scale}, {share}, {coordinate})?;"));
+        for (constant, pivots) in self.lists_of_pivots(function, &body.guards) {
+            self.writer.expression("let pivots = ", &pivots, ";");
+            self.writer.line(format!("{constant}.check(pivots)?;"));
         }
         self.writer.close("}");
     }
 
     /// The conditions that pivots have to meet.
     pub(super) fn exceeding(&self, function: &Function, body: &Unchecked) -> Vec<String> {
-        let register = &self.types.register;
         let exceeds = |(guard, [pivot, scale]): (&Guard, &[String; 2])| {
-            let share = number(guard.tolerance);
-            format!("{pivot}.exceeds({register}::from_f64({share}) * {scale})")
+            format!("{}.hold({pivot}, {scale})", self.pivots_of(guard))
         };
         let guards = function.guards.iter().zip(&body.guards);
         guards.map(exceeds).collect()

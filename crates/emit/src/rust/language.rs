@@ -236,15 +236,10 @@ impl Loops for Rust<'_> {
         [pivot, scale]: [&str; 2],
         coordinate: &str,
     ) {
-        if self.in_registers {
-            let share = number(guard.tolerance);
-            return writer.line(format!("check({pivot}, {scale}, {share}, {coordinate})?;"));
-        }
-        writer.open(format!("if {} {{", vanishes(guard, pivot, scale)));
+        let constant = self.emitter.pivots_of(guard);
         writer.line(format!(
-            "return Err(singular({coordinate}, {pivot}, {scale}));"
+            "{constant}.check([({coordinate}, {pivot}, {scale})])?;"
         ));
-        writer.close("}");
     }
 
     fn all_circular(&self, writer: &mut Writer, name: &str, angles: &str, at: usize) -> [Place; 2] {
@@ -254,11 +249,6 @@ impl Loops for Rust<'_> {
         ));
         [0, 1].map(|which| Place::new(format!("{name}["), at, format!("].{which}")))
     }
-}
-
-/// The condition of a guard that fails.
-pub(super) fn vanishes(guard: &Guard, pivot: &str, scale: &str) -> String {
-    format!("vanishes({pivot}, {scale}, {})", number(guard.tolerance))
 }
 
 /// The method of `Scalar` for a function.

@@ -11,7 +11,7 @@ use crate::names::Field;
 use lagrangian_program::{Function, Role, Slot, early_angles};
 
 impl Emitter<'_> {
-    /// The content of the module: of the runtime it needs `Scalar`, `Number`, `Singular` and `scalar::Kernel` only.
+    /// The content of the module: of the runtime it needs `Scalar`, `Number`, `Singular`, `Pivots` and `scalar::Kernel` only.
     pub(super) fn library(mut self) -> String {
         for line in &self.options.origin {
             self.writer.comment("//", line);
@@ -38,7 +38,7 @@ impl Emitter<'_> {
         if let Some(function) = self.program.function(Role::Accelerations) {
             self.evaluate(function, &inputs);
         }
-        self.helpers_of_guards();
+        self.pivots();
         self.writer.finish()
     }
 

@@ -40,7 +40,7 @@ const MOST_STRAIGHT: usize = 3;
 enum Carried {
     /// The newest coefficient of a row.
     Plain(RowId),
-    /// The same times its order.
+    /// A coefficient of a row times its order.
     Weighted(RowId),
     /// What one of these two held an order before.
     Older(RowId, bool),
@@ -198,45 +198,12 @@ impl Emitter<'_> {
             .collect()
     }
 
-    /// The methods of `System`.
-    pub(super) fn methods_of_series(&mut self) {
-        let Some(series) = self.series() else {
-            return;
-        };
-        let runtime = self.options.runtime.clone();
-        let [f64, result, str] = ["f64", "Result", "str"].map(|name| self.types.known(name));
-        self.method(
-            "check_series",
-            &[],
-            Some(&format!("{result}<(), &{str}>")),
-            |body| body.line("Ok(())"),
-        );
-        if !self.program.assumptions.is_empty() && self.program.has_linear_assumptions() {
-            let bool = self.types.known("bool");
-            self.method("has_linear_assumptions", &[], Some(&bool), |body| {
-                body.line("true");
-            });
-        }
-        let fields = self.fields_of_series(&series).into_iter();
-        let fields = fields.map(|(name, _)| {
-            let value = if name == "p" { "self" } else { &name };
-            (name.clone(), Layout::Atom(value.to_owned()))
-        });
-        let n = self.program.dimension();
-        let call = Layout::Struct(self.types.series.clone(), fields.collect());
-        self.method(
-            "series",
-            &["t", "q", "v", "u", "coefficients"],
-            Some(&format!("{result}<(), {runtime}::Singular>")),
-            |body| {
-                body.line(format!("let known = {runtime}::series::ROWS;"));
-                body.open("for row in coefficients.iter_mut().skip(known) {");
-                body.line(format!("*row = [{f64}::NAN; {n}];"));
-                body.close("}");
-                body.expression("let series = ", &call, ";");
-                body.line(format!("<{f64} as {runtime}::Number>::run(series)"));
-            },
-        );
+    /// The call of the series as a value, if it is asked for.
+    pub(super) fn call_of_series(&self) -> Option<Layout> {
+        let series = self.series()?;
+        let names = self.fields_of_series(&series).into_iter();
+        let fields = names.map(|(name, _)| (name.clone(), Layout::Atom(name)));
+        Some(Layout::Struct(self.types.series.clone(), fields.collect()))
     }
 
     fn series_code(&mut self, written: &Written) {
@@ -268,14 +235,17 @@ impl Emitter<'_> {
         for (kind, names, range, width) in &packs {
             for (side, name) in names.iter().enumerate() {
                 self.writer.line(format!(
-                    "let mut {name} = [[{register}::ZERO.store(); {width}]; {runtime}::series::ROWS];"
+                    "let zeros = [[{register}::ZERO.store(); {width}]; {runtime}::series::ROWS];"
+                ));
+                self.writer.line(format!(
+                    "let mut {name} = {runtime}::series::Aligned(zeros);"
                 ));
                 if *kind == 0 {
                     let first = written.kept[*kind][side][range.clone()].iter();
                     let first: Vec<X> = first.map(|[first, _]| *first).collect();
                     let first = code.kept(&first, *width);
                     self.writer
-                        .expression(&format!("{name}[2] = "), &first, ";");
+                        .expression(&format!("{name}.0[2] = "), &first, ";");
                 }
             }
         }
@@ -291,7 +261,7 @@ impl Emitter<'_> {
             let name = format!("{}{}", ["w", "s"][*kind], range.start / WIDTH);
             let call = Layout::List(
                 format!("{runtime}::series::sweep::<{register}, {width}>("),
-                [format!("&{a}"), format!("&{b}"), "order - 2".to_owned()]
+                [format!("&{a}.0"), format!("&{b}.0"), "order - 2".to_owned()]
                     .map(Layout::Atom)
                     .to_vec(),
                 ")",
@@ -310,7 +280,7 @@ impl Emitter<'_> {
                 let kept = written.kept[*kind][side][range.clone()].iter();
                 let kept: Vec<X> = kept.map(|[_, kept]| *kept).collect();
                 self.writer
-                    .open(format!("if let Some(kept) = {name}.get_mut({at}) {{"));
+                    .open(format!("if let Some(kept) = {name}.0.get_mut({at}) {{"));
                 let kept = code.kept(&kept, *width);
                 self.writer.expression("*kept = ", &kept, ";");
                 self.writer.close("}");

@@ -1,8 +1,8 @@
 //! The structs of a module: parameters, coordinates, inputs, outputs, prepared values.
 
 use super::docs::{field_docs, prose};
-use super::language::{number, vanishes};
-use super::types::{Group, Types, literal};
+use super::language::number;
+use super::types::{Group, Types};
 use super::{Emitter, MARK};
 use crate::layout::Layout;
 use crate::names::{Field, flat};
@@ -50,35 +50,6 @@ impl Emitter<'_> {
         self.writer.close("}");
     }
 
-    /// `map`: the same struct over other numbers.
-    pub(super) fn map(&mut self, name: &str, group: &Group<'_>) {
-        let scalar = self.types.scalar.clone();
-        let fn_trait = self.types.known("Fn");
-        self.docs("These values as other numbers.");
-        let argument = if group.is_empty() { "_" } else { "f" };
-        self.writer.signature(
-            "pub fn map<R>",
-            &[
-                "self".into(),
-                format!("{argument}: impl {fn_trait}({scalar}) -> R"),
-            ],
-            Some(&format!("{name}<R>")),
-        );
-        let fields: Vec<(String, Layout)> = group
-            .fields
-            .iter()
-            .map(|field| {
-                let value = match field.is_family {
-                    true => format!("self.{}.map(&f)", field.ident),
-                    false => format!("f(self.{})", field.ident),
-                };
-                (field.ident.clone(), Layout::Atom(value))
-            })
-            .collect();
-        self.writer.expression("", &literal(name, fields), "");
-        self.writer.close("}");
-    }
-
     /// The struct of the parameters, and what can be done with them.
     pub(super) fn machine(&mut self) {
         let name = self.types.machine.clone();
@@ -90,12 +61,6 @@ impl Emitter<'_> {
         };
         let group = Group::new(&self.program.parameters);
         self.structure(&name, &docs, &group, true);
-        self.defaults(&name, &group);
-        self.writer.gap();
-        self.writer
-            .open(format!("impl<{scalar}> {name}<{scalar}> {{"));
-        self.map(&name, &group);
-        self.writer.close("}");
         self.writer.gap();
         self.writer
             .open(format!("impl<{bound}> {name}<{scalar}> {{"));
@@ -115,29 +80,6 @@ impl Emitter<'_> {
                 .any(|&slot| group.slots[slot].default.is_none())
         };
         group.fields.iter().filter(lacks).cloned().collect()
-    }
-
-    /// `Default`, where every number has one.
-    pub(super) fn defaults(&mut self, name: &str, group: &Group<'_>) {
-        if !Self::required_fields(group).is_empty() {
-            return;
-        }
-        self.writer.gap();
-        self.writer.open(format!(
-            "impl {} for {name} {{",
-            self.types.known("Default")
-        ));
-        self.writer.open("fn default() -> Self {");
-        let value = |slot: usize| {
-            group.slots[slot]
-                .default
-                .as_ref()
-                .map_or("0.0".into(), |default| number(default.value))
-        };
-        self.writer
-            .expression("", &group.literal("Self", value), "");
-        self.writer.close("}");
-        self.writer.close("}");
     }
 
     /// `new`, where some parameters have no default.
@@ -214,26 +156,25 @@ impl Emitter<'_> {
         };
         let series = self.constants_of_series();
         let (values, pivots) = texts.split_at(self.prepared.len());
-        for (i, (guard, pair)) in function.guards.iter().zip(pivots.chunks(2)).enumerate() {
-            let (pivot, scale) = (&pair[0], &pair[1]);
-            let condition = vanishes(guard, pivot, scale);
-            match i {
-                0 => self
-                    .writer
-                    .open(format!("let singular = if {condition} {{")),
-                _ => self.writer.middle(&format!("}} else if {condition} {{")),
-            }
-            self.writer.line(format!(
-                "Some(singular({}, {pivot}, {scale}))",
-                guard.coordinate
-            ));
+        let pivots: Vec<[String; 2]> = pivots
+            .chunks(2)
+            .map(|pair| [pair[0].clone(), pair[1].clone()])
+            .collect();
+        let mut found = Vec::new();
+        for (i, (constant, list)) in self.lists_of_pivots(function, &pivots).iter().enumerate() {
+            let name = match i {
+                0 => "pivots".to_owned(),
+                i => format!("pivots_{i}"),
+            };
+            self.writer.expression(&format!("let {name} = "), list, ";");
+            found.push(match i {
+                0 => format!("{constant}.vanished({name})"),
+                _ => format!(".or({constant}.vanished({name}))"),
+            });
         }
         let prepared = match self.prepared_literal(|slot| values[slot].clone(), &families) {
             Layout::Struct(name, mut fields) if !function.guards.is_empty() => {
-                self.writer.middle("} else {");
-                self.writer.line("None");
-                self.writer.close("};");
-                fields.push(("singular".into(), Layout::Atom("singular".into())));
+                fields.push(("singular".into(), Layout::Atom(found.concat())));
                 Layout::Struct(name, fields)
             }
             prepared => prepared,
@@ -292,36 +233,12 @@ impl Emitter<'_> {
     /// The coordinates by name, and as an array.
     pub(super) fn coordinates(&mut self) {
         let name = self.types.coordinates.clone();
-        let scalar = self.types.scalar.clone();
-        let copy = self.types.known("Copy");
-        let n = self.program.dimension();
         let group = Group::new(&self.program.coordinates);
         let docs = format!(
             "The coordinates of [`{}`], or their rates, by name.",
             self.program.name
         );
         self.structure(&name, &docs, &group, false);
-        self.writer.gap();
-        self.writer
-            .open(format!("impl<{scalar}: {copy}> {name}<{scalar}> {{"));
-        self.docs(
-            "The numbers in the order of the description: the order of `q` in every function here.",
-        );
-        self.writer
-            .open(format!("pub fn to_array(self) -> [{scalar}; {n}] {{"));
-        let items = group.paths.iter().map(|path| format!("self.{path}"));
-        self.writer.expression("", &Layout::array(items), "");
-        self.writer.close("}");
-        self.writer.gap();
-        self.docs("Names for numbers in the order of the description.");
-        self.writer
-            .open(format!("pub fn from_array(q: [{scalar}; {n}]) -> Self {{"));
-        self.writer
-            .expression("", &group.literal("Self", |slot| format!("q[{slot}]")), "");
-        self.writer.close("}");
-        self.writer.gap();
-        self.map(&name, &group);
-        self.writer.close("}");
     }
 
     pub(super) fn inputs(&mut self) {
@@ -329,16 +246,6 @@ impl Emitter<'_> {
         let group = Group::new(&self.program.inputs);
         let docs = format!("What can be set while a [`{}`] runs.", self.program.name);
         self.structure(&name, &docs, &group, true);
-        if group.is_empty() {
-            return;
-        }
-        self.defaults(&name, &group);
-        let scalar = self.types.scalar.clone();
-        self.writer.gap();
-        self.writer
-            .open(format!("impl<{scalar}> {name}<{scalar}> {{"));
-        self.map(&name, &group);
-        self.writer.close("}");
     }
 
     pub(super) fn outputs(&mut self) {

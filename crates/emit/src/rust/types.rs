@@ -27,6 +27,8 @@ pub(super) struct Types {
     pub(super) at_position: String,
     /// The parameter that stands for the number.
     pub(super) scalar: String,
+    /// The parameter that stands for another number.
+    pub(super) other: String,
     /// The parameter that stands for the number in a register.
     pub(super) register: String,
     /// `f64`, `usize`, `Result`, …, by full path where the machine has that name.
@@ -48,6 +50,7 @@ impl Types {
             at_position: scope.take("AtPosition"),
             calls: calls(&mut scope),
             scalar: scope.take("S"),
+            other: scope.take("R"),
             register: scope.take("N"),
             shadowed: machine.to_owned(),
         }

@@ -84,7 +84,7 @@ fn main_of(program: &Program, prefix: &str, t: f64, q: &[f64], v: &[f64]) -> Str
             .collect();
         read.join(", ")
     };
-    let room = |role: Role| program.function(role).map_or(1, |f| f.results.len().max(1));
+    let length = |role: Role| program.function(role).map_or(1, |f| f.results.len().max(1));
     let mut text = String::new();
     let n = q.len();
     let inputs = match program.inputs.is_empty() {
@@ -109,8 +109,8 @@ fn main_of(program: &Program, prefix: &str, t: f64, q: &[f64], v: &[f64]) -> Str
         list(&defaults),
         list(q),
         list(v),
-        room(Role::AtTime),
-        room(Role::AtPosition),
+        length(Role::AtTime),
+        length(Role::AtPosition),
         arguments(Role::Accelerations, "a"),
         arguments(Role::KineticEnergy, ""),
         arguments(Role::AtTime, "at_time"),

@@ -293,7 +293,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
             unilateral: model
                 .contacts
                 .iter()
-                .map(|contact| self.unilateral(contact, &x))
+                .flat_map(|contact| self.unilateral(contact, &x))
                 .collect(),
         }
     }
@@ -508,7 +508,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         &self,
         contact: &Contact<'d>,
         x: &impl Fn(Expr<'d>) -> Moving<R>,
-    ) -> LiteralUnilateral<R> {
+    ) -> Vec<LiteralUnilateral<R>> {
         let model = self.model;
         let [gap, slip] = match &contact.geometry {
             ContactGeometry::Circles(touching) => {
@@ -522,7 +522,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         let known = |e: Option<Expr<'d>>| e.map_or(R::ZERO, here);
         let friction = contact.friction;
         let nothing = Varied::<R>::ZERO;
-        LiteralUnilateral {
+        let mut all = vec![LiteralUnilateral {
             gap: of_position(gap),
             // Without friction nobody looks at the slip.
             slip: of_rate(friction.map_or(nothing, |_| slip.value)),
@@ -532,7 +532,24 @@ impl<'m, 'd> Lagrange<'m, 'd> {
                 known(friction),
                 known(contact.static_friction.or(friction)),
             ],
+        }];
+        if let (ContactGeometry::Circles(touching), Some(resistance)) =
+            (&contact.geometry, contact.rolling_resistance)
+        {
+            let (_, own) = placed(model, &model.circles[touching.circle], x);
+            let other = match touching.surface {
+                Surface::Inside(other) | Surface::Outside(other) => {
+                    placed(model, &model.circles[other], x).1
+                }
+                Surface::Along(pose) => x(model.poses[pose.index()].angle).derivative,
+            };
+            all.push(LiteralUnilateral {
+                gap: of_position(gap),
+                slip: of_rate(own - other),
+                coefficients: [R::ZERO, R::ZERO, here(resistance), here(resistance)],
+            });
         }
+        all
     }
 
     fn sliding<R: Scalar>(
@@ -795,6 +812,7 @@ fn geometry<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
         roots.extend(contact.response.coefficients());
         roots.extend(contact.friction);
         roots.extend(contact.static_friction);
+        roots.extend(contact.rolling_resistance);
     }
     for rolling in model.rolling() {
         if let Surface::Along(frame) = rolling.circles.surface {

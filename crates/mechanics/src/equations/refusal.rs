@@ -5,12 +5,14 @@ use lagrangian_symbolic::Expr;
 
 use super::Equations;
 use super::constraints::{self, ConstraintEquation};
+use super::kinematics::Variables;
 use super::sliding::MOST_CONTACTS;
 use super::symmetric::Symmetric;
 use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
 use lagrangian_spec::identity;
 use lagrangian_spec::model::{
-    Circle, ContactGeometry, MOST_UNILATERAL, Model, Place, Rotation, Space, Surface, Touching,
+    Circle, ContactGeometry, ImpactLaw, MOST_UNILATERAL, Model, Painleve, Place, Rotation, Space,
+    Surface, Touching, circles,
 };
 use lagrangian_spec::source::Span;
 use lagrangian_spec::syntax::SectionKind;
@@ -56,8 +58,36 @@ fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
             refuse(Code::NotSupported, contact.span, message, help);
         }
     }
-    if let Some(contact) = model.contacts.get(MOST_UNILATERAL) {
-        let count = model.contacts.len();
+    let rolling = || {
+        let all = model.contacts.iter();
+        all.filter(|contact| contact.rolling_resistance.is_some())
+    };
+    for contact in rolling() {
+        let law = contact.response.impact_law();
+        if let Some(law @ (ImpactLaw::Poisson | ImpactLaw::Stronge)) = law {
+            let message = format!("`law: {}` knows no `rolling_resistance`", law.name());
+            let help = "Routh's path is that of one point, which slips: the laws `newton` and `poisson_glocker` know it".to_owned();
+            refuse(Code::NotSupported, contact.span, message, help);
+        }
+        if contact.response.painleve() == Painleve::Impact {
+            let message = "`painleve: impact` knows no `rolling_resistance`".to_owned();
+            let help = "leave one of both out".to_owned();
+            refuse(Code::NotSupported, contact.span, message, help);
+        }
+        if let ContactGeometry::Circles(touching) = &contact.geometry {
+            let x = Variables::of(model);
+            let rate = circles::rolling(model, touching, &mut x.coasting(model));
+            if identity::is_zero(rate) == Some(true) {
+                let message = "neither of these circles turns".to_owned();
+                let help =
+                    "`rolling_resistance` resists turning: give the body an `angle`".to_owned();
+                refuse(Code::MissingRotation, contact.span, message, help);
+            }
+        }
+    }
+    let most = MOST_UNILATERAL - rolling().count().min(MOST_UNILATERAL);
+    if let Some(contact) = model.contacts.get(most) {
+        let count = model.contacts.len() + rolling().count();
         let message = format!("{count} unilateral contacts are too many");
         let help = format!("a machine may have {MOST_UNILATERAL} of them");
         refuse(Code::TooLarge, contact.span, message, help);

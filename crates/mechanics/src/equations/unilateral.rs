@@ -4,6 +4,7 @@
 //! gap        g(q, t) ≥ 0,   γₙ = Dg = wₙ v + ∂g/∂t,   wₙ = ∂γₙ/∂v                     (E51)
 //! slip       γₜ = wₜ v + b(q, t),                     wₜ = ∂γₜ/∂v                      (E52)
 //! rates      dγ/dt = w a + δ,                         δ = Dγ at a = 0                  (E53)
+//! rolling    γ = ω − ω′, of circles that resist it
 //! motion     M a = f + Gᵀλ + Σ wₙᵀ λₙ + Σ wₜᵀ λₜ
 //! ```
 //!
@@ -44,6 +45,8 @@ pub struct UnilateralEquation<'d> {
     pub compliance: Option<Compliance>,
     /// Whether there is friction.
     pub rubs: bool,
+    /// Whether it is the rolling of the contact before it: see [`Unilateral`](lagrangian_program::Unilateral).
+    pub rolls: bool,
 }
 
 /// A direction of a contact.
@@ -60,7 +63,7 @@ pub struct DirectionEquation<'d> {
 /// The unilateral contacts of a machine, in their order.
 pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
     let x = Variables::of(model);
-    let of_contact = |contact: &model::Contact<'d>| {
+    let of_contact = |contact: &model::Contact<'d>| -> Vec<UnilateralEquation<'d>> {
         let mut coasting = x.coasting(model);
         let Contact { gap, slip } = match &contact.geometry {
             ContactGeometry::Circles(touching) => circles::contact(model, touching, &mut coasting),
@@ -80,7 +83,7 @@ pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
         let zero = model.dag.zero();
         let friction = contact.friction.unwrap_or(zero);
         let [first, second] = contact.response.coefficients();
-        UnilateralEquation {
+        let own = UnilateralEquation {
             name: contact.name.to_string(),
             gap,
             directions: [rate, slip].map(|rate| direction(model, &x, rate)),
@@ -95,9 +98,28 @@ pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
             painleve: contact.response.painleve(),
             compliance: contact.response.compliance(),
             rubs,
-        }
+            rolls: false,
+        };
+        let (ContactGeometry::Circles(touching), Some(resistance)) =
+            (&contact.geometry, contact.rolling_resistance)
+        else {
+            return vec![own];
+        };
+        // What it leans on has its gap and its normal; all that is its own is a rate of rotation.
+        let rate = plain(circles::rolling(model, touching, &mut x.coasting(model)));
+        let rolling = UnilateralEquation {
+            name: format!("{}.rolling", contact.name),
+            directions: [own.directions[0].clone(), direction(model, &x, rate)],
+            coefficients: [zero, zero, resistance, resistance],
+            painleve: Painleve::default(),
+            compliance: None,
+            rubs: true,
+            rolls: true,
+            ..own.clone()
+        };
+        vec![own, rolling]
     };
-    model.contacts.iter().map(of_contact).collect()
+    model.contacts.iter().flat_map(of_contact).collect()
 }
 
 fn direction<'d>(model: &Model<'d>, x: &Variables<'d>, rate: Expr<'d>) -> DirectionEquation<'d> {

@@ -1,7 +1,7 @@
 //! States at which roundings of candidates are compared.
 
 use lagrangian_program::Source;
-use lagrangian_program::rounding::{STATES, SplitMix, State, States};
+use lagrangian_program::rounding::{SplitMix, State, States};
 use lagrangian_spec::model::Model;
 use lagrangian_symbolic::{Expr, Symbol, evaluate, nearest};
 use rustc_hash::FxHashMap;
@@ -13,8 +13,10 @@ const TRIES: usize = 8;
 /// numbers all the way round, lengths by half of themselves and 2 cm, rates of 5 rad/s and
 /// 0.5 m/s, states of first order by half of 1 and of themselves, times in [0, 10) s; parameters and inputs at their defaults. A parameter that has
 /// none is between ½ and 2, in its unit.
-pub(super) fn around_start(model: &Model<'_>) -> States {
-    let mut random = SplitMix(1);
+///
+/// So many states are drawn, from a generator that starts with `seed`, or as many as obey the assumptions.
+pub fn around_start(model: &Model<'_>, seed: u64, count: usize) -> States {
+    let mut random = SplitMix(seed);
     let parameters = model.parameters.iter();
     let parameters: Vec<f64> = parameters
         .map(|p| match p.default {
@@ -40,8 +42,8 @@ pub(super) fn around_start(model: &Model<'_>) -> States {
         symbols.value(symbol, &parameters, &at_rest)
     });
     let is_angle: Vec<bool> = model.coordinates.iter().map(|c| c.unit.is_one()).collect();
-    let mut states = Vec::with_capacity(STATES);
-    for _ in 0..TRIES * STATES {
+    let mut states = Vec::with_capacity(count);
+    for _ in 0..TRIES * count {
         let mut rates = || -> Vec<f64> {
             let rate = |is_angle: &bool| {
                 let most = if *is_angle { 5.0 } else { 0.5 };
@@ -78,7 +80,7 @@ pub(super) fn around_start(model: &Model<'_>) -> States {
         if excess.iter().all(|excess| *excess > 0.0) {
             states.push(state);
         }
-        if states.len() == STATES {
+        if states.len() == count {
             break;
         }
     }

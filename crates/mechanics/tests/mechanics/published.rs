@@ -48,7 +48,7 @@ fn changes(machine: &str) -> (Vec<(String, String)>, usize) {
     })
 }
 
-/// The same for one item that is wrong.
+/// The mistakes in one item that is wrong.
 fn mistakes(item: &str) -> (Vec<String>, Vec<String>) {
     said(item).swap_remove(0).expect("it is wrong")
 }

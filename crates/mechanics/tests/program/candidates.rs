@@ -26,7 +26,7 @@ fn every_program(machine: &Compiled<'_>) -> Vec<Proved> {
     (0..ways).map(|index| lower(&|_| index)).collect()
 }
 
-/// The same machine with each of these programs.
+/// Checks a machine with each of these programs.
 fn for_every_program(machine: &Compiled<'_>, mut check: impl FnMut(&Compiled<'_>)) {
     for program in every_program(machine) {
         check(&Compiled {
@@ -67,7 +67,7 @@ fn no_mistake_in_any_candidate_survives() {
     }
 }
 
-/// In every candidate of every machine, a sample of some sixty mistakes.
+/// In every candidate of every machine, a sample of some thirty mistakes.
 #[test]
 fn no_mistake_in_a_sample_from_any_machine_survives() {
     let (mut tried, mut idle) = (0, 0);
@@ -77,9 +77,9 @@ fn no_mistake_in_a_sample_from_any_machine_survives() {
                 let functions = machine.program.all_functions();
                 let statements: usize = functions.map(|f| f.code.len()).sum();
                 // Most statements may be wrong in two ways; an odd stride meets both.
-                let stride = (2 * statements / 60) | 1;
+                let stride = (2 * statements / 30) | 1;
                 let (made, without_effect) = mistakes_found(machine, stride);
-                assert!(made >= 20, "{name}: {made}");
+                assert!(made >= 10, "{name}: {made}");
                 tried += made;
                 idle += without_effect;
             });

@@ -124,7 +124,7 @@ pub fn differentiated<R>(
     compiled(&text, constants, look)
 }
 
-/// The same for a machine of the library.
+/// [`differentiated`] for a machine of the library.
 pub fn differentiated_machine<R>(
     name: &str,
     constants: &[(&str, i64)],

@@ -87,6 +87,18 @@ impl<'d> Chapter<'_, 'd> {
                 }),
             ));
         }
+        if !model.derived_parameters.is_empty() {
+            blocks.push(self.table(
+                &["", "derived parameter", "unit", "value", ""],
+                model.derived_parameters.iter().map(|p| Entry {
+                    symbol: None,
+                    name: &p.name,
+                    unit: &p.unit_text,
+                    value: Some(p.value),
+                    docs: &p.docs,
+                }),
+            ));
+        }
         if !model.constants.is_empty() {
             blocks.push(self.table(
                 &["", "constant", "unit", "value", ""],

@@ -93,7 +93,7 @@ impl<'d> Term<'d> {
         let (mut here, mut there) = (self.factors.clone(), other.factors.clone());
         let (mut common, mut moving) = (0, 0);
         let moves = |factor: &Factor<'d>| u64::from(factor.0.stage() > stage::PARAMETER);
-        // The same factors first, then those that differ by their power alone, then by a slip.
+        // Equal factors first, then those that differ by their power alone, then by a slip.
         let alike: [fn(&Factor<'d>, &Factor<'d>) -> bool; 3] = [
             |a, b| a == b,
             |a, b| a.0 == b.0,

@@ -57,7 +57,7 @@ pub struct Expander<T> {
     /// What was solved for last.
     unknowns: Vec<T>,
     /// Room for the unknowns of one block, twice.
-    room: [Vec<T>; 2],
+    scratch: [Vec<T>; 2],
     /// 0, 1, 2 … and their reciprocals, the first of which is not read.
     numbers: Vec<[T; 2]>,
 }
@@ -167,7 +167,7 @@ impl<T: Scalar<Stored = T>> Expander<T> {
             multipliers: vec![T::ZERO; (unknowns - n) * order],
             blocks: series.blocks().into_iter().map(block).collect(),
             unknowns: vec![T::ZERO; unknowns],
-            room: [(); 2].map(|()| vec![T::ZERO; unknowns]),
+            scratch: [(); 2].map(|()| vec![T::ZERO; unknowns]),
             numbers: (0..=width).map(number).collect(),
             series,
         };
@@ -409,12 +409,12 @@ impl<T: Copy> Expander<T> {
     fn solve<N: Scalar<Stored = T>>(&mut self, series: &Series, round: usize) {
         let width = self.width;
         for block in &self.blocks {
-            let [x, room] = &mut self.room;
+            let [x, scratch] = &mut self.scratch;
             for (at, member) in block.members.iter().enumerate() {
                 let row = series.residuals[*member as usize].index();
                 x[at] = (-N::load(self.coefficients[row * width + round])).store();
             }
-            steps::solve::<N>(block.members.len(), &block.matrix, x, room);
+            steps::solve::<N>(block.members.len(), &block.matrix, x, scratch);
             for (at, member) in block.members.iter().enumerate() {
                 self.unknowns[*member as usize] = x[at];
             }

@@ -73,7 +73,7 @@ pub trait Arithmetic {
     fn derivative(&mut self, row: RowId) -> Self::X;
     /// Coefficient `m + 2` of a row of positions, as it was just computed, times `(m + 1)(m + 2)`.
     fn second_derivative(&mut self, row: RowId) -> Self::X;
-    /// The same as two factors: one that depends on the order alone, and one that was just computed.
+    /// The row as two factors: one that depends on the order alone, and one that was just computed.
     fn second_factors(&mut self, row: RowId) -> [Self::X; 2];
     /// One of the sums of this row.
     fn convolution(&mut self, row: RowId, number: usize) -> Self::X;

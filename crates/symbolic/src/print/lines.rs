@@ -26,11 +26,11 @@ impl Math {
     pub fn lines(&self, first: f32, others: f32) -> Vec<Math> {
         let (width, breaks) = measure(&self.marks);
         let mut cuts: Vec<usize> = Vec::new();
-        let (mut start, mut room) = (0.0, first);
-        while width - start > room {
+        let (mut start, mut limit) = (0.0, first);
+        while width - start > limit {
             let mut best: Option<(f32, &Break)> = None;
             for place in breaks.iter().filter(|place| place.at > start) {
-                let filled = (place.at - start) / room;
+                let filled = (place.at - start) / limit;
                 if filled > 1.0 && best.is_some() {
                     break;
                 }
@@ -48,7 +48,7 @@ impl Math {
             }
             let Some((_, place)) = best else { break };
             cuts.push(place.mark);
-            (start, room) = (place.at, others);
+            (start, limit) = (place.at, others);
         }
         split(&self.marks, &cuts)
     }

@@ -90,7 +90,7 @@ pub enum Form {
     Index,
     /// The second at the lower right of the first, the third at the upper right.
     IndexAndPower,
-    /// The second under the first, where there is room: the index of a sum.
+    /// The second under the first, where it fits: the index of a sum.
     Under,
     /// The square root of the only argument.
     Root,

@@ -32,7 +32,7 @@ pub struct Symbolic<'s> {
     /// Coefficients of positions of order 1.
     pub linear: Vec<Option<X>>,
     pub newest: Vec<Option<X>>,
-    /// The same times their order, where that is known.
+    /// The coefficients times their order, where that is known.
     scaled: Vec<Option<X>>,
     low: Vec<Option<X>>,
     circular: HashMap<RowId, [X; 2]>,

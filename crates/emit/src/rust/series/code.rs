@@ -202,11 +202,13 @@ impl Code {
                     let matrix = text(matrix);
                     let sides = self.kept(right, 0);
                     writer.expression(&format!("let mut {name} = "), &sides, ";");
-                    writer.line(format!("let mut room{id} = {name};"));
-                    writer.line(format!("let (x, room) = (&mut {name}, &mut room{id});"));
+                    writer.line(format!("let mut scratch{id} = {name};"));
+                    writer.line(format!(
+                        "let (x, scratch) = (&mut {name}, &mut scratch{id});"
+                    ));
                     let count = right.len();
                     writer.line(format!(
-                        "{runtime}::series::solve::<{number}>({count}, &{matrix}, x, room);"
+                        "{runtime}::series::solve::<{number}>({count}, &{matrix}, x, scratch);"
                     ));
                     continue;
                 }

@@ -1,6 +1,6 @@
 //! Constraints that contradict each other where a machine starts.
 //!
-//! Places are sought where the sum of the squares of all residuals is least. Where something is left of it and
+//! Places are sought where the sum of the squares of all residuals is least. Where the least is not 0 and
 //! no displacement makes it less, the residuals themselves are a combination of the rows that comes to
 //! nothing, `Gᵀ r = 0` with `r ≠ 0`: what that combination holds cannot be met together. Rates contradict
 //! each other where such a combination of `G v = −b` leaves something of `b`.

@@ -1,0 +1,189 @@
+//! `lagrangian check --accuracy`: how exact the program of a machine is, held against double-doubles.
+
+use lagrangian::Machine;
+use lagrangian::interpreted::InterpretedMachine;
+use lagrangian_mechanics::{Compiled, around_start};
+use lagrangian_program::accuracy::{Accuracy, Judge};
+use lagrangian_program::rounding::{SplitMix, State};
+use lagrangian_program::{Program, Slot};
+use serde_json::{Map, Value, json};
+
+use crate::output;
+
+/// How many states are drawn around the start.
+const AROUND: usize = 256;
+
+/// How many of them are stretched to extremes, once more.
+const EXTREME: usize = 128;
+
+/// From how many of them a search leads towards singular states.
+const SINGULAR: usize = 16;
+
+/// What was found.
+pub struct Found {
+    quantities: Vec<Accuracy>,
+    states: Vec<(Kind, State)>,
+}
+
+/// How a state was chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Around,
+    Extreme,
+    Singular,
+}
+
+impl Kind {
+    fn words(self) -> &'static str {
+        match self {
+            Kind::Around => "around the start",
+            Kind::Extreme => "extreme",
+            Kind::Singular => "nearly singular",
+        }
+    }
+}
+
+/// Looks at a machine around its start, at extreme and at nearly singular states.
+pub fn look(compiled: &Compiled<'_>) -> Found {
+    let program: &Program = &compiled.program;
+    let machine = InterpretedMachine::new(compiled.program.clone());
+    let drawn = around_start(&compiled.model, 3, AROUND);
+    let mut with_parameters = machine.clone();
+    for (index, value) in drawn.parameters.iter().enumerate() {
+        // What has no default was drawn as well.
+        if let Some(parameter) = with_parameters.parameter_mut(index) {
+            *parameter = *value;
+        }
+    }
+    let system = with_parameters.prepare();
+    let mut judge = Judge::new(program, &drawn.parameters);
+    let mut random = SplitMix(4);
+    let extreme = drawn.states.iter().take(EXTREME);
+    let extreme: Vec<State> = extreme
+        .map(|state| stretched(program, state, &mut random))
+        .filter(|state| judge.holds(state))
+        .collect();
+    let singular = drawn.states.iter().take(SINGULAR);
+    let singular: Vec<State> = singular.map(|from| judge.towards_singular(from)).collect();
+    let kinds = [
+        (Kind::Around, drawn.states),
+        (Kind::Extreme, extreme),
+        (Kind::Singular, singular),
+    ];
+    let states: Vec<(Kind, State)> = kinds
+        .into_iter()
+        .flat_map(|(kind, states)| states.into_iter().map(move |state| (kind, state)))
+        .collect();
+    for (_, state) in &states {
+        judge.look(state, &mut |role, arguments, results| {
+            system.quantity(role, arguments, results).is_ok()
+        });
+    }
+    Found {
+        quantities: judge.finish(),
+        states,
+    }
+}
+
+/// A state with angles of many turns, and great rates, late.
+fn stretched(program: &Program, state: &State, random: &mut SplitMix) -> State {
+    let mut stretched = state.clone();
+    stretched.t *= 10_f64.powf(random.uniform(0.0, 6.0));
+    let by = 10_f64.powf(random.uniform(0.0, 6.0));
+    for (slot, i) in program.coordinates.iter().zip(0..) {
+        if slot.unit.is_one() {
+            stretched.q[i] *= 10_f64.powf(random.uniform(0.0, 5.0));
+        }
+        stretched.v[i] *= by;
+        stretched.a[i] *= by;
+    }
+    stretched
+}
+
+impl Found {
+    /// As a table, with the worst state behind it.
+    pub fn print(&self, program: &Program) {
+        let count = |kind| self.states.iter().filter(|(k, _)| *k == kind).count();
+        output::line(format_args!(
+            "accuracy at {} states around the start, {} extreme and {} nearly singular ones:",
+            count(Kind::Around),
+            count(Kind::Extreme),
+            count(Kind::Singular)
+        ));
+        output::line(format_args!(
+            "{:24} {:>8} {:>8} {:>10}  where it is worst",
+            "quantity", "median", "worst", "ulps there"
+        ));
+        for found in &self.quantities {
+            let title = program.title(found.role);
+            if found.worst.share == 0.0 {
+                output::line(format_args!("{title:24} {:>8}", "exact"));
+                continue;
+            }
+            let (kind, _) = self.states[found.worst.state];
+            output::line(format_args!(
+                "{title:24} {:>8} {:>8} {:>10}  {}, {}",
+                rounded(found.median),
+                rounded(found.worst.share),
+                rounded(found.worst.units),
+                program.result_name(found.role, found.worst.index),
+                kind.words(),
+            ));
+        }
+        let worst = self
+            .quantities
+            .iter()
+            .max_by(|a, b| a.worst.share.total_cmp(&b.worst.share));
+        if let Some(worst) = worst {
+            let state = Value::Object(numbers(program, &self.states[worst.worst.state].1));
+            output::line(format_args!(
+                "the worst state, for {}: {state}",
+                program.title(worst.role)
+            ));
+        }
+    }
+
+    /// As JSON: a list of quantities.
+    pub fn json(&self, program: &Program) -> Value {
+        let quantity = |found: &Accuracy| {
+            let (kind, state) = &self.states[found.worst.state];
+            json!({
+                "quantity": program.title(found.role),
+                "states": found.known,
+                "median": found.median,
+                "worst": found.worst.share,
+                "ulps": found.worst.units,
+                "error": found.worst.error,
+                "result": program.result_name(found.role, found.worst.index),
+                "kind": kind.words(),
+                "state": numbers(program, state),
+            })
+        };
+        self.quantities.iter().map(quantity).collect()
+    }
+}
+
+/// To two digits behind the point, or, where it is large, in powers of ten.
+fn rounded(number: f64) -> String {
+    match number < 1e4 {
+        true => format!("{number:.2}"),
+        false => format!("{number:.1e}"),
+    }
+}
+
+/// A state as `evaluate --at` reads it.
+fn numbers(program: &Program, state: &State) -> Map<String, Value> {
+    let named = |slots: &[Slot], values: &[f64]| -> Value {
+        let pairs = slots.iter().zip(values);
+        let pairs = pairs.map(|(slot, value)| (slot.name.to_string(), json!(value)));
+        Value::Object(pairs.collect())
+    };
+    let mut numbers = Map::new();
+    numbers.insert("t".into(), json!(state.t));
+    numbers.insert("q".into(), named(&program.coordinates, &state.q));
+    numbers.insert("v".into(), named(&program.coordinates, &state.v));
+    if !program.inputs.is_empty() {
+        numbers.insert("inputs".into(), named(&program.inputs, &state.u));
+    }
+    numbers
+}

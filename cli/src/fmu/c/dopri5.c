@@ -1,0 +1,26 @@
+/*
+ * Dormand and Prince's method of order 5 with an error of order 4, whose last stage is the new point: J. R. Dormand, P. J. Prince, A
+ * family of embedded Runge-Kutta formulae, J. Comput. Appl. Math. 6 (1980) 19-26.
+ */
+enum { STAGES = 7, ERROR_ORDER = 5 };
+
+static const double NODES[STAGES] = {0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0};
+
+/* A row for each stage, and one for the new point. */
+static const double COEFFICIENTS[STAGES + 1][STAGES] = {
+    {0.0},
+    {1.0 / 5.0},
+    {3.0 / 40.0, 9.0 / 40.0},
+    {44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0},
+    {19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0},
+    {9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0},
+    {35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0},
+    {35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0},
+};
+
+static const double ERROR_WEIGHTS[STAGES] = {
+    71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0,
+};
+
+/* There is one estimate of the error. */
+static const double COARSE_ERROR_WEIGHTS[STAGES] = {0.0};

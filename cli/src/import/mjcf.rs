@@ -1,0 +1,915 @@
+//! A file of MJCF, MuJoCo's format: bodies in bodies, their joints, and what acts along these.
+//!
+//! Format: <https://mujoco.readthedocs.io/en/stable/XMLreference.html>.
+
+mod bodies;
+mod drives;
+mod mesh;
+mod scene;
+mod solid;
+
+use std::collections::{HashMap, HashSet};
+use std::path::Path;
+
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+
+use super::faults::Faults;
+use super::names::quoted;
+use super::number::{Angle, Number};
+use super::robot::{Drive, Inertial, Joint, Kind, Law, Link, Robot, Start, Tie, TieKind};
+use super::steps::{self, Turns, conjugating};
+use super::tensor;
+use scene::{Attribute, Classes, Element};
+use solid::{Shape, Solid};
+
+/// Mass for each volume where a file says nothing, in kg/m³.
+const DENSITY: f64 = 1000.0;
+
+/// Sections that change nothing in how bodies move.
+const WITHOUT_PART: [&str; 9] = [
+    "size",
+    "visual",
+    "statistic",
+    "default",
+    "custom",
+    "asset",
+    "contact",
+    "sensor",
+    "keyframe",
+];
+
+/// What may turn a frame, of which a file says one.
+const ORIENTATIONS: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
+
+/// What is read of each element, and what of it changes no motion of a tree without contacts.
+const ATTRIBUTES: [(&str, &[&str]); 15] = [
+    (
+        "compiler",
+        &[
+            "angle",
+            "eulerseq",
+            "inertiafromgeom",
+            "inertiagrouprange",
+            "settotalmass",
+            "autolimits",
+            "coordinate",
+            "boundmass",
+            "boundinertia",
+            "balanceinertia",
+            "strippath",
+            "assetdir",
+            "meshdir",
+            "texturedir",
+            "discardvisual",
+            "usethread",
+            "fusestatic",
+            "convexhull",
+            "alignfree",
+            "saveinertial",
+            "fitaabb",
+            "exactmeshinertia",
+            "conflict",
+        ],
+    ),
+    (
+        "option",
+        &[
+            "gravity",
+            "density",
+            "viscosity",
+            "wind",
+            "timestep",
+            "apirate",
+            "impratio",
+            "tolerance",
+            "ls_tolerance",
+            "noslip_tolerance",
+            "mpr_tolerance",
+            "ccd_tolerance",
+            "sleep_tolerance",
+            "magnetic",
+            "o_margin",
+            "o_solref",
+            "o_solimp",
+            "o_friction",
+            "integrator",
+            "cone",
+            "jacobian",
+            "solver",
+            "iterations",
+            "ls_iterations",
+            "noslip_iterations",
+            "mpr_iterations",
+            "ccd_iterations",
+            "sdf_iterations",
+            "sdf_initpoints",
+            "actuatorgroupdisable",
+            "collision",
+        ],
+    ),
+    (
+        "body",
+        &[
+            "name",
+            "childclass",
+            "pos",
+            "quat",
+            "axisangle",
+            "xyaxes",
+            "zaxis",
+            "euler",
+            "mocap",
+            "gravcomp",
+            "user",
+            "sleep",
+        ],
+    ),
+    (
+        "frame",
+        &[
+            "name",
+            "childclass",
+            "pos",
+            "quat",
+            "axisangle",
+            "xyaxes",
+            "zaxis",
+            "euler",
+        ],
+    ),
+    (
+        "inertial",
+        &[
+            "pos",
+            "quat",
+            "axisangle",
+            "xyaxes",
+            "zaxis",
+            "euler",
+            "mass",
+            "diaginertia",
+            "fullinertia",
+        ],
+    ),
+    (
+        "joint",
+        &[
+            "name",
+            "class",
+            "type",
+            "group",
+            "pos",
+            "axis",
+            "springdamper",
+            "limited",
+            "actuatorfrclimited",
+            "solreflimit",
+            "solimplimit",
+            "solreffriction",
+            "solimpfriction",
+            "stiffness",
+            "range",
+            "actuatorfrcrange",
+            "actuatorgravcomp",
+            "margin",
+            "ref",
+            "springref",
+            "armature",
+            "damping",
+            "frictionloss",
+            "user",
+        ],
+    ),
+    ("freejoint", &["name", "group", "align"]),
+    (
+        "geom",
+        &[
+            "name",
+            "class",
+            "type",
+            "contype",
+            "conaffinity",
+            "condim",
+            "group",
+            "priority",
+            "size",
+            "material",
+            "rgba",
+            "friction",
+            "mass",
+            "density",
+            "shellinertia",
+            "solmix",
+            "solref",
+            "solimp",
+            "margin",
+            "gap",
+            "fromto",
+            "pos",
+            "quat",
+            "axisangle",
+            "xyaxes",
+            "zaxis",
+            "euler",
+            "hfield",
+            "mesh",
+            "fitscale",
+            "fluidshape",
+            "fluidcoef",
+            "user",
+        ],
+    ),
+    (
+        "mesh",
+        &[
+            "name",
+            "class",
+            "content_type",
+            "file",
+            "vertex",
+            "normal",
+            "texcoord",
+            "face",
+            "refpos",
+            "refquat",
+            "scale",
+            "smoothnormal",
+            "maxhullvert",
+            "inertia",
+            "material",
+            "octree_maxdepth",
+        ],
+    ),
+    ("motor", &[]),
+    ("position", &["kp", "kv", "dampratio", "inheritrange"]),
+    ("velocity", &["kv"]),
+    (
+        "general",
+        &[
+            "gaintype",
+            "gainprm",
+            "biastype",
+            "biasprm",
+            "dyntype",
+            "dynprm",
+            "actlimited",
+            "actrange",
+            "actdim",
+            "actearly",
+        ],
+    ),
+    (
+        "equality.joint",
+        &[
+            "name", "class", "joint1", "joint2", "polycoef", "active", "solref", "solimp",
+        ],
+    ),
+    ("flag", &[]),
+];
+
+/// What is said of every drive.
+const OF_DRIVES: [&str; 12] = [
+    "name",
+    "class",
+    "group",
+    "joint",
+    "jointinparent",
+    "gear",
+    "ctrllimited",
+    "ctrlrange",
+    "forcelimited",
+    "forcerange",
+    "lengthrange",
+    "user",
+];
+
+/// The kinds of drives that are read; a class says of all what it says of one.
+const DRIVES: [&str; 4] = ["motor", "position", "velocity", "general"];
+
+/// Forces that a file can switch off.
+const SWITCHES: [&str; 8] = [
+    "constraint",
+    "equality",
+    "frictionloss",
+    "limit",
+    "passive",
+    "spring",
+    "damper",
+    "actuation",
+];
+
+/// What a file says of all of its elements.
+struct Compiler {
+    is_in_degrees: bool,
+    sequence: String,
+    /// Whether inertia follows from geometry: never, where nothing else says it, or wherever there is geometry.
+    from_geometry: Option<bool>,
+    groups: [f64; 2],
+    total_mass: Option<f64>,
+    finds_limits: bool,
+    /// Where meshes are, from the folder of the model.
+    meshes: String,
+    strips_paths: bool,
+}
+
+/// How a frame stands in another.
+#[derive(Clone, Debug, Default)]
+struct Pose {
+    xyz: [Number; 3],
+    turns: Turns,
+}
+
+impl Pose {
+    fn centre(&self) -> Vector3<f64> {
+        Vector3::from(self.xyz.each_ref().map(|number| number.value))
+    }
+
+    /// A pose in a frame that has this one.
+    fn then(&self, next: &Pose) -> Pose {
+        let turned = steps::axes(&self.turns) * next.centre();
+        let xyz = match self.turns.is_empty() {
+            true => next.xyz.clone(),
+            false => turned.map(Number::computed).into(),
+        };
+        Pose {
+            xyz: std::array::from_fn(|axis| added(&self.xyz[axis], &xyz[axis])),
+            turns: [self.turns.clone(), next.turns.clone()].concat(),
+        }
+    }
+}
+
+/// A sum; the other where one is zero.
+fn added(a: &Number, b: &Number) -> Number {
+    match (a.is_zero(), b.is_zero()) {
+        (true, _) => b.clone(),
+        (_, true) => a.clone(),
+        _ => Number::computed(a.value + b.value),
+    }
+}
+
+/// An element with its class and what messages call it.
+#[derive(Clone)]
+struct Item<'e> {
+    element: &'e Element,
+    class: usize,
+    owner: String,
+}
+
+/// Reads a robot. `file` reads further files.
+pub fn read(
+    text: &str,
+    folder: &Path,
+    file: &dyn Fn(&Path) -> Result<Vec<u8>, String>,
+    ignored: &[String],
+    faults: &mut Faults,
+) -> Option<Robot> {
+    let root = scene::read(text, folder, file, faults)?;
+    if root.name != "mujoco" {
+        let what = match root.name.as_str() {
+            "robot" => "this is URDF: give its file the ending `.urdf`".to_owned(),
+            name => format!(
+                "{} is no model: a file of MJCF begins with `<mujoco>`",
+                quoted(name)
+            ),
+        };
+        faults.add(root.at, what);
+        return None;
+    }
+    let classes = Classes::of(&root, faults);
+    let mut reader = Reader {
+        ignored,
+        faults,
+        classes,
+        compiler: Compiler {
+            is_in_degrees: true,
+            sequence: "xyz".to_owned(),
+            from_geometry: None,
+            groups: [0.0, 5.0],
+            total_mass: None,
+            finds_limits: true,
+            meshes: String::new(),
+            strips_paths: false,
+        },
+        folder,
+        file,
+        meshes: HashMap::new(),
+        robot: Robot {
+            format: "MJCF",
+            part: "body",
+            gravity: Some([Number::zero(), Number::zero(), Number::computed(-9.81)]),
+            ..Robot::default()
+        },
+        joints: HashMap::new(),
+        given: names(&root),
+        counts: Vec::new(),
+    };
+    reader.model(&root);
+    let Reader {
+        mut robot, counts, ..
+    } = reader;
+    let is_unneeded = |name: &&String| counts.iter().all(|(what, _)| what != *name);
+    robot.unneeded = ignored.iter().filter(is_unneeded).cloned().collect();
+    for (what, count) in counts {
+        robot.left_out.push(match (what.split_once(" of "), count) {
+            (Some((what, of)), 1) => format!("{what} of 1 {of}"),
+            (Some((what, of)), _) => format!("{what} of {count} {of}s"),
+            (None, 1) => format!("1 element `{what}`"),
+            (None, _) => format!("{count} elements `{what}`"),
+        });
+    }
+    Some(robot)
+}
+
+struct Reader<'r, 'f, 'e> {
+    ignored: &'r [String],
+    faults: &'f mut Faults,
+    classes: Classes<'e>,
+    compiler: Compiler,
+    robot: Robot,
+    /// Where each joint with a name stands among all.
+    joints: HashMap<String, usize>,
+    /// Meshes by name.
+    meshes: HashMap<String, Item<'e>>,
+    /// Where the model is, and what reads a file.
+    folder: &'r Path,
+    file: &'r dyn Fn(&Path) -> Result<Vec<u8>, String>,
+    /// Names that are given, or that the file has somewhere.
+    given: HashSet<String>,
+    /// The kinds of elements that are left out, with their numbers.
+    counts: Vec<(String, usize)>,
+}
+
+/// The names of bodies and joints in a file.
+fn names(root: &Element) -> HashSet<String> {
+    let mut names = HashSet::from(["world".to_owned()]);
+    let mut waiting = vec![root];
+    while let Some(element) = waiting.pop() {
+        waiting.extend(&element.children);
+        if matches!(element.name.as_str(), "body" | "joint" | "freejoint") {
+            names.extend(element.own("name").map(|name| name.value.clone()));
+        }
+    }
+    names
+}
+
+/// An element as messages name it.
+fn called(element: &Element) -> String {
+    let kind = &element.name;
+    match element.own("name") {
+        Some(name) => format!("{kind} {}", quoted(&name.value)),
+        None => format!("a {kind} without a name"),
+    }
+}
+
+impl<'e> Reader<'_, '_, 'e> {
+    fn model(&mut self, root: &'e Element) {
+        let name = root.own("model").map(|name| name.value.clone());
+        self.robot.name = name.unwrap_or_else(|| "MuJoCo Model".to_owned());
+        let is = |name: &'static str| {
+            let parts = root.children.iter();
+            parts.filter(move |part| part.name == name)
+        };
+        is("compiler").for_each(|element| self.compiler(element));
+        is("option").for_each(|element| self.option(element));
+        self.check_classes();
+        let assets = is("asset").flat_map(|assets| &assets.children);
+        for mesh in assets.filter(|asset| asset.name == "mesh") {
+            self.mesh(mesh);
+        }
+        self.robot.links.push(Link {
+            name: "world".to_owned(),
+            ..Link::default()
+        });
+        for part in &root.children {
+            match part.name.as_str() {
+                "compiler" | "option" | "equality" | "actuator" => {}
+                "worldbody" | "body" => {
+                    let world = Parent {
+                        name: "world".to_owned(),
+                        is_world: true,
+                    };
+                    self.parts(part, &world, 0, &Pose::default(), &mut Found::default());
+                }
+                "tendon" => part.children.iter().for_each(|tendon| self.tendon(tendon)),
+                name if WITHOUT_PART.contains(&name) => {}
+                _ => self.unknown(part, "a model"),
+            }
+        }
+        for element in is("equality").flat_map(|part| &part.children) {
+            self.equality(element);
+        }
+        for element in is("actuator").flat_map(|part| &part.children) {
+            self.actuator(element);
+        }
+        self.settle_mass();
+    }
+
+    fn count(&mut self, name: &str) {
+        match self.counts.iter_mut().find(|(known, _)| known == name) {
+            Some((_, count)) => *count += 1,
+            None => self.counts.push((name.to_owned(), 1)),
+        }
+    }
+
+    /// What may change the motion, for all that is known, and is refused unless the call says to leave it out.
+    fn refuse(&mut self, at: usize, name: &str, message: &str) {
+        if self.ignored.iter().any(|ignored| ignored == name) {
+            return self.count(name);
+        }
+        let message = format!("{message}; --ignore {name} leaves it out");
+        self.faults.add(at, message);
+    }
+
+    fn unknown(&mut self, element: &Element, owner: &str) {
+        let name = &element.name;
+        let message = format!("`{name}` of {owner} is not read, and may change the motion");
+        self.refuse(element.at, name, &message);
+    }
+
+    /// Refuses attributes that are not known: they could say anything.
+    fn only(&mut self, element: &Element, owner: &str, key: &str) {
+        let known = ATTRIBUTES.iter().find(|(name, _)| *name == key);
+        let known = known.map_or(&[][..], |(_, list)| list);
+        let of_drives: &[&str] = if DRIVES.contains(&key) {
+            &OF_DRIVES
+        } else {
+            &[]
+        };
+        for attribute in &element.attributes {
+            let name = attribute.name.as_str();
+            if known.contains(&name) || of_drives.contains(&name) {
+                continue;
+            }
+            let element = &element.name;
+            let message = format!(
+                "`{name}` of `{element}` of {owner} is not read, and may change the motion"
+            );
+            self.refuse(attribute.at, name, &message);
+        }
+    }
+
+    fn check_classes(&mut self) {
+        let elements: Vec<&'e Element> = self.classes.elements().collect();
+        for element in elements {
+            let key = match element.name.as_str() {
+                "equality" => "equality.joint",
+                name => name,
+            };
+            if ATTRIBUTES.iter().any(|(name, _)| *name == key) {
+                self.only(element, "a class", key);
+            }
+        }
+    }
+
+    /// An element with the class that it names, or else the one that holds where it stands.
+    fn item(&mut self, element: &'e Element, class: usize) -> Item<'e> {
+        let owner = called(element);
+        let class = self.class(element, "class", class);
+        Item {
+            element,
+            class,
+            owner,
+        }
+    }
+
+    /// The class that an attribute names.
+    fn class(&mut self, element: &'e Element, name: &str, otherwise: usize) -> usize {
+        let Some(name) = element.own(name) else {
+            return otherwise;
+        };
+        self.classes.named(&name.value).unwrap_or_else(|| {
+            let message = format!("there is no class {}", quoted(&name.value));
+            self.faults.add(name.at, message);
+            otherwise
+        })
+    }
+
+    fn said(&self, item: &Item<'e>, name: &str) -> Option<&'e Attribute> {
+        let own = [item.element.name.as_str()];
+        let tags = match DRIVES.contains(&own[0]) && OF_DRIVES.contains(&name) {
+            true => &DRIVES[..],
+            false => &own[..],
+        };
+        self.classes.find(item.element, item.class, tags, name)
+    }
+
+    fn word(&self, item: &Item<'e>, name: &str) -> Option<&'e str> {
+        self.said(item, name)
+            .map(|attribute| attribute.value.as_str())
+    }
+
+    /// Whether an attribute says so; None where it leaves that to what else is said.
+    fn flag(&mut self, item: &Item<'e>, name: &str) -> Option<bool> {
+        let attribute = self.said(item, name)?;
+        match attribute.value.as_str() {
+            "true" | "1" => Some(true),
+            "false" | "0" => Some(false),
+            "auto" => None,
+            value => {
+                let message = format!(
+                    "`{name}` of {}: {} is none of `true`, `false` and `auto`",
+                    item.owner,
+                    quoted(value)
+                );
+                self.faults.add(attribute.at, message);
+                None
+            }
+        }
+    }
+
+    /// As many numbers as there are.
+    fn list(&mut self, item: &Item<'e>, name: &str) -> Option<(Vec<Number>, usize)> {
+        let attribute = self.said(item, name)?;
+        let numbers = attribute.value.split_whitespace().map(Number::read);
+        match numbers.collect::<Result<Vec<Number>, String>>() {
+            Ok(numbers) => Some((numbers, attribute.at)),
+            Err(wrong) => {
+                let message = format!("`{name}` of {}: {wrong}", item.owner);
+                self.faults.add(attribute.at, message);
+                None
+            }
+        }
+    }
+
+    fn numbers<const N: usize>(&mut self, item: &Item<'e>, name: &str) -> Option<[Number; N]> {
+        let (numbers, at) = self.list(item, name)?;
+        let count = numbers.len();
+        <[Number; N]>::try_from(numbers)
+            .map_err(|_| {
+                let expected = if N == 1 {
+                    "one number is".to_owned()
+                } else {
+                    format!("{N} numbers are")
+                };
+                let message = format!(
+                    "`{name}` of {}: {expected} expected, and there are {count}",
+                    item.owner
+                );
+                self.faults.add(at, message);
+            })
+            .ok()
+    }
+
+    fn number(&mut self, item: &Item<'e>, name: &str) -> Option<Number> {
+        self.numbers::<1>(item, name).map(|[number]| number)
+    }
+
+    /// A number that is not negative, zero where it is left out. Of a polynomial, whose other coefficients are to be zero, it is the
+    /// first coefficient.
+    fn coefficient(&mut self, item: &Item<'e>, name: &str) -> Number {
+        let Some((numbers, at)) = self.list(item, name) else {
+            return Number::zero();
+        };
+        let mut numbers = numbers.into_iter();
+        let first = numbers.next().unwrap_or_default();
+        if numbers.any(|number| !number.is_zero()) {
+            let message = format!(
+                "`{name}` of {} is a polynomial, which is not read",
+                item.owner
+            );
+            self.refuse(at, name, &message);
+        }
+        if first.value < 0.0 {
+            let message = format!("`{name}` of {} is negative", item.owner);
+            self.faults.add(at, message);
+        }
+        first
+    }
+
+    /// An angle of the file in radians.
+    fn radians(&self, number: Number) -> Number {
+        match self.compiler.is_in_degrees {
+            true => Number::computed(number.value.to_radians()),
+            false => number,
+        }
+    }
+
+    fn angle(&self, number: &Number) -> Angle {
+        match self.compiler.is_in_degrees {
+            true => Angle::of_degrees(number),
+            false => Angle::of(number),
+        }
+    }
+
+    fn compiler(&mut self, element: &'e Element) {
+        self.only(element, "the model", "compiler");
+        let item = self.item(element, 0);
+        if let Some(angle) = self.word(&item, "angle") {
+            self.compiler.is_in_degrees = angle == "degree";
+        }
+        if let Some(sequence) = self.said(&item, "eulerseq") {
+            let is_fine = sequence.value.len() == 3
+                && sequence
+                    .value
+                    .bytes()
+                    .all(|letter| b"xyzXYZ".contains(&letter));
+            match is_fine {
+                true => self.compiler.sequence.clone_from(&sequence.value),
+                false => self
+                    .faults
+                    .add(sequence.at, "`eulerseq` has three of the letters xyzXYZ"),
+            }
+        }
+        if element.own("inertiafromgeom").is_some() {
+            self.compiler.from_geometry = self.flag(&item, "inertiafromgeom");
+        }
+        if let Some(groups) = self.numbers::<2>(&item, "inertiagrouprange") {
+            self.compiler.groups = groups.map(|number| number.value);
+        }
+        for name in ["assetdir", "meshdir"] {
+            if let Some(folder) = self.word(&item, name) {
+                self.compiler.meshes = folder.to_owned();
+            }
+        }
+        if let Some(strips) = self.flag(&item, "strippath") {
+            self.compiler.strips_paths = strips;
+        }
+        if let Some(mass) = self.number(&item, "settotalmass") {
+            self.compiler.total_mass = (mass.value > 0.0).then_some(mass.value);
+        }
+        if let Some(finds) = self.flag(&item, "autolimits") {
+            self.compiler.finds_limits = finds;
+        }
+        for (name, usual) in [
+            ("boundmass", "0"),
+            ("boundinertia", "0"),
+            ("balanceinertia", "false"),
+            ("coordinate", "local"),
+        ] {
+            if let Some(said) = element.own(name)
+                && said.value != usual
+                && said.value.parse() != Ok(0.0)
+            {
+                let message =
+                    format!("`{name}` of the compiler changes the model, and is not read");
+                self.refuse(said.at, name, &message);
+            }
+        }
+    }
+
+    fn option(&mut self, element: &'e Element) {
+        self.only(element, "the model", "option");
+        let item = self.item(element, 0);
+        if let Some(gravity) = self.numbers::<3>(&item, "gravity") {
+            self.robot.gravity = Some(gravity);
+        }
+        for name in ["density", "viscosity"] {
+            if let Some(said) = element.own(name)
+                && said.value.parse() != Ok(0.0)
+            {
+                let message = format!("`{name}` of a fluid changes the motion, and is not read");
+                self.refuse(said.at, name, &message);
+            }
+        }
+        if let Some(groups) = element.own("actuatorgroupdisable")
+            && !groups.value.is_empty()
+        {
+            let message = "`actuatorgroupdisable` is not read";
+            self.refuse(groups.at, "actuatorgroupdisable", message);
+        }
+        for flag in element.children.iter().filter(|part| part.name == "flag") {
+            for attribute in &flag.attributes {
+                let name = attribute.name.as_str();
+                match (name, attribute.value.as_str()) {
+                    (_, "enable") => {}
+                    ("gravity", _) => {
+                        self.robot.gravity = Some([(); 3].map(|()| Number::zero()));
+                    }
+                    _ if SWITCHES.contains(&name) => {
+                        let message = format!("`{name}` is switched off, which is not read");
+                        self.refuse(attribute.at, name, &message);
+                    }
+                    _ => {}
+                }
+            }
+        }
+    }
+
+    /// Where something stands, and how it is turned.
+    fn pose(&mut self, item: &Item<'e>) -> Pose {
+        Pose {
+            xyz: self.numbers::<3>(item, "pos").unwrap_or_default(),
+            turns: self.turns(item),
+        }
+    }
+
+    fn turns(&mut self, item: &Item<'e>) -> Turns {
+        let own: Vec<&str> = ORIENTATIONS
+            .into_iter()
+            .filter(|name| item.element.own(name).is_some())
+            .collect();
+        let name = match own[..] {
+            [] => ORIENTATIONS
+                .into_iter()
+                .find(|name| self.said(item, name).is_some()),
+            [name] => Some(name),
+            [_, other, ..] => {
+                let at = item.element.own(other).map_or(item.element.at, |it| it.at);
+                let message = format!("{} says twice how it is turned", item.owner);
+                self.faults.add(at, message);
+                None
+            }
+        };
+        let Some(name) = name else {
+            return Vec::new();
+        };
+        let found = match name {
+            "quat" => self.numbers::<4>(item, name).map(|numbers| {
+                let [w, x, y, z] = numbers.map(|number| number.value);
+                let quaternion = Quaternion::new(w, x, y, z);
+                (quaternion.norm() > 0.0).then(|| matrix(&quaternion))
+            }),
+            "axisangle" => {
+                let Some([x, y, z, angle]) = self.numbers::<4>(item, name) else {
+                    return Vec::new();
+                };
+                let axis = Vector3::new(x.value, y.value, z.value);
+                if axis.amax() > 0.0 {
+                    return conjugating(&unit(&axis), self.angle(&angle));
+                }
+                Some(None)
+            }
+            "euler" => {
+                let Some(angles) = self.numbers::<3>(item, name) else {
+                    return Vec::new();
+                };
+                let mut turns = Turns::new();
+                for (letter, angle) in self.compiler.sequence.bytes().zip(&angles) {
+                    let axis = usize::from(letter.to_ascii_lowercase() - b'x');
+                    let turn = (axis, self.angle(angle));
+                    match letter.is_ascii_lowercase() {
+                        true => turns.push(turn),
+                        false => turns.insert(0, turn),
+                    }
+                }
+                turns.retain(|(_, angle)| !angle.is_zero());
+                return turns;
+            }
+            "xyaxes" => self.numbers::<6>(item, name).map(|numbers| {
+                let numbers = numbers.map(|number| number.value);
+                let x = Vector3::new(numbers[0], numbers[1], numbers[2]);
+                let y = Vector3::new(numbers[3], numbers[4], numbers[5]);
+                let x = x.try_normalize(0.0)?;
+                let y = (y - x * x.dot(&y)).try_normalize(1e-10)?;
+                Some(Matrix3::from_columns(&[x, y, x.cross(&y)]))
+            }),
+            _ => self.numbers::<3>(item, name).map(|numbers| {
+                let z = Vector3::from(numbers.map(|number| number.value)).try_normalize(0.0)?;
+                Some(towards(&z))
+            }),
+        };
+        match found {
+            None => Vec::new(),
+            Some(Some(rotation)) => steps::turns(&rotation),
+            Some(None) => {
+                let at = self.said(item, name).map_or(item.element.at, |it| it.at);
+                let message = format!("`{name}` of {} has no direction", item.owner);
+                self.faults.add(at, message);
+                Vec::new()
+            }
+        }
+    }
+}
+
+/// The axes of a frame that a quaternion of any length turns.
+fn matrix(quaternion: &Quaternion<f64>) -> Matrix3<f64> {
+    *UnitQuaternion::new_normalize(*quaternion)
+        .to_rotation_matrix()
+        .matrix()
+}
+
+/// Axes of which the third points along a unit vector: turned there on the shortest way from z.
+fn towards(z: &Vector3<f64>) -> Matrix3<f64> {
+    let axis = Vector3::z().cross(z);
+    let sine = axis.norm();
+    match axis.try_normalize(1e-14) {
+        Some(axis) => {
+            let angle = sine.atan2(z.z);
+            let k = axis.cross_matrix();
+            Matrix3::identity() + k * angle.sin() + k * k * (1.0 - angle.cos())
+        }
+        None if z.z > 0.0 => Matrix3::identity(),
+        None => Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0)),
+    }
+}
+
+/// A vector of length 1, without an overflow on the way.
+fn unit(axis: &Vector3<f64>) -> [f64; 3] {
+    let axis = axis / axis.amax();
+    (axis / axis.norm()).into()
+}
+
+/// What a body hangs on.
+struct Parent {
+    name: String,
+    is_world: bool,
+}
+
+/// What stands in a body.
+#[derive(Default)]
+struct Found<'e> {
+    inertial: Option<&'e Element>,
+    solids: Vec<Solid>,
+    /// Geometry whose mass is not known, and why.
+    unknown: Vec<(&'e Element, String)>,
+}

@@ -1,0 +1,435 @@
+//! What the runtime asks of a machine, as the rows of one macro: names, conversions, and which function a method of `System`
+//! calls. The macro is `src/emitted/implement.rs` of the runtime; its text says what the rows mean.
+
+use super::Emitter;
+use super::types::{Group, Types};
+use crate::layout::{Layout, width};
+use crate::names::{Scope, flat};
+use lagrangian_program::quantity::{Extent, Kind, Needs};
+use lagrangian_program::{Fact, FrictionLayout, Reads, Role};
+use lagrangian_units::{Compliance, ImpactLaw, ImpactOrder, Painleve};
+
+/// About how many numbers a workspace may have on the stack: a quarter of a megabyte.
+const LARGEST_WORKSPACE: usize = 1 << 15;
+
+/// The numbers of a group as variables.
+struct Variables {
+    /// The fields of the struct as a pattern that names them, without its braces, by its commas.
+    fields: Vec<String>,
+    /// A variable for each number.
+    names: Vec<String>,
+}
+
+impl Variables {
+    fn of(group: &Group<'_>) -> Variables {
+        // What a pattern takes for a variant.
+        let mut scope = Scope::with(&["None", "Some", "Ok", "Err", "PIVOTS"]);
+        let names = group.slots.iter();
+        let names: Vec<String> = names.map(|slot| scope.take(&flat(&slot.name))).collect();
+        let fields = group.fields.iter().flat_map(|field| {
+            let own = field.slots.iter().map(|&slot| names[slot].clone());
+            let mut own: Vec<String> = own.collect();
+            if field.is_family || own[..] != [field.ident.clone()] {
+                let bracket = if field.is_family { "[" } else { "" };
+                own[0] = format!("{}: {bracket}{}", field.ident, own[0]);
+            }
+            if let (true, Some(last)) = (field.is_family, own.last_mut()) {
+                last.push(']');
+            }
+            own
+        });
+        Variables {
+            fields: fields.collect(),
+            names,
+        }
+    }
+}
+
+impl Emitter<'_> {
+    /// The call of the macro.
+    pub(super) fn implementations(&mut self) {
+        let runtime = self.options.runtime.clone();
+        let Types {
+            machine,
+            coordinates,
+            inputs,
+            outputs,
+            prepared,
+            scalar,
+            register,
+            other,
+            ..
+        } = self.types.clone();
+        self.writer.gap();
+        self.writer.open(format!("{runtime}::implement! {{"));
+        let name = &self.program.name;
+        self.writer.line(format!(
+            "machine {machine} {name:?} over {scalar}, {other};"
+        ));
+        let empty = "scalar: ::core::marker::PhantomData";
+        let program = self.program;
+        self.group("parameters", &program.parameters, Some(empty), "");
+        let n = self.program.dimension();
+        let head = format!("coordinates {n} {coordinates}");
+        self.group(&head, &program.coordinates, Some(empty), "");
+        let over = match self.inputs.is_empty() {
+            true => String::new(),
+            false => format!(" over {scalar}"),
+        };
+        let head = format!("inputs {inputs}");
+        self.group(&head, &program.inputs, None, &over);
+        let head = format!("outputs {outputs}");
+        self.group(&head, &program.outputs, None, "");
+        self.rows_of_prepared(&prepared);
+        self.row_of_accelerations();
+        self.writer.open("system {");
+        self.rows_of_system();
+        self.writer.close("}");
+        let is_free = program.constraints.is_empty();
+        let has_lanes = program.contacts.is_empty() && program.unilateral.is_empty();
+        let absent = [
+            ("MAY_BE_CONSTRAINED", is_free),
+            ("MAY_SLIDE", program.contacts.is_empty()),
+            ("MAY_COLLIDE", program.unilateral.is_empty()),
+        ];
+        let absent = absent.iter().filter(|(_, is_absent)| *is_absent);
+        let absent: Vec<&str> = absent.map(|(name, _)| *name).collect();
+        let flag = |name: &str, is_there: bool, word: &str| {
+            format!("{name} [{}]", if is_there { word } else { "" })
+        };
+        let slips = self.emitted(Role::Slips);
+        let rounds_prepared = slips.is_some_and(|function| self.needs(function).prepared);
+        self.writer.line(format!("absent [{}]", absent.join(" ")));
+        self.writer.line(flag("intervals", rounds_prepared, "yes"));
+        if let Some(call) = self.call_of_series().filter(|_| has_lanes) {
+            let before = "batch_series { (p, t, q, v, u, coefficients) ";
+            self.writer.expression(before, &call, " }");
+        }
+        self.writer.line(flag("lanes", has_lanes, &register));
+        self.writer
+            .line(flag("numbers", has_lanes && is_free, "yes"));
+        self.writer.close("}");
+    }
+
+    /// Words between two texts, on one line or on as many as they need. A block begins behind them if it is to.
+    fn filled(&mut self, before: &str, words: &[String], after: &str, opens: bool) {
+        let all = words.join(", ");
+        let one = match all.is_empty() {
+            true => format!("{before}{after}"),
+            false => format!("{before} {all} {after}"),
+        };
+        if width(&one) <= self.writer.columns() {
+            return match opens {
+                true => self.writer.open(one),
+                false => self.writer.line(one),
+            };
+        }
+        self.writer.open(before);
+        let mut line = String::new();
+        for word in words {
+            if !line.is_empty() && width(&line) + width(word) + 1 > self.writer.columns() {
+                self.writer.line(line.trim_end());
+                line.clear();
+            }
+            line += word;
+            line += ", ";
+        }
+        self.writer.line(line.trim_end());
+        match opens {
+            true => self.writer.middle(after),
+            false => self.writer.close(after),
+        }
+    }
+
+    /// A struct of named numbers: its fields, and a row for each number. `empty` is the field of one that holds nothing.
+    fn group(
+        &mut self,
+        head: &str,
+        slots: &[lagrangian_program::Slot],
+        empty: Option<&str>,
+        after: &str,
+    ) {
+        let group = Group::new(slots);
+        let mut variables = Variables::of(&group);
+        if let (true, Some(empty)) = (group.is_empty(), empty) {
+            variables.fields.push(empty.to_owned());
+        }
+        let has_defaults = !head.starts_with("coordinates") && !head.starts_with("outputs");
+        if group.is_empty() {
+            let end = format!("}} []{after}");
+            return self.filled(&format!("{head} {{"), &variables.fields, &end, false);
+        }
+        self.filled(&format!("{head} {{"), &variables.fields, "} [", true);
+        let mut rows = Vec::new();
+        for (slot, name) in slots.iter().zip(&variables.names) {
+            let default = slot.default.as_ref().filter(|_| has_defaults);
+            let default = match default {
+                Some(default) => format!(" = {}", super::language::number(default.value)),
+                None if head.starts_with("inputs") => " = 0.0".to_owned(),
+                None => String::new(),
+            };
+            let row = format!("{:?} {:?}{default};", slot.name.to_string(), slot.unit_text);
+            rows.push((format!("{name}:"), row));
+        }
+        for (name, row) in rows {
+            self.writer.statement(&name, &row);
+        }
+        self.writer.close(&format!("]{after}"));
+    }
+
+    /// The fields of the prepared values.
+    fn rows_of_prepared(&mut self, prepared: &str) {
+        let mut fields: Vec<String> = self
+            .prepared_fields()
+            .into_iter()
+            .map(|field| field.ident)
+            .collect();
+        if self.prepared.is_empty() {
+            fields.push("scalar".to_owned());
+        }
+        self.filled(&format!("prepared {prepared} {{"), &fields, "}", false);
+        if self.number_of_constants_of_series().is_some() {
+            self.writer.line("series series");
+        }
+        if !self.program.prepare.guards.is_empty() {
+            self.writer.line("singular singular");
+        }
+    }
+
+    /// The accelerations, which integrators ask for in several numbers.
+    fn row_of_accelerations(&mut self) {
+        let function = self.emitted(Role::Accelerations);
+        let row = match function {
+            _ if !self.program.contacts.is_empty() => "accelerations friction".to_owned(),
+            None => "accelerations none".to_owned(),
+            Some(function) => {
+                let [call, _] = self.names(Role::Accelerations);
+                let arguments = self.arguments(self.needs(function));
+                let fields: Vec<&str> = arguments.iter().map(|(name, _)| *name).collect();
+                let call = match fields.is_empty() {
+                    true => format!("{call}(::core::marker::PhantomData)"),
+                    false => format!("{call} {{ {} }}", fields.join(", ")),
+                };
+                format!("accelerations {{ (p, t, q, v, u) {call} }}")
+            }
+        };
+        self.writer.line(row);
+    }
+
+    /// A method of `System`: the kind of what it gives, its arguments, and the call.
+    fn row(&mut self, kind: &str, method: &str, arguments: &[&str], value: Option<Layout>) {
+        let head = format!("{kind} {method}({})", arguments.join(", "));
+        match value {
+            Some(value) => self.writer.expression(&format!("{head} = "), &value, ";"),
+            None => self.writer.line(format!("{head};")),
+        }
+    }
+
+    /// The call of a function with the arguments that it needs.
+    fn called(&self, name: &str, needs: Reads) -> Layout {
+        let arguments = self.arguments(needs);
+        let names = arguments.iter().map(|(name, _)| *name);
+        let names = names.collect::<Vec<_>>().join(", ");
+        Layout::Atom(format!("{name}({names})"))
+    }
+
+    /// The call of the function of a role, where it does anything.
+    fn called_role(&self, role: Role) -> Option<Layout> {
+        let function = self.emitted(role)?;
+        Some(self.called(&self.function_name(role), self.needs(function)))
+    }
+
+    fn rows_of_system(&mut self) {
+        if let Some(call) = self.call_of_series() {
+            let arguments = ["p", "t", "q", "v", "u", "coefficients"];
+            self.row("series", "series", &arguments, Some(call));
+            if !self.program.assumptions.is_empty() && self.program.has_linear_assumptions() {
+                let yes = Layout::Atom("true".into());
+                self.row("boolean", "has_linear_assumptions", &["p"], Some(yes));
+            }
+        }
+        self.rows_of_quantities();
+        let value = match self.outputs.is_empty() {
+            true => Layout::Atom(format!("{} {{}}", self.types.outputs)),
+            false => self.called("outputs", self.needs_of_outputs()),
+        };
+        let arguments = ["p", "t", "q", "v", "a", "u"];
+        self.row("outputs", "outputs", &arguments, Some(value));
+        self.row_of_assumptions();
+        self.rows_of_constraints();
+        self.rows_of_contacts();
+        self.row_of_unilateral_contacts();
+        self.row_of_workspace();
+    }
+
+    /// A method for each row of the table of quantities that this machine has, and that solves for nothing.
+    fn rows_of_quantities(&mut self) {
+        let sizes = self.program.sizes();
+        let is_method = |role: &Role| {
+            let needs = role.row().needs;
+            needs != Needs::Request && needs.are_met(sizes) && !role.inverts()
+        };
+        for role in Role::all().filter(is_method) {
+            let row = role.row();
+            if row.extent.shape(sizes).is_none() {
+                continue;
+            }
+            let kind = match row.extent {
+                Extent::Number => "number",
+                Extent::Symmetric(_) => "matrix",
+                Extent::Each(Kind::Coordinate) => "vector",
+                _ => "numbers",
+            };
+            let letters = row.of.iter().map(|of| of.letter());
+            let arguments: Vec<&str> = ["p"].into_iter().chain(letters).collect();
+            self.row(kind, row.name, &arguments, self.called_role(role));
+        }
+    }
+
+    fn row_of_assumptions(&mut self) {
+        if self.program.assumptions.is_empty() {
+            return;
+        }
+        let row = |(i, fact): (usize, &Fact)| {
+            let margin = self.called_role(Role::Assumption(i));
+            let text = Layout::Atom(format!("{:?}", fact.text));
+            let strict = Layout::Atom(fact.strict.to_string());
+            let margin = margin.unwrap_or(Layout::Atom("0.0".into()));
+            Layout::List("(".into(), vec![text, strict, margin], ")")
+        };
+        let facts = self.program.assumptions.iter().enumerate().map(row);
+        let facts = Layout::nested(facts);
+        let arguments = ["p", "t", "q", "v", "u"];
+        self.row("facts", "assumptions", &arguments, Some(facts));
+    }
+
+    /// Bilateral constraints, and what a description keeps of its start.
+    fn rows_of_constraints(&mut self) {
+        let program = self.program;
+        if !program.constraints.is_empty() {
+            let rows = program.constraints.iter().map(|constraint| {
+                let texts = [
+                    &constraint.name,
+                    &constraint.unit,
+                    &constraint.multiplier_unit,
+                ];
+                let texts = texts.map(|text| Layout::Atom(format!("{text:?}")));
+                let holonomic = Layout::Atom(constraint.holonomic.to_string());
+                let items = texts.into_iter().chain([holonomic]).collect();
+                Layout::List("(".into(), items, ")")
+            });
+            let rows = Layout::nested(rows);
+            self.row("constraints", "constraints", &["p"], Some(rows));
+            let arguments = ["p", "t", "q", "v", "u"];
+            match program.contacts.is_empty() {
+                true => {
+                    let call = self.called_role(Role::Multipliers);
+                    self.row("solved", "multipliers", &arguments, call);
+                }
+                false => self.row("with_friction", "multipliers", &arguments, None),
+            }
+        }
+        if !program.kept.is_empty() {
+            let names = program.kept.iter().map(|name| format!("{name:?}"));
+            let names = Layout::array(names);
+            self.row("names", "kept_at_start", &["p"], Some(names));
+        }
+    }
+
+    /// Guided contacts with friction.
+    fn rows_of_contacts(&mut self) {
+        let contacts = &self.program.contacts;
+        if contacts.is_empty() {
+            return;
+        }
+        let names = Layout::array(contacts.iter().map(|name| format!("{name:?}")));
+        self.row("names", "contacts", &["p"], Some(names));
+        let slips = self.emitted(Role::Slips);
+        let needs = slips.map(|function| self.needs(function));
+        let arguments = needs.map(|needs| self.arguments(needs)).unwrap_or_default();
+        let arguments: Vec<&str> = arguments.iter().map(|(name, _)| *name).collect();
+        let zeros = format!(
+            "[{}::scalar::Interval::from(0.0); {}]",
+            self.options.runtime,
+            contacts.len()
+        );
+        let call = self.called_role(Role::Slips).unwrap_or(Layout::Atom(zeros));
+        self.row("ranges", "slip_ranges", &arguments, Some(call));
+        let arguments = ["p", "t", "q", "v", "u"];
+        let call = self.called_role(Role::Friction);
+        self.row("solved", "friction", &arguments, call);
+    }
+
+    /// Unilateral contacts: what they are called, and how they bounce.
+    fn row_of_unilateral_contacts(&mut self) {
+        let contacts = &self.program.unilateral;
+        if contacts.is_empty() {
+            return;
+        }
+        let runtime = &self.options.runtime;
+        let rows = contacts.iter().map(|contact| {
+            let law = match contact.law {
+                ImpactLaw::Newton => "Newton",
+                ImpactLaw::Poisson => "Poisson",
+                ImpactLaw::PoissonGlocker => "PoissonGlocker",
+                ImpactLaw::Stronge => "Stronge",
+            };
+            let order = match contact.order {
+                ImpactOrder::AtOnce => "AtOnce",
+                ImpactOrder::Sequence => "Sequence",
+            };
+            let painleve = match contact.painleve {
+                Painleve::Error => "Error",
+                Painleve::Impact => "Impact",
+            };
+            let compliance = contact.compliance.map(|law| match law {
+                Compliance::Linear => "Linear",
+                Compliance::Hertz => "Hertz",
+                Compliance::HuntCrossley => "HuntCrossley",
+                Compliance::Layer => "Layer",
+            });
+            let option = self.types.known("Option");
+            let compliance = match compliance {
+                None => format!("{option}::None"),
+                Some(law) => format!("{option}::Some({runtime}::Compliance::{law})"),
+            };
+            let fields = [
+                ("name", format!("{:?}", contact.name)),
+                ("law", format!("{runtime}::ImpactLaw::{law}")),
+                ("order", format!("{runtime}::ImpactOrder::{order}")),
+                ("painleve", format!("{runtime}::Painleve::{painleve}")),
+                ("compliance", compliance),
+                ("rubs", contact.rubs.to_string()),
+                ("rolls", contact.rolls.to_string()),
+            ];
+            let fields = fields.map(|(name, value)| (name.to_owned(), Layout::Atom(value)));
+            Layout::Struct(format!("{runtime}::UnilateralContact"), fields.to_vec())
+        });
+        let rows = Layout::nested(rows);
+        self.row("contacts", "unilateral_contacts", &["p"], Some(rows));
+    }
+
+    /// A workspace for constraints and contacts: an array, where that is no burden to a stack.
+    fn row_of_workspace(&mut self) {
+        let (n, m, contacts) = (
+            self.program.coordinates.len(),
+            self.program.constraints.len(),
+            self.program.contacts.len(),
+        );
+        let layout = FrictionLayout {
+            coordinates: n,
+            constraints: m,
+            contacts,
+        };
+        let most = 2 * n * m + n.min(m) * n.min(m) + layout.len();
+        if m + contacts == 0 || most > LARGEST_WORKSPACE {
+            return;
+        }
+        let runtime = &self.options.runtime;
+        let length = Layout::Atom(match contacts {
+            0 => format!("{runtime}::constraint_workspace({n}, {m})"),
+            _ => format!("{runtime}::contact_workspace({n}, {m}, {contacts})"),
+        });
+        self.row("workspace", "with_workspace", &["p"], Some(length));
+    }
+}

@@ -1,0 +1,180 @@
+//! Numbers that a state is told by, near another one: the coordinates z that may be displaced at will and the
+//! rates s of I, in the words of (E39). What depends on them follows: coordinates from constraints of positions, rates from all.
+
+use lagrangian::interpreted::InterpretedMachine;
+use lagrangian::{Machine, System};
+use lagrangian_scalar::{DoubleDouble, Dual, Scalar};
+use lagrangian_units::state_of;
+use nalgebra::{DMatrix, DVector};
+
+use crate::reduced::{Choice, Fault, Number, Place, Reduced};
+
+/// Which numbers tell a state; states are coordinates, then rates.
+#[derive(Clone, Debug)]
+pub(crate) struct Chart {
+    /// How many coordinates there are.
+    n: usize,
+    /// Those numbers of a state, coordinates before rates.
+    picked: Vec<usize>,
+    /// Which coordinates follow from which constraints; none without constraints.
+    choice: Option<Choice>,
+}
+
+impl Chart {
+    /// The numbers that tell states near `x`, among them those that are kept. The integral of a state of first order, on which nothing
+    /// depends, is none of them: the state itself is, as a rate.
+    ///
+    /// # Errors
+    /// If there are none: kept ones depend on others, or constraints have no rows there.
+    pub fn at(
+        machine: &InterpretedMachine,
+        x: &DVector<f64>,
+        kept: &[bool],
+    ) -> Result<Chart, Fault> {
+        let n = x.len() / 2;
+        let system = machine.prepare();
+        let is_integral: Vec<bool> = system
+            .coordinates()
+            .map(|of| state_of(of.name).is_some())
+            .collect();
+        if system.constraints().len() == 0 {
+            let places = (0..n).filter(|j| !is_integral[*j]);
+            return Ok(Chart {
+                n,
+                picked: places.chain(n..2 * n).collect(),
+                choice: None,
+            });
+        }
+        let inputs = system.default_inputs().values;
+        let q = &x.as_slice()[..n];
+        let reduced = Reduced::new(machine, &system, &inputs, &[]);
+        let given: Vec<bool> = (0..n).map(|j| kept[j] || kept[n + j]).collect();
+        let choice = reduced.choose(q, &given)?;
+        let mut picked = choice.places();
+        picked.retain(|j| !is_integral[*j]);
+        picked.sort_unstable();
+        picked.extend(choice.independent.iter().map(|j| n + j));
+        Ok(Chart {
+            n,
+            picked,
+            choice: Some(choice),
+        })
+    }
+
+    /// How many numbers tell a state.
+    pub fn size(&self) -> usize {
+        self.picked.len()
+    }
+
+    /// Which numbers of a state these are.
+    pub fn picked(&self) -> &[usize] {
+        &self.picked
+    }
+
+    /// How many of the constraints do not follow from others.
+    pub fn rank(&self) -> usize {
+        self.choice.as_ref().map_or(0, |choice| choice.rows.len())
+    }
+
+    /// These numbers of a state, or of a difference of states.
+    pub fn of(&self, x: &DVector<f64>) -> DVector<f64> {
+        DVector::from_iterator(self.size(), self.picked.iter().map(|k| x[*k]))
+    }
+
+    /// How all numbers of a state change with these, a column for each.
+    ///
+    /// # Errors
+    /// If the constraints give no rates there.
+    pub fn spread(
+        &self,
+        machine: &InterpretedMachine,
+        t: f64,
+        x: &DVector<f64>,
+    ) -> Result<DMatrix<f64>, Fault> {
+        let (n, size) = (self.n, self.size());
+        let Some(choice) = &self.choice else {
+            return Ok(DMatrix::from_fn(2 * n, size, |i, j| {
+                f64::from(i == self.picked[j])
+            }));
+        };
+        let system = machine.prepare();
+        let inputs = system.default_inputs().values;
+        let mut reduced = Reduced::new(machine, &system, &inputs, &[]);
+        reduced.set_time(t);
+        let constant = |x: f64| Number::from_f64(x);
+        let mut q: Vec<Number> = x.as_slice()[..n].iter().copied().map(constant).collect();
+        let mut s: Vec<Number> = choice
+            .independent
+            .iter()
+            .map(|j| constant(x[n + j]))
+            .collect();
+        let tangent = reduced.tangent(choice, &q)?;
+        let places = choice.places();
+        let mut spread = DMatrix::zeros(2 * n, size);
+        for (column, &of) in self.picked.iter().enumerate() {
+            if of < n {
+                let which = places.iter().position(|place| *place == of);
+                let direction = &tangent[which.unwrap_or(0)];
+                for (q, d) in q.iter_mut().zip(direction) {
+                    q.derivative = *d;
+                }
+            } else {
+                let which = choice.independent.iter().position(|j| n + j == of);
+                s[which.unwrap_or(0)].derivative = DoubleDouble::ONE;
+            }
+            let there = reduced.evaluate(choice, &q, &s)?;
+            for j in 0..n {
+                spread[(j, column)] = q[j].derivative.hi();
+                spread[(n + j, column)] = there.rates[j].derivative.hi();
+            }
+            for number in q.iter_mut().chain(&mut s) {
+                *number = Dual::constant(number.value);
+            }
+        }
+        Ok(spread)
+    }
+
+    /// The state near `x` in which these numbers are others, by `step`.
+    ///
+    /// # Errors
+    /// If the constraints cannot be met there.
+    pub fn moved(
+        &self,
+        machine: &InterpretedMachine,
+        t: f64,
+        x: &DVector<f64>,
+        step: &DVector<f64>,
+    ) -> Result<DVector<f64>, Fault> {
+        let n = self.n;
+        let mut moved = x.clone();
+        for (of, step) in self.picked.iter().zip(step.iter()) {
+            moved[*of] += step;
+        }
+        let Some(choice) = &self.choice else {
+            return Ok(moved);
+        };
+        let system = machine.prepare();
+        let inputs = system.default_inputs().values;
+        let mut reduced = Reduced::new(machine, &system, &inputs, &[]);
+        reduced.set_time(t);
+        let mut q: Vec<DoubleDouble> = moved.as_slice()[..n].iter().map(|x| (*x).into()).collect();
+        reduced.project(&mut q, &|j| choice.tied.contains(&j))?;
+        let place = Place {
+            s: choice
+                .independent
+                .iter()
+                .map(|j| moved[n + j].into())
+                .collect(),
+            q,
+        };
+        let constant = |list: &[DoubleDouble]| -> Vec<Number> {
+            list.iter().copied().map(Dual::constant).collect()
+        };
+        let there = reduced.evaluate(choice, &constant(&place.q), &constant(&place.s))?;
+        for j in 0..n {
+            moved[j] = place.q[j].hi();
+            moved[n + j] = there.rates[j].value.hi();
+        }
+        Ok(moved)
+    }
+}

@@ -1,0 +1,257 @@
+//! How exact a program is at given states, held against the same program in double-doubles.
+//!
+//! An error alone says little: where a result is a small difference of large terms, the data decide it no better than to many
+//! units in its last place, whatever the program does. So an error is told as a share of what is unavoidable: half a unit in the
+//! last place of the result itself, and what half a unit in the last place of every argument and parameter makes of it, each drawn
+//! at random, the greatest of several draws. A share of some units is a program as exact as any can be; a large one is a loss of
+//! digits that a better formula would not have (N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed. 2002,
+//! section 1.5: forward error, backward error and condition).
+
+use lagrangian_scalar::{DoubleDouble, Scalar};
+
+use super::rounding::{SplitMix, State};
+use super::{Arguments, Interpreter, Program, Role};
+
+/// Half the distance between 1 and the next number: a rounding is off by at most this, relatively.
+const HALF_UNIT: f64 = f64::EPSILON / 2.0;
+
+/// How often all data are moved by half a unit in their last place.
+const DRAWS: usize = 8;
+
+/// How often the way towards a singular state is shortened before it ends.
+const ROUNDS: usize = 16;
+
+/// What rounding does to one of a machine's quantities.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Accuracy {
+    /// Which quantity.
+    pub role: Role,
+    /// At how many states it has a value.
+    pub known: usize,
+    /// The median over states of the greatest share among its numbers.
+    pub median: f64,
+    /// Where that is greatest.
+    pub worst: Worst,
+}
+
+/// Where a quantity is least exact.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Worst {
+    /// The error as a share of what is unavoidable.
+    pub share: f64,
+    /// The error in units in the last place of the result.
+    pub units: f64,
+    /// The error, in the unit of the result.
+    pub error: f64,
+    /// Which of its numbers.
+    pub index: usize,
+    /// At which state, counted in the order in which they were looked at.
+    pub state: usize,
+}
+
+/// Computes the numbers of a quantity, and says whether it has a value there.
+pub type Compute<'a> = dyn FnMut(Role, Arguments<'_, f64>, &mut [f64]) -> bool + 'a;
+
+/// Looks at a program state by state.
+#[derive(Debug)]
+pub struct Judge<'p> {
+    program: &'p Program,
+    near: Interpreter<f64>,
+    exact: Interpreter<DoubleDouble>,
+    /// With other parameters, each moved by up to half a unit in its last place.
+    moved: Vec<Interpreter<DoubleDouble>>,
+    random: SplitMix,
+    /// How many states were looked at.
+    states: usize,
+    /// Of each function its role, the greatest share at each state, and the worst.
+    seen: Vec<(Role, Vec<f64>, Worst)>,
+}
+
+impl<'p> Judge<'p> {
+    /// For a program with these parameters.
+    ///
+    /// # Panics
+    /// If `parameters` is not as long as [`Program::parameters`].
+    pub fn new(program: &'p Program, parameters: &[f64]) -> Judge<'p> {
+        let mut random = SplitMix(2);
+        let row: Vec<DoubleDouble> = parameters.iter().map(|&p| p.into()).collect();
+        let exact = Interpreter::new(program, &row);
+        let moved = (0..DRAWS).map(|_| {
+            let mut other = exact.clone();
+            other.prepare(&moved(parameters, &mut random));
+            other
+        });
+        let moved = moved.collect();
+        let functions = program.functions.iter().map(|function| function.role);
+        // Stages compute parts of the accelerations, and are read by each other only.
+        let whole = functions.filter(|role| {
+            !matches!(
+                role,
+                Role::AtTime | Role::AtPosition | Role::AccelerationsAt
+            )
+        });
+        Judge {
+            program,
+            near: Interpreter::new(program, parameters),
+            exact,
+            moved,
+            random,
+            states: 0,
+            seen: whole
+                .map(|role| (role, Vec::new(), Worst::default()))
+                .collect(),
+        }
+    }
+
+    /// Whether all that the machine assumes holds at a state.
+    pub fn holds(&mut self, state: &State) -> bool {
+        let facts = self.program.assumptions.iter().zip(0..);
+        let mut all = true;
+        for (fact, index) in facts {
+            let mut excess = [f64::NAN];
+            let role = Role::Assumption(index);
+            let called = self.near.call(role, state.arguments(), &mut excess);
+            all &= called.is_ok() && (excess[0] > 0.0 || !fact.strict && excess[0] == 0.0);
+        }
+        all
+    }
+
+    /// Looks at a state. `fast` is what is judged: it computes a quantity in the arithmetic of compiled machines, and says whether that
+    /// has a value.
+    pub fn look(&mut self, state: &State, fast: &mut Compute<'_>) {
+        let compute = fast;
+        let number = self.states;
+        self.states += 1;
+        let draws: Vec<State<DoubleDouble>> = self
+            .moved
+            .iter()
+            .map(|_| state.mapped(|row| moved(row, &mut self.random)))
+            .collect();
+        let exactly = state.mapped(|row| row.iter().map(|&x| x.into()).collect());
+        for (role, shares, worst) in &mut self.seen {
+            let length = self
+                .program
+                .function(*role)
+                .map_or(0, |of| of.results.len());
+            let mut fast = vec![0.0; length];
+            let mut exact = vec![DoubleDouble::ZERO; length];
+            let known = compute(*role, state.arguments(), &mut fast)
+                && self
+                    .exact
+                    .call(*role, exactly.arguments(), &mut exact)
+                    .is_ok();
+            if !known {
+                continue;
+            }
+            let mut unavoidable: Vec<f64> =
+                exact.iter().map(|x| HALF_UNIT * x.hi().abs()).collect();
+            for (interpreter, state) in self.moved.iter_mut().zip(&draws) {
+                let mut other = vec![DoubleDouble::ZERO; length];
+                if interpreter
+                    .call(*role, state.arguments(), &mut other)
+                    .is_err()
+                {
+                    continue;
+                }
+                for ((unavoidable, other), exact) in unavoidable.iter_mut().zip(other).zip(&exact) {
+                    let by = (other - *exact).hi().abs() + HALF_UNIT * exact.hi().abs();
+                    *unavoidable = unavoidable.max(by);
+                }
+            }
+            let mut greatest: Option<f64> = None;
+            for (index, (fast, exact)) in fast.iter().zip(&exact).enumerate() {
+                if !exact.is_finite() {
+                    continue;
+                }
+                let error = (DoubleDouble::from(*fast) - *exact).hi().abs();
+                let error = if fast.is_finite() {
+                    error
+                } else {
+                    f64::INFINITY
+                };
+                let share = if error == 0.0 {
+                    0.0
+                } else {
+                    error / unavoidable[index]
+                };
+                if share > worst.share {
+                    let size = exact.hi().abs();
+                    let unit = size.next_up() - size;
+                    *worst = Worst {
+                        share,
+                        units: error / unit,
+                        error,
+                        index,
+                        state: number,
+                    };
+                }
+                greatest = Some(greatest.map_or(share, |greatest| greatest.max(share)));
+            }
+            shares.extend(greatest);
+        }
+    }
+
+    /// A state from `from` on in which the machine is nearly singular: where the least share that elimination leaves of a pivot is
+    /// smallest, as far as a search along one coordinate after the other finds it.
+    pub fn towards_singular(&mut self, from: &State) -> State {
+        let mut best = from.clone();
+        let mut least = self.margin(&best);
+        let sizes = from.q.iter().map(|q| 0.5 * (0.1 + q.abs()));
+        let mut steps: Vec<f64> = sizes.collect();
+        for _ in 0..ROUNDS {
+            for (i, step) in steps.iter_mut().enumerate() {
+                let mut found = false;
+                for by in [*step, -*step] {
+                    let mut there = best.clone();
+                    there.q[i] += by;
+                    let margin = self.margin(&there);
+                    // What is no number is no margin.
+                    if margin < least && self.holds(&there) {
+                        (best, least, found) = (there, margin, true);
+                        break;
+                    }
+                }
+                *step *= if found { 1.5 } else { 0.5 };
+            }
+        }
+        best
+    }
+
+    /// The least share that elimination leaves of a pivot; infinite where it has none, or the machine is singular.
+    fn margin(&mut self, state: &State) -> f64 {
+        let role = self.program.solving();
+        let length = self.program.function(role).map_or(0, |of| of.results.len());
+        let mut results = vec![0.0; length];
+        match self.near.call(role, state.arguments(), &mut results) {
+            Ok(()) => self.near.margin(role),
+            Err(_) => f64::INFINITY,
+        }
+    }
+
+    /// What was seen, in the order of the program's functions; without those that have no value at any state.
+    pub fn finish(self) -> Vec<Accuracy> {
+        let seen = self
+            .seen
+            .into_iter()
+            .filter(|(_, shares, _)| !shares.is_empty());
+        seen.map(|(role, mut shares, worst)| {
+            shares.sort_by(f64::total_cmp);
+            Accuracy {
+                role,
+                known: shares.len(),
+                median: shares[shares.len() / 2],
+                worst,
+            }
+        })
+        .collect()
+    }
+}
+
+/// Numbers, each moved by up to half a unit in its last place.
+fn moved(row: &[f64], random: &mut SplitMix) -> Vec<DoubleDouble> {
+    let moved = |&x: &f64| {
+        let by = x * random.uniform(-HALF_UNIT, HALF_UNIT);
+        DoubleDouble::from(x) + DoubleDouble::from(by)
+    };
+    row.iter().map(moved).collect()
+}

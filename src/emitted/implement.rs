@@ -1,0 +1,659 @@
+//! What is alike in every machine that the compiler emits: conversions between names and rows of numbers, and the
+//! implementations of the traits of machines, as one macro.
+//!
+//! ```text
+//! machine Pendulum "Pendulum" over S, R;          its struct, its name, and letters for types of numbers
+//! parameters { m, l } [                           its fields, and a row for each number:
+//!     m: "m" "kg" = 1.0;                          variable, name, unit, default
+//!     l: "l" "m" = 1.0;
+//! ]
+//! coordinates 1 Coordinates { theta } […]         how many; fields and rows without defaults
+//! inputs Inputs { u } […] over S                  `over S` where there are any
+//! outputs Outputs { force } […]
+//! prepared Prepared { k0, k1 }                    its fields
+//! series series                                   the field for Taylor series, where there is one
+//! singular singular                               the field that says whether the parameters are singular, where they can be
+//! accelerations { (p, t, q, v, u) Accelerations { p, q } }    a call as a value; or `none`, or `friction`
+//! system {
+//!     number kinetic_energy(p, t, q, v) = kinetic_energy(p, v);   a method of `System`: what it gives, what it is
+//!     vector bias(p, t, q, v);                                    given, and the call; zeros where there is no call
+//! }
+//! absent [MAY_SLIDE]                              constants of `System` that are `false`
+//! intervals [yes]                                 where slips depend on prepared values, whose rounding counts then
+//! batch_series { (p, t, q, v, u, coefficients) Series { p, q, v, coefficients } }    the series in lanes, where there is one
+//! lanes [N]                                       a letter for the number of lanes, where there is `Batched`
+//! numbers [yes]                                   where there are `MachineIn` and `SystemIn`
+//! ```
+//!
+//! Fields stand as in a pattern, `{ m, length: [length_1, length_2] }`, which is an expression too: a struct is taken apart and put
+//! together by the same tokens. The emitter chooses all names, since it knows what the machine itself is called; everything else
+//! is named by its full path, since a machine may be called `Result` or `f64`.
+
+/// Implements the traits of a machine: see the top of `src/emitted/implement.rs`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! implement_machine {
+    (
+        machine $Machine:ident $name:literal over $S:ident, $R:ident;
+        parameters $parameters:tt $parameter_rows:tt
+        coordinates $n:literal $Coordinates:ident $coordinates:tt $coordinate_rows:tt
+        inputs $Inputs:ident $inputs:tt $input_rows:tt $(over $Over:ident)?
+        outputs $Outputs:ident $outputs:tt $output_rows:tt
+        prepared $Prepared:ident { $($field:ident),* $(,)? }
+        $(series $series:ident)?
+        $(singular $singular:ident)?
+        accelerations $accelerations:tt
+        system { $($kind:ident $method:ident($($argument:ident),*) $(= $value:expr)?;)* }
+        absent [$($absent:ident)*]
+        intervals $intervals:tt
+        $(batch_series $batch_series:tt)?
+        lanes $lanes:tt
+        numbers $numbers:tt
+    ) => {
+        $crate::implement_part! { default $Machine $parameters $parameter_rows }
+        $crate::implement_part! { map $Machine $parameters $parameter_rows $S $R }
+        $crate::implement_part! { rows $n $Coordinates $coordinates $coordinate_rows $S }
+        $crate::implement_part! { map $Coordinates $coordinates $coordinate_rows $S $R }
+        $(
+            $crate::implement_part! { default $Inputs $inputs $input_rows }
+            $crate::implement_part! { map $Inputs $inputs $input_rows $Over $R }
+        )?
+        $crate::implement_part! {
+            machine $Machine $name $parameters $parameter_rows $Prepared $Coordinates
+        }
+
+        #[allow(unused_variables)]
+        impl $crate::emitted::System for $Prepared {
+            type Vector = [::core::primitive::f64; $n];
+            type Matrix = [::core::primitive::f64; $n * $n];
+            type Coordinates = $Coordinates;
+            type Inputs = $Inputs;
+            type Outputs = $Outputs;
+            $(const $absent: ::core::primitive::bool = false;)*
+
+            $crate::implement_part! {
+                coordinates $coordinate_rows [::core::primitive::f64; $n], $Coordinates
+            }
+
+            fn accelerations(
+                &self,
+                t: ::core::primitive::f64,
+                q: &[::core::primitive::f64; $n],
+                v: &[::core::primitive::f64; $n],
+                u: &$Inputs,
+                result: &mut [::core::primitive::f64; $n],
+            ) -> ::core::result::Result<(), $crate::emitted::Singular> {
+                $crate::implement_part! {
+                    accelerations $accelerations [::core::primitive::f64] [0.0; $n] (self, t, q, v, u) result
+                }
+            }
+
+            fn default_inputs(&self) -> $Inputs {
+                <$Inputs as ::core::default::Default>::default()
+            }
+
+            $crate::implement_part! { values input_values $Inputs $inputs $input_rows }
+            $crate::implement_part! { values output_values $Outputs $outputs $output_rows }
+            $($crate::implement_method! {
+                [$n $Inputs $Outputs] $kind $method($($argument),*) $(= $value)?
+            })*
+        }
+
+        $crate::implement_intervals! { $intervals $Prepared { $($field,)* $($series,)? $($singular,)? } }
+        $crate::implement_lanes! {
+            $lanes $n $Prepared { $($field,)* $($series,)? $($singular,)? } [$($singular)?]
+            $Inputs $inputs $input_rows [$($Over)?] $accelerations [$($batch_series)?]
+        }
+        $crate::implement_numbers! {
+            $numbers $S $n $Machine $Prepared $Coordinates $coordinate_rows
+            $Inputs $inputs $input_rows [$($Over)?] $accelerations
+        }
+    };
+}
+
+/// Parts of `implement_machine`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! implement_part {
+    // `Default`, where every number has one.
+    (
+        default $Type:ident { $($fields:tt)* }
+        [$($x:ident: $name:literal $unit:literal = $default:expr;)*]
+    ) => {
+        impl ::core::default::Default for $Type {
+            fn default() -> Self {
+                $(let $x = $default;)*
+                $Type { $($fields)* }
+            }
+        }
+    };
+    (default $($incomplete:tt)*) => {};
+
+    // `map`.
+    (
+        map $Type:ident { $($fields:tt)* }
+        [$($x:ident: $name:literal $unit:literal $(= $default:expr)?;)*] $S:ident $R:ident
+    ) => {
+        impl<$S> $Type<$S> {
+            /// These values as other numbers.
+            pub fn map<$R>(self, f: impl ::core::ops::Fn($S) -> $R) -> $Type<$R> {
+                let $Type { $($fields)* } = self;
+                let values: [$S; _] = [$($x),*];
+                let [$($x),*] = values.map(f);
+                $Type { $($fields)* }
+            }
+        }
+    };
+
+    // Named coordinates and rows of numbers.
+    (
+        rows $n:literal $Type:ident { $($fields:tt)* }
+        [$($x:ident: $name:literal $unit:literal;)*] $S:ident
+    ) => {
+        impl<$S: ::core::marker::Copy> $Type<$S> {
+            /// The numbers in the order of the description: the order of `q` in every function here.
+            pub fn to_array(self) -> [$S; $n] {
+                let $Type { $($fields)* } = self;
+                [$($x),*]
+            }
+
+            /// Names for numbers in the order of the description.
+            pub fn from_array(q: [$S; $n]) -> Self {
+                let [$($x),*] = q;
+                $Type { $($fields)* }
+            }
+        }
+    };
+
+    // `Machine`.
+    (
+        machine $Machine:ident $machine:literal { $($fields:tt)* }
+        [$($x:ident: $name:literal $unit:literal $(= $default:expr)?;)*]
+        $Prepared:ident $Coordinates:ident
+    ) => {
+        impl $crate::emitted::Machine for $Machine {
+            type System = $Prepared;
+
+            fn name(&self) -> &::core::primitive::str {
+                $machine
+            }
+
+            fn parameters(
+                &self,
+            ) -> impl ::core::iter::ExactSizeIterator<
+                Item = ($crate::emitted::Quantity<'_>, ::core::primitive::f64),
+            > {
+                let $Machine { $($fields)* } = *self;
+                $crate::emitted::values(
+                    const { &[$($crate::emitted::Quantity::new($name, $unit)),*] },
+                    [$($x),*],
+                )
+            }
+
+            fn parameter_mut(
+                &mut self,
+                index: ::core::primitive::usize,
+            ) -> ::core::option::Option<&mut ::core::primitive::f64> {
+                let $Machine { $($fields)* } = self;
+                let parameters: [&mut ::core::primitive::f64; _] = [$($x),*];
+                parameters.into_iter().nth(index)
+            }
+
+            fn prepare(&self) -> $Prepared {
+                Self::prepare(self)
+            }
+
+            fn start(&self) -> $crate::emitted::State<$Coordinates> {
+                Self::start(self)
+            }
+        }
+    };
+
+    // What `System` and `SystemIn` say alike of coordinates.
+    (
+        coordinates [$($x:ident: $name:literal $unit:literal;)*] $Vector:ty, $Coordinates:ty
+    ) => {
+        fn coordinates(
+            &self,
+        ) -> impl ::core::iter::ExactSizeIterator<Item = $crate::emitted::Quantity<'_>> {
+            const NAMES: &[$crate::emitted::Quantity<'static>] =
+                &[$($crate::emitted::Quantity::new($name, $unit)),*];
+            NAMES.iter().copied()
+        }
+
+        fn to_coordinates(&self, vector: &$Vector) -> $Coordinates {
+            <$Coordinates>::from_array(*vector)
+        }
+
+        fn to_vector(&self, coordinates: &$Coordinates) -> $Vector {
+            coordinates.to_array()
+        }
+    };
+
+    // The accelerations of numbers of one type.
+    (
+        accelerations { ($p:ident, $t:ident, $q:ident, $v:ident, $u:ident) $call:expr }
+        [$Number:ty] $zeros:tt ($($given:tt),*) $result:ident
+    ) => {{
+        let ($p, $t, $q, $v, $u) = ($($given),*);
+        <$Number as $crate::emitted::Number>::run_in_place($call, $result)
+    }};
+    (accelerations none [$Number:ty] $zeros:tt ($($given:tt),*) $result:ident) => {{
+        *$result = $zeros;
+        ::core::result::Result::Ok(())
+    }};
+    (accelerations friction [$Number:ty] $zeros:tt ($($given:tt),*) $result:ident) => {
+        $crate::emitted::accelerations_with_friction($($given),*, $result)
+    };
+
+    // The Taylor series in lanes.
+    (
+        batch_series {
+            ($p:ident, $t:ident, $q:ident, $v:ident, $u:ident, $coefficients:ident) $series:expr
+        }
+        $N:ident
+    ) => {
+        fn batch_series(
+            $p: &Self::Batch,
+            $t: [$crate::emitted::Lanes<$N>; 2],
+            $q: &Self::Vectors,
+            $v: &Self::Vectors,
+            $u: &Self::BatchInputs,
+            $coefficients: &mut [Self::Vectors],
+        ) -> ::core::result::Result<(), $crate::emitted::Singular> {
+            <$crate::emitted::Lanes<$N> as $crate::emitted::Number>::run($series)
+        }
+    };
+
+    // Values with their names.
+    (
+        values $method:ident $Type:ident { $($fields:tt)* }
+        [$($x:ident: $name:literal $unit:literal $(= $default:expr)?;)*]
+    ) => {
+        fn $method(
+            &self,
+            values: &$Type,
+        ) -> impl ::core::iter::ExactSizeIterator<
+            Item = ($crate::emitted::Quantity<'_>, ::core::primitive::f64),
+        > {
+            let $Type { $($fields)* } = *values;
+            $crate::emitted::values(
+                const { &[$($crate::emitted::Quantity::new($name, $unit)),*] },
+                [$($x),*],
+            )
+        }
+    };
+
+    // The type of inputs over other numbers: where there are none, it is over none.
+    (over [] $Inputs:ident $R:ty) => { $Inputs };
+    (over [$Over:ident] $Inputs:ident $R:ty) => { $Inputs<$R> };
+
+    // The type of an argument of a method of `System`, by its letter.
+    (argument t $n:literal $Inputs:ident) => { ::core::primitive::f64 };
+    (argument u $n:literal $Inputs:ident) => { &$Inputs };
+    (argument $x:ident $n:literal $Inputs:ident) => { &[::core::primitive::f64; $n] };
+
+    // An argument of the slips, with what rounding may have made of it.
+    (rounded p $p:tt $t:ident $q:ident $v:ident) => { &$p.rounded() };
+    (rounded t $p:tt $t:ident $q:ident $v:ident) => { $crate::emitted::rounded($t) };
+    (rounded q $p:tt $t:ident $q:ident $v:ident) => { &$q.map($crate::emitted::rounded) };
+    (rounded v $p:tt $t:ident $q:ident $v:ident) => { &$v.map($crate::emitted::rounded) };
+}
+
+/// A method of `System`, by what it gives.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! implement_method {
+    // A number.
+    ($types:tt number $method:ident($($x:ident),*)) => {
+        $crate::implement_method! { $types number $method($($x),*) = 0.0 }
+    };
+    (
+        [$n:literal $Inputs:ident $Outputs:ident]
+        number $method:ident($p:ident $(, $x:ident)*) = $value:expr
+    ) => {
+        fn $method(
+            &self $(, $x: $crate::implement_part!(argument $x $n $Inputs))*
+        ) -> ::core::primitive::f64 {
+            let $p = self;
+            $value
+        }
+    };
+
+    // A number for each coordinate.
+    ([$n:literal $($types:tt)*] vector $method:ident($($x:ident),*)) => {
+        $crate::implement_method! { [$n $($types)*] vector $method($($x),*) = [0.0; $n] }
+    };
+    (
+        [$n:literal $Inputs:ident $Outputs:ident]
+        vector $method:ident($p:ident $(, $x:ident)*) = $value:expr
+    ) => {
+        fn $method(
+            &self $(, $x: $crate::implement_part!(argument $x $n $Inputs))*,
+            result: &mut [::core::primitive::f64; $n],
+        ) {
+            let $p = self;
+            *result = $value;
+        }
+    };
+
+    // A square matrix, row after row.
+    ([$n:literal $($types:tt)*] matrix $method:ident($($x:ident),*)) => {
+        $crate::implement_method! { [$n $($types)*] matrix $method($($x),*) = [[0.0; $n]; $n] }
+    };
+    (
+        [$n:literal $Inputs:ident $Outputs:ident]
+        matrix $method:ident($p:ident $(, $x:ident)*) = $value:expr
+    ) => {
+        fn $method(
+            &self $(, $x: $crate::implement_part!(argument $x $n $Inputs))*,
+            result: &mut [::core::primitive::f64; $n * $n],
+        ) {
+            let $p = self;
+            $crate::emitted::fill(result, $value.as_flattened());
+        }
+    };
+
+    // Numbers, as many as there is a place for.
+    (
+        [$n:literal $Inputs:ident $Outputs:ident]
+        numbers $method:ident($p:ident $(, $x:ident)*) $(= $value:expr)?
+    ) => {
+        fn $method(
+            &self $(, $x: $crate::implement_part!(argument $x $n $Inputs))*,
+            result: &mut [::core::primitive::f64],
+        ) {
+            let $p = self;
+            result.fill(0.0);
+            $($crate::emitted::fill(result, &$value);)?
+        }
+    };
+
+    // Numbers that elimination gives: an error where a pivot vanishes.
+    (
+        [$n:literal $Inputs:ident $Outputs:ident]
+        solved $method:ident($p:ident $(, $x:ident)*) $(= $value:expr)?
+    ) => {
+        fn $method(
+            &self $(, $x: $crate::implement_part!(argument $x $n $Inputs))*,
+            result: &mut [::core::primitive::f64],
+        ) -> ::core::result::Result<(), $crate::emitted::Singular> {
+            let $p = self;
+            $($crate::emitted::fill(result, &$value?);)?
+            ::core::result::Result::Ok(())
+        }
+    };
+
+    // The multipliers of a machine with guided contacts.
+    (
+        [$n:literal $Inputs:ident $Outputs:ident]
+        with_friction $method:ident($p:ident $(, $x:ident)*)
+    ) => {
+        fn $method(
+            &self $(, $x: $crate::implement_part!(argument $x $n $Inputs))*,
+            result: &mut [::core::primitive::f64],
+        ) -> ::core::result::Result<(), $crate::emitted::Singular> {
+            $crate::emitted::multipliers_with_friction(self $(, $x)*, result)
+        }
+    };
+
+    // What is to be observed.
+    (
+        [$n:literal $Inputs:ident $Outputs:ident]
+        outputs $method:ident($p:ident $(, $x:ident)*) = $value:expr
+    ) => {
+        fn $method(
+            &self $(, $x: $crate::implement_part!(argument $x $n $Inputs))*
+        ) -> $Outputs {
+            let $p = self;
+            $value
+        }
+    };
+
+    // Facts: text, whether it is strict, by how much it holds.
+    (
+        [$n:literal $Inputs:ident $Outputs:ident]
+        facts $method:ident($p:ident $(, $x:ident)*) = $value:expr
+    ) => {
+        fn $method(
+            &self $(, $x: $crate::implement_part!(argument $x $n $Inputs))*
+        ) -> impl ::core::iter::ExactSizeIterator<Item = $crate::emitted::Assumption<'_>> {
+            let $p = self;
+            $crate::emitted::facts($value)
+        }
+    };
+
+    // Bilateral constraints: name, unit, unit of the multiplier, whether positions are constrained.
+    ($types:tt constraints $method:ident($p:ident) = $value:expr) => {
+        fn $method(
+            &self,
+        ) -> impl ::core::iter::ExactSizeIterator<Item = $crate::emitted::Constraint<'_>> {
+            const ROWS: &[$crate::emitted::ConstraintRow] = &$value;
+            ROWS.iter().map($crate::emitted::constraint)
+        }
+    };
+
+    // Names.
+    ($types:tt names $method:ident($p:ident) = $value:expr) => {
+        fn $method(
+            &self,
+        ) -> impl ::core::iter::ExactSizeIterator<Item = &::core::primitive::str> {
+            const NAMES: &[&::core::primitive::str] = &$value;
+            NAMES.iter().copied()
+        }
+    };
+
+    // Unilateral contacts.
+    ($types:tt contacts $method:ident($p:ident) = $value:expr) => {
+        fn $method(
+            &self,
+        ) -> impl ::core::iter::ExactSizeIterator<Item = $crate::emitted::UnilateralContact<'_>> {
+            const CONTACTS: &[$crate::emitted::UnilateralContact<'static>] = &$value;
+            CONTACTS.iter().copied()
+        }
+    };
+
+    // Between which numbers slips are; given is what they depend on.
+    (
+        [$n:literal $Inputs:ident $Outputs:ident] ranges $method:ident($($x:ident),*) = $value:expr
+    ) => {
+        fn $method(
+            &self,
+            t: ::core::primitive::f64,
+            q: &[::core::primitive::f64; $n],
+            v: &[::core::primitive::f64; $n],
+            result: &mut [[::core::primitive::f64; 2]],
+        ) {
+            $(let $x = $crate::implement_part!(rounded $x self t q v);)*
+            $crate::emitted::fill_ranges(result, &$value);
+        }
+    };
+
+    // A workspace of this many numbers.
+    ($types:tt workspace $method:ident($p:ident) = $length:expr) => {
+        fn $method<R>(
+            &self,
+            length: ::core::primitive::usize,
+            work: impl ::core::ops::FnOnce(
+                ::core::option::Option<&mut [::core::primitive::f64]>,
+            ) -> R,
+        ) -> R {
+            let mut workspace = [0.0; $length];
+            work(workspace.get_mut(..length))
+        }
+    };
+
+    // The Taylor series of the motion, a call as a value.
+    (
+        [$n:literal $Inputs:ident $Outputs:ident]
+        series $method:ident($p:ident, $t:ident, $q:ident, $v:ident, $u:ident, $coefficients:ident)
+            = $value:expr
+    ) => {
+        fn check_series(&self) -> ::core::result::Result<(), &::core::primitive::str> {
+            ::core::result::Result::Ok(())
+        }
+
+        fn $method(
+            &self,
+            $t: [::core::primitive::f64; 2],
+            $q: &[::core::primitive::f64; $n],
+            $v: &[::core::primitive::f64; $n],
+            $u: &$Inputs,
+            $coefficients: &mut [[::core::primitive::f64; $n]],
+        ) -> ::core::result::Result<(), $crate::emitted::Singular> {
+            let $p = self;
+            let known = $crate::emitted::series::ROWS;
+            for row in $coefficients.iter_mut().skip(known) {
+                *row = [::core::primitive::f64::NAN; $n];
+            }
+            <::core::primitive::f64 as $crate::emitted::Number>::run($value)
+        }
+    };
+
+    // Yes or no.
+    ($types:tt boolean $method:ident($p:ident) = $value:expr) => {
+        fn $method(&self) -> ::core::primitive::bool {
+            $value
+        }
+    };
+}
+
+/// Prepared values with what rounding may have made of them.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! implement_intervals {
+    ([] $($rest:tt)*) => {};
+    ([yes] $Prepared:ident { $($field:ident,)* }) => {
+        impl $Prepared {
+            fn rounded(&self) -> $Prepared<$crate::scalar::Interval> {
+                $Prepared {
+                    $($field: $crate::emitted::PreparedField::rounded(self.$field)),*
+                }
+            }
+        }
+    };
+}
+
+/// `Batched`: several systems in the lanes of registers.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! implement_lanes {
+    ([] $($rest:tt)*) => {};
+    (
+        [$N:ident] $n:literal $Prepared:ident { $($field:ident,)* } [$($singular:ident)?]
+        $Inputs:ident { $($inputs:tt)* } [$($x:ident: $name:literal $unit:literal $(= $default:expr)?;)*]
+        $over:tt $accelerations:tt [$($series:tt)?]
+    ) => {
+        #[allow(unused_variables)]
+        impl<const $N: ::core::primitive::usize> $crate::emitted::Batched<$N> for $Prepared
+        where
+            $crate::emitted::Lanes<$N>: $crate::emitted::Number,
+        {
+            type Batch = $Prepared<$crate::emitted::Lanes<$N>>;
+            type Vectors = [$crate::emitted::Lanes<$N>; $n];
+            type BatchInputs =
+                $crate::implement_part!(over $over $Inputs $crate::emitted::Lanes<$N>);
+
+            fn batch(systems: [&Self; $N]) -> Self::Batch {
+                $Prepared {
+                    $($field: $crate::emitted::PreparedField::side_by_side(
+                        systems.map(|system| system.$field),
+                    )),*
+                }
+            }
+
+            fn batch_inputs(inputs: [&$Inputs; $N]) -> Self::BatchInputs {
+                let rows = inputs.map(|inputs| {
+                    let $Inputs { $($inputs)* } = *inputs;
+                    [$($x),*]
+                });
+                let [$($x),*] = $crate::emitted::side_by_side(rows);
+                $Inputs { $($inputs)* }
+            }
+
+            fn inputs_of_lane(
+                inputs: &Self::BatchInputs,
+                lane: ::core::primitive::usize,
+            ) -> $Inputs {
+                let $Inputs { $($inputs)* } = *inputs;
+                let inputs: [$crate::emitted::Lanes<$N>; _] = [$($x),*];
+                let [$($x),*] = inputs.map(|input| input[lane]);
+                $Inputs { $($inputs)* }
+            }
+
+            fn is_singular(&self) -> ::core::primitive::bool {
+                false $(|| self.$singular.is_some())?
+            }
+
+            fn batch_accelerations(
+                system: &Self::Batch,
+                t: $crate::emitted::Lanes<$N>,
+                q: &Self::Vectors,
+                v: &Self::Vectors,
+                u: &Self::BatchInputs,
+                result: &mut Self::Vectors,
+            ) -> ::core::result::Result<(), $crate::emitted::Singular> {
+                $crate::implement_part! {
+                    accelerations $accelerations [$crate::emitted::Lanes<$N>]
+                    [$crate::emitted::Lanes::splat(0.0); $n] (system, t, q, v, u) result
+                }
+            }
+
+            $($crate::implement_part! { batch_series $series $N })?
+        }
+    };
+}
+
+/// `MachineIn` and `SystemIn`: the machine in numbers of any kind.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! implement_numbers {
+    ([] $($rest:tt)*) => {};
+    (
+        [yes] $S:ident $n:literal $Machine:ident $Prepared:ident $Coordinates:ident $coordinate_rows:tt
+        $Inputs:ident { $($inputs:tt)* } [$($x:ident: $name:literal $unit:literal $(= $default:expr)?;)*]
+        $over:tt $accelerations:tt
+    ) => {
+        impl<$S: $crate::emitted::Real> $crate::emitted::MachineIn<$S> for $Machine<$S> {
+            type System = $Prepared<$S>;
+
+            fn prepare(&self) -> $Prepared<$S> {
+                Self::prepare(self)
+            }
+
+            fn start(&self) -> $crate::emitted::State<$Coordinates<$S>> {
+                Self::start(self)
+            }
+        }
+
+        #[allow(unused_variables)]
+        impl<$S: $crate::emitted::Real> $crate::emitted::SystemIn<$S> for $Prepared<$S> {
+            type Vector = [$S; $n];
+            type Coordinates = $Coordinates<$S>;
+            type Inputs = $crate::implement_part!(over $over $Inputs $S);
+
+            $crate::implement_part! { coordinates $coordinate_rows [$S; $n], $Coordinates<$S> }
+
+            fn default_inputs(&self) -> $crate::implement_part!(over $over $Inputs $S) {
+                let $Inputs { $($inputs)* } = <$Inputs as ::core::default::Default>::default();
+                let inputs: [::core::primitive::f64; _] = [$($x),*];
+                let [$($x),*] = inputs.map(<$S as $crate::emitted::Scalar>::from_f64);
+                $Inputs { $($inputs)* }
+            }
+
+            fn accelerations(
+                &self,
+                t: $S,
+                q: &[$S; $n],
+                v: &[$S; $n],
+                u: &$crate::implement_part!(over $over $Inputs $S),
+                result: &mut [$S; $n],
+            ) -> ::core::result::Result<(), $crate::emitted::Singular> {
+                $crate::implement_part! {
+                    accelerations $accelerations [$S]
+                    [<$S as $crate::emitted::Scalar>::ZERO; $n] (self, t, q, v, u) result
+                }
+            }
+        }
+    };
+}

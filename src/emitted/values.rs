@@ -1,0 +1,126 @@
+//! Functions that the methods of every emitted machine call.
+
+use core::array;
+use core::marker::PhantomData;
+
+use crate::scalar::Interval;
+use crate::{Assumption, Constraint, Lanes, Quantity, Singular};
+
+/// Values beside their names and units.
+pub fn values<'a, const K: usize>(
+    names: &'a [Quantity<'a>],
+    values: [f64; K],
+) -> impl ExactSizeIterator<Item = (Quantity<'a>, f64)> {
+    names.iter().copied().zip(values)
+}
+
+/// Writes numbers as far as there is a place for them.
+pub fn fill(to: &mut [f64], from: &[f64]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
+    }
+}
+
+/// Writes the bounds of intervals.
+pub fn fill_ranges(to: &mut [[f64; 2]], from: &[Interval]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = [from.lo(), from.hi()];
+    }
+}
+
+/// What a machine assumes, of texts, whether they are strict, and by how much they hold.
+pub fn facts<'a, const K: usize>(
+    facts: [(&'a str, bool, f64); K],
+) -> impl ExactSizeIterator<Item = Assumption<'a>> {
+    let fact = |(text, strict, margin)| Assumption {
+        text,
+        margin,
+        strict,
+    };
+    facts.into_iter().map(fact)
+}
+
+/// A constraint: its name, its unit, the unit of its multiplier, whether positions are constrained.
+pub type ConstraintRow = (&'static str, &'static str, &'static str, bool);
+
+/// A constraint of such a row.
+pub fn constraint(&(name, unit, multiplier_unit, holonomic): &ConstraintRow) -> Constraint<'_> {
+    Constraint {
+        name,
+        unit,
+        multiplier_unit,
+        holonomic,
+    }
+}
+
+/// The values of N machines side by side: value by value a number for each machine.
+pub fn side_by_side<const K: usize, const N: usize>(rows: [[f64; K]; N]) -> [Lanes<N>; K] {
+    array::from_fn(|value| Lanes(rows.map(|row| row[value])))
+}
+
+/// The number itself and all numbers that are rounded to it.
+#[inline]
+pub fn rounded(x: f64) -> Interval {
+    Interval::new(x.next_down(), x.next_up())
+}
+
+/// A field of the prepared values: a number, an array of these, or what is no number and stays as it is.
+pub trait PreparedField: Copy {
+    /// The field where numbers are of another type.
+    type In<R>;
+
+    /// The fields of several systems side by side.
+    fn side_by_side<const N: usize>(fields: [Self; N]) -> Self::In<Lanes<N>>;
+
+    /// The field with what rounding may have made of it.
+    fn rounded(self) -> Self::In<Interval>;
+}
+
+impl PreparedField for f64 {
+    type In<R> = R;
+
+    fn side_by_side<const N: usize>(fields: [Self; N]) -> Lanes<N> {
+        Lanes(fields)
+    }
+
+    fn rounded(self) -> Interval {
+        rounded(self)
+    }
+}
+
+impl<const K: usize> PreparedField for [f64; K] {
+    type In<R> = [R; K];
+
+    fn side_by_side<const N: usize>(fields: [Self; N]) -> [Lanes<N>; K] {
+        side_by_side(fields)
+    }
+
+    fn rounded(self) -> [Interval; K] {
+        self.map(rounded)
+    }
+}
+
+/// Systems that are evaluated side by side are not singular from the start.
+impl PreparedField for Option<Singular> {
+    type In<R> = Self;
+
+    fn side_by_side<const N: usize>(_: [Self; N]) -> Self {
+        None
+    }
+
+    fn rounded(self) -> Self {
+        self
+    }
+}
+
+impl PreparedField for PhantomData<f64> {
+    type In<R> = PhantomData<R>;
+
+    fn side_by_side<const N: usize>(_: [Self; N]) -> PhantomData<Lanes<N>> {
+        PhantomData
+    }
+
+    fn rounded(self) -> PhantomData<Interval> {
+        PhantomData
+    }
+}

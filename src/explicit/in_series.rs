@@ -1,0 +1,386 @@
+//! Steps by Taylor series of several trajectories at once: those of a [`Stepper`](crate::Stepper), bit for bit.
+//!
+//! All lanes are expanded together at the ends of the steps that they try. A lane keeps the coefficients of the beginning of its
+//! step until a try is good. One that a trajectory was just put into has none yet: its first try is a step of no length.
+
+use std::vec::Vec;
+
+use lagrangian_native::Lanes;
+
+use super::{Outcome, choose, choose_point};
+use crate::attempt::{are_finite, not_finite};
+use crate::compensated::two_sum;
+use crate::control::{self, Control, Work};
+use crate::scalar::Kernel;
+use crate::stages::{Point, in_blocks};
+use crate::step_error::StepError;
+use crate::taylor::{self, Coefficients};
+use crate::tolerance::Tolerance;
+use crate::{Batch, Batched, LaneVector, Scalar};
+
+/// One of the trajectories.
+#[derive(Clone, Copy, Debug)]
+struct Lane {
+    /// Whether it is to go on.
+    is_running: bool,
+    /// Whether it has coefficients of its motion through now.
+    is_expanded: bool,
+    /// The length of a step from now whose error is tolerable.
+    length: f64,
+    control: Control,
+}
+
+/// Trajectories side by side.
+pub(super) struct InSeries<V, const W: usize> {
+    tolerance: Tolerance<V>,
+    longest: f64,
+    end: Lanes<W>,
+    now: Point<V, Lanes<W>>,
+    ahead: Point<V, Lanes<W>>,
+    /// The coefficients of the motion through now, and through where the steps that are tried end.
+    coefficients: [Vec<V>; 2],
+    lanes: [Lane; W],
+}
+
+impl<V: LaneVector<W>, const W: usize> InSeries<V, W> {
+    /// Trajectories that stand still. `tolerance` is relative, and absolute in every coordinate.
+    pub fn resting(tolerance: f64, longest: f64, now: Point<V, Lanes<W>>) -> Self {
+        let relative = tolerance.max(10.0 * f64::EPSILON);
+        let mut absolute = V::ZEROS;
+        absolute.as_mut().fill(Lanes::splat(tolerance));
+        let rows = taylor::rows(relative + tolerance);
+        Self {
+            tolerance: Tolerance { relative, absolute },
+            longest: control::longest(longest),
+            end: now.t,
+            ahead: now.clone(),
+            now,
+            coefficients: [(); 2].map(|()| std::vec![V::ZEROS; rows]),
+            lanes: [Lane {
+                is_running: false,
+                is_expanded: false,
+                length: 0.0,
+                control: Control::new(),
+            }; W],
+        }
+    }
+
+    /// Puts a trajectory into a lane that begins at its state of now, and ends at `end`. `work` is what was done for it.
+    pub fn begin(&mut self, lane: usize, end: f64, work: Work) {
+        self.end[lane] = end;
+        self.lanes[lane] = Lane {
+            is_running: true,
+            is_expanded: false,
+            length: 0.0,
+            control: Control {
+                work,
+                ..Control::new()
+            },
+        };
+    }
+
+    pub fn now(&self) -> &Point<V, Lanes<W>> {
+        &self.now
+    }
+
+    pub fn now_mut(&mut self) -> &mut Point<V, Lanes<W>> {
+        &mut self.now
+    }
+
+    pub fn is_done(&self, lane: usize) -> bool {
+        self.now.t[lane] == self.end[lane]
+    }
+
+    pub fn work(&self, lane: usize) -> Work {
+        self.lanes[lane].control.work
+    }
+
+    pub fn stop(&mut self, lane: usize) {
+        self.lanes[lane].is_running = false;
+    }
+
+    /// How many trajectories are under way.
+    pub fn count(&self) -> usize {
+        self.lanes.iter().filter(|lane| lane.is_running).count()
+    }
+
+    /// One try of every trajectory that is not at its end.
+    pub fn attempt<S: Batched<W, Vectors = V>>(
+        &mut self,
+        batch: &Batch<S, W>,
+        inputs: &S::BatchInputs,
+    ) -> [Outcome; W] {
+        let mut outcomes = [Outcome::Idle; W];
+        let (h, is_last) = self.choose_lengths(&mut outcomes);
+        let stays = self.lanes.map(|lane| !lane.is_running || !lane.is_expanded);
+        let fine = V::run(Advance {
+            coefficients: &self.coefficients[0],
+            now: &self.now,
+            h,
+            to: (self.end, &is_last),
+            stays: &stays,
+            ahead: &mut self.ahead,
+        });
+
+        let mut failed = [None; W];
+        if fine.contains(&false) {
+            for (lane, failed) in failed.iter_mut().enumerate() {
+                *failed = not_finite(&self.ahead.q, &self.ahead.v, lane)
+                    .map(|coordinate| self.not_finite(coordinate, lane));
+            }
+            // What is no number must not disturb the others.
+            choose_point(&fine.map(|fine| !fine), &mut self.ahead, &self.now);
+        }
+        self.expand(batch, inputs, &mut failed);
+
+        let mut stays = [false; W];
+        for lane in 0..W {
+            if self.lanes[lane].is_running {
+                outcomes[lane] = self.decide(lane, h[lane], failed[lane]);
+                stays[lane] = failed[lane].is_some();
+            }
+        }
+        let [now, next] = &mut self.coefficients;
+        if stays.contains(&true) {
+            choose_point(&stays, &mut self.ahead, &self.now);
+            for (next, now) in next.iter_mut().zip(now.iter()) {
+                choose(&stays, next, now);
+            }
+        }
+        core::mem::swap(now, next);
+        core::mem::swap(&mut self.now, &mut self.ahead);
+        let lengths = V::run(Lengths {
+            coefficients: &self.coefficients[0],
+            tolerance: &self.tolerance,
+        });
+        for (lane, length) in self.lanes.iter_mut().zip(lengths) {
+            lane.length = length;
+        }
+        outcomes
+    }
+
+    fn not_finite(&self, coordinate: usize, lane: usize) -> StepError {
+        StepError::NotFinite {
+            coordinate,
+            t: self.ahead.t[lane],
+        }
+    }
+
+    /// The lengths of the next steps, 0 where there is none, and whether they are the last ones.
+    fn choose_lengths(&mut self, outcomes: &mut [Outcome; W]) -> (Lanes<W>, [bool; W]) {
+        let mut lengths = Lanes::splat(0.0);
+        let mut is_last = [false; W];
+        for (i, outcome) in outcomes.iter_mut().enumerate() {
+            let lane = &mut self.lanes[i];
+            if !lane.is_running || !lane.is_expanded {
+                continue;
+            }
+            let (t, end) = (self.now.t[i], self.end[i]);
+            let left = (end - t) - self.now.t_low[i];
+            let control = &mut lane.control;
+            if !control.is_retry {
+                let length = lane.length.min(self.longest);
+                if lane.length.is_nan() {
+                    lane.is_running = false;
+                    let rows = self.coefficients[0].iter();
+                    let coordinate = rows.filter_map(|row| not_finite(row, row, i)).next();
+                    let coordinate = coordinate.unwrap_or(0);
+                    *outcome = Outcome::Failed(StepError::NotFinite { coordinate, t });
+                    continue;
+                }
+                // Where nothing moves, a step is as long as the run.
+                control.step = length.min((end - t).abs()).copysign(end - t);
+                if control.is_too_small(control::least::<f64>(t), left) {
+                    lane.is_running = false;
+                    *outcome = Outcome::Failed(StepError::StepTooSmall {
+                        coordinate: 0,
+                        t,
+                        step: control.last_step,
+                    });
+                    continue;
+                }
+            }
+            is_last[i] = control.is_last(left, self.longest);
+            lengths[i] = match is_last[i] {
+                true => left,
+                false => control.step,
+            };
+            control.last_step = lengths[i];
+        }
+        (lengths, is_last)
+    }
+
+    /// Expands the motions through `ahead`, of those that have not `failed` yet.
+    fn expand<S: Batched<W, Vectors = V>>(
+        &mut self,
+        batch: &Batch<S, W>,
+        inputs: &S::BatchInputs,
+        failed: &mut [Option<StepError>; W],
+    ) {
+        for (lane, failed) in self.lanes.iter_mut().zip(&*failed) {
+            let is_step = lane.is_running && lane.is_expanded && failed.is_none();
+            lane.control.work.evaluations += usize::from(is_step);
+        }
+        let at = &self.ahead;
+        let t = [at.t, at.t_low];
+        let found = batch.series(t, &at.q, &at.v, inputs, &mut self.coefficients[1]);
+        if let Err(some) = found {
+            for (lane, failed) in failed.iter_mut().enumerate() {
+                let t = self.ahead.t[lane];
+                let singular = some.lanes[lane];
+                *failed = failed.or(singular.map(|singular| StepError::Singular { singular, t }));
+            }
+        }
+        let mut accelerations = self.coefficients[1][2];
+        for a in accelerations.as_mut() {
+            *a = Lanes::splat(2.0) * *a;
+        }
+        if are_finite(&accelerations, &accelerations).contains(&false) {
+            for (lane, failed) in failed.iter_mut().enumerate() {
+                let coordinate = not_finite(&accelerations, &accelerations, lane);
+                let error = coordinate.map(|coordinate| self.not_finite(coordinate, lane));
+                *failed = failed.or(error);
+            }
+        }
+    }
+
+    /// What becomes of a trajectory after a try of a step.
+    fn decide(&mut self, i: usize, h: f64, cause: Option<StepError>) -> Outcome {
+        let lane = &mut self.lanes[i];
+        let Some(cause) = cause else {
+            if !lane.is_expanded {
+                lane.is_expanded = true;
+                return Outcome::Idle;
+            }
+            lane.control.take(h, 0.0, 1.0);
+            lane.is_running = self.ahead.t[i] != self.end[i];
+            return Outcome::Taken;
+        };
+        // Perhaps the step reached beyond where the machine can be.
+        let least = control::least::<f64>(self.now.t[i]);
+        if lane.is_expanded && lane.control.give_up(0.1 * h, least) {
+            return Outcome::GivenUp;
+        }
+        lane.is_running = false;
+        Outcome::Failed(cause)
+    }
+}
+
+/// The coefficients of all lanes.
+struct Rows<'a, V>(&'a [V]);
+
+impl<N: Scalar<Stored = Lanes<W>>, V: LaneVector<W>, const W: usize> Coefficients<N>
+    for Rows<'_, V>
+{
+    #[inline(always)]
+    fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    #[inline(always)]
+    fn block<const B: usize>(&self, j: usize, start: usize) -> [N; B] {
+        let row = &self.0[j].as_ref()[start..start + B];
+        let mut block = [N::ZERO; B];
+        for (number, lanes) in block.iter_mut().zip(row) {
+            *number = N::load(*lanes);
+        }
+        block
+    }
+}
+
+/// The states at the ends of steps of length `h`, as compensated sums, but of those that stay where they are. For each whether it is
+/// finite.
+struct Advance<'a, V, const W: usize> {
+    coefficients: &'a [V],
+    now: &'a Point<V, Lanes<W>>,
+    h: Lanes<W>,
+    /// Where all of them end, and which do so with this step.
+    to: (Lanes<W>, &'a [bool; W]),
+    stays: &'a [bool; W],
+    ahead: &'a mut Point<V, Lanes<W>>,
+}
+
+impl<V: LaneVector<W>, const W: usize> Kernel<Lanes<W>> for Advance<'_, V, W> {
+    type Output = [bool; W];
+
+    #[inline(always)]
+    fn run<N: Scalar<Stored = Lanes<W>>>(self) -> [bool; W] {
+        let Self {
+            coefficients,
+            now,
+            h,
+            to,
+            stays,
+            ahead,
+        } = self;
+        ahead.set_time(now, h, to);
+        let h = N::load(h);
+        in_blocks!(now.q.as_ref().len(), |start, B| {
+            let [q, v] = taylor::rises::<B, N>(&Rows(coefficients), start, h);
+            for k in 0..B {
+                let i = start + k;
+                let low = N::load(now.v_low.as_ref()[i]);
+                let q_low = N::load(now.q_low.as_ref()[i]) + h * low;
+                let (high, rest) = two_sum(N::load(now.q.as_ref()[i]), q_low + q[k]);
+                ahead.q.as_mut()[i] = high.store();
+                ahead.q_low.as_mut()[i] = rest.store();
+                let (high, rest) = two_sum(N::load(now.v.as_ref()[i]), low + v[k]);
+                ahead.v.as_mut()[i] = high.store();
+                ahead.v_low.as_mut()[i] = rest.store();
+            }
+        });
+        let mut some_stay = false;
+        for stays in stays {
+            some_stay |= *stays;
+        }
+        if some_stay {
+            choose_point(stays, ahead, now);
+        }
+        are_finite(&ahead.q, &ahead.v)
+    }
+}
+
+/// For each trajectory the length of a step whose error is tolerable.
+struct Lengths<'a, V, const W: usize> {
+    coefficients: &'a [V],
+    tolerance: &'a Tolerance<V>,
+}
+
+impl<V: LaneVector<W>, const W: usize> Kernel<Lanes<W>> for Lengths<'_, V, W> {
+    type Output = [f64; W];
+
+    #[inline(always)]
+    fn run<N: Scalar<Stored = Lanes<W>>>(self) -> [f64; W] {
+        let Self {
+            coefficients,
+            tolerance,
+        } = self;
+        let last = coefficients.len() - 1;
+        let powers = [last - 1, last];
+        let mut worst = [[0.0; W]; 2];
+        for (i, absolute) in tolerance.absolute.as_ref().iter().enumerate() {
+            let (q, v) = (coefficients[0].as_ref()[i].0, coefficients[1].as_ref()[i].0);
+            let one = coefficients[last - 1].as_ref()[i].0;
+            let other = coefficients[last].as_ref()[i].0;
+            for lane in 0..W {
+                let size = q[lane].abs().max(v[lane].abs());
+                let over = 1.0 / taylor::bound(size, absolute[lane], tolerance.relative);
+                worst[0][lane] = taylor::worse(worst[0][lane], one[lane], (last - 1) as f64, over);
+                worst[1][lane] = taylor::worse(worst[1][lane], other[lane], last as f64, over);
+            }
+        }
+        let [one, other] = worst;
+        let mut are_usual = true;
+        for worst in worst {
+            for worst in worst {
+                are_usual &= worst > 0.0 && worst < f64::INFINITY;
+            }
+        }
+        match are_usual {
+            true => {
+                core::array::from_fn(|lane| taylor::usual_length([one[lane], other[lane]], powers))
+            }
+            false => core::array::from_fn(|lane| taylor::length([one[lane], other[lane]], powers)),
+        }
+    }
+}

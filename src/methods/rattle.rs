@@ -1,0 +1,16 @@
+//! Rattle, in steps of a fixed length: for long runs of machines that lose nothing, with constraints too.
+
+use super::Tableau;
+
+/// The method of Störmer and Verlet in momenta, with constraints: of order 2, symplectic and symmetric.
+///
+/// E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, 2nd ed., 2006, section VII.1.4, eq. (1.26). It is the
+/// variational integrator of the discrete Lagrangian `h/2 (L(q₀, v) + L(q₁, v))`, section VI.6.2: momenta of symmetries are kept to
+/// rounding. What stands here are the node and the weight by which work and dissipation are integrated along the motion.
+pub(super) const TABLEAU: Tableau = Tableau {
+    name: "rattle",
+    title: "Rattle (Störmer–Verlet with constraints)",
+    order: 2,
+    dense_order: 2,
+    ..super::AT_MIDDLE
+};

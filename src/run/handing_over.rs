@@ -1,0 +1,277 @@
+//! Where contacts meet too often for each instant to be found, a run goes on by time stepping; where they have become quiet, it
+//! finds every event again.
+
+use std::collections::VecDeque;
+use std::vec;
+use std::vec::Vec;
+
+use super::Run;
+use crate::balance::Quadratures;
+use crate::contact::Mode;
+use crate::inputs::InputLaw;
+use crate::methods::Kind;
+use crate::phases::Phase;
+use crate::solution::Handover;
+use crate::stepper::Happened;
+use crate::{ContactTrouble, Error, Machine, StepError, System};
+
+/// So many instants at which contacts changed are looked at together.
+const WINDOW: usize = 128;
+
+/// Bounces of fewer contacts than these accumulate in geometric series, which end by themselves.
+const FEWEST: usize = 3;
+
+/// The length of a step is this part of the time in which the forces of now would stop the fastest rate at which a gap closed.
+const PART: f64 = 1.0 / 256.0;
+
+/// After so many steps in which no contact changed every event is looked for again; twice as many after each time that this did not
+/// last.
+const QUIET: usize = 64;
+
+/// What has this part of the greatest kinetic energy at the ends of steps of time stepping, or less, is at rest.
+const REST: f64 = 1e-20;
+
+/// When contacts met, and how long they have been quiet.
+#[derive(Debug)]
+pub(super) struct Pace {
+    /// Whether the run may hand over at all.
+    is_free: bool,
+    /// The last instants at which contacts changed.
+    times: VecDeque<f64>,
+    /// How many there were, and for each contact its last.
+    count: usize,
+    last: Vec<usize>,
+    /// Steps of time stepping in which no contact changed, and how many are asked for.
+    quiet: usize,
+    needed: usize,
+    /// The length of steps of time stepping that was chosen, in s, and the greatest kinetic energy at their ends, in J.
+    step: f64,
+    kinetic: f64,
+}
+
+impl Pace {
+    /// Of a machine with so many contacts.
+    pub fn new(is_free: bool, contacts: usize) -> Self {
+        Self {
+            is_free: is_free && contacts >= FEWEST,
+            times: VecDeque::new(),
+            count: 0,
+            last: vec![0; contacts],
+            quiet: 0,
+            needed: QUIET,
+            step: 0.0,
+            kinetic: 0.0,
+        }
+    }
+
+    /// Takes note of what happened at an instant.
+    pub fn take(&mut self, t: f64, happened: &Happened) {
+        if !self.is_free {
+            return;
+        }
+        self.count += 1;
+        if self.times.len() == WINDOW {
+            self.times.pop_front();
+        }
+        self.times.push_back(t);
+        let modes = happened.before.iter().zip(&happened.after);
+        for (k, (before, after)) in modes.enumerate() {
+            if before != after {
+                self.last[k] = self.count;
+            }
+        }
+        for impact in &happened.impacts {
+            self.last[impact.contact] = self.count;
+        }
+    }
+
+    /// Takes note of a step of time stepping.
+    pub fn take_step(&mut self, is_quiet: bool) {
+        self.quiet = match is_quiet {
+            true => self.quiet + 1,
+            false => 0,
+        };
+    }
+
+    /// How long the last instants took, if there were many, of several contacts.
+    fn window(&self) -> Option<f64> {
+        let (first, last) = (self.times.front()?, self.times.back()?);
+        let since = self.count.saturating_sub(WINDOW);
+        let several = self.last.iter().filter(|last| **last > since).count() >= FEWEST;
+        (self.times.len() == WINDOW && several).then_some(last - first)
+    }
+}
+
+impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
+    /// Goes on by time stepping if contacts have met oftener than it would take steps: so it takes less work, and where what
+    /// accumulates has no end, less by any factor.
+    pub(super) fn hand_over_if_crowded(&mut self) -> Result<(), Error> {
+        let Some(took) = self.pace.window() else {
+            return Ok(());
+        };
+        let step = self.length_of_steps();
+        if took <= WINDOW as f64 * step {
+            self.hand_over(step, Some((WINDOW, took)))?;
+        }
+        Ok(())
+    }
+
+    /// Goes on by time stepping where contacts do not settle at one instant, if it is allowed; says whether it does.
+    pub(super) fn hand_over_unsettled(&mut self, error: &StepError) -> Result<bool, Error> {
+        let StepError::Contact { trouble, .. } = error else {
+            return Ok(false);
+        };
+        let closed = self.stepper.touching().iter();
+        let closed = closed.flat_map(|touching| touching.modes());
+        let several = closed.filter(|mode| **mode != Mode::Open).count() >= FEWEST;
+        match trouble {
+            ContactTrouble::Unsettled => {}
+            // Of several contacts at once the cause may be one of them or the problem that they make together.
+            ContactTrouble::Paradox if several => {}
+            _ => return Ok(false),
+        }
+        if !self.pace.is_free {
+            return Ok(false);
+        }
+        let step = self.length_of_steps();
+        if let Some(steps) = &mut self.record.steps {
+            steps.jump(&self.stepper);
+        }
+        self.enter_energies();
+        self.hand_over(step, None)
+    }
+
+    /// How long steps of time stepping are to be.
+    fn length_of_steps(&mut self) -> f64 {
+        let t = self.stepper.t();
+        let scale = self.stepper.time_scale_of_contacts();
+        // Without forces that close gaps nothing else is known than how long it took to come here.
+        let scale = scale.unwrap_or(t - self.start).min(self.until - self.start);
+        (PART * scale).min(self.settings.longest_step)
+    }
+
+    fn hand_over(&mut self, step: f64, crowd: Option<(usize, f64)>) -> Result<bool, Error> {
+        let t = self.stepper.t();
+        let Some(touching) = self.stepper.touching() else {
+            return Ok(false);
+        };
+        let at = (t, self.stepper.q(), self.stepper.v());
+        let is_possible = self.settings.method.kind == Kind::RungeKutta
+            && step > 16.0 * f64::EPSILON * t.abs()
+            && step.is_finite()
+            && touching.check_stepping(self.model.system, at).is_ok();
+        if !is_possible {
+            self.pace.is_free = false;
+            self.pace.times.clear();
+            return Ok(false);
+        }
+        self.record.unilateral.last = (touching.modes().iter())
+            .map(|mode| *mode != Mode::Open)
+            .collect();
+        if let Err(error) = self.stepper.begin_stepping(step, self.stop) {
+            let (q, v) = (self.stepper.q(), self.stepper.v());
+            return Err(self.model.explain(error, q, v));
+        }
+        let kinetic = self.kinetic_energy_now();
+        self.pace.times.clear();
+        self.pace.quiet = 0;
+        (self.pace.step, self.pace.kinetic) = (step, kinetic);
+        self.keep_phase();
+        self.record.handovers.push(Handover {
+            t,
+            step: Some(step),
+            crowd,
+        });
+        Ok(true)
+    }
+
+    fn kinetic_energy_now(&self) -> f64 {
+        let stepper = &self.stepper;
+        let (t, q, v) = (stepper.t(), stepper.q(), stepper.v());
+        self.model.system.kinetic_energy(t, q, v)
+    }
+
+    /// Takes the last step of time stepping back if it was long, since everything was at rest, and ends in motion.
+    pub(super) fn is_roused(&mut self) -> bool {
+        if self.settings.method.is_by_impulses() || self.stepper.last_step() <= self.pace.step {
+            return false;
+        }
+        let before = self.stepper.stepped();
+        let modes = self.stepper.touching().as_ref().map(|now| now.modes());
+        let changes = before.map(|(_, before)| before.modes()) != modes;
+        if !changes && self.kinetic_energy_now() <= REST * self.pace.kinetic {
+            return false;
+        }
+        self.stepper.retreat(self.stop);
+        self.stepper.set_longest_step(self.pace.step);
+        self.pace.quiet = 0;
+        true
+    }
+
+    /// Goes on after a step of time stepping: in longer steps where everything has come to rest, or with every event again where
+    /// contacts have been quiet for long enough.
+    pub(super) fn go_on_after_step(&mut self) -> Result<(), Error> {
+        if self.settings.method.is_by_impulses() || self.stepper.is_done() {
+            return Ok(());
+        }
+        let kinetic = self.kinetic_energy_now();
+        self.pace.kinetic = self.pace.kinetic.max(kinetic);
+        if self.pace.quiet >= QUIET && kinetic <= REST * self.pace.kinetic {
+            let longer = 2.0 * self.stepper.last_step();
+            let longest = longer.clamp(self.pace.step, self.settings.longest_step);
+            self.stepper.set_longest_step(longest);
+        }
+        self.take_over_if_quiet()
+    }
+
+    /// Finds every event again, if contacts have been quiet for long enough and each force among them is the only one: where contacts
+    /// share loads in several ways, as in piles, events cost more than steps.
+    fn take_over_if_quiet(&mut self) -> Result<(), Error> {
+        if self.pace.quiet < self.pace.needed {
+            return Ok(());
+        }
+        let (method, longest) = (self.settings.method, self.settings.longest_step);
+        let step = self.stepper.last_step();
+        self.pace.needed *= 2;
+        if !self.stepper.forces_are_the_only_ones() {
+            return Ok(());
+        }
+        let Ok(happened) = (self.stepper).end_stepping(method, (longest, step), self.stop) else {
+            // Time stepping goes on.
+            return Ok(());
+        };
+        if let Some(steps) = &mut self.record.steps {
+            steps.jump(&self.stepper);
+        }
+        self.enter_energies();
+        if happened.impacts.is_empty() && happened.ended.is_empty() {
+            let closed = happened.after.iter().enumerate();
+            let closed: Vec<usize> = closed
+                .filter(|(_, mode)| **mode != Mode::Open)
+                .map(|(k, _)| k)
+                .collect();
+            for &k in &closed {
+                self.record.unilateral.losses[k] += happened.lost_at_end / closed.len() as f64;
+            }
+        }
+        self.tell(&happened, false);
+        self.keep_phase();
+        self.record.handovers.push(Handover {
+            t: self.stepper.t(),
+            step: None,
+            crowd: None,
+        });
+        Ok(())
+    }
+
+    /// Keeps what contacts do from now on.
+    pub(super) fn keep_phase(&mut self) {
+        if let Some(touching) = self.stepper.touching() {
+            self.record.unilateral.phases.push(Phase {
+                since: self.stepper.t(),
+                touching: touching.clone(),
+                constraints: self.stepper.constraints().clone(),
+            });
+        }
+    }
+}

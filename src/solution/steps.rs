@@ -1,0 +1,165 @@
+//! The steps of a run that are kept.
+
+use std::vec::Vec;
+
+use crate::compensated::Sum;
+use crate::inputs::InputLaw;
+use crate::interpolant::{Ends, Interpolant};
+use crate::methods::{MAX_STAGES, Method};
+use crate::step_error::StepError;
+use crate::{Quadratures, Stepper, System, Vector};
+
+/// The steps of a run: what dense output is made of, when somebody asks for it.
+#[derive(Clone, Debug)]
+pub(crate) struct Steps<V> {
+    /// Beginning and length of each step.
+    pub(super) times: Vec<(Sum, f64)>,
+    /// For each step, `q` and `v` at its beginning, and the accelerations at those of its stages
+    /// that dense output needs, its beginning first; after the last step, the same three at its
+    /// end.
+    vectors: Vec<V>,
+    /// The stages whose accelerations are kept; the first is the beginning.
+    kept: Vec<usize>,
+    /// Of steps by series and by impulses their coefficients, so many for each.
+    coefficients: Vec<V>,
+    of_step: usize,
+    /// Where the coefficients of each step begin; none of a step by a method of Runge and Kutta, nor behind the last that has any.
+    series: Vec<Option<usize>>,
+}
+
+impl<V: Vector> Steps<V> {
+    pub fn new(method: &Method) -> Self {
+        let scheme = &method.scheme;
+        let stages = method.tableau.stages;
+        let extra = scheme.rows[..scheme.length].iter().skip(stages + 1);
+        let rows: Vec<_> = extra.chain(&scheme.dense[..scheme.dense_length]).collect();
+        let kept =
+            (0..stages).filter(|&stage| stage == 0 || rows.iter().any(|row| row.uses(stage)));
+        Self {
+            times: Vec::new(),
+            vectors: Vec::new(),
+            kept: kept.collect(),
+            coefficients: Vec::new(),
+            of_step: 0,
+            series: Vec::new(),
+        }
+    }
+
+    /// Adds the last step.
+    pub fn push<S: System<Vector = V>, L: InputLaw<S>, A: Quadratures<S>>(
+        &mut self,
+        stepper: &Stepper<'_, S, L, A>,
+    ) {
+        self.vectors.truncate(self.times.len() * self.stride());
+        self.times.push((stepper.beginning(), stepper.last_step()));
+        if let Some(coefficients) = stepper.coefficients() {
+            self.of_step = coefficients.len();
+            self.begin_series();
+            self.coefficients.extend_from_slice(coefficients);
+        }
+        self.vectors.push(stepper.q_before().clone());
+        self.vectors.push(stepper.v_before().clone());
+        for &stage in &self.kept {
+            self.vectors.push(stepper.stages()[stage].clone());
+        }
+        for end in [stepper.q(), stepper.v(), stepper.a()] {
+            self.vectors.push(end.clone());
+        }
+    }
+
+    /// Notes that the accelerations jump now: a step of no length, that keeps the end of the last one
+    /// apart from the beginning of the next.
+    pub fn jump<S: System<Vector = V>, L: InputLaw<S>, A: Quadratures<S>>(
+        &mut self,
+        stepper: &Stepper<'_, S, L, A>,
+    ) {
+        let Some(last) = self.vectors.last().cloned() else {
+            return;
+        };
+        let now = Sum {
+            high: stepper.t(),
+            low: 0.0,
+        };
+        self.times
+            .push((now, 0.0_f64.copysign(stepper.last_step())));
+        if stepper.coefficients().is_some() && self.of_step != 0 {
+            // Of a step by series, all that there is of its motion: place and velocity.
+            let zeros = stepper.q().zeros_like();
+            let state = [stepper.q().clone(), stepper.v().clone()];
+            self.begin_series();
+            let count = self.coefficients.len() + self.of_step;
+            self.coefficients.extend(state);
+            self.coefficients.resize(count, zeros);
+        }
+        self.vectors.resize(self.times.len() * self.stride(), last);
+    }
+
+    /// Notes that the coefficients of the newest step come next.
+    fn begin_series(&mut self) {
+        self.series.resize(self.times.len(), None);
+        if let Some(newest) = self.series.last_mut() {
+            *newest = Some(self.coefficients.len());
+        }
+    }
+
+    /// How many vectors a step has.
+    fn stride(&self) -> usize {
+        2 + self.kept.len()
+    }
+
+    pub(super) fn count(&self) -> usize {
+        self.times.len()
+    }
+
+    pub(super) fn beginning(&self, step: usize) -> (&V, &V) {
+        let at = step * self.stride();
+        (&self.vectors[at], &self.vectors[at + 1])
+    }
+
+    /// The step that `t`, which is within the run, is in.
+    pub(super) fn index(&self, t: f64) -> usize {
+        let after = self.times.partition_point(|&(start, h)| {
+            if h.is_sign_positive() {
+                start.high <= t
+            } else {
+                start.high >= t
+            }
+        });
+        after.saturating_sub(1)
+    }
+
+    pub(super) fn interpolant(
+        &self,
+        step: usize,
+        method: &Method,
+        accelerations: impl FnMut(f64, &V, &V, &mut V) -> Result<(), StepError>,
+    ) -> Result<Interpolant<V>, StepError> {
+        let (start, h) = self.times[step];
+        if let Some(Some(from)) = self.series.get(step) {
+            let coefficients = &self.coefficients[*from..][..self.of_step];
+            return Ok(Interpolant::of_series(start, h, coefficients));
+        }
+        let stride = self.stride();
+        let [q0, v0, stages @ ..] = &self.vectors[step * stride..][..stride] else {
+            unreachable!("a step has at least three vectors");
+        };
+        let [q1, v1, a1] = &self.vectors[(step + 1) * stride..][..3] else {
+            unreachable!("every step is followed by its end");
+        };
+        let mut k: [V; MAX_STAGES] = core::array::from_fn(|_| q0.zeros_like());
+        for (&stage, a) in self.kept.iter().zip(stages) {
+            k[stage].clone_from(a);
+        }
+        k[method.tableau.stages].clone_from(a1);
+        let ends = Ends {
+            start,
+            h,
+            q: [q0, q1],
+            v: [v0, v1],
+        };
+        if method.is_quintic() {
+            return Ok(Interpolant::quintic(&ends, [&k[0], a1]));
+        }
+        Interpolant::new(method, &ends, &mut k, accelerations)
+    }
+}

@@ -1,0 +1,88 @@
+//! The integrals of powers over a step that is too long for the weights of its method.
+
+use super::Stepper;
+use crate::balance::Quadratures;
+use crate::interpolant::Interpolant;
+use crate::{InputLaw, StepError, System, Vector};
+
+/// The rule of Gauss and Legendre with four points on [0, 1], exact for polynomials of degree 7: points and weights.
+/// M. Abramowitz, I. A. Stegun, *Handbook of Mathematical Functions*, 1964, table 25.4.
+const GAUSS: [[f64; 2]; 4] = [
+    [0.069_431_844_202_973_71, 0.173_927_422_568_726_93],
+    [0.330_009_478_207_571_9, 0.326_072_577_431_273_07],
+    [0.669_990_521_792_428_1, 0.326_072_577_431_273_07],
+    [0.930_568_155_797_026_3, 0.173_927_422_568_726_93],
+];
+
+/// The most parts that a step is divided into: some 5 for each turn of a drive that turns ten thousand times in the step.
+const MOST_PARTS: usize = 1 << 16;
+
+/// The stage whose place among the rates is free after a step: that of the first is now, and that of the last the beginning.
+const FREE: usize = 1;
+
+impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
+    /// Integrates the powers over the last step along its dense output, by the rule of Gauss in 1, 2, 4 … parts, until work and
+    /// losses change by no more than `bound`, in J, and what went to and fro by no more than a hundredth.
+    ///
+    /// The step was as long as the motion allows. Where a machine rests, a drive may turn many times in it, and the stages
+    /// of the method say little of its work. Where no division of the step is enough, the integrals stay as they were, and the answer
+    /// is no.
+    pub(crate) fn integrate_along(
+        &mut self,
+        interpolant: &Interpolant<S::Vector>,
+        bound: f64,
+    ) -> Result<bool, StepError> {
+        let mut is_known = false;
+        let mut before = [f64::NAN; 3];
+        let mut parts = 1;
+        while parts <= MOST_PARTS {
+            let found = self.integrals_in_parts(interpolant, parts)?;
+            let [work, to_and_fro, lost] = [0, 1, 2].map(|i| (found[i] - before[i]).abs());
+            if work + lost <= bound && to_and_fro <= 0.01 * found[1].abs() {
+                if let Some(integrals) = self.quadratures.integrals_mut() {
+                    integrals.replace_last(found);
+                }
+                is_known = true;
+                break;
+            }
+            before = found;
+            parts *= 2;
+        }
+        let Self { model, now, .. } = self;
+        model.set_inputs(now.t, &now.q, &now.v);
+        Ok(is_known)
+    }
+
+    /// The integrals over the last step of work rate, its absolute value, and dissipation rate, in J.
+    fn integrals_in_parts(
+        &mut self,
+        interpolant: &Interpolant<S::Vector>,
+        parts: usize,
+    ) -> Result<[f64; 3], StepError> {
+        let mut integrals = [0.0; 3];
+        let length = self.control.last_step / parts as f64;
+        let mut a = self.now.q.zeros_like();
+        for part in 0..parts {
+            for [point, weight] in GAUSS {
+                let theta = (part as f64 + point) / parts as f64;
+                let t = interpolant.time_at(theta);
+                let (mut q, mut v) = interpolant.state_at(theta);
+                self.project(t, &mut q, &mut v)?;
+                let Self {
+                    model,
+                    quadratures,
+                    control,
+                    ..
+                } = self;
+                model.accelerations(t, &q, &v, &mut a, &mut control.work)?;
+                model.take_rates(quadratures, FREE, (t, &q, &v, &a));
+                if let Some(balance) = quadratures.integrals() {
+                    for (integral, rate) in integrals.iter_mut().zip(balance.rates(FREE)) {
+                        *integral += weight * length * rate;
+                    }
+                }
+            }
+        }
+        Ok(integrals)
+    }
+}

@@ -1,0 +1,138 @@
+//! A run with unilateral contacts changes from finding every event to time stepping, and back.
+
+use super::meeting::{Cause, Happened, hold};
+use super::{InImpulses, Stepper};
+use crate::balance::Quadratures;
+use crate::inputs::InputLaw;
+use crate::methods::Method;
+use crate::stages::Point;
+use crate::{StepError, System};
+use std::boxed::Box;
+
+impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
+    /// Where it stands now, to be brought back to.
+    pub(crate) fn point(&self) -> Point<S::Vector> {
+        self.now.clone()
+    }
+
+    /// Brings it back to where it stood at the same instant.
+    pub(crate) fn bring_back(&mut self, point: Point<S::Vector>) {
+        self.now = point;
+    }
+
+    /// Whether its steps are those of time stepping.
+    pub(crate) fn is_by_impulses(&self) -> bool {
+        self.impulses.is_some()
+    }
+
+    /// How fast the motion of the contacts is, in s, if that is known: see [`Touching`](crate::contact::Touching).
+    pub(crate) fn time_scale_of_contacts(&mut self) -> Option<f64> {
+        let Self { model, now, .. } = self;
+        model.set_inputs(now.t, &now.q, &now.v);
+        let touching = model.touching.as_ref()?;
+        touching.time_scale(model.system.get(), (now.t, &now.q, &now.v, &model.inputs))
+    }
+
+    /// Whether the forces in what was closed in the last step of time stepping would be the only ones, were it all constraints.
+    pub(crate) fn forces_are_the_only_ones(&mut self) -> bool {
+        let Self { model, now, .. } = self;
+        model.set_inputs(now.t, &now.q, &now.v);
+        let Some(mut touching) = model.touching.clone() else {
+            return true;
+        };
+        touching.end_stepping();
+        let at = (now.t, &now.q, &now.v, &model.inputs);
+        let reaction = touching.reaction(model.system.get(), at);
+        reaction.is_ok_and(|reaction| reaction.is_only)
+    }
+
+    /// Goes on to `end` by time stepping, in steps of length `h`, with whatever is closed now.
+    pub(crate) fn begin_stepping(&mut self, h: f64, end: f64) -> Result<(), StepError> {
+        self.end = end;
+        let Self { model, now, .. } = self;
+        if let Some(touching) = &mut model.touching {
+            touching.begin_stepping();
+            // What remains are the constraints of the machine.
+            model.constraints = hold(model.system.get(), touching, now)?;
+        }
+        let impulses = InImpulses::new(&self.now.q, &self.now.v);
+        self.impulses = Some(Box::new(impulses));
+        self.go_on_by(Method::MOREAU, h)
+    }
+
+    /// Goes on to `end` by `method`, which finds every event, in steps no longer than `longest`, with what was closed in the last
+    /// step of time stepping as constraints. What bringing the state onto them takes is a loss. Where the contacts do not settle, everything
+    /// is as it was before.
+    pub(crate) fn end_stepping(
+        &mut self,
+        method: &'static Method,
+        (longest, step): (f64, f64),
+        end: f64,
+    ) -> Result<Happened, StepError> {
+        let before = (
+            self.model.touching.clone(),
+            self.model.constraints.clone(),
+            self.now.clone(),
+            self.quadratures.clone(),
+            self.impulses.take(),
+            (self.longest, self.end, self.control.step),
+        );
+        let energy = |stepper: &mut Self| {
+            let Self { model, now, .. } = stepper;
+            model.set_inputs(now.t, &now.q, &now.v);
+            let system = model.system.get();
+            system.kinetic_energy(now.t, &now.q, &now.v)
+                + system.potential_energy(now.t, &now.q, &model.inputs)
+        };
+        let energy_before = energy(self);
+        if let Some(touching) = &mut self.model.touching {
+            touching.end_stepping();
+        }
+        let met = self.go_on_by(method, longest);
+        match met.and_then(|()| self.meet(Cause::Asked, end, step)) {
+            Ok(mut happened) => {
+                if happened.impacts.is_empty() {
+                    let taken = energy_before - energy(self);
+                    self.quadratures
+                        .add_at_once(0.0, taken - happened.lost_at_end);
+                    happened.lost_at_end = taken;
+                }
+                Ok(happened)
+            }
+            Err(error) => {
+                let (touching, constraints, now, quadratures, impulses, settings) = before;
+                self.model.touching = touching;
+                self.model.constraints = constraints;
+                self.now = now;
+                self.quadratures = quadratures;
+                self.impulses = impulses;
+                self.go_on_by(Method::MOREAU, settings.0)?;
+                (_, self.end, self.control.step) = settings;
+                Err(error)
+            }
+        }
+    }
+
+    /// Goes on from now by another method.
+    fn go_on_by(&mut self, method: &'static Method, longest: f64) -> Result<(), StepError> {
+        self.method = method;
+        self.longest = longest;
+        // No step of the method has been taken yet that could be taken back.
+        self.k.swap(0, self.newest);
+        self.newest = 0;
+        let Self {
+            model,
+            now,
+            k,
+            control,
+            ..
+        } = self;
+        model.accelerations(now.t, &now.q, &now.v, &mut k[0], &mut control.work)?;
+        model.take_rates(&mut self.quadratures, 0, (now.t, &now.q, &now.v, &k[0]));
+        control.forget_error();
+        if let Some(implicit) = &mut self.implicit {
+            implicit.forget();
+        }
+        Ok(())
+    }
+}

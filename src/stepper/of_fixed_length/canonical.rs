@@ -1,0 +1,203 @@
+//! The equations of motion in the momenta `p = M(q, t) v`.
+//!
+//! What is symplectic keeps the area of positions and momenta, not that of positions and rates, unless the mass matrix is constant. With
+//! the kinetic energy `T = ½ vᵀ M v + mᵀ v + T₀` the bias is a polynomial of the rates, `h(v) = b₂(v, v) + B v + b₀`, and
+//!
+//! ```text
+//! dp/dt = Q − b₀ − ½ (B − Bᵀ) v + vᵀ b₂(v, ·)
+//! ```
+//!
+//! since the last term is `½ ∂(vᵀ M v)/∂q`, the symmetric part of `B` is `∂M/∂t`, and `M a = Q − h`. Without explicit time only the first and
+//! the last are there: the canonical equations. Differences of the bias, which is of the second degree, give them without an error but
+//! rounding:
+//!
+//! ```text
+//! dpᵢ/dt = Qᵢ − hᵢ(0) − ¼ (hᵢ(v) − hᵢ(−v)) + vᵀ (h(v + s eᵢ) − h(v − s eᵢ)) / (4 s)
+//! ```
+//!
+//! Where the base turns, `½ (B − Bᵀ) v` is Coriolis's force, and `p` are not the momenta of Hamilton: then a step keeps its order and
+//! its symmetry, but is not symplectic.
+
+use std::vec::Vec;
+
+use crate::constraints::algebra::{backward, cholesky, forward};
+use crate::{Singular, StepError, System, Vector};
+
+/// The mass matrix at a place, and memory for the forces.
+#[derive(Clone, Debug)]
+pub(super) struct Canonical<V, M> {
+    matrix: M,
+    /// Cholesky's factor of it.
+    factor: M,
+    shares: Vec<f64>,
+    /// For each coordinate, the first of the same unit; and the greatest rate of that unit.
+    alike: Vec<usize>,
+    greatest: Vec<f64>,
+    rates: V,
+    ahead: V,
+    behind: V,
+}
+
+impl<V: Vector, M: Vector> Canonical<V, M> {
+    /// Room, where the mass matrix is known and no force of a contact acts.
+    pub fn new<S: System<Vector = V, Matrix = M>>(
+        system: &S,
+        (t, q): (f64, &V),
+    ) -> Result<Self, StepError> {
+        let n = q.as_slice().len();
+        let unsuited = |reason| Err(StepError::Unsuited { reason, t });
+        if system.contacts().len() + system.unilateral_contacts().len() != 0 {
+            return unsuited("it has contacts");
+        }
+        if system.equations() != n {
+            return unsuited("its mass matrix is not that of all its coordinates");
+        }
+        let first = |unit: &str| system.coordinates().position(|other| other.unit == unit);
+        let units = system.coordinates().enumerate();
+        let mut canonical = Self {
+            matrix: M::zeros(n * n),
+            factor: M::zeros(n * n),
+            shares: std::vec![0.0; n],
+            alike: units.map(|(i, one)| first(one.unit).unwrap_or(i)).collect(),
+            greatest: std::vec![0.0; n],
+            rates: q.zeros_like(),
+            ahead: q.zeros_like(),
+            behind: q.zeros_like(),
+        };
+        let unknown = "its mass matrix and its bias are not known";
+        if canonical.matrix.as_slice().len() != n * n {
+            return unsuited(unknown);
+        }
+        system.mass_matrix(t, q, &mut canonical.matrix);
+        system.bias(t, q, &canonical.rates, &mut canonical.ahead);
+        let known = canonical.matrix.as_slice().iter();
+        let mut known = known.chain(canonical.ahead.as_slice());
+        match known.all(|x| x.is_finite()) {
+            true => Ok(canonical),
+            false => unsuited(unknown),
+        }
+    }
+
+    /// Finds the mass matrix at a place, and its factors.
+    pub fn go_to<S: System<Vector = V, Matrix = M>>(
+        &mut self,
+        system: &S,
+        t: f64,
+        q: &V,
+    ) -> Result<(), Singular> {
+        system.mass_matrix(t, q, &mut self.matrix);
+        self.factor.clone_from(&self.matrix);
+        cholesky(self.factor.as_mut_slice(), &mut self.shares)
+    }
+
+    /// Adds `scale M v` of the place to `p`.
+    pub fn add_momenta(&self, scale: f64, v: &V, p: &mut V) {
+        let n = v.as_slice().len().max(1);
+        let rows = self.matrix.as_slice().chunks_exact(n);
+        for (p, row) in p.as_mut_slice().iter_mut().zip(rows) {
+            let of_row: f64 = row.iter().zip(v.as_slice()).map(|(m, v)| m * v).sum();
+            *p += scale * of_row;
+        }
+    }
+
+    /// `M⁻¹ p` of the place, in place.
+    pub fn to_rates(&self, p: &mut [f64]) {
+        forward(self.factor.as_slice(), p);
+        backward(self.factor.as_slice(), p);
+    }
+
+    /// `dp/dt` at a state, constraints apart.
+    pub fn force<S: System<Vector = V, Matrix = M>>(
+        &mut self,
+        system: &S,
+        (t, q, v, u): (f64, &V, &V, &S::Inputs),
+        force: &mut V,
+    ) {
+        let Self {
+            alike,
+            greatest,
+            rates,
+            ahead,
+            behind,
+            ..
+        } = self;
+        system.applied(t, q, v, u, force);
+        rates.as_mut_slice().fill(0.0);
+        system.bias(t, q, rates, ahead);
+        for (force, bias) in force.as_mut_slice().iter_mut().zip(ahead.as_slice()) {
+            *force -= bias;
+        }
+        greatest.fill(0.0);
+        for (v, &first) in v.as_slice().iter().zip(&*alike) {
+            greatest[first] = greatest[first].max(v.abs());
+        }
+        if greatest.iter().all(|x| *x == 0.0) {
+            return;
+        }
+        for (rate, v) in rates.as_mut_slice().iter_mut().zip(v.as_slice()) {
+            *rate = -v;
+        }
+        system.bias(t, q, v, ahead);
+        system.bias(t, q, rates, behind);
+        for (i, force) in force.as_mut_slice().iter_mut().enumerate() {
+            *force -= 0.25 * (ahead.as_slice()[i] - behind.as_slice()[i]);
+        }
+        rates.clone_from(v);
+        for (i, &first) in alike.iter().enumerate() {
+            let here = v.as_slice()[i];
+            // Of the size of the rates there are; any is exact but for rounding.
+            let by = match greatest[first] {
+                0.0 => 1.0,
+                size => size,
+            };
+            let [forward, backward] = [here + by, here - by];
+            rates.as_mut_slice()[i] = forward;
+            system.bias(t, q, rates, ahead);
+            rates.as_mut_slice()[i] = backward;
+            system.bias(t, q, rates, behind);
+            rates.as_mut_slice()[i] = here;
+            let pairs = ahead.as_slice().iter().zip(behind.as_slice());
+            let products = pairs.zip(v.as_slice()).map(|((a, b), v)| v * (a - b));
+            let sum: f64 = products.sum();
+            force.as_mut_slice()[i] += sum / (2.0 * (forward - backward));
+        }
+    }
+}
+
+/// Whether rounds of an iteration have come as close as rounding lets them: from the squares of their changes in the metric of inertia.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rounds {
+    count: usize,
+    before: f64,
+}
+
+/// An iteration that is not at its end after so many rounds goes on too slowly for the length of the step.
+const MOST_ROUNDS: usize = 100;
+
+/// The square of what a change may be relative to the rates, where rounds may end: they end when they come no closer.
+const CLOSE: f64 = 1e-22;
+
+impl Rounds {
+    pub const NONE: Self = Self {
+        count: 0,
+        before: f64::INFINITY,
+    };
+
+    /// Whether that was the last round, by its change and by the size of what was changed; none where there are no numbers, or
+    /// too many rounds.
+    pub fn is_last(&mut self, change: f64, size: f64) -> Option<bool> {
+        self.count += 1;
+        let before = core::mem::replace(&mut self.before, change);
+        let is_close = change <= CLOSE * size;
+        if !change.is_finite() {
+            return None;
+        }
+        if change == 0.0 || (is_close && change >= before) {
+            return Some(true);
+        }
+        match self.count < MOST_ROUNDS {
+            true => Some(false),
+            false => is_close.then_some(true),
+        }
+    }
+}

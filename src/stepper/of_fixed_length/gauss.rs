@@ -1,0 +1,182 @@
+//! A step of a method of Gauss: collocation of the equations in momenta,
+//!
+//! ```text
+//! Qᵢ = q₀ + h Σⱼ aᵢⱼ Vⱼ,   M(Qᵢ) Vᵢ = p₀ + h Σⱼ aᵢⱼ Fⱼ,   F = dp/dt at (Q, V)
+//! q₁ = q₀ + h Σⱼ bⱼ Vⱼ,    M(q₁) v₁ = p₀ + h Σⱼ bⱼ Fⱼ
+//! ```
+//!
+//! E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, 2nd ed., 2006, sections II.1.3 and VI.4. Solved by
+//! fixed-point iteration to rounding, section VIII.6.1: what an iteration leaves is not symplectic.
+
+use std::vec::Vec;
+
+use super::canonical::{Canonical, Rounds};
+use super::{Fixed, Stepper, add, check_finite};
+use crate::balance::Quadratures;
+use crate::methods::Method;
+use crate::stages::Point;
+use crate::{InputLaw, StepError, System, Vector};
+
+/// Room for the stages.
+#[derive(Clone, Debug)]
+pub(crate) struct Gauss<V, M> {
+    canonical: Canonical<V, M>,
+    places: Vec<V>,
+    rates: Vec<V>,
+    forces: Vec<V>,
+    momenta: V,
+    scratch: V,
+}
+
+impl<V: Vector, M: Vector> Gauss<V, M> {
+    pub fn new<S: System<Vector = V, Matrix = M>>(
+        system: &S,
+        now: &Point<V>,
+        method: &Method,
+    ) -> Result<Self, StepError> {
+        let canonical = Canonical::new(system, (now.t, &now.q))?;
+        let zeros = now.q.zeros_like();
+        let stages = || std::vec![zeros.clone(); method.tableau.stages - 1];
+        Ok(Self {
+            canonical,
+            places: stages(),
+            rates: stages(),
+            forces: stages(),
+            momenta: zeros.clone(),
+            scratch: zeros.clone(),
+        })
+    }
+}
+
+impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
+    /// Takes a step of length `h` from `before`, to `now`.
+    pub(super) fn attempt_by_gauss(&mut self, h: f64, last: bool) -> Result<(), StepError> {
+        let Self {
+            method,
+            model,
+            quadratures,
+            before,
+            now,
+            k,
+            control,
+            end,
+            fixed,
+            ..
+        } = self;
+        let Some(Fixed::Gauss(gauss)) = fixed.as_deref_mut() else {
+            return Ok(());
+        };
+        let Gauss {
+            canonical,
+            places,
+            rates,
+            forces,
+            momenta,
+            scratch,
+        } = gauss;
+        let tableau = &method.tableau;
+        let (stages, n) = (tableau.stages, before.q.as_slice().len());
+        let singular = |singular| StepError::Singular {
+            singular,
+            t: before.t,
+        };
+        let time = |stage: usize| before.t + (before.t_low + tableau.c[stage] * h);
+        canonical
+            .go_to(model.system.get(), before.t, &before.q)
+            .map_err(singular)?;
+        momenta.as_mut_slice().fill(0.0);
+        canonical.add_momenta(1.0, &before.v, momenta);
+        canonical.add_momenta(1.0, &before.v_low, momenta);
+        for (i, rates) in rates.iter_mut().enumerate() {
+            rates.clone_from(&before.v);
+            for (rate, a) in rates.as_mut_slice().iter_mut().zip(k[0].as_slice()) {
+                *rate += tableau.c[i + 1] * h * a;
+            }
+        }
+        let mut rounds = Rounds::NONE;
+        loop {
+            for (i, (place, force)) in places.iter_mut().zip(&mut *forces).enumerate() {
+                for j in 0..n {
+                    let change = weighted(&tableau.a[i + 1][1..], rates, j);
+                    place.as_mut_slice()[j] =
+                        before.q.as_slice()[j] + (before.q_low.as_slice()[j] + h * change);
+                }
+                let t = time(i + 1);
+                model.set_inputs(t, place, &rates[i]);
+                let at = (t, &*place, &rates[i], &model.inputs);
+                canonical.force(model.system.get(), at, force);
+            }
+            control.work.evaluations += stages - 1;
+            let (mut change, mut size) = (0.0, 0.0);
+            for (i, place) in places.iter().enumerate() {
+                canonical
+                    .go_to(model.system.get(), time(i + 1), place)
+                    .map_err(singular)?;
+                // The residual of the equation of this stage, and the change of its rates that follows from it.
+                scratch.clone_from(momenta);
+                for (j, p) in scratch.as_mut_slice().iter_mut().enumerate() {
+                    *p += h * weighted(&tableau.a[i + 1][1..], forces, j);
+                }
+                size += dot(scratch, &rates[i]).abs();
+                canonical.add_momenta(-1.0, &rates[i], scratch);
+                let mut by = scratch.clone();
+                canonical.to_rates(by.as_mut_slice());
+                change += dot(scratch, &by).abs();
+                for (rate, by) in rates[i].as_mut_slice().iter_mut().zip(by.as_slice()) {
+                    *rate += by;
+                }
+            }
+            match rounds.is_last(change, size) {
+                Some(true) => break,
+                Some(false) => {}
+                None => {
+                    return Err(StepError::NotSolved {
+                        t: before.t,
+                        step: h,
+                    });
+                }
+            }
+        }
+
+        let b = &tableau.a[stages][1..];
+        for j in 0..n {
+            add(&mut now.q, &mut now.q_low, j, h * weighted(b, rates, j));
+        }
+        now.set_time(before, h, (*end, &[last]));
+        canonical
+            .go_to(model.system.get(), now.t, &now.q)
+            .map_err(singular)?;
+        scratch.clone_from(momenta);
+        for (j, p) in scratch.as_mut_slice().iter_mut().enumerate() {
+            *p += h * weighted(b, forces, j);
+        }
+        canonical.add_momenta(-1.0, &before.v, scratch);
+        canonical.add_momenta(-1.0, &before.v_low, scratch);
+        canonical.to_rates(scratch.as_mut_slice());
+        for (j, by) in scratch.as_slice().iter().enumerate() {
+            add(&mut now.v, &mut now.v_low, j, *by);
+        }
+        check_finite(now)?;
+        if quadratures.integrals().is_some() {
+            for (i, (place, rates)) in places.iter().zip(&*rates).enumerate() {
+                let t = time(i + 1);
+                model.accelerations(t, place, rates, &mut k[i + 1], &mut control.work)?;
+                model.take_rates(quadratures, i + 1, (t, place, rates, &k[i + 1]));
+            }
+        }
+        model.end(now, quadratures, stages, k, &mut control.work)
+    }
+}
+
+/// `Σᵢ wᵢ xᵢ` of a coordinate.
+fn weighted<V: Vector>(weights: &[f64], stages: &[V], coordinate: usize) -> f64 {
+    let pairs = weights.iter().zip(stages);
+    pairs
+        .map(|(weight, stage)| weight * stage.as_slice()[coordinate])
+        .sum()
+}
+
+pub(super) fn dot<V: Vector>(x: &V, y: &V) -> f64 {
+    let pairs = x.as_slice().iter().zip(y.as_slice());
+    pairs.map(|(x, y)| x * y).sum()
+}

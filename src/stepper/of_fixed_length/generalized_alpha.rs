@@ -1,0 +1,283 @@
+//! A step of the generalized-α method,
+//!
+//! ```text
+//! q₁ = q₀ + h v₀ + h² ((½ − β) α₀ + β α₁),   v₁ = v₀ + h ((1 − γ) α₀ + γ α₁)
+//! (1 − αₘ) α₁ + αₘ α₀ = (1 − α_f) a(q₁, v₁) + α_f a(q₀, v₀)
+//! ```
+//!
+//! with the parameters of Chung and Hulbert for `ρ∞`: `αₘ = (2 ρ − 1)/(ρ + 1)`, `α_f = ρ/(ρ + 1)`, `γ = ½ − αₘ + α_f`, `β = ¼ (1 − αₘ +
+//! α_f)²`. `α` is an acceleration of the method's own, which begins as that of the machine. The unknown is `a(q₁, v₁)`, by Newton's
+//! method with derivatives by differences.
+
+use std::vec::Vec;
+
+use super::{Fixed, Stepper, add, check_finite};
+use crate::balance::Quadratures;
+use crate::implicit::jacobian::Jacobian;
+use crate::implicit::lu::Lu;
+use crate::methods::MAX_STAGES;
+use crate::{InputLaw, StepError, System, Vector};
+
+/// Newton's method has converged by then, or the step is too long for it.
+const ROUNDS: usize = 12;
+
+/// What it leaves, relative to what is tolerable in a number.
+const LEFT: f64 = 0.01;
+
+/// Roundoff that it leaves, in units of the last place.
+const ROUNDOFF: f64 = 8.0;
+
+/// A round that leaves more of the change than this comes no closer.
+const STANDS: f64 = 0.5;
+
+/// What the method remembers from step to step.
+#[derive(Clone, Debug)]
+pub(crate) struct GeneralizedAlpha {
+    weights: Weights,
+    jacobian: Jacobian,
+    matrix: Lu<f64>,
+    /// The step for which the matrix is; 0 for none.
+    factored: f64,
+    /// `α` at the end of the last step and at its beginning; empty where it is the acceleration of the machine.
+    alpha: [Vec<f64>; 2],
+    change: Vec<f64>,
+}
+
+/// The parameters of the method.
+#[derive(Clone, Copy, Debug)]
+struct Weights {
+    inertia: f64,
+    force: f64,
+    beta: f64,
+    gamma: f64,
+}
+
+impl GeneralizedAlpha {
+    pub fn new<S: System>(system: &S, rho: f64) -> Self {
+        let n = system.coordinates().len();
+        let (inertia, force) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
+        let ahead = 1.0 - inertia + force;
+        Self {
+            weights: Weights {
+                inertia,
+                force,
+                beta: 0.25 * ahead * ahead,
+                gamma: ahead - 0.5,
+            },
+            jacobian: Jacobian::new(system),
+            matrix: Lu::new(n),
+            factored: 0.0,
+            alpha: [Vec::new(), Vec::new()],
+            change: std::vec![0.0; n],
+        }
+    }
+
+    pub fn retreat(&mut self) {
+        let [now, before] = &mut self.alpha;
+        now.clone_from(before);
+    }
+
+    pub fn forget(&mut self) {
+        self.factored = 0.0;
+        self.alpha[0].clear();
+    }
+
+    /// The acceleration of the method at the end of a step in which the machine goes from acceleration `from` to `to`.
+    fn ahead(&self, i: usize, from: f64, to: f64) -> f64 {
+        let Weights { inertia, force, .. } = self.weights;
+        let sum = (1.0 - force) * to + force * from - inertia * self.alpha[1][i];
+        sum / (1.0 - inertia)
+    }
+
+    /// By what factors an acceleration at the end changes the position and the rate there.
+    fn factors(&self, h: f64) -> [f64; 2] {
+        let Weights {
+            inertia,
+            force,
+            beta,
+            gamma,
+        } = self.weights;
+        let share = (1.0 - force) / (1.0 - inertia);
+        [h * h * beta * share, h * gamma * share]
+    }
+
+    /// Makes the matrix `I − h γ' ∂a/∂v − h² β' ∂a/∂q`. Says whether it can be inverted.
+    fn factor(&mut self, h: f64) -> bool {
+        let n = self.change.len();
+        let [by_position, by_rate] = self.factors(h);
+        let jacobian = &self.jacobian;
+        let found = self.matrix.factor(|i, j| {
+            let one = if i == j { 1.0 } else { 0.0 };
+            let at = i * n + j;
+            one - by_rate * jacobian.by_rates[at] - by_position * jacobian.by_coordinates[at]
+        });
+        self.factored = if found { h } else { 0.0 };
+        found
+    }
+}
+
+impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
+    /// Takes a step of length `h` from `before`, to `now`.
+    pub(super) fn attempt_by_alpha(&mut self, h: f64, last: bool) -> Result<(), StepError> {
+        let Some(Fixed::GeneralizedAlpha(alpha)) = self.fixed.as_deref_mut() else {
+            return Ok(());
+        };
+        let [now, before] = &mut alpha.alpha;
+        if now.is_empty() {
+            now.extend_from_slice(self.k[0].as_slice());
+        }
+        before.clone_from(now);
+        // Old derivatives serve as long as Newton's method converges with them.
+        let is_fresh = alpha.factored != h;
+        let mut solved = !is_fresh && self.newton_of_alpha(h)?;
+        if !solved {
+            let Self {
+                model,
+                before,
+                k,
+                stage: (q, v),
+                control,
+                fixed,
+                ..
+            } = self;
+            if let Some(Fixed::GeneralizedAlpha(alpha)) = fixed.as_deref_mut() {
+                let [.., here, there] = k;
+                q.clone_from(&before.q);
+                v.clone_from(&before.v);
+                let mut accelerations =
+                    |t: f64, q: &S::Vector, v: &S::Vector, a: &mut S::Vector| {
+                        model.accelerations(t, q, v, a, &mut control.work)
+                    };
+                let scratch = [&mut *q, &mut *v, here, there];
+                alpha
+                    .jacobian
+                    .find((before.t, h), scratch, &mut accelerations)?;
+                solved = alpha.factor(h);
+            }
+            solved = solved && self.newton_of_alpha(h)?;
+        }
+        if !solved {
+            return Err(StepError::NotSolved {
+                t: self.before.t,
+                step: h,
+            });
+        }
+
+        let Self {
+            method,
+            model,
+            quadratures,
+            before,
+            now,
+            k,
+            end,
+            fixed,
+            ..
+        } = self;
+        let Some(Fixed::GeneralizedAlpha(alpha)) = fixed.as_deref_mut() else {
+            return Ok(());
+        };
+        let stages = method.tableau.stages;
+        for i in 0..alpha.change.len() {
+            let ahead = alpha.ahead(i, k[0].as_slice()[i], k[stages].as_slice()[i]);
+            let [by_q, by_v] = alpha.rises(i, h, before.v.as_slice()[i], ahead);
+            let low = before.v_low.as_slice()[i];
+            add(&mut now.q, &mut now.q_low, i, by_q + h * low);
+            add(&mut now.v, &mut now.v_low, i, by_v);
+            alpha.alpha[0][i] = ahead;
+        }
+        now.set_time(before, h, (*end, &[last]));
+        check_finite(now)?;
+        model.set_inputs(now.t, &now.q, &now.v);
+        model.project(now)?;
+        // The acceleration is the one that was solved for: an evaluation would show roundoff of the state times the stiffness of
+        // the machine.
+        model.take_rates(quadratures, stages, (now.t, &now.q, &now.v, &k[stages]));
+        self.take_rates_in_middle(h)
+    }
+
+    /// Solves for the acceleration at the end of a step, to `k` behind the stages. Says whether it is found.
+    fn newton_of_alpha(&mut self, h: f64) -> Result<bool, StepError> {
+        let Self {
+            method,
+            model,
+            tolerance,
+            before,
+            k,
+            stage: (q, v),
+            control,
+            fixed,
+            ..
+        } = self;
+        let Some(Fixed::GeneralizedAlpha(alpha)) = fixed.as_deref_mut() else {
+            return Ok(false);
+        };
+        let stages = method.tableau.stages;
+        let [by_position, by_rate] = alpha.factors(h);
+        let t = before.t + (before.t_low + h);
+        let (first, rest) = k.split_at_mut(1);
+        let (from, rest) = (first[0].as_slice(), &mut rest[stages - 1..]);
+        let (to, rest) = rest.split_at_mut(1);
+        let (to, scratch) = (&mut to[0], &mut rest[MAX_STAGES - 2 - stages]);
+        to.as_mut_slice().copy_from_slice(from);
+        let mut size_before = f64::INFINITY;
+        for round in 1..=ROUNDS {
+            for (i, to) in to.as_slice().iter().enumerate() {
+                let ahead = alpha.ahead(i, from[i], *to);
+                let [by_q, by_v] = alpha.rises(i, h, before.v.as_slice()[i], ahead);
+                q.as_mut_slice()[i] = before.q.as_slice()[i] + (before.q_low.as_slice()[i] + by_q);
+                v.as_mut_slice()[i] = before.v.as_slice()[i] + (before.v_low.as_slice()[i] + by_v);
+            }
+            model.accelerations(t, q, v, scratch, &mut control.work)?;
+            let pairs = scratch.as_slice().iter().zip(to.as_slice());
+            for (change, (a, to)) in alpha.change.iter_mut().zip(pairs) {
+                *change = a - to;
+            }
+            alpha.matrix.solve(&mut alpha.change);
+            let mut size = 0.0_f64;
+            for (i, change) in alpha.change.iter().enumerate() {
+                to.as_mut_slice()[i] += change;
+                let absolute = tolerance.absolute.as_slice()[i];
+                let moves = [
+                    (by_position * change, q.as_slice()[i]),
+                    (by_rate * change, v.as_slice()[i]),
+                ];
+                for (by, y) in moves {
+                    let tolerable = LEFT * (absolute + tolerance.relative * y.abs());
+                    let least = tolerable.max(ROUNDOFF * f64::EPSILON * y.abs());
+                    let ratio = by.abs() / least;
+                    // What is no number must not pass for none.
+                    size = if ratio > size || ratio.is_nan() {
+                        ratio
+                    } else {
+                        size
+                    };
+                }
+            }
+            if !size.is_finite() {
+                return Ok(false);
+            }
+            let stands = round > 2 && size > STANDS * size_before;
+            if size <= 1.0 || (stands && LEFT * size <= 1.0) {
+                return Ok(true);
+            }
+            if stands {
+                return Ok(false);
+            }
+            size_before = size;
+        }
+        Ok(false)
+    }
+}
+
+impl GeneralizedAlpha {
+    /// By how much a position and its rate change in a step that ends with `ahead`.
+    fn rises(&self, i: usize, h: f64, rate: f64, ahead: f64) -> [f64; 2] {
+        let Weights { beta, gamma, .. } = self.weights;
+        let behind = self.alpha[1][i];
+        [
+            h * (rate + h * ((0.5 - beta) * behind + beta * ahead)),
+            h * ((1.0 - gamma) * behind + gamma * ahead),
+        ]
+    }
+}

@@ -1,0 +1,284 @@
+//! A step of Rattle: the method of Störmer and Verlet in momenta, with constraints of positions,
+//!
+//! ```text
+//! p½ = p₀ + h/2 (F(q₀, v₀*) + G(q₀)ᵀ λ),   v₀* = M(q₀)⁻¹ p½
+//! q₁ = q₀ + h/2 (v₀* + v₁*),               v₁* = M(q₁)⁻¹ p½,   g(q₁) = 0
+//! p₁ = p½ + h/2 (F(q₁, v₁*) + G(q₁)ᵀ μ),   G(q₁) M(q₁)⁻¹ p₁ + ∂g/∂t = 0
+//! ```
+//!
+//! E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, 2nd ed., 2006, section VII.1.4, eq. (1.26); `F` is dp/dt without
+//! constraints.
+
+use std::vec::Vec;
+
+use super::canonical::{Canonical, Rounds};
+use super::gauss::dot;
+use super::{Fixed, Stepper, add};
+use crate::balance::Quadratures;
+use crate::constraints::algebra::{backward, cholesky, forward};
+use crate::stages::Point;
+use crate::{InputLaw, StepError, System, Vector};
+
+/// Room for both ends of a step.
+#[derive(Clone, Debug)]
+pub(crate) struct Rattle<V, M> {
+    /// At the beginning and at the end.
+    ends: [Canonical<V, M>; 2],
+    /// `v₀*` and `v₁*`.
+    rates: [V; 2],
+    force: V,
+    momenta: V,
+    half_way: V,
+    scratch: V,
+    held: Held,
+}
+
+/// The constraints at both ends.
+#[derive(Clone, Debug)]
+struct Held {
+    /// `G`, row after row.
+    rows: [Vec<f64>; 2],
+    /// `G M⁻¹` at the beginning, then at the end.
+    by_force: Vec<f64>,
+    /// `G(q₁) M⁻¹ Gᵀ`, symmetric but for the change of `G` in a step, and its factor.
+    matrix: Vec<f64>,
+    shares: Vec<f64>,
+    multipliers: Vec<f64>,
+    residuals: Vec<f64>,
+}
+
+impl<V: Vector, M: Vector> Rattle<V, M> {
+    pub fn new<S: System<Vector = V, Matrix = M>>(
+        system: &S,
+        now: &Point<V>,
+        redundant: bool,
+    ) -> Result<Self, StepError> {
+        let unsuited = |reason| Err(StepError::Unsuited { reason, t: now.t });
+        if !system.constraints().all(|constraint| constraint.holonomic) {
+            return unsuited("it has constraints of rates, which are no constraints of positions");
+        }
+        if redundant {
+            return unsuited("it has constraints that depend on each other");
+        }
+        let canonical = Canonical::new(system, (now.t, &now.q))?;
+        let zeros = now.q.zeros_like();
+        let (n, m) = (zeros.as_slice().len(), system.constraints().len());
+        let numbers = |count: usize| std::vec![0.0; count];
+        Ok(Self {
+            ends: [canonical.clone(), canonical],
+            rates: [zeros.clone(), zeros.clone()],
+            force: zeros.clone(),
+            momenta: zeros.clone(),
+            half_way: zeros.clone(),
+            scratch: zeros,
+            held: Held {
+                rows: [numbers(m * n), numbers(m * n)],
+                by_force: numbers(m * n),
+                matrix: numbers(m * m),
+                shares: numbers(m),
+                multipliers: numbers(m),
+                residuals: numbers(m),
+            },
+        })
+    }
+}
+
+impl Held {
+    fn is_empty(&self) -> bool {
+        self.multipliers.is_empty()
+    }
+
+    /// Finds the factor of `scale G M⁻¹ Gᵀ` at one end. Says whether there is one.
+    fn factor<V: Vector, M: Vector>(
+        &mut self,
+        end: usize,
+        canonical: &Canonical<V, M>,
+        scale: f64,
+    ) -> bool {
+        let m = self.multipliers.len();
+        let n = self.by_force.len() / m;
+        let rows = &self.rows[end];
+        self.by_force.copy_from_slice(rows);
+        for row in self.by_force.chunks_exact_mut(n) {
+            canonical.to_rates(row);
+        }
+        for (i, by_force) in self.by_force.chunks_exact(n).enumerate() {
+            for (j, row) in rows.chunks_exact(n).enumerate() {
+                let product: f64 = row.iter().zip(by_force).map(|(a, b)| a * b).sum();
+                self.matrix[i * m + j] = scale * product;
+            }
+        }
+        cholesky(&mut self.matrix, &mut self.shares).is_ok()
+    }
+
+    /// What multipliers make the residuals vanish, to `residuals`.
+    fn solve(&mut self) {
+        forward(&self.matrix, &mut self.residuals);
+        backward(&self.matrix, &mut self.residuals);
+    }
+
+    /// Adds `scale Gᵀ x` of one end to `p`.
+    fn add_forces<V: Vector>(&self, end: usize, scale: f64, of: &[f64], p: &mut V) {
+        let p = p.as_mut_slice();
+        for (row, x) in self.rows[end].chunks_exact(p.len()).zip(of) {
+            for (p, g) in p.iter_mut().zip(row) {
+                *p += scale * g * x;
+            }
+        }
+    }
+}
+
+impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
+    /// Takes a step of length `h` from `before`, to `now`.
+    pub(super) fn attempt_by_rattle(&mut self, h: f64, last: bool) -> Result<(), StepError> {
+        let Self {
+            model,
+            before,
+            now,
+            k,
+            control,
+            end,
+            fixed,
+            ..
+        } = self;
+        let Some(Fixed::Rattle(rattle)) = fixed.as_deref_mut() else {
+            return Ok(());
+        };
+        let Rattle {
+            ends: [start, ahead],
+            rates: [here, there],
+            force,
+            momenta,
+            half_way,
+            scratch,
+            held,
+        } = rattle;
+        let singular = |singular| StepError::Singular {
+            singular,
+            t: before.t,
+        };
+        let not_solved = StepError::NotSolved {
+            t: before.t,
+            step: h,
+        };
+        let n = before.q.as_slice().len();
+        let half = 0.5 * h;
+        now.set_time(before, h, (*end, &[last]));
+        let system = model.system.get();
+        start.go_to(system, before.t, &before.q).map_err(singular)?;
+        momenta.as_mut_slice().fill(0.0);
+        start.add_momenta(1.0, &before.v, momenta);
+        start.add_momenta(1.0, &before.v_low, momenta);
+        if !held.is_empty() {
+            system.constraint_matrix(before.t, &before.q, &mut held.rows[0]);
+            if !held.factor(0, start, half * h) {
+                return Err(not_solved);
+            }
+            held.multipliers.fill(0.0);
+        }
+        here.clone_from(&before.v);
+        for (rate, a) in here.as_mut_slice().iter_mut().zip(k[0].as_slice()) {
+            *rate += half * a;
+        }
+        there.clone_from(here);
+        let mut rounds = Rounds::NONE;
+        loop {
+            model.set_inputs(before.t, &before.q, here);
+            let system = model.system.get();
+            start.force(system, (before.t, &before.q, here, &model.inputs), force);
+            control.work.evaluations += 1;
+            half_way.clone_from(momenta);
+            for (p, force) in half_way.as_mut_slice().iter_mut().zip(force.as_slice()) {
+                *p += half * force;
+            }
+            held.add_forces(0, half, &held.multipliers, half_way);
+            let mut change = 0.0;
+            let mut size = dot(half_way, here).abs();
+            // By how much that changes the rates at the beginning, then those at the end.
+            improve(start, half_way, here, scratch, &mut change);
+            for j in 0..n {
+                let rates = here.as_slice()[j] + there.as_slice()[j];
+                now.q.as_mut_slice()[j] =
+                    before.q.as_slice()[j] + (before.q_low.as_slice()[j] + half * rates);
+            }
+            ahead.go_to(system, now.t, &now.q).map_err(singular)?;
+            size += dot(half_way, there).abs();
+            improve(ahead, half_way, there, scratch, &mut change);
+            if !held.is_empty() {
+                system.constraint_positions(now.t, &now.q, &mut held.residuals);
+                held.solve();
+                for (multiplier, residual) in held.multipliers.iter_mut().zip(&held.residuals) {
+                    *multiplier -= residual;
+                }
+                // What that changes of the rates at both ends, so that the next round begins on the constraints.
+                for (at, rates) in [(&*start, &mut *here), (&*ahead, &mut *there)] {
+                    scratch.as_mut_slice().fill(0.0);
+                    held.add_forces(0, -half, &held.residuals, scratch);
+                    force.clone_from(scratch);
+                    at.to_rates(scratch.as_mut_slice());
+                    change += dot(force, scratch).abs();
+                    for (rate, by) in rates.as_mut_slice().iter_mut().zip(scratch.as_slice()) {
+                        *rate += by;
+                    }
+                }
+            }
+            match rounds.is_last(change, size) {
+                Some(true) => break,
+                Some(false) => {}
+                None => return Err(not_solved),
+            }
+        }
+        for j in 0..n {
+            let rates = here.as_slice()[j] + there.as_slice()[j];
+            now.q.as_mut_slice()[j] = before.q.as_slice()[j];
+            add(&mut now.q, &mut now.q_low, j, half * rates);
+        }
+
+        model.set_inputs(now.t, &now.q, there);
+        let system = model.system.get();
+        ahead.force(system, (now.t, &now.q, there, &model.inputs), force);
+        control.work.evaluations += 1;
+        for (p, force) in half_way.as_mut_slice().iter_mut().zip(force.as_slice()) {
+            *p += half * force;
+        }
+        ahead.add_momenta(-1.0, &before.v, half_way);
+        ahead.add_momenta(-1.0, &before.v_low, half_way);
+        ahead.to_rates(half_way.as_mut_slice());
+        for (j, by) in half_way.as_slice().iter().enumerate() {
+            add(&mut now.v, &mut now.v_low, j, *by);
+        }
+        if !held.is_empty() {
+            system.constraint_matrix(now.t, &now.q, &mut held.rows[1]);
+            if !held.factor(1, ahead, 1.0) {
+                return Err(not_solved);
+            }
+            system.constraint_rates(now.t, &now.q, &now.v, &mut held.residuals);
+            held.solve();
+            scratch.as_mut_slice().fill(0.0);
+            held.add_forces(1, 1.0, &held.residuals, scratch);
+            ahead.to_rates(scratch.as_mut_slice());
+            for (j, by) in scratch.as_slice().iter().enumerate() {
+                add(&mut now.v, &mut now.v_low, j, -by);
+            }
+        }
+        self.arrive_without_stages(h)
+    }
+}
+
+/// Makes the rates those of the momenta `p`, and adds to `change` the square of that in the metric of inertia.
+fn improve<V: Vector, M: Vector>(
+    at: &Canonical<V, M>,
+    p: &V,
+    rates: &mut V,
+    scratch: &mut V,
+    change: &mut f64,
+) {
+    scratch.clone_from(p);
+    at.add_momenta(-1.0, rates, scratch);
+    let residual = scratch.clone();
+    at.to_rates(scratch.as_mut_slice());
+    *change += dot(&residual, scratch).abs();
+    for (rate, by) in rates.as_mut_slice().iter_mut().zip(scratch.as_slice()) {
+        *rate += by;
+    }
+}

@@ -1,0 +1,481 @@
+//! Methods whose steps have a fixed length: their orders, what they keep, and what they refuse.
+#![cfg(feature = "std")]
+
+use crate::by_hand::constrained::{self, Constrained};
+use crate::by_hand::double_pendulum::{DoublePendulum, DoublePendulumCoordinates};
+use crate::by_hand::toy::{Toy, oscillator};
+use lagrangian::{
+    Error, FIXED_STEP_METHODS, Machine, Method, Quantity, Simulation, Singular, State, Stepper,
+    System,
+};
+
+fn method(name: &str) -> &'static Method {
+    Method::named(name).expect("it is listed")
+}
+
+/// A particle of 1 kg in a plane, braked by `drag` times its velocity. Its coordinates are `x`, its distance from the origin over
+/// `σ = 1 + 0.3 t`, and the angle `θ` from an axis that turns by `Ω`: so the mass matrix changes with place and time, and the bias
+/// has terms of the second, of the first and of no degree in the rates.
+#[derive(Clone, Copy, Debug)]
+struct Turning {
+    drag: f64,
+}
+
+const GROWTH: f64 = 0.3;
+const TURN: f64 = 0.7;
+
+/// `σ`, and the velocity along and across the radius.
+fn velocity(t: f64, [x, _]: &[f64; 2], [dx, turn]: &[f64; 2]) -> [f64; 3] {
+    let scale = 1.0 + GROWTH * t;
+    [scale, scale * dx + GROWTH * x, scale * x * (turn + TURN)]
+}
+
+impl Turning {
+    /// From `(1, 0)` with the velocity `(0, 1)`, it goes straight to `(1, s)`, `s = (1 − e^(−c t))/c`.
+    fn exact(&self, t: f64) -> [f64; 2] {
+        let s = match self.drag {
+            0.0 => t,
+            c => -(-c * t).exp_m1() / c,
+        };
+        [
+            (1.0 + s * s).sqrt() / (1.0 + GROWTH * t),
+            s.atan() - TURN * t,
+        ]
+    }
+
+    /// The greatest error of a coordinate.
+    fn error(&self, t: f64, q: &[f64; 2]) -> f64 {
+        let exact = self.exact(t);
+        (q[0] - exact[0]).abs().max((q[1] - exact[1]).abs())
+    }
+}
+
+impl Machine for Turning {
+    type System = Self;
+
+    fn name(&self) -> &str {
+        "Turning"
+    }
+
+    fn parameters(&self) -> impl ExactSizeIterator<Item = (Quantity<'_>, f64)> {
+        core::iter::empty()
+    }
+
+    fn prepare(&self) -> Self {
+        *self
+    }
+
+    fn start(&self) -> State<[f64; 2]> {
+        State {
+            t: 0.0,
+            q: [1.0, 0.0],
+            v: [-GROWTH, 1.0 - TURN],
+        }
+    }
+}
+
+impl System for Turning {
+    type Vector = [f64; 2];
+    type Matrix = [f64; 4];
+    type Coordinates = [f64; 2];
+    type Inputs = ();
+    type Outputs = ();
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = Quantity<'_>> {
+        [Quantity::new("x", "m"), Quantity::new("theta", "rad")].into_iter()
+    }
+
+    fn to_coordinates(&self, vector: &[f64; 2]) -> [f64; 2] {
+        *vector
+    }
+
+    fn to_vector(&self, coordinates: &[f64; 2]) -> [f64; 2] {
+        *coordinates
+    }
+
+    fn accelerations(
+        &self,
+        t: f64,
+        q: &[f64; 2],
+        v: &[f64; 2],
+        u: &(),
+        a: &mut [f64; 2],
+    ) -> Result<(), Singular> {
+        let (mut matrix, mut bias) = ([0.0; 4], [0.0; 2]);
+        self.mass_matrix(t, q, &mut matrix);
+        self.bias(t, q, v, &mut bias);
+        self.applied(t, q, v, u, a);
+        *a = [(a[0] - bias[0]) / matrix[0], (a[1] - bias[1]) / matrix[3]];
+        Ok(())
+    }
+
+    fn mass_matrix(&self, t: f64, q: &[f64; 2], matrix: &mut [f64; 4]) {
+        let scale = 1.0 + GROWTH * t;
+        *matrix = [scale * scale, 0.0, 0.0, scale * scale * q[0] * q[0]];
+    }
+
+    fn bias(&self, t: f64, q: &[f64; 2], v: &[f64; 2], bias: &mut [f64; 2]) {
+        let [scale, along, across] = velocity(t, q, v);
+        let turn = v[1] + TURN;
+        *bias = [
+            scale * (2.0 * GROWTH * v[0] - across * turn),
+            2.0 * scale * q[0] * along * turn,
+        ];
+    }
+
+    fn applied(&self, t: f64, q: &[f64; 2], v: &[f64; 2], (): &(), applied: &mut [f64; 2]) {
+        let [scale, along, across] = velocity(t, q, v);
+        *applied = [along, across * q[0]].map(|rate| -self.drag * scale * rate);
+    }
+
+    fn kinetic_energy(&self, t: f64, q: &[f64; 2], v: &[f64; 2]) -> f64 {
+        let [_, along, across] = velocity(t, q, v);
+        0.5 * (along * along + across * across)
+    }
+
+    fn potential_energy(&self, _: f64, _: &[f64; 2], (): &()) -> f64 {
+        0.0
+    }
+
+    fn dissipation_rate(&self, t: f64, q: &[f64; 2], v: &[f64; 2], (): &()) -> f64 {
+        2.0 * self.drag * self.kinetic_energy(t, q, v)
+    }
+
+    fn default_inputs(&self) {}
+
+    fn outputs(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &[f64; 2], (): &()) {}
+}
+
+/// Two lengths of steps, the second half of the first, whose errors are far above rounding.
+fn lengths(method: &Method) -> [f64; 2] {
+    let h = match method.tableau.order {
+        1 | 2 => 1.0 / 64.0,
+        4 => 1.0 / 16.0,
+        6 => 0.25,
+        _ => 0.5,
+    };
+    [h, 0.5 * h]
+}
+
+/// Errors of steps of a method of order `p` fall by `2^p` when the steps are halved, but for terms of higher orders.
+fn check_order(name: &str, what: &str, order: u32, [of_h, of_half]: [f64; 2]) {
+    let found = (of_h / of_half).log2();
+    let floor = 1e-13;
+    assert!(of_half > floor, "{name}, {what}: {of_half:e} is rounding");
+    assert!(
+        (-0.5..1.0).contains(&(found - f64::from(order))),
+        "{name}, {what}: {of_h:e} and {of_half:e} fall with the power {found}, and not {order}"
+    );
+}
+
+#[test]
+fn each_method_has_its_order_where_inertia_changes_with_place_and_time() {
+    let machine = Turning { drag: 0.5 };
+    for method in &FIXED_STEP_METHODS {
+        let errors = lengths(method).map(|h| {
+            let mut stepper = Stepper::builder(machine)
+                .method(method)
+                .longest_step(h)
+                .start(machine.start())
+                .unwrap();
+            stepper.advance_to(2.0).unwrap();
+            machine.error(2.0, stepper.q())
+        });
+        check_order(method.tableau.name, "the end", method.tableau.order, errors);
+    }
+}
+
+/// Where nothing brakes, energy is what the particle had; where something does, it is lost as the books say.
+#[test]
+fn the_books_close_with_the_order_of_the_method() {
+    let machine = Turning { drag: 0.5 };
+    for method in &FIXED_STEP_METHODS {
+        let residuals = lengths(method).map(|h| {
+            let run = Simulation::new(&machine)
+                .method(method)
+                .longest_step(h)
+                .until(2.0)
+                .energy_balance(true)
+                .run(machine.start())
+                .unwrap();
+            run.energy_balance().unwrap().residual().abs()
+        });
+        check_order(
+            method.tableau.name,
+            "the books",
+            method.tableau.order,
+            residuals,
+        );
+    }
+}
+
+/// Between its ends a step is known by the quintic or the cubic through them.
+#[test]
+fn the_motion_within_steps_is_of_the_order_that_is_stated() {
+    let machine = Turning { drag: 0.0 };
+    for name in ["gauss6", "gauss8", "rk4"] {
+        let method = method(name);
+        let errors = [0.125, 0.0625].map(|h| {
+            let run = Simulation::new(&machine)
+                .method(method)
+                .longest_step(h)
+                .until(2.0)
+                .run(machine.start())
+                .unwrap();
+            let at = |part: f64| {
+                let t = 1.0 + part * h;
+                machine.error(t, &run.at(t).unwrap().q)
+            };
+            at(0.3).max(at(0.6))
+        });
+        let found = (errors[0] / errors[1]).log2();
+        let least = f64::from(method.tableau.dense_order) + 0.5;
+        assert!(
+            found > least,
+            "{name}: {errors:?} fall with the power {found}"
+        );
+    }
+}
+
+fn pendulum() -> (DoublePendulum, State<DoublePendulumCoordinates>) {
+    let machine = DoublePendulum::default();
+    let mut start = machine.start();
+    (start.q.theta1, start.q.theta2) = (0.3, 0.5);
+    (machine, start)
+}
+
+/// The greatest error of the energy in each quarter of a long run.
+fn errors_of_energy(name: &str, h: f64, steps: usize) -> [f64; 4] {
+    let (machine, start) = pendulum();
+    let system = machine.prepare();
+    let mut stepper = Stepper::builder(machine.prepare())
+        .method(method(name))
+        .longest_step(h)
+        .start(start)
+        .unwrap();
+    let energy = |q: &[f64; 2], v: &[f64; 2]| {
+        system.kinetic_energy(0.0, q, v) + system.potential_energy(0.0, q, &system.default_inputs())
+    };
+    let at_start = energy(stepper.q(), stepper.v());
+    stepper.set_end(h * steps as f64);
+    let mut worst = [0.0_f64; 4];
+    for step in 0..steps {
+        stepper.step().unwrap();
+        let error = (energy(stepper.q(), stepper.v()) - at_start).abs();
+        let quarter = &mut worst[4 * step / steps];
+        *quarter = quarter.max(error);
+    }
+    worst
+}
+
+/// The double pendulum's mass matrix depends on its place: a method that were symplectic in rates, and not in momenta, would drift.
+#[test]
+fn the_energy_of_symplectic_methods_does_not_drift() {
+    for name in ["gauss4", "gauss6", "gauss8", "rattle"] {
+        let [first, .., last] = errors_of_energy(name, 0.05, 4000);
+        assert!(last < 1.2 * first, "{name}: {first:e} J, then {last:e} J");
+    }
+    // The test can tell: each quarter adds as much.
+    let [first, .., last] = errors_of_energy("rk4", 0.05, 4000);
+    assert!(last > 3.0 * first, "rk4: {first:e} J, then {last:e} J");
+}
+
+#[test]
+fn symmetric_methods_come_back_to_the_start() {
+    let (machine, start) = pendulum();
+    for name in ["gauss4", "gauss6", "gauss8", "rattle"] {
+        let mut stepper = Stepper::builder(machine.prepare())
+            .method(method(name))
+            .longest_step(0.0625)
+            .start(start)
+            .unwrap();
+        stepper.advance_to(10.0).unwrap();
+        let away = (stepper.q()[0] - 0.3).abs();
+        assert!(away > 1e-3, "{name}: it has moved");
+        stepper.advance_to(0.0).unwrap();
+        // Roundings of 320 steps, which this motion makes no more than ten times larger.
+        let limit = 320.0 * 10.0 * f64::EPSILON;
+        for (y, exact) in [
+            (stepper.q()[0], 0.3),
+            (stepper.q()[1], 0.5),
+            (stepper.v()[0], 0.0),
+            (stepper.v()[1], 0.0),
+        ] {
+            assert!((y - exact).abs() < limit, "{name}: {y} and not {exact}");
+        }
+    }
+}
+
+/// A spherical pendulum of 1 m and 1 kg in space, held by its rod.
+fn spherical() -> Constrained<3, 1, 9> {
+    Constrained {
+        coordinates: [("x", "m"), ("y", "m"), ("z", "m")],
+        constraints: [("rod", true)],
+        p: 9.81,
+        start: ([0.6, 0.0, -0.8], [0.0, 1.5, 0.0]),
+        mass: [1.0; 3],
+        forces: |_, _, _, g| [0.0, 0.0, -g],
+        positions: |_, q, _| [0.5 * (q.iter().map(|x| x * x).sum::<f64>() - 1.0)],
+        matrix: |_, q, _| [*q],
+        by_time: |_, _, _| [0.0],
+        drift: |_, _, v, _| [-v.iter().map(|v| v * v).sum::<f64>()],
+        potential_energy: |q, g| g * q[2],
+        on_stack: true,
+    }
+}
+
+#[test]
+fn rattle_keeps_constraints_and_the_momenta_of_symmetries_to_rounding() {
+    let machine = spherical();
+    let steps = 5000;
+    let mut stepper = Stepper::builder(machine.prepare())
+        .method(method("rattle"))
+        .longest_step(0.02)
+        .start(machine.start())
+        .unwrap();
+    stepper.set_end(0.02 * f64::from(steps));
+    let energy =
+        |q: &[f64; 3], v: &[f64; 3]| 0.5 * v.iter().map(|v| v * v).sum::<f64>() + 9.81 * q[2];
+    let at_start = energy(stepper.q(), stepper.v());
+    let mut worst = [0.0_f64; 2];
+    for step in 0..steps {
+        stepper.step().unwrap();
+        let (q, v) = (stepper.q(), stepper.v());
+        // Of 0.9 kg m²/s.
+        let momentum = q[0] * v[1] - q[1] * v[0];
+        let limit = f64::EPSILON * (16.0 + 4.0 * f64::from(step));
+        assert!((momentum - 0.9).abs() < limit, "{step}: {momentum}");
+        let length: f64 = q.iter().map(|x| x * x).sum();
+        let along: f64 = q.iter().zip(v).map(|(q, v)| q * v).sum();
+        assert!((length - 1.0).abs() < 1e-14, "{step}: {length}");
+        assert!(along.abs() < 1e-13, "{step}: {along}");
+        let half = usize::from(2 * step >= steps);
+        worst[half] = worst[half].max((energy(q, v) - at_start).abs());
+    }
+    assert!(worst[1] < 1.2 * worst[0], "{worst:?} J");
+}
+
+/// With constraints that stand and with one that moves: against the default method at its finest.
+#[test]
+fn methods_with_constraints_have_their_order() {
+    fn check<const N: usize, const M: usize, const NN: usize>(machine: &Constrained<N, M, NN>) {
+        let run = |method: &'static Method, h: f64, tolerance: f64| {
+            let run = Simulation::new(machine)
+                .method(method)
+                .longest_step(h)
+                .tolerance(tolerance)
+                .until(1.0)
+                .run(machine.start());
+            run.unwrap().end().q
+        };
+        let exact = run(Method::DOP853, f64::INFINITY, 1e-13);
+        for method in &FIXED_STEP_METHODS {
+            if method.tableau.name.starts_with("gauss") {
+                continue;
+            }
+            let errors = [1.0 / 128.0, 1.0 / 256.0].map(|h| {
+                let q = run(method, h, 1e-13);
+                let errors = q.iter().zip(&exact).map(|(q, exact)| (q - exact).abs());
+                errors.fold(0.0, f64::max)
+            });
+            let Method { tableau, .. } = method;
+            check_order(tableau.name, "constraints", tableau.order, errors);
+        }
+    }
+    check(&spherical());
+    check(&constrained::winch());
+}
+
+/// Of `x″ = −ω² x` with `ω h = 1000`, generalized-α leaves 0.8 of the amplitude in each step.
+#[test]
+fn generalized_alpha_damps_what_is_too_fast_for_its_steps() {
+    let stiff = Toy {
+        p: 1e4,
+        ..oscillator()
+    };
+    let run = |name: &str| {
+        let mut stepper = Stepper::builder(stiff)
+            .method(method(name))
+            .longest_step(0.1)
+            .start(stiff.start())
+            .unwrap();
+        stepper.advance_to(10.0).map(|()| stepper.q()[0])
+    };
+    let left = run("generalized-alpha").unwrap();
+    // Two eigenvalues of that size that are nearly equal: no more than 100² times 0.8¹⁰⁰.
+    assert!(left.abs() < 1e4 * 0.8_f64.powi(100), "{left:e}");
+    // An explicit one grows without bound, which the test can tell.
+    assert!(!run("rk4").is_ok_and(|x| x.abs() <= 1.0));
+}
+
+#[test]
+fn what_a_method_of_fixed_steps_cannot_follow_is_refused() {
+    let refused = |machine: &Constrained<2, 1, 4>, name: &str| {
+        let run = Simulation::new(machine)
+            .method(method(name))
+            .longest_step(1e-2)
+            .until(1.0);
+        run.run(machine.start()).unwrap_err().to_string()
+    };
+    let circle = constrained::circle::<1>();
+    let said = refused(&circle, "gauss6");
+    assert!(said.contains("`rattle`"), "{said}");
+
+    let twice = constrained::circle::<2>();
+    let run = Simulation::new(&twice)
+        .method(method("rattle"))
+        .longest_step(1e-2)
+        .until(1.0);
+    let said = run.run(twice.start()).unwrap_err().to_string();
+    assert!(said.contains("depend on each other"), "{said}");
+
+    let sleigh = constrained::sleigh();
+    let run = Simulation::new(&sleigh)
+        .method(method("rattle"))
+        .longest_step(1e-2)
+        .until(1.0);
+    let said = run.run(sleigh.start()).unwrap_err().to_string();
+    assert!(said.contains("constraints of rates"), "{said}");
+
+    // A system by hand that does not say its mass matrix.
+    let toy = oscillator();
+    for name in ["gauss4", "rattle"] {
+        let run = Simulation::new(&toy)
+            .method(method(name))
+            .longest_step(1e-2)
+            .until(1.0);
+        let said = run.run(toy.start()).unwrap_err().to_string();
+        assert!(said.contains("mass matrix"), "{said}");
+    }
+
+    let run = Simulation::new(&toy).method(method("rk4")).until(1.0);
+    let error = run.run(toy.start()).unwrap_err();
+    let is_meant = matches!(
+        &error,
+        Error::InvalidSetting {
+            setting: "longest_step",
+            ..
+        }
+    );
+    assert!(is_meant, "{error}");
+}
+
+/// A step that is too long for fixed-point iteration is an error, and no step.
+#[test]
+fn stages_that_are_not_found_are_told() {
+    let machine = DoublePendulum {
+        g: 1e6,
+        ..Default::default()
+    };
+    let mut start = machine.start();
+    (start.q.theta1, start.q.theta2) = (0.3, 0.5);
+    let mut stepper = Stepper::builder(machine.prepare())
+        .method(method("gauss6"))
+        .longest_step(1.0)
+        .start(start)
+        .unwrap();
+    let error = stepper.advance_to(2.0).unwrap_err().to_string();
+    assert!(error.contains("take shorter steps"), "{error}");
+    assert_eq!(stepper.t(), 0.0);
+    assert_eq!(stepper.q(), &[0.3, 0.5]);
+}
