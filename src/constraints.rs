@@ -25,6 +25,7 @@ mod start;
 mod workspace;
 
 use crate::compensated::two_sum;
+use crate::math::sqrt;
 use crate::{Singular, StepError, System, Vector};
 use algebra::{backward, dot, forward, length, remove, share};
 use choice::{Choice, Rank};
@@ -548,7 +549,9 @@ impl<V: Vector> Constraints<V> {
     /// Whether accelerations obey the rows that were not chosen, too.
     ///
     /// They are sums of what forces would give and of what constraints take away again, so the residual
-    /// is measured by the forces as well: in balance nothing else is there.
+    /// is measured by the forces as well: in balance nothing else is there. And they come out of one
+    /// elimination that mixes all coordinates, so those that the constraints keep at 0 are as inexact as
+    /// the others are, by inertia: `|Gₖ| |a|`, as for rates in [`scale`].
     pub fn check_accelerations<S: System<Vector = V>>(
         &self,
         system: &S,
@@ -562,14 +565,26 @@ impl<V: Vector> Constraints<V> {
             let mut f = a.zeros_like();
             system.forces(t, q, v, u, &mut f);
             let inertias = workspace.metric.as_slice().iter().step_by(workspace.n + 1);
-            for (free, inertia) in workspace.column.iter_mut().zip(inertias) {
-                *free = if *inertia > 0.0 { 1.0 / inertia } else { 0.0 };
+            let reciprocal = |inertia: f64| if inertia > 0.0 { 1.0 / inertia } else { 0.0 };
+            for ((free, inertia), f) in workspace
+                .column
+                .iter_mut()
+                .zip(inertias.clone())
+                .zip(f.as_slice())
+            {
+                *free = reciprocal(*inertia) * f.abs();
             }
-            for (free, f) in workspace.column.iter_mut().zip(f.as_slice()) {
-                *free *= f.abs();
-            }
+            let squares = a.as_slice().iter().zip(inertias.clone());
+            let size = sqrt(squares.map(|(a, inertia)| a * a * inertia.max(0.0)).sum());
             for (k, row) in workspace.matrix.chunks_exact(workspace.n).enumerate() {
+                let squares = row.iter().zip(inertias.clone());
+                let length = sqrt(
+                    squares
+                        .map(|(g, inertia)| g * g * reciprocal(*inertia))
+                        .sum(),
+                );
                 let (mut left, mut scale) = (-workspace.row[k], workspace.row[k].abs());
+                scale += scale::OF_INERTIA * length * size;
                 for ((g, a), free) in row.iter().zip(a.as_slice()).zip(&*workspace.column) {
                     left += g * a;
                     scale += (g * a).abs() + g.abs() * free;

@@ -361,7 +361,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     .explain(error, self.stepper.q(), self.stepper.v()));
             }
 
-            if self.is_stepped() && self.is_roused() {
+            if <M::System as System>::MAY_COLLIDE && self.is_stepped() && self.is_roused() {
                 continue;
             }
             let mut interpolant = None;
@@ -408,7 +408,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             if self.shall_stop() {
                 return Ok(Ending::Stopped);
             }
-            if self.is_stepped() {
+            if <M::System as System>::MAY_COLLIDE && self.is_stepped() {
                 self.go_on_after_step()?;
             }
             if <M::System as System>::MAY_SLIDE && self.stepper.is_done() {
@@ -659,7 +659,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     fn keep(&mut self, interpolant: &mut LastInterpolant<M>) -> Result<(), Error> {
         self.keep_samples(interpolant)?;
         self.show(interpolant)?;
-        if self.is_stepped() {
+        if <M::System as System>::MAY_COLLIDE && self.is_stepped() {
             self.note_step();
         }
         let before = self.record.energies.last().copied();

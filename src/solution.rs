@@ -374,6 +374,9 @@ impl<M: Machine, L> Solution<M, L> {
         let Some(phase) = self.unilateral.phases.last() else {
             return Vec::new();
         };
+        if !M::System::MAY_COLLIDE {
+            return Vec::new();
+        }
         let system = &self.system;
         let [q, v] = [&self.end.q, &self.end.v].map(|of| system.to_vector(of));
         (phase.touching).crushing_works(system, (self.end.t, &q, &v))

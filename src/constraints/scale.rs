@@ -22,7 +22,7 @@ use crate::{System, Vector};
 const REMEMBERED: usize = 4;
 
 /// How much of the inertial scale counts: so much that what is worked off is some roundoffs of it.
-const OF_INERTIA: f64 = ROUNDOFF / WORKED_OFF;
+pub(super) const OF_INERTIA: f64 = ROUNDOFF / WORKED_OFF;
 
 /// What the run has seen of sizes.
 #[derive(Clone, Debug)]

@@ -60,7 +60,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         self.control.last_step = h;
         let attempted = self.attempt_in_impulses(h, last);
         if let Err(error) = attempted {
-            if let Some(impulses) = &mut self.impulses
+            if S::MAY_COLLIDE
+                && let Some(impulses) = &mut self.impulses
                 && let Some(before) = impulses.retreat()
             {
                 self.model.touching = Some(before);
@@ -123,7 +124,9 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         for (v, a) in now.v.as_mut_slice().iter_mut().zip(k[1].as_slice()) {
             *v += h * a;
         }
-        if let Some(touching) = &mut model.touching {
+        if S::MAY_COLLIDE
+            && let Some(touching) = &mut model.touching
+        {
             let system = model.system.get();
             impulses.stepped = touching.step(system, (t, q), &before.v, &mut now.v, h)?;
         }
@@ -144,7 +147,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         }
         model.take_rates(quadratures, 1, (t, q, v, &k[1]));
         model.project(now)?;
-        if model.touching.is_some() {
+        if S::MAY_COLLIDE && model.touching.is_some() {
             let is_counted = quadratures.integrals().is_some();
             let energy = |model: &mut Model<'_, S, L>, now: &Point<S::Vector>| {
                 model.set_inputs(now.t, &now.q, &now.v);
