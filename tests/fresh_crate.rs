@@ -58,15 +58,17 @@ impl Crate {
         fs::write(path, text).expect("a temporary file can be written");
     }
 
+    /// Where cargo builds, for all crates.
+    fn target() -> PathBuf {
+        Path::new(env!("CARGO_TARGET_TMPDIR")).join("fresh-crate")
+    }
+
     fn cargo(&self, arguments: &[&str]) -> Output {
         Command::new(env!("CARGO"))
             .args(arguments)
             .args(["--offline", "--quiet"])
             .current_dir(&self.folder)
-            .env(
-                "CARGO_TARGET_DIR",
-                Path::new(env!("CARGO_TARGET_TMPDIR")).join("fresh-crate"),
-            )
+            .env("CARGO_TARGET_DIR", Self::target())
             .env("CARGO_TERM_COLOR", "never")
             .env_remove("RUSTFLAGS")
             .output()
@@ -102,6 +104,31 @@ machine Oscillator in plane {
 }
 ";
 
+/// The machines of a program have no contacts and no constraints: so it has no function of the runtime that only these need, which
+/// would have been compiled once more for each machine. The debug information of a program names the functions that it is made of.
+fn has_no_code_of_absent_features(program: &str) {
+    let path = Crate::target().join("debug").join(program);
+    let program = fs::read(path).expect("the program has just run");
+    let has = |name: &str| {
+        let mut windows = program.windows(name.len());
+        windows.any(|bytes| bytes == name.as_bytes())
+    };
+    assert!(has("step_of_fixed_length"), "functions are not named");
+    for (name, source) in [
+        ("move_out", include_str!("../src/contact/stepping.rs")),
+        ("look_beside", include_str!("../src/constraints/start.rs")),
+    ] {
+        assert!(
+            source.contains(&format!("fn {name}<")),
+            "{name} is no function"
+        );
+        assert!(
+            !has(name),
+            "the program has `{name}`, which no machine of it needs"
+        );
+    }
+}
+
 #[test]
 fn a_fresh_crate_follows_its_spec() {
     let fresh = Crate::new("oscillator");
@@ -133,6 +160,7 @@ fn a_fresh_crate_follows_its_spec() {
         "#,
     );
     assert_eq!(fresh.run(), "0.25 0.25 2\n");
+    has_no_code_of_absent_features("oscillator");
     // An edit of a file that the macro reads, or that such a file extends, compiles the crate anew.
     fresh.write(
         "machines/oscillator.machine",
