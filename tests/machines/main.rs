@@ -3,6 +3,7 @@
 mod crushers;
 mod emitted_series;
 mod friction;
+mod known_runs;
 mod library;
 mod mechanisms;
 mod motions;

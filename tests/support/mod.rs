@@ -4,6 +4,7 @@
 
 pub mod accuracy;
 pub mod known_ends;
+pub mod known_runs;
 pub mod library;
 pub mod limits;
 pub mod random;

@@ -9,10 +9,15 @@ from peers.common import HERE, Clock, command, ready
 
 
 def chain(n):
+    return chain_of(tasks.chain_links(n))
+
+
+def chain_of(links):
+    """Length, mass, distance of the mass centre and inertia about it, of each link."""
     # In the plane x, z; a turn about -y takes the downward vertical towards +x.
     nested, ends = [], []
     before = 0.0
-    for length, mass, centre, inertia in tasks.chain_links(n):
+    for length, mass, centre, inertia in links:
         nested.append(
             f'<body pos="0 0 {-before!r}"><joint type="hinge" axis="0 -1 0"/>'
             f'<inertial pos="0 0 {-centre!r}" mass="{mass!r}" diaginertia="{inertia!r} {inertia!r} {inertia!r}"/>'

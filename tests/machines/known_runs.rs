@@ -1,0 +1,130 @@
+//! The references of 30 digits are those of the machines that they name, and of nothing else: runs by methods that have no part
+//! in making them end there.
+#![cfg(feature = "std")]
+
+use crate::support::known_ends::{CHAOTIC_AT_10, CRUSHER_AT_5, REGULAR_AT_100};
+use crate::support::known_runs::KnownRun;
+use crate::support::library;
+use lagrangian::interpreted::InterpretedMachine;
+use lagrangian::{METHODS, Machine, Method, Simulation};
+use lagrangian_scalar::DoubleDouble;
+
+/// The machine of a known run, interpreted.
+fn machine(known: &KnownRun) -> InterpretedMachine {
+    let KnownRun {
+        machine, settings, ..
+    } = known;
+    let (constants, parameters): (Vec<_>, Vec<_>) =
+        settings.iter().partition(|(name, _)| name == "N");
+    let constants: Vec<(&str, i64)> = constants
+        .iter()
+        .map(|(name, value)| (name.as_str(), *value as i64))
+        .collect();
+    let mut made = InterpretedMachine::new(library::program(machine, &constants));
+    for (name, value) in parameters {
+        made.set(name, *value).expect("a parameter");
+    }
+    made
+}
+
+/// Runs with a tolerance, and asks for so small an error.
+fn ends_there(name: &str, method: &'static Method, tolerance: f64, most: f64) {
+    let known = KnownRun::named(name);
+    let machine = machine(&known);
+    let mut start = machine.start();
+    let (q, v) = known.start.split_at(known.start.len() / 2);
+    start.q.values.copy_from_slice(q);
+    start.v.values.copy_from_slice(v);
+    let run = Simulation::new(&machine)
+        .method(method)
+        .tolerance(tolerance)
+        .forget_steps()
+        .until(known.until)
+        .run(start)
+        .unwrap();
+    let end = run.end();
+    let error = known.error(end.q.values.iter().chain(&end.v.values));
+    println!("{name}: {error:e}, {:?}", run.statistics());
+    assert!(error < most, "{name}: {error:e}");
+}
+
+/// Extrapolation in binary128, from other equations: what it gave agrees to all digits that are written down there.
+#[test]
+fn references_are_those_of_an_extrapolation_in_binary128() {
+    for (name, ends) in [
+        ("double_pendulum_regular", &REGULAR_AT_100[..]),
+        ("double_pendulum_chaotic", &CHAOTIC_AT_10),
+        ("crusher", &CRUSHER_AT_5),
+    ] {
+        let known = KnownRun::named(name);
+        assert_eq!(known.error(ends).max(2e-16), 2e-16, "{name}");
+    }
+}
+
+/// The test set for initial value problems, release 2.4 (2008), has the angles of Andrews' squeezer at 0.03 s; the last of its
+/// digits are wrong, as energy says, but the first ten are right.
+#[test]
+fn andrews_squeezer_ends_where_the_test_set_says() {
+    let published = [
+        0.1581077119629904e2,
+        -0.1575637105984298e2,
+        0.4082224013073101e-1,
+        -0.5347301163226948,
+        0.5244099658805304,
+        0.5347301163226948,
+        0.1048080741042263e1,
+    ];
+    let known = KnownRun::named("andrews_squeezer");
+    for (published, end) in published.iter().zip(&known.end) {
+        let off = (DoubleDouble::from(*published) - *end).hi();
+        assert!(off.abs() < 2e-10 * published.abs().max(1.0), "{off:e}");
+    }
+}
+
+/// A tolerance of 1e-11 in each step; motions that are not chaotic multiply the sum of some hundred errors by no more than some
+/// hundred. A wrong sign, number or term of any body would show in the fourth digit.
+#[test]
+fn runs_of_the_library_end_at_the_references() {
+    for name in [
+        "andrews_squeezer",
+        "chain_8",
+        "chain_16",
+        "closed_pendulum",
+        "crusher",
+        "double_pendulum_regular",
+        "elastic_pendulum",
+        "flyball_governor",
+        "four_bar",
+        "heavy_top",
+        "six_joint_arm",
+        "spherical_pendulum",
+        "stiff_crusher",
+        "stiff_spring_pendulum",
+    ] {
+        ends_there(name, &METHODS[0], 1e-11, 1e-7);
+    }
+    // It multiplies errors by 10⁹.
+    ends_there("double_pendulum_chaotic", &METHODS[0], 1e-14, 1e-4);
+}
+
+/// What Kepler's equation gives after 1000 turns has the energy and the areal velocity of the start to all digits of double-doubles, and
+/// the run ends there.
+#[test]
+fn an_orbit_of_a_thousand_turns_closes() {
+    let known = KnownRun::named("kepler");
+    let number = DoubleDouble::from;
+    let constants = |[r, _, radial, turning]: [DoubleDouble; 4]| {
+        let sweep = r * r * turning;
+        let energy = (radial * radial + sweep * turning) * number(0.5) - number(4.0) / r;
+        [energy, sweep]
+    };
+    let start: [f64; 4] = known.start.as_slice().try_into().expect("two coordinates");
+    let end: [DoubleDouble; 4] = known.end.as_slice().try_into().expect("two coordinates");
+    let [before, after] = [start.map(number), end].map(constants);
+    for (before, after) in before.into_iter().zip(after) {
+        // Some ten operations of 2⁻¹⁰⁴ each.
+        assert!((before - after).hi().abs() < 1e-29, "{before:?} {after:?}");
+    }
+    // Each of some 10⁵ steps errs by its tolerance, and an error of the energy moves the place on the orbit in all turns after it.
+    ends_there("kepler", &METHODS[0], 1e-12, 1e-4);
+}

@@ -1,0 +1,91 @@
+//! Runs whose ends are known to 30 digits: the files of `tests/data/references/`, and the errors of what ends beside them.
+
+use lagrangian_scalar::DoubleDouble;
+use lagrangian_symbolic::Rational;
+
+/// A run of a machine from a start.
+pub struct KnownRun {
+    /// The file name of the machine in `machines/`.
+    pub machine: String,
+    /// Parameters and constants with values of their own.
+    pub settings: Vec<(String, f64)>,
+    /// When it ends, in s.
+    pub until: f64,
+    /// Coordinates, then rates, at its start.
+    pub start: Vec<f64>,
+    /// Coordinates, then rates, at its end.
+    pub end: Vec<DoubleDouble>,
+    /// What an error is measured by, besides the size of the number.
+    scales: Vec<f64>,
+}
+
+impl KnownRun {
+    /// The run of this name.
+    pub fn named(name: &str) -> Self {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/references");
+        let path = format!("{folder}/{name}.txt");
+        let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
+        Self::read(&text)
+    }
+
+    /// Reads a file: lines that begin with what they hold, and after `end` a number on each line.
+    fn read(text: &str) -> Self {
+        let mut run = Self {
+            machine: String::new(),
+            settings: Vec::new(),
+            until: f64::NAN,
+            start: Vec::new(),
+            end: Vec::new(),
+            scales: Vec::new(),
+        };
+        for line in text.lines().filter(|line| !line.starts_with('#')) {
+            let mut words = line.split_whitespace();
+            match words.next() {
+                Some("machine") => {
+                    run.machine = words.next().expect("a machine").to_owned();
+                    let settings = words.filter_map(|word| word.split_once('='));
+                    run.settings = settings.map(|(name, x)| (name.to_owned(), number(x))).collect();
+                }
+                Some("until") => run.until = words.map(number).sum(),
+                Some("start") => run.start = words.map(number).collect(),
+                Some("scales") => run.scales = words.map(number).collect(),
+                Some("end") => {}
+                Some(digits) => run.end.push(exact(digits)),
+                None => {}
+            }
+        }
+        if run.scales.is_empty() {
+            run.scales = vec![1.0; run.end.len()];
+        }
+        assert_eq!(run.start.len(), run.end.len());
+        assert_eq!(run.scales.len(), run.end.len());
+        run
+    }
+
+    /// The greatest of `|y − exact| / (scale + |exact|)` of a state, coordinates and then rates.
+    pub fn error<'y>(&self, end: impl IntoIterator<Item = &'y f64>) -> f64 {
+        let end: Vec<f64> = end.into_iter().copied().collect();
+        assert_eq!(end.len(), self.end.len());
+        let errors = end.iter().zip(&self.end).zip(&self.scales);
+        errors
+            .map(|((y, exact), scale)| {
+                let off = DoubleDouble::from(*y) - *exact;
+                off.hi().abs() / (scale + exact.hi().abs())
+            })
+            .fold(0.0, |worst, error| match error.is_nan() {
+                true => f64::NAN,
+                false => f64::max(worst, error),
+            })
+    }
+}
+
+fn number(word: &str) -> f64 {
+    word.parse().unwrap_or_else(|_| panic!("{word} is no number"))
+}
+
+fn exact(digits: &str) -> DoubleDouble {
+    let number = Rational::parse_decimal(digits);
+    number
+        .unwrap_or_else(|| panic!("{digits} is no number"))
+        .evaluate()
+}
