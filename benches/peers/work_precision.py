@@ -25,11 +25,10 @@ from pathlib import Path
 
 import casadi
 import heyoka as hy
+import motions
 import mujoco
 import numpy as np
 from scipy.integrate import solve_ivp
-
-import motions
 
 ROOT = Path(__file__).resolve().parents[2]
 REFERENCES = ROOT / "tests" / "data" / "references"
@@ -263,7 +262,7 @@ class MuJoCo:
 
 def of_ours(program, name):
     """Our settings: tool, tolerance or step, seconds, error."""
-    call = [*program, "--only", name, "--repeats", "3"]
+    call = [*program, "--only", name, "--repeats", "5"]
     said = subprocess.run(call, cwd=ROOT, capture_output=True, text=True, check=True).stdout
     for line in said.splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("|")]
@@ -411,8 +410,11 @@ def main():
     words.add_argument("--json", help="a file for all settings; if it is there, its runs are drawn and shown too")
     words.add_argument("--ours", help="a program that `cargo bench --bench time_against_error` has built")
     words.add_argument("--peers", default="heyoka,sundials,scipy,mujoco")
+    words.add_argument("--methods", help="methods of ours, by semicolons: 'taylor;taylor, 4 lanes;dop853'")
     call = words.parse_args()
     program = [call.ours] if call.ours else ["cargo", "bench", "--bench", "time_against_error", "--"]
+    if call.methods:
+        program += ["--methods", call.methods]
     kinds = {"heyoka": Heyoka, "sundials": Sundials, "scipy": SciPy, "mujoco": MuJoCo}
     wanted = [kinds[name] for name in call.peers.split(",") if name]
     results = {}

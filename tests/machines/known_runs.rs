@@ -87,8 +87,6 @@ fn andrews_squeezer_ends_where_the_test_set_says() {
 fn runs_of_the_library_end_at_the_references() {
     for name in [
         "andrews_squeezer",
-        "chain_8",
-        "chain_16",
         "closed_pendulum",
         "crusher",
         "double_pendulum_regular",
@@ -96,9 +94,7 @@ fn runs_of_the_library_end_at_the_references() {
         "flyball_governor",
         "four_bar",
         "heavy_top",
-        "six_joint_arm",
         "spherical_pendulum",
-        "stiff_crusher",
         "stiff_spring_pendulum",
     ] {
         ends_there(name, &METHODS[0], 1e-11, 1e-7);

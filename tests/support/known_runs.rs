@@ -44,7 +44,9 @@ impl KnownRun {
                 Some("machine") => {
                     run.machine = words.next().expect("a machine").to_owned();
                     let settings = words.filter_map(|word| word.split_once('='));
-                    run.settings = settings.map(|(name, x)| (name.to_owned(), number(x))).collect();
+                    run.settings = settings
+                        .map(|(name, x)| (name.to_owned(), number(x)))
+                        .collect();
                 }
                 Some("until") => run.until = words.map(number).sum(),
                 Some("start") => run.start = words.map(number).collect(),
@@ -80,7 +82,8 @@ impl KnownRun {
 }
 
 fn number(word: &str) -> f64 {
-    word.parse().unwrap_or_else(|_| panic!("{word} is no number"))
+    word.parse()
+        .unwrap_or_else(|_| panic!("{word} is no number"))
 }
 
 fn exact(digits: &str) -> DoubleDouble {

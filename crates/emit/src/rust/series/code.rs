@@ -131,6 +131,15 @@ impl Code {
         }
     }
 
+    /// A number as it is written in front of a method's name.
+    fn receiver(&self, x: X) -> String {
+        match x {
+            // A method binds more tightly than the sign.
+            X::MinusOne => format!("(-{}::ONE)", self.number),
+            _ => self.text(x),
+        }
+    }
+
     /// An array of numbers as they are kept, with zeros up to a length.
     pub fn kept(&self, all: &[X], length: usize) -> Layout {
         let rest = length.saturating_sub(all.len());
@@ -138,7 +147,7 @@ impl Code {
             .iter()
             .copied()
             .chain(std::iter::repeat_n(X::Zero, rest));
-        Layout::array(all.map(|x| format!("{}.store()", self.text(x))))
+        Layout::array(all.map(|x| format!("{}.store()", self.receiver(x))))
     }
 
     /// Writes the operations of a part. The machine has so many coordinates.
@@ -156,8 +165,8 @@ impl Code {
                 Op::Infix(sign, a, b) => format!("{} {sign} {}", text(a), text(b)),
                 Op::Negative(a) => format!("-{}", text(a)),
                 Op::Method(method, all) => {
-                    let all = list(all);
-                    format!("{}.{method}({})", all[0], all[1..].join(", "))
+                    let (of, others) = (self.receiver(all[0]), list(&all[1..]));
+                    format!("{of}.{method}({})", others.join(", "))
                 }
                 Op::Circular(all) => {
                     let angles = Layout::array(list(all));
