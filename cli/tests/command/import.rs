@@ -13,7 +13,15 @@ use serde_json::{Value, json};
 /// What the two may differ by, as a share of the largest number of a kind: some thousand roundings.
 const CLOSE: f64 = 1e-11;
 
-const ROBOTS: [&str; 6] = ["arm", "leg", "hand", "slider", "floating", "planar"];
+const ROBOTS: [&str; 7] = [
+    "arm",
+    "leg",
+    "hand",
+    "slider",
+    "floating",
+    "planar",
+    "quadruped",
+];
 
 fn robot(name: &str) -> String {
     format!("cli/tests/command/import/{name}.urdf")

@@ -24,6 +24,8 @@ COORDINATES = {
     "slider": ["x", "t", "g"],
     "floating": ["free_x", "free_y", "free_z", "free_yaw", "free_pitch", "free_roll", "hip"],
     "planar": ["glide_x", "glide_y", "glide_angle", "tilt", "flutter_x", "flutter_z", "flutter_angle"],
+    "quadruped": ["free_x", "free_y", "free_z", "free_yaw", "free_pitch", "free_roll"]
+    + [f"{leg} {joint}" for leg in ["front left", "front right", "hind left", "hind right"] for joint in ["roll", "pitch", "knee"]],
 }
 
 # The chains: prismatic (p) and revolute (r) joints along axes.
