@@ -593,7 +593,7 @@ impl Display for Error {
                 v,
             } => {
                 let count = if *several {
-                    "several motions have"
+                    "several motions may have"
                 } else {
                     "no motion has"
                 };

@@ -9,7 +9,9 @@
 //! of all its contacts ([`System::friction`]): linearly. With the states of the contacts given, what
 //! is left is one equation for each of them, `F + s η μ N(F) = 0` or `dw/dt(F) = 0`, where η is the
 //! sign of `N`. They are solved with a full search for pivots: the matrix is not symmetric, and it
-//! may be singular (P. Painlevé, *Leçons sur le frottement*, 1895).
+//! may be singular (P. Painlevé, *Leçons sur le frottement*, 1895). In space `N` is a vector across the guide, and
+//! `|F| = μ |N(F)|` is no linear equation: of one contact it is of the second degree, and of several it has
+//! one solution where it is a contraction. Where that cannot be shown the run ends and says so.
 //!
 //! Which states the contacts are in is a question for all of them at once, and it is asked only where
 //! something comes to rest, breaks away, or changes the side on which it presses. Then every
@@ -34,11 +36,27 @@ use crate::{Pivot, Singular, StepError, System, Vector};
 const AT_REST: f64 = 1e-10;
 
 /// How many numbers the work on constraints and contacts needs: what [`System::with_workspace`] is asked for.
+///
+/// In space reactions have three components, and it is [`contact_workspace_in_space`].
 pub const fn contact_workspace(coordinates: usize, constraints: usize, contacts: usize) -> usize {
+    workspace(coordinates, constraints, contacts, 1)
+}
+
+/// As [`contact_workspace`], for a machine in space.
+pub const fn contact_workspace_in_space(
+    coordinates: usize,
+    constraints: usize,
+    contacts: usize,
+) -> usize {
+    workspace(coordinates, constraints, contacts, 3)
+}
+
+const fn workspace(coordinates: usize, constraints: usize, contacts: usize, axes: usize) -> usize {
     let of_friction = Layout {
         n: coordinates,
         m: constraints,
         k: contacts,
+        axes,
     }
     .len()
         + contacts * (coordinates + 1);
@@ -56,7 +74,8 @@ pub const fn contact_workspace(coordinates: usize, constraints: usize, contacts:
 pub struct ContactForce {
     /// How fast it slides along its direction, in m/s.
     pub slip: f64,
-    /// The normal reaction, in N: positive where it presses the body to the side of the normal.
+    /// The normal reaction, in N. In the plane it is positive where it presses the body to the side of the normal; in space it
+    /// is the length of the vector.
     pub normal: f64,
     /// The friction on the body along the direction, in N.
     pub friction: f64,
@@ -194,8 +213,9 @@ fn with_parts<S: System, R>(
         n: q.as_slice().len(),
         m: system.constraints().len(),
         k: system.contacts().len(),
+        axes: system.reaction_axes(),
     };
-    let length = contact_workspace(layout.n, layout.m, layout.k);
+    let length = workspace(layout.n, layout.m, layout.k, layout.axes);
     system.with_workspace(length, |workspace| {
         // Without an allocator a machine with none, or too small a one, has no answer.
         let workspace = workspace.filter(|workspace| workspace.len() >= length);
@@ -257,7 +277,7 @@ fn in_contacts(
         let sticks = mode.motion[k] == Motion::Sticks;
         *force = ContactForce {
             slip: if sticks { 0.0 } else { slips[k] },
-            normal: parts.sum(parts.normal(k), friction_forces)[0],
+            normal: parts.reaction(k, friction_forces)[0],
             friction: friction_forces[k],
             sticks,
         };
@@ -369,7 +389,7 @@ impl Contacts {
             let friction_forces = self.friction_forces(parts)?;
             let mut margins = [[Margin::ENDLESS; 2]; MOST_CONTACTS];
             for (k, margin) in margins[..self.count].iter_mut().enumerate() {
-                let [normal, terms] = parts.sum(parts.normal(k), &friction_forces);
+                let [normal, terms] = parts.reaction(k, &friction_forces);
                 *margin = match self.mode.motion[k] {
                     Motion::Sticks => {
                         let coefficient = parts.static_friction(k);
@@ -384,9 +404,13 @@ impl Contacts {
                             value: sign * slips[k],
                             rounding: 0.0,
                         },
-                        Margin {
-                            value: self.mode.press[k] * normal,
-                            rounding: ROUNDING * terms,
+                        match parts.layout.axes {
+                            1 => Margin {
+                                value: self.mode.press[k] * normal,
+                                rounding: ROUNDING * terms,
+                            },
+                            // In space a guide has no sides.
+                            _ => Margin::ENDLESS,
                         },
                     ],
                 };
@@ -514,13 +538,7 @@ impl Contacts {
     }
 
     fn friction_forces(&self, parts: &Parts<'_>) -> Result<Each, Singular> {
-        let none = || Paradox {
-            contact: 0,
-            several: false,
-        };
-        parts
-            .friction_forces(&self.mode)
-            .ok_or_else(|| none().singular())
+        parts.friction_forces(&self.mode).map_err(Paradox::singular)
     }
 
     /// Accelerations of what sticks that only rounding keeps from being what they must be: where one

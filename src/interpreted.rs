@@ -633,6 +633,10 @@ impl System for InterpretedSystem {
         self.program.contacts.iter().map(String::as_str)
     }
 
+    fn reaction_axes(&self) -> usize {
+        self.program.reaction_axes
+    }
+
     fn unilateral_contacts(&self) -> impl ExactSizeIterator<Item = UnilateralContact<'_>> {
         self.program
             .unilateral

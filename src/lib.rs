@@ -134,7 +134,7 @@ pub use control::Work;
 pub use explicit::{Arrival, Ensemble, ExplicitStepper, ExplicitStepperBuilder, Trajectory};
 pub use friction::{
     ContactForce, accelerations_with_friction, contact_forces, contact_workspace,
-    multipliers_with_friction,
+    contact_workspace_in_space, multipliers_with_friction,
 };
 #[cfg(feature = "std")]
 pub use inputs::AnyInputs;

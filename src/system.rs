@@ -425,6 +425,13 @@ pub trait System {
         core::iter::empty()
     }
 
+    /// How many components the normal reactions of the guided contacts have: one in the plane, along the normal; three in space,
+    /// where a guide presses in any direction across, along the axes of the ground.
+    #[inline(always)]
+    fn reaction_axes(&self) -> usize {
+        1
+    }
+
     /// How fast each contact slides along its direction, `w(q, v, t)`, in m/s.
     #[inline(always)]
     fn slips(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _slips: &mut [f64]) {}
@@ -453,8 +460,8 @@ pub trait System {
 
     /// What follows from the friction forces `F` of the `k` contacts, all of it linear: first what there is
     /// without any, then what a unit of each adds to it. Each of these `1 + k` parts holds the
-    /// accelerations, the multipliers of the constraints, and for each contact `dw/dt` and the normal
-    /// reaction `N`. Behind them stand the `k` coefficients `μ` of what slides and the `k` coefficients
+    /// accelerations, the multipliers of the constraints, `dw/dt` of each contact, and the
+    /// [components](Self::reaction_axes) of the normal reaction `N` of each. Behind them stand the `k` coefficients `μ` of what slides and the `k` coefficients
     /// `μ₀` of what sticks.
     ///
     /// An error only where the machine is singular without any friction.

@@ -155,35 +155,57 @@ pub fn compiled<'d, 'a>(
     files: impl IntoIterator<Item = &'a Destination>,
     what: &str,
 ) -> Result<Compiled<'d>, Failure> {
-    compiled_with(Reading::open(spec)?, dag, files, what, |_| Ok(()))
+    let refused = [
+        format!(
+            "friction holds a machine that is at rest wherever it stands within a range, and what slides has no linearization there: a \
+             machine with `sliding` has no {what}; take a variant without friction, with a constraint in the place of each guide"
+        ),
+        format!(
+            "what collides has no linearization: a machine with `contacts` has no {what}; say it without them"
+        ),
+    ];
+    compile(Reading::open(spec)?, dag, files, refused, |_| Ok(()))
 }
 
-/// Compiles a spec that was opened, whose model is changed before it is derived.
+/// Compiles a spec that was opened for what is found by derivatives of motions; its model is changed before it is derived.
 pub fn compiled_with<'d, 'a>(
-    mut reading: Reading,
+    reading: Reading,
     dag: &'d Dag,
     files: impl IntoIterator<Item = &'a Destination>,
     what: &str,
     change: impl FnOnce(&mut Model<'d>) -> Result<(), Failure>,
 ) -> Result<Compiled<'d>, Failure> {
+    let refused = [
+        format!(
+            "the {what} of a machine with `sliding` would be found by derivatives of its motion, and there are none where it begins to \
+             stick or to slide; take a variant without friction, with a constraint in the place of each guide"
+        ),
+        format!(
+            "the {what} of a machine with `contacts` would be found by derivatives of its motion, and there are none where contacts \
+             open and close; say it without them"
+        ),
+    ];
+    compile(reading, dag, files, refused, change)
+}
+
+/// Compiles a spec that was opened, whose model is changed before it is derived; why it is refused with `sliding`, and with
+/// `contacts`.
+fn compile<'d, 'a>(
+    mut reading: Reading,
+    dag: &'d Dag,
+    files: impl IntoIterator<Item = &'a Destination>,
+    [with_sliding, with_contacts]: [String; 2],
+    change: impl FnOnce(&mut Model<'d>) -> Result<(), Failure>,
+) -> Result<Compiled<'d>, Failure> {
     let mut model = reading.model(dag);
     reading.keep_from(files)?;
-    if model
-        .as_ref()
-        .is_some_and(|model| !model.sliding().is_empty())
-    {
-        return Err(Failure::Run(format!(
-            "friction holds a machine that is at rest wherever it stands within a range, and what slides has no linearization there: a \
-             machine with `sliding` has no {what}; take a variant without friction, with a constraint in the place of each guide"
-        )));
-    }
-    if model
-        .as_ref()
-        .is_some_and(|model| !model.contacts.is_empty())
-    {
-        return Err(Failure::Run(format!(
-            "what collides has no linearization: a machine with `contacts` has no {what}; say it without them"
-        )));
+    if let Some(model) = &model {
+        if !model.sliding().is_empty() {
+            return Err(Failure::Run(with_sliding));
+        }
+        if !model.contacts.is_empty() {
+            return Err(Failure::Run(with_contacts));
+        }
     }
     if let Some(model) = &mut model {
         change(model)?;

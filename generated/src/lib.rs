@@ -11,6 +11,10 @@ pub mod andrews_squeezer;
 pub mod asymmetric_top;
 /// The machine of [`BallInBowl`].
 pub mod ball_in_bowl;
+/// The machine of [`BeadOnHelix`].
+pub mod bead_on_helix;
+/// The machine of [`BeadOnHoop`].
+pub mod bead_on_hoop;
 /// The machine of [`BlockOnIncline`].
 pub mod block_on_incline;
 /// The machine of [`Bricard`].
@@ -99,6 +103,8 @@ pub mod wedge_and_block;
 pub use andrews_squeezer::AndrewsSqueezer;
 pub use asymmetric_top::AsymmetricTop;
 pub use ball_in_bowl::BallInBowl;
+pub use bead_on_helix::BeadOnHelix;
+pub use bead_on_hoop::BeadOnHoop;
 pub use block_on_incline::BlockOnIncline;
 pub use bricard::Bricard;
 pub use caked_crusher::CakedCrusher;

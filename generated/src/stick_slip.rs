@@ -64,9 +64,9 @@ impl<S: ::lagrangian::emitted::Scalar> StickSlip<S> {
             k0,
             k1,
             k2,
-            k3,
             mu: self.mu,
             mu0: self.mu0,
+            k3,
             k4,
             singular: PIVOTS.vanished(pivots),
         }
@@ -115,12 +115,12 @@ pub struct Prepared<S = f64> {
     k1: S,
     /// `-k`
     k2: S,
-    /// `m*g`
-    k3: S,
     /// `mu`
     mu: S,
     /// `mu0`
     mu0: S,
+    /// `m*g`
+    k3: S,
     /// `1/m`
     k4: S,
     /// Why these parameters leave the machine without accelerations, if they do.
@@ -265,7 +265,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     ]
     inputs Inputs {} []
     outputs Outputs {} []
-    prepared Prepared { m, k, v_b, k0, k1, k2, k3, mu, mu0, k4 }
+    prepared Prepared { m, k, v_b, k0, k1, k2, mu, mu0, k3, k4 }
     singular singular
     accelerations friction
     system {

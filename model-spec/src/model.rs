@@ -153,6 +153,15 @@ impl Space {
             Space::Space => 3,
         }
     }
+
+    /// How many components the normal reaction of a guide has. In the plane it has one, along the normal; in space a guide
+    /// presses in any direction across, and its reaction is a vector in ground axes.
+    pub fn reaction_axes(self) -> usize {
+        match self {
+            Space::Plane => 1,
+            Space::Space => 3,
+        }
+    }
 }
 
 /// A run-time parameter.

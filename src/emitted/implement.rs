@@ -443,6 +443,13 @@ macro_rules! implement_method {
         }
     };
 
+    // A number that a machine has.
+    ($types:tt number $method:ident($p:ident) = $value:expr) => {
+        fn $method(&self) -> ::core::primitive::usize {
+            $value
+        }
+    };
+
     // Unilateral contacts.
     ($types:tt contacts $method:ident($p:ident) = $value:expr) => {
         fn $method(

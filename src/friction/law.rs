@@ -15,6 +15,10 @@ const SAME: f64 = 1e-9;
 /// A pivot is zero below this, relative to the entries of its row.
 const SINGULAR: f64 = 1e-12;
 
+/// The most steps towards the friction forces of several contacts that slide in space. Newton's take a few; those of a
+/// contraction by a factor of 0.9 as many for sixteen digits.
+const MOST_STEPS: usize = 400;
+
 /// What a contact does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Motion {
@@ -48,18 +52,19 @@ impl Paradox {
 }
 
 /// How the results of [`System::friction`](crate::System::friction) are arranged: `1 + k` parts of `n` accelerations, `m`
-/// multipliers, `k` slip rates and `k` normal reactions, then `k` coefficients of what slides and `k`
+/// multipliers, `k` slip rates and `k` normal reactions of so many components, then `k` coefficients of what slides and `k`
 /// of what sticks.
 #[derive(Clone, Copy)]
 pub(super) struct Layout {
     pub n: usize,
     pub m: usize,
     pub k: usize,
+    pub axes: usize,
 }
 
 impl Layout {
     pub const fn part(self) -> usize {
-        self.n + self.m + 2 * self.k
+        self.n + self.m + (1 + self.axes) * self.k
     }
 
     pub const fn len(self) -> usize {
@@ -95,9 +100,24 @@ impl Parts<'_> {
         self.layout.n + self.layout.m + contact
     }
 
-    /// Where its normal reaction stands.
-    pub fn normal(&self, contact: usize) -> usize {
-        self.slip_rate(contact) + self.layout.k
+    /// Where the components of its normal reaction stand.
+    fn components(&self, contact: usize) -> core::ops::Range<usize> {
+        let first = self.layout.n + self.layout.m + self.layout.k + self.layout.axes * contact;
+        first..first + self.layout.axes
+    }
+
+    /// Its normal reaction with all friction forces, and the size of its terms: in the plane the force along the normal, in
+    /// space the length of the vector.
+    pub fn reaction(&self, contact: usize, friction_forces: &Each) -> [f64; 2] {
+        let components = self.components(contact);
+        if self.layout.axes == 1 {
+            return self.sum(components.start, friction_forces);
+        }
+        let sums = components.map(|i| self.sum(i, friction_forces));
+        let squares = sums.fold([0.0; 2], |[squares, of_terms], [x, terms]| {
+            [squares + x * x, of_terms + terms * terms]
+        });
+        squares.map(crate::math::sqrt)
     }
 
     pub fn friction(&self, contact: usize) -> f64 {
@@ -108,15 +128,48 @@ impl Parts<'_> {
         self.values[(1 + self.layout.k) * self.layout.part() + self.layout.k + contact]
     }
 
-    /// The friction forces of contacts in given states; none where there is no such motion.
-    pub fn friction_forces(&self, mode: &Mode) -> Option<Each> {
+    /// The friction forces of contacts in given states.
+    ///
+    /// # Errors
+    /// Where there is no such motion, or there may be several.
+    pub fn friction_forces(&self, mode: &Mode) -> Result<Each, Paradox> {
+        let (mut found, mut several) = (None, false);
+        let known = self.each_solution(mode, &mut |friction_forces| {
+            several |= found.is_some();
+            found = Some(friction_forces);
+        });
+        let sliding = |k: &usize| mode.motion[*k] != Motion::Sticks;
+        let contact = (0..self.layout.k).find(sliding).unwrap_or(0);
+        match found {
+            Some(found) if known && !several => Ok(found),
+            _ => Err(Paradox {
+                contact: if several || !known { contact } else { 0 },
+                several: several || !known,
+            }),
+        }
+    }
+
+    /// Whatever friction forces contacts in given states may have; false where nothing says that these are all.
+    fn each_solution(&self, mode: &Mode, look: &mut dyn FnMut(Each)) -> bool {
+        match self.layout.axes {
+            1 => {
+                self.along_normals(mode).into_iter().for_each(look);
+                true
+            }
+            _ => self.by_sizes(mode, look),
+        }
+    }
+
+    /// In the plane it is known to which side each contact presses, and all is linear.
+    fn along_normals(&self, mode: &Mode) -> Option<Each> {
         let count = self.layout.k;
         let mut rows = [[0.0; MOST_CONTACTS + 1]; MOST_CONTACTS];
         for (k, row) in rows[..count].iter_mut().enumerate() {
             let (entry, factor, own) = match mode.motion[k] {
                 Motion::Sticks => (self.slip_rate(k), 1.0, 0.0),
                 Motion::Slides(sign) => {
-                    (self.normal(k), sign * mode.press[k] * self.friction(k), 1.0)
+                    let normal = self.components(k).start;
+                    (normal, sign * mode.press[k] * self.friction(k), 1.0)
                 }
             };
             for (j, x) in row[..count].iter_mut().enumerate() {
@@ -128,6 +181,72 @@ impl Parts<'_> {
         solve(&mut rows, count)
     }
 
+    /// In space the size of a friction force `f = μ |N|` goes with the length of a vector. What sticks follows linearly from
+    /// what slides, so `N = A + B f`, and what is left is one equation `f = μ |A + B f|` for each contact that slides.
+    fn by_sizes(&self, mode: &Mode, look: &mut dyn FnMut(Each)) -> bool {
+        let count = self.layout.k;
+        let mut sliding = [(0, 0.0); MOST_CONTACTS];
+        let mut number = 0;
+        for (k, motion) in mode.motion[..count].iter().enumerate() {
+            if let Motion::Slides(sign) = motion {
+                sliding[number] = (k, *sign);
+                number += 1;
+            }
+        }
+        let sliding = &sliding[..number];
+        // The forces with no friction in what slides, and by a unit of each.
+        let mut forces = [[0.0; MOST_CONTACTS]; MOST_CONTACTS + 1];
+        for (part, forces) in forces[..=number].iter_mut().enumerate() {
+            let mut rows = [[0.0; MOST_CONTACTS + 1]; MOST_CONTACTS];
+            for (k, row) in rows[..count].iter_mut().enumerate() {
+                if mode.motion[k] == Motion::Sticks {
+                    let entry = self.slip_rate(k);
+                    for (j, x) in row[..count].iter_mut().enumerate() {
+                        *x = self.at(1 + j, entry);
+                    }
+                    row[count] = if part == 0 { -self.at(0, entry) } else { 0.0 };
+                } else {
+                    row[k] = 1.0;
+                    let own = part > 0 && sliding[part - 1].0 == k;
+                    row[count] = if own { -sliding[part - 1].1 } else { 0.0 };
+                }
+            }
+            let Some(solved) = solve(&mut rows, count) else {
+                return true;
+            };
+            *forces = solved;
+        }
+        // N of each that slides, by the same parts.
+        let mut pressing = [[[0.0; 3]; MOST_CONTACTS + 1]; MOST_CONTACTS];
+        for (&(k, _), pressing) in sliding.iter().zip(&mut pressing) {
+            for (part, vector) in pressing[..=number].iter_mut().enumerate() {
+                for (x, i) in vector.iter_mut().zip(self.components(k)) {
+                    let start = if part == 0 { self.at(0, i) } else { 0.0 };
+                    let by = forces[part][..count].iter().enumerate();
+                    *x = by.fold(start, |sum, (j, force)| sum + self.at(1 + j, i) * force);
+                }
+            }
+        }
+        let mut coefficients = [0.0; MOST_CONTACTS];
+        for (&(k, _), coefficient) in sliding.iter().zip(&mut coefficients) {
+            *coefficient = self.friction(k);
+        }
+        let sizes = Sizes {
+            number,
+            coefficients,
+            pressing,
+        };
+        sizes.each(&mut |sizes: &Each| {
+            let mut all = forces[0];
+            for (of_unit, size) in forces[1..=number].iter().zip(sizes) {
+                for (force, by) in all.iter_mut().zip(of_unit) {
+                    *force += size * by;
+                }
+            }
+            look(all);
+        })
+    }
+
     /// Whether contacts in given states can have these friction forces: what sticks no more than it can
     /// hold, what slides on the side to which it is said to press. The state to which a contact turns
     /// where its reaction is zero is not asked for the side: rounding would decide.
@@ -136,7 +255,7 @@ impl Parts<'_> {
             if turned == Some((k, mode.motion[k], mode.press[k])) {
                 return true;
             }
-            let [normal, terms] = self.sum(self.normal(k), friction_forces);
+            let [normal, terms] = self.reaction(k, friction_forces);
             match mode.motion[k] {
                 Motion::Sticks => {
                     let most = self.static_friction(k) * normal.abs();
@@ -208,10 +327,8 @@ impl Question {
         };
         let mut best: Option<(Mode, Each)> = None;
         let mut several = None;
-        self.each(count, &mut |mode| {
-            let Some(friction_forces) = parts.friction_forces(&mode) else {
-                return;
-            };
+        let mut unknown = None;
+        let mut look = |mode: Mode, friction_forces: Each| {
             let departs =
                 |k: usize| self.motion[k].is_some() || parts.departs(&mode, &friction_forces, k);
             if !parts.admits(&mode, &friction_forces, self.turned) || !(0..count).all(departs) {
@@ -235,10 +352,16 @@ impl Question {
                 let differs = |k: &usize| {
                     known.motion[*k] != mode.motion[*k] || known.press[*k] != mode.press[*k]
                 };
-                several = several.or((0..count).find(differs));
+                several = several.or((0..count).find(differs)).or(Some(0));
+            }
+        };
+        self.each(parts.layout, &mut |mode| {
+            let known = parts.each_solution(&mode, &mut |forces| look(mode, forces));
+            if !known {
+                unknown = (0..count).find(|k| mode.motion[*k] != Motion::Sticks);
             }
         });
-        match (best, several) {
+        match (best, several.or(unknown)) {
             (Some(best), None) => Ok(best),
             (Some(_), Some(contact)) => Err(Paradox {
                 contact,
@@ -252,14 +375,21 @@ impl Question {
     }
 
     /// Every combination of states that the question leaves open.
-    fn each(&self, count: usize, look: &mut dyn FnMut(Mode)) {
-        const STATES: [(Motion, f64); 5] = [
+    fn each(&self, layout: Layout, look: &mut dyn FnMut(Mode)) {
+        const IN_PLANE: [(Motion, f64); 5] = [
             (Motion::Sticks, 1.0),
             (Motion::Slides(1.0), 1.0),
             (Motion::Slides(1.0), -1.0),
             (Motion::Slides(-1.0), 1.0),
             (Motion::Slides(-1.0), -1.0),
         ];
+        // In space a guide has no sides.
+        const IN_SPACE: [(Motion, f64); 3] = [IN_PLANE[0], IN_PLANE[1], IN_PLANE[3]];
+        let count = layout.k;
+        let states = match layout.axes {
+            1 => &IN_PLANE[..],
+            _ => &IN_SPACE[..],
+        };
         let mut digits = [0; MOST_CONTACTS];
         loop {
             let mut mode = Mode {
@@ -268,7 +398,7 @@ impl Question {
             };
             let mut is_open = true;
             for (k, &digit) in digits[..count].iter().enumerate() {
-                (mode.motion[k], mode.press[k]) = STATES[digit];
+                (mode.motion[k], mode.press[k]) = states[digit];
                 is_open &= self.motion[k].is_none_or(|known| known == mode.motion[k]);
                 if let Some((contact, motion, press)) = self.excluded
                     && contact == k
@@ -280,13 +410,143 @@ impl Question {
             if is_open {
                 look(mode);
             }
-            let Some(next) = digits[..count].iter().position(|d| d + 1 < STATES.len()) else {
+            let Some(next) = digits[..count].iter().position(|d| d + 1 < states.len()) else {
                 return;
             };
             digits[next] += 1;
             digits[..next].fill(0);
         }
     }
+}
+
+/// The sizes of the friction forces of what slides in space, as unknowns: `f = μ |A + B f|`.
+struct Sizes {
+    number: usize,
+    coefficients: Each,
+    /// For each `A`, and behind it the columns of `B`.
+    pressing: [[[f64; 3]; MOST_CONTACTS + 1]; MOST_CONTACTS],
+}
+
+impl Sizes {
+    /// Whatever sizes there may be; false where nothing says that these are all.
+    fn each(&self, look: &mut dyn FnMut(&Each)) -> bool {
+        match self.number {
+            0 => {
+                look(&[0.0; MOST_CONTACTS]);
+                true
+            }
+            1 => {
+                self.of_one(look);
+                true
+            }
+            _ => match self.is_contraction() {
+                true => {
+                    self.by_newton().iter().for_each(look);
+                    true
+                }
+                false => false,
+            },
+        }
+    }
+
+    /// The roots that are no less than 0 of `(1 − μ²B²) f² − 2μ² A·B f − μ²A² = 0`.
+    fn of_one(&self, look: &mut dyn FnMut(&Each)) {
+        let [a, b] = [self.pressing[0][0], self.pressing[0][1]];
+        let square = self.coefficients[0] * self.coefficients[0];
+        let (first, half, last) = (
+            1.0 - square * dot(&b, &b),
+            square * dot(&a, &b),
+            square * dot(&a, &a),
+        );
+        let discriminant = half * half + first * last;
+        let mut found = |size: f64| {
+            let mut sizes = [0.0; MOST_CONTACTS];
+            sizes[0] = size;
+            look(&sizes);
+        };
+        let root = crate::math::sqrt(discriminant.max(0.0));
+        if last == 0.0 {
+            found(0.0);
+        } else if first > 0.0 {
+            // The other root is negative. No difference of numbers that are nearly the same.
+            found(match half >= 0.0 {
+                true => (half + root) / first,
+                false => last / (root - half),
+            });
+        } else if half < 0.0 && discriminant >= 0.0 {
+            // Where pressing harder would hold it the more, there are two motions or none (P. Painlevé).
+            found(last / (root - half));
+            if first < 0.0 && discriminant > 0.0 {
+                found((half - root) / first);
+            }
+        }
+    }
+
+    /// Whether `f ↦ μ |A + B f|` brings any two closer together, in some norm: then it has one fixed point (S. Banach). Sizes
+    /// change by no more than `L = μ |B|` times the change of others, and the spectral radius of a matrix without negative
+    /// entries is below 1 if and only if `(1 − L) x = 1` has a solution without them (A. Berman, R. J. Plemmons, *Nonnegative
+    /// Matrices in the Mathematical Sciences*, 1979, chapter 6, condition N38).
+    fn is_contraction(&self) -> bool {
+        let mut rows = [[0.0; MOST_CONTACTS + 1]; MOST_CONTACTS];
+        for (i, row) in rows[..self.number].iter_mut().enumerate() {
+            for (j, x) in row[..self.number].iter_mut().enumerate() {
+                let by = &self.pressing[i][1 + j];
+                *x = -self.coefficients[i] * crate::math::sqrt(dot(by, by));
+            }
+            row[i] += 1.0;
+            row[self.number] = 1.0;
+        }
+        let solved = solve(&mut rows, self.number);
+        solved.is_some_and(|x| x[..self.number].iter().all(|x| *x > 0.0))
+    }
+
+    /// The fixed point of a contraction. Where the direction of each reaction is known, all is linear, and the reaction is
+    /// the product of itself with its direction: that is Newton's step. What does not bring it closer gives way to the step of
+    /// the contraction, which does.
+    fn by_newton(&self) -> Option<Each> {
+        let number = self.number;
+        let mut sizes = [0.0; MOST_CONTACTS];
+        let mut off = f64::INFINITY;
+        for _ in 0..MOST_STEPS {
+            let mut rows = [[0.0; MOST_CONTACTS + 1]; MOST_CONTACTS];
+            let mut contracted = [0.0; MOST_CONTACTS];
+            let mut here = 0.0_f64;
+            for (i, row) in rows[..number].iter_mut().enumerate() {
+                let mut vector = self.pressing[i][0];
+                for (by, size) in self.pressing[i][1..=number].iter().zip(sizes) {
+                    for (x, by) in vector.iter_mut().zip(by) {
+                        *x += by * size;
+                    }
+                }
+                let length = crate::math::sqrt(dot(&vector, &vector));
+                contracted[i] = self.coefficients[i] * length;
+                here = here.max((sizes[i] - contracted[i]).abs());
+                let factor = match length > 0.0 {
+                    true => self.coefficients[i] / length,
+                    false => 0.0,
+                };
+                for (j, x) in row[..number].iter_mut().enumerate() {
+                    *x = -factor * dot(&vector, &self.pressing[i][1 + j]);
+                }
+                row[i] += 1.0;
+                row[number] = factor * dot(&vector, &self.pressing[i][0]);
+            }
+            let largest = contracted.iter().fold(0.0_f64, |most, x| most.max(*x));
+            if here <= 4.0 * f64::EPSILON * largest {
+                return Some(contracted);
+            }
+            sizes = match solve(&mut rows, number) {
+                Some(next) if here < off => next,
+                _ => contracted,
+            };
+            off = here;
+        }
+        None
+    }
+}
+
+fn dot(u: &[f64; 3], v: &[f64; 3]) -> f64 {
+    u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 }
 
 /// Solves `count` equations with their right-hand sides behind them, by Gauss's elimination with a

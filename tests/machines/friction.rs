@@ -2,6 +2,7 @@
 //! open what happens, that is said.
 #![cfg(feature = "interpreter")]
 
+mod space;
 mod spelling;
 
 use std::f64::consts::PI;

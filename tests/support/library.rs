@@ -60,7 +60,9 @@ pub const CONSTRAINED: [&str; 16] = [
 ];
 
 /// The file names of those that stick and slide.
-pub const SLIDING: [&str; 4] = [
+pub const SLIDING: [&str; 6] = [
+    "bead_on_helix",
+    "bead_on_hoop",
     "block_on_incline",
     "prisms",
     "stick_slip",

@@ -439,6 +439,7 @@ fn friction_layout(program: &Proved) -> Option<FrictionLayout> {
         coordinates: program.dimension(),
         constraints: program.constraints.len(),
         contacts: program.contacts.len(),
+        axes: program.reaction_axes,
     };
     (layout.contacts > 0).then_some(layout)
 }

@@ -45,10 +45,10 @@ pub use carrying::Carrying;
 pub use constraints::{ConstraintEquation, constraints};
 pub use freedom::{Freedom, Independent, contradictions, freedom};
 pub use kinematics::angular_velocities;
-pub use lagrange::{Oracle, OracleConstraint, OracleSliding};
+pub use lagrange::{Oracle, OracleConstraint, OracleReaction, OracleSliding};
 pub use reduction::{Dependent, ReducedModel, Reduction, dependents};
 pub use refusal::MOST_COORDINATES;
-pub use sliding::{MOST_CONTACTS, SlidingEquation};
+pub use sliding::{MOST_CONTACTS, Reaction, SlidingEquation};
 pub use symmetric::Symmetric;
 pub use unilateral::{DirectionEquation, UnilateralEquation};
 
@@ -301,7 +301,7 @@ impl<'d> Equations<'d> {
     /// constraints and other friction forces press is not.
     pub fn sliding_friction(&self, model: &Model<'d>, coordinate: usize) -> Expr<'d> {
         let friction =
-            |s: &SlidingEquation<'d>| -(s.friction * s.normal(model) * s.row[coordinate]);
+            |s: &SlidingEquation<'d>| -(s.friction * s.pressing(model) * s.row[coordinate]);
         model.dag.sum(self.sliding.iter().map(friction))
     }
 

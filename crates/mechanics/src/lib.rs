@@ -20,8 +20,9 @@ pub use compile::Compiled;
 pub use equations::{
     BodyEquations, Brachistochronic, Carrying, ConstraintEquation, Dependent, Equations, Freedom,
     Guided, Independent, InertialPair, MOST_CONTACTS, MOST_COORDINATES, Oracle, OracleConstraint,
-    OracleSliding, ReducedModel, Reduction, Route, SlidingEquation, Symmetric, Unmet, Unprojected,
-    angular_velocities, constraints, contradictions, dependents, freedom, groups, integrals,
+    OracleReaction, OracleSliding, Reaction, ReducedModel, Reduction, Route, SlidingEquation,
+    Symmetric, Unmet, Unprojected, angular_velocities, constraints, contradictions, dependents,
+    freedom, groups, integrals,
 };
 #[cfg(doc)]
 use lagrangian_program::Program;

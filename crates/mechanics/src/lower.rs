@@ -114,6 +114,7 @@ pub fn lower_by<'d>(
         choose,
     );
     program.contacts = equations.sliding.iter().map(|s| s.name.clone()).collect();
+    program.reaction_axes = model.space.reaction_axes();
     let unilateral = equations.unilateral.iter().map(|u| Unilateral {
         name: u.name.clone(),
         law: u.law,
@@ -281,6 +282,7 @@ fn build<'d>(
         assumptions: facts(model),
         constraints,
         contacts: Vec::new(),
+        reaction_axes: 1,
         unilateral: Vec::new(),
         kept: model
             .kept
@@ -387,6 +389,7 @@ fn quantity<'d>(model: &Model<'d>, equations: &Equations<'d>, role: Role) -> Opt
         coordinates: model.coordinates.len(),
         constraints: equations.constraints.len(),
         contacts: equations.sliding.len(),
+        reaction_axes: model.space.reaction_axes(),
         unilateral: equations.unilateral.len(),
         derivatives: model.derivatives.len(),
         stores: model.energies_of_states().next().is_some(),

@@ -49,7 +49,7 @@ use crate::{Disagreement, POINTS};
 use lagrangian_program::quantity::{Entry, Kind, Use};
 use lagrangian_program::{Arguments, FrictionLayout, Interpreter, Program, Role, Shape};
 use lagrangian_spec::diagnostic::{Code, Diagnostic};
-use lagrangian_spec::model::{Model, Variable};
+use lagrangian_spec::model::{Model, Space, Variable};
 use number::{Number, Sight};
 
 /// The states at which programs are compared in double-doubles.
@@ -1098,6 +1098,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             coordinates: n,
             constraints: m,
             contacts: count,
+            axes: program.reaction_axes,
         };
         let responses = self.call(Role::Friction, at, layout.len())?;
         let friction_forces = self.many(2, count);
@@ -1175,29 +1176,34 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         if !sides.iter().all(|side| side.is_finite()) {
             return Err(Verdict::Elsewhere);
         }
-        let along: Vec<Literal<R>> = (0..contacts.len())
-            .map(|k| {
+        let axes = contacts.iter().enumerate();
+        let axes = axes.flat_map(|(k, contact)| contact.axes.iter().map(move |axis| (k, axis)));
+        let along: Vec<(usize, Literal<R>)> = axes
+            .map(|(k, axis)| {
                 let mut w = vec![R::ZERO; all];
-                for (i, &left) in contacts[k].left.iter().enumerate() {
-                    w[n + dimension * k + i] = sides[k] * left;
+                for (i, &component) in axis.iter().enumerate() {
+                    w[n + dimension * k + i] = sides[k] * component;
                 }
-                relaxed.at(&at, &w)
+                (k, relaxed.at(&at, &w))
             })
             .collect();
-        // In a field nobody knows on which side a body is: there any will do.
-        let patterns = if R::IS_ORDERED {
-            1
-        } else {
-            1u32 << contacts.len()
+        // In a field nobody knows on which side a body is: there any will do. In space there are no sides.
+        let patterns = match R::IS_ORDERED || relaxed.model.space == Space::Space {
+            true => 1,
+            false => 1u32 << contacts.len(),
         };
+        let count = self.parts.program.reaction_axes;
         let mut wrong = 0;
         for pattern in 0..patterns {
-            let normal = |j: usize| match pattern >> j & 1 {
-                0 => pressed.normals[j],
-                _ => -pressed.normals[j],
+            let normal = |j: usize, axis: usize| {
+                let normal = pressed.normals[count * j + axis];
+                match pattern >> j & 1 {
+                    0 => normal,
+                    _ => -normal,
+                }
             };
             let mut first = None;
-            for (k, literal) in along.iter().enumerate() {
+            for (k, literal) in &along {
                 let mut open = Sum::of([literal.inertia, -literal.applied]);
                 for (constraint, &multiplier) in literal.constraints.iter().zip(pressed.multipliers)
                 {
@@ -1206,13 +1212,15 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
                 for (j, contact) in literal.sliding.iter().enumerate() {
                     let friction = pressed.signs[j] * pressed.friction_forces[j];
                     open = open.plus(-(contact.slip_along * friction));
-                    open = open.plus(-(sides[j] * contact.off_along * normal(j)));
+                    for (axis, &off) in contact.off_along.iter().enumerate() {
+                        open = open.plus(-(sides[j] * off * normal(j, axis)));
+                    }
                 }
                 if !open.value.is_finite() {
                     return Err(Verdict::Elsewhere);
                 }
                 if !open.vanishes()? {
-                    first = Some(k);
+                    first = Some(*k);
                     break;
                 }
             }

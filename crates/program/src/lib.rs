@@ -90,6 +90,9 @@ pub struct Program {
     /// The names of the guided contacts with friction; the functions about them are there if these
     /// are.
     pub contacts: Vec<String>,
+    /// How many components their normal reactions have: one in the plane, along the normal; three in space, along the
+    /// axes of the ground.
+    pub reaction_axes: usize,
     /// The unilateral contacts; the functions about them are there if these are.
     pub unilateral: Vec<Unilateral>,
     /// Which start values stay as they are where the start does not obey the constraints: `theta`,
@@ -201,7 +204,7 @@ pub struct Unilateral {
 ///
 /// Everything is linear in the friction forces `F`: `x = x₀ + Σ Fₖ xₖ`. First comes what there is without
 /// friction, then what one unit of each does. A part holds the accelerations, the multipliers of
-/// constraints, and for each contact `dw/dt` and the normal reaction `N`; behind all parts stand `μ`
+/// constraints, `dw/dt` of each contact and the components of the normal reaction `N` of each; behind all parts stand `μ`
 /// of each contact and `μ₀` of each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FrictionLayout {
@@ -211,12 +214,14 @@ pub struct FrictionLayout {
     pub constraints: usize,
     /// How many contacts.
     pub contacts: usize,
+    /// How many components a normal reaction has.
+    pub axes: usize,
 }
 
 impl FrictionLayout {
     /// The length of a part.
     pub fn part(self) -> usize {
-        self.coordinates + self.constraints + 2 * self.contacts
+        self.coordinates + self.constraints + (1 + self.axes) * self.contacts
     }
 
     /// How many results there are.

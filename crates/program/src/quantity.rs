@@ -148,6 +148,8 @@ pub struct Sizes {
     pub constraints: usize,
     /// Contacts.
     pub contacts: usize,
+    /// Components of the normal reaction of each.
+    pub reaction_axes: usize,
     /// Unilateral contacts.
     pub unilateral: usize,
     /// Variables that accelerations are differentiated by.
@@ -385,12 +387,14 @@ impl Extent {
                     coordinates,
                     constraints,
                     contacts,
+                    reaction_axes: axes,
                     ..
                 } = sizes;
                 let layout = FrictionLayout {
                     coordinates,
                     constraints,
                     contacts,
+                    axes,
                 };
                 Shape::Vector(layout.len())
             }
@@ -423,6 +427,7 @@ impl Program {
             coordinates: self.coordinates.len(),
             constraints: self.constraints.len(),
             contacts: self.contacts.len(),
+            reaction_axes: self.reaction_axes,
             unilateral: self.unilateral.len(),
             derivatives: self.derivatives.len(),
             stores: self.function(Role::StateEnergy).is_some(),

@@ -62,6 +62,7 @@ impl Program {
             assumptions: self.assumptions.clone(),
             constraints: self.constraints.clone(),
             contacts: self.contacts.clone(),
+            reaction_axes: self.reaction_axes,
             unilateral: self.unilateral.clone(),
             kept: self.kept.clone(),
             derivatives: self.derivatives.clone(),

@@ -129,6 +129,7 @@ impl Program {
         Program {
             assumptions: Vec::new(),
             contacts: Vec::new(),
+            reaction_axes: 1,
             unilateral: Vec::new(),
             kept: Vec::new(),
             derivatives: Vec::new(),

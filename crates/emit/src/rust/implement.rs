@@ -344,6 +344,10 @@ impl Emitter<'_> {
         }
         let names = Layout::array(contacts.iter().map(|name| format!("{name:?}")));
         self.row("names", "contacts", &["p"], Some(names));
+        if self.program.reaction_axes != 1 {
+            let axes = Layout::Atom(self.program.reaction_axes.to_string());
+            self.row("number", "reaction_axes", &["p"], Some(axes));
+        }
         let slips = self.emitted(Role::Slips);
         let needs = slips.map(|function| self.needs(function));
         let arguments = needs.map(|needs| self.arguments(needs)).unwrap_or_default();
@@ -420,6 +424,7 @@ impl Emitter<'_> {
             coordinates: n,
             constraints: m,
             contacts,
+            axes: self.program.reaction_axes,
         };
         let most = 2 * n * m + n.min(m) * n.min(m) + layout.len();
         if m + contacts == 0 || most > LARGEST_WORKSPACE {
@@ -428,7 +433,10 @@ impl Emitter<'_> {
         let runtime = &self.options.runtime;
         let length = Layout::Atom(match contacts {
             0 => format!("{runtime}::constraint_workspace({n}, {m})"),
-            _ => format!("{runtime}::contact_workspace({n}, {m}, {contacts})"),
+            _ if self.program.reaction_axes == 1 => {
+                format!("{runtime}::contact_workspace({n}, {m}, {contacts})")
+            }
+            _ => format!("{runtime}::contact_workspace_in_space({n}, {m}, {contacts})"),
         });
         self.row("workspace", "with_workspace", &["p"], Some(length));
     }

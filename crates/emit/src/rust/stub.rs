@@ -94,6 +94,7 @@ fn standstill(spec: &Spec) -> Program {
         assumptions: Vec::new(),
         constraints: Vec::new(),
         contacts: Vec::new(),
+        reaction_axes: 1,
         unilateral: Vec::new(),
         kept: Vec::new(),
         derivatives: Vec::new(),

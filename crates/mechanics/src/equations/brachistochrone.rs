@@ -57,6 +57,11 @@ pub enum Unmet {
         /// The coordinate, its rate as `der(q)`, the input, or `t`.
         with: String,
     },
+    /// What a guide in space presses with is the size of a vector.
+    Presses {
+        /// The guide.
+        guide: String,
+    },
     /// The machine has constraints: its coordinates are not free.
     Constrained,
     /// There are no coordinates.
@@ -67,6 +72,10 @@ impl fmt::Display for Unmet {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Varies { what, with } => write!(f, "{what} depends on `{with}`"),
+            Self::Presses { guide } => write!(
+                f,
+                "friction of the guide `{guide}` goes with the size of a vector, and not with a force along one normal"
+            ),
             Self::Constrained => {
                 write!(
                     f,
@@ -133,7 +142,7 @@ impl<'d> Brachistochronic<'d> {
         let slope = slope.collect();
         let guides = equations.sliding.iter();
         let guides = guides
-            .map(|sliding| guided(model, sliding, [of_place, of_motion], &mut unmet))
+            .filter_map(|sliding| guided(model, sliding, [of_place, of_motion], &mut unmet))
             .collect();
         // The matrix is symmetric, and an entry is told once.
         let mut told = Vec::new();
@@ -158,8 +167,14 @@ fn guided<'d>(
     sliding: &SlidingEquation<'d>,
     [of_place, of_motion]: [Reach; 2],
     unmet: &mut Vec<Unmet>,
-) -> Guided<'d> {
+) -> Option<Guided<'d>> {
     let name = &sliding.name;
+    let [normal] = &sliding.reactions[..] else {
+        unmet.push(Unmet::Presses {
+            guide: name.clone(),
+        });
+        return None;
+    };
     let mut of = |value: Expr<'d>, what: &str, reach: Reach| {
         checked(model, value, &format!("{what} of `{name}`"), reach, unmet)
     };
@@ -169,9 +184,9 @@ fn guided<'d>(
             .collect()
     };
     let along = each(&sliding.row, "the direction");
-    let weights = each(&sliding.by_accelerations, "the reaction to accelerations");
-    let by_friction_forces = each(&sliding.by_friction_forces, "the reaction to friction");
-    let load = of(sliding.load, "the reaction at rest", of_motion);
+    let weights = each(&normal.by_accelerations, "the reaction to accelerations");
+    let by_friction_forces = each(&normal.by_friction_forces, "the reaction to friction");
+    let load = of(normal.load, "the reaction at rest", of_motion);
     let friction = of(sliding.friction, "the coefficient of friction", of_place);
     // What it slides on may be driven.
     let moving = model.coordinates.iter().zip(&sliding.row);
@@ -182,14 +197,14 @@ fn guided<'d>(
             with: "t".to_owned(),
         });
     }
-    Guided {
+    Some(Guided {
         name: name.clone(),
         along,
         load,
         weights,
         by_friction_forces,
         friction,
-    }
+    })
 }
 
 /// What a coefficient may depend on.

@@ -39,9 +39,9 @@ use super::guide;
 use super::kinematics::{Variables, gradient};
 use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
 use lagrangian_spec::identity;
-use lagrangian_spec::model::circles::planar_angle;
+use lagrangian_spec::model::circles::planar_turn;
 use lagrangian_spec::model::element::{Contribution, Element, Energy, Load, Sliding};
-use lagrangian_spec::model::{Inertia, Model, Place, PoseId, Rotation};
+use lagrangian_spec::model::{Inertia, Model, Place, PoseId, Rotation, Space};
 use lagrangian_spec::source::Span;
 
 /// Points of the prime field that are tried until all expressions have a value at one of them: each
@@ -86,7 +86,7 @@ pub struct Carrying {
 }
 
 impl Carrying {
-    /// Of a machine in the plane; nothing if it has no guides, or has no values that could be looked
+    /// Of a machine; nothing if it has no guides, or has no values that could be looked
     /// at.
     pub fn of(model: &Model<'_>) -> Option<Carrying> {
         let motion = Motion::<Residue>::of(model).map(|motion| motion.carrying(model));
@@ -166,13 +166,15 @@ enum What {
 }
 
 /// How everything moves at a point: rows of velocities, columns of coordinates and, behind them, of
-/// two displacements for each guide.
+/// the displacements of each guide, two in the plane and three in space.
 struct Motion<T> {
     parts: Vec<Part>,
     columns: Vec<Vec<T>>,
     /// The directions of the guides, as long as the spec has them.
-    directions: Vec<[T; 2]>,
+    directions: Vec<Vec<T>>,
     coordinates: usize,
+    /// How many components a vector has.
+    dimension: usize,
     /// How large entries are.
     size: f64,
     point: u64,
@@ -302,42 +304,66 @@ impl<T: Number> Motion<T> {
             parts,
             columns,
             directions: values[expressions.len()..]
-                .chunks_exact(2)
-                .map(|pair| [pair[0], pair[1]])
+                .chunks_exact(model.space.dimension())
+                .map(<[T]>::to_vec)
                 .collect(),
             coordinates: relaxed.coordinates,
+            dimension: model.space.dimension(),
             size,
             point,
         })
     }
 
     /// The columns of the displacements of a guide.
-    fn own(&self, guide: usize) -> [usize; 2] {
-        let first = self.coordinates + 2 * guide;
-        [first, first + 1]
+    fn own(&self, guide: usize) -> Vec<usize> {
+        let first = self.coordinates + self.dimension * guide;
+        (first..first + self.dimension).collect()
     }
 
-    /// A combination of the two displacements of a guide.
-    fn displaced(&self, guide: usize, by: [T; 2], row: usize) -> T {
-        let [x, y] = self.own(guide).map(|column| self.columns[column][row]);
-        by[0] * x + by[1] * y
+    /// A combination of the displacements of a guide.
+    fn displaced(&self, guide: usize, by: &[T], row: usize) -> T {
+        let own = self.own(guide).into_iter().zip(by);
+        own.map(|(column, &by)| by * self.columns[column][row])
+            .fold(T::ZERO, |sum, term| sum + term)
+    }
+
+    /// Vectors that are across a guide, and of which all others that are so are combinations: one in the plane, and in space
+    /// three, of which one follows from the others.
+    fn across(&self, guide: usize) -> Vec<Vec<T>> {
+        let zero = T::ZERO;
+        match self.directions[guide][..] {
+            [x, y] => vec![vec![-y, x]],
+            [x, y, z] => vec![vec![-y, x, zero], vec![-z, zero, x], vec![zero, -z, y]],
+            _ => Vec::new(),
+        }
+    }
+
+    /// Whether a pull is across a guide, not along it alone.
+    fn is_across(&self, guide: usize, pull: &[T]) -> bool {
+        let across = self.across(guide);
+        across.iter().any(|n| dot(n, pull).size_beside(1.0) != 0.0)
     }
 
     /// The displacement along a guide as a motion of the machine in which guides may open, if it is
     /// one, seen in some rows.
     fn along(&self, guide: usize, rows: &[usize]) -> Option<Along<T>> {
-        let [e_x, e_y] = self.directions[guide];
+        let e = &self.directions[guide];
         let target: Vec<T> = rows
             .iter()
-            .map(|&row| self.displaced(guide, [e_x, e_y], row))
+            .map(|&row| self.displaced(guide, e, row))
             .collect();
         let mut columns: Vec<Vec<T>> = self.columns[..self.coordinates]
             .iter()
             .map(|column| rows.iter().map(|&row| column[row]).collect())
             .collect();
-        let normals: Vec<[T; 2]> = self.directions.iter().map(|&[x, y]| [-y, x]).collect();
-        for (other, &normal) in normals.iter().enumerate() {
-            let opened = |&row: &usize| self.displaced(other, normal, row);
+        let guides = 0..self.directions.len();
+        let normals = guides.flat_map(|other| {
+            let across = self.across(other).into_iter();
+            across.map(move |normal| (other, normal))
+        });
+        let normals: Vec<(usize, Vec<T>)> = normals.collect();
+        for (other, normal) in &normals {
+            let opened = |&row: &usize| self.displaced(*other, normal, row);
             columns.push(rows.iter().map(opened).collect());
         }
         let solved = match self.by_one(&columns, &target) {
@@ -346,11 +372,13 @@ impl<T: Number> Motion<T> {
         };
         // From normals to displacements along the axes.
         let mut all = solved[..self.coordinates].to_vec();
-        for (other, [x, y]) in normals.into_iter().enumerate() {
-            let alpha = solved[self.coordinates + other];
-            all.extend([alpha * x, alpha * y]);
+        all.resize(self.columns.len(), T::ZERO);
+        for ((other, normal), &alpha) in normals.iter().zip(&solved[self.coordinates..]) {
+            for (column, &n) in self.own(*other).into_iter().zip(normal) {
+                all[column] = all[column] + alpha * n;
+            }
         }
-        for (column, e) in self.own(guide).into_iter().zip([e_x, e_y]) {
+        for (column, &e) in self.own(guide).into_iter().zip(e) {
             all[column] = all[column] - e;
         }
         Some(Along(all))
@@ -583,17 +611,20 @@ impl<T: Number> Motion<T> {
     /// Whether some parts can be moved across a guide as one while everything else rests and no guide opens. By
     /// virtual work, the forces that tie them to each other and to all else have no sum across the guide then.
     fn is_free_across(&self, guide: usize, parts: &[usize]) -> bool {
-        let [x, y] = self.directions[guide];
-        let mut target = Vec::new();
-        for (index, part) in self.parts.iter().enumerate() {
-            // Two components of a place, and an angle where it matters.
-            let moved = [-y, x, T::ZERO];
-            let is_moved = parts.contains(&index);
-            let rows = moved.iter().take(part.rows.len());
-            target.extend(rows.map(|&by| if is_moved { by } else { T::ZERO }));
-        }
-        let columns = self.columns[..self.coordinates].to_vec();
-        combination(columns, target, self.size).is_some()
+        let is_free = |by: Vec<T>| {
+            let mut target = Vec::new();
+            for (index, part) in self.parts.iter().enumerate() {
+                // The components of a place, and how it is turned where that matters.
+                let is_moved = parts.contains(&index);
+                target.extend((0..part.rows.len()).map(|row| match by.get(row) {
+                    Some(&by) if is_moved => by,
+                    _ => T::ZERO,
+                }));
+            }
+            let columns = self.columns[..self.coordinates].to_vec();
+            combination(columns, target, self.size).is_some()
+        };
+        self.across(guide).into_iter().all(is_free)
     }
 
     /// The bodies that are tied to what a guide carries by nothing that the spec names: without them
@@ -815,13 +846,10 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
             otherwise.extend(amiss.filter(|guide| self.ajar.contains(guide)));
         }
         let pulls_across = |&guide: &usize| {
-            let mut pulls = on_bodies.chunks_exact(2).enumerate();
-            pulls.any(|(other, pull)| {
-                let [x, y] = self.motion.directions[other];
-                match other == guide {
-                    true => !self.is_zero(pull[1] * x - pull[0] * y),
-                    false => pull.iter().any(|&pull| !self.is_zero(pull)),
-                }
+            let mut pulls = on_bodies.chunks_exact(self.motion.dimension).enumerate();
+            pulls.any(|(other, pull)| match other == guide {
+                true => self.motion.is_across(guide, pull),
+                false => pull.iter().any(|&pull| !self.is_zero(pull)),
             })
         };
         let across = otherwise.into_iter().find(pulls_across);
@@ -871,8 +899,8 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
     /// lies along the guide.
     fn stretch(&self, stretch: Expr<'d>, what: &str, span: Span) -> Looked {
         let across = self.first_unsaid(stretch, &self.relaxed.x.q, |_, guide, amiss| {
-            let [x, y] = self.motion.directions[guide];
-            !self.is_zero(amiss * amiss - (x * x + y * y))
+            let e = &self.motion.directions[guide];
+            !self.is_zero(amiss * amiss - dot(e, e))
         })?;
         let help = "give it `from` and `to`, points of bodies; or, if it acts along the guide alone, say its energy under `potentials`";
         Some(across.map(|guide| self.diagnostic(guide, span, what, help)))
@@ -910,8 +938,7 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
             let moves = slopes
                 .iter()
                 .any(|slopes| !self.is_zero(along.amiss(slopes.iter().copied())));
-            let [x, y] = self.motion.directions[*guide];
-            moves && !self.is_zero(value[1] * x - value[0] * y)
+            moves && self.motion.is_across(*guide, &value)
         });
         let what = format!("the point of {what}");
         let help = "write it by where the body is, as `body.at`, or by a point of its frame";
@@ -924,7 +951,7 @@ fn slides_by(model: &Model<'_>, guide: usize) -> Vec<bool> {
     let x = Variables::of(model);
     let sliding = model.sliding()[guide];
     let directions = guide::guide(model, sliding);
-    let [slip, _] = guide::relative(model, sliding, &directions, &mut x.coasting(model));
+    let slip = guide::relative(model, sliding, &directions, &mut x.coasting(model)).slip;
     let row = gradient(model.dag, slip, &x.v);
     row.into_iter()
         .map(|entry| identity::is_zero(entry) != Some(true))
@@ -951,30 +978,45 @@ fn is_a_base(model: &Model<'_>, body: usize) -> bool {
     })
 }
 
-/// Bodies and what guides are on, and where they are: two components, and the angle where a rotation
-/// has inertia, or turns a guide.
+/// Bodies and what guides are on, and where they are: the components of a place, and how it is turned where a rotation
+/// has inertia, or turns a guide: an angle in the plane, the axes in space.
 fn parts<'d>(model: &Model<'d>) -> (Vec<Part>, Vec<Expr<'d>>) {
     let (mut parts, mut places) = (Vec::new(), Vec::new());
-    let mut add = |what, place: &[Expr<'d>], angle: Option<Expr<'d>>| {
+    let mut add = |what, place: &[Expr<'d>], turned: Vec<Expr<'d>>| {
         let first = places.len();
-        places.extend(place.iter().copied().chain(angle));
+        places.extend(place.iter().copied().chain(turned));
         let rows = first..places.len();
         parts.push(Part { what, rows });
     };
     for (index, body) in model.bodies.iter().enumerate() {
-        let angle = match body.inertia {
-            Inertia::Particle => None,
-            Inertia::Planar(_) | Inertia::Tensor(_) => planar_angle(model, body),
+        let turned = match body.inertia {
+            Inertia::Particle => Vec::new(),
+            Inertia::Planar(_) | Inertia::Tensor(_) => turned(model, body.rotation),
         };
-        add(What::Body(index), &body.at, angle);
+        add(What::Body(index), &body.at, turned);
     }
     for (index, sliding) in model.sliding().into_iter().enumerate() {
         if let Place::Frame(pose) = sliding.on {
-            let pose = &model.poses[pose.index()];
-            add(What::Base(index), &pose.origin, Some(pose.angle));
+            let turned = turned(model, Rotation::Frame(pose));
+            add(What::Base(index), &model.poses[pose.index()].origin, turned);
         }
     }
     (parts, places)
+}
+
+/// How something is turned: by an angle in the plane; in space its axes, which turn as it does.
+fn turned<'d>(model: &Model<'d>, rotation: Rotation<'d>) -> Vec<Expr<'d>> {
+    match (model.space, rotation) {
+        (Space::Plane, rotation) => planar_turn(model, rotation).into_iter().collect(),
+        (Space::Space, Rotation::Frame(pose)) => model.poses[pose.index()].axes.concat(),
+        (Space::Space, Rotation::Angle(angle)) => vec![angle],
+        (Space::Space, Rotation::Unspecified) => Vec::new(),
+    }
+}
+
+fn dot<T: Scalar>(u: &[T], v: &[T]) -> T {
+    let terms = u.iter().zip(v).map(|(&u, &v)| u * v);
+    terms.fold(T::ZERO, |sum, term| sum + term)
 }
 
 /// A column as a combination of others, by Gauss's elimination; none if it is no combination. What is

@@ -1,61 +1,116 @@
 //! Guides: along what a body slides, and how fast.
 
 use lagrangian_spec::identity;
-use lagrangian_spec::model::circles::planar_angle;
+use lagrangian_spec::model::circles::planar_turn;
 use lagrangian_spec::model::element::Sliding;
-use lagrangian_spec::model::{Model, Place, Rotation};
+use lagrangian_spec::model::{Model, Place, PoseId, Rotation, Space, Step};
 use lagrangian_symbolic::{Expr, Tangent};
+
+use super::kinematics::cross;
 
 /// The directions of a guide, unit vectors in ground axes.
 pub(super) struct Guide<'d> {
+    /// Along what the body slides.
     pub along: Vec<Expr<'d>>,
-    pub normal: Vec<Expr<'d>>,
+    /// The directions in which its reaction is counted: the normal in the plane. In space a guide presses in any direction
+    /// across, and its reaction is counted along the axes of the ground.
+    pub axes: Vec<Vec<Expr<'d>>>,
 }
 
-/// How a guided body moves on what it slides on, at some rate: along the guide, and off it.
+/// How a guided body moves on what it slides on, at some rate.
+pub(super) struct Relative<'d> {
+    /// Along the guide.
+    pub slip: Expr<'d>,
+    /// Along each of the directions in which the reaction of the guide is counted.
+    pub off: Vec<Expr<'d>>,
+}
+
+/// How a guided body moves on what it slides on, at some rate.
 pub(super) fn relative<'d>(
     model: &Model<'d>,
     sliding: &Sliding<'d>,
     guide: &Guide<'d>,
     rate: &mut Tangent<'d>,
-) -> [Expr<'d>; 2] {
-    let dag = model.dag;
+) -> Relative<'d> {
+    let velocity = velocity(model, sliding, rate);
+    Relative {
+        slip: dot(&guide.along, &velocity),
+        off: guide.axes.iter().map(|axis| dot(axis, &velocity)).collect(),
+    }
+}
+
+/// The velocity of a guided body seen from what it slides on, in ground axes: `ẋ_body − ẋ_on − ω_on×r`.
+pub(super) fn velocity<'d>(
+    model: &Model<'d>,
+    sliding: &Sliding<'d>,
+    rate: &mut Tangent<'d>,
+) -> Vec<Expr<'d>> {
     let body = &model.bodies[sliding.body];
     let at = match body.rotation {
         Rotation::Frame(pose) => &model.poses[pose.index()].origin,
         Rotation::Angle(_) | Rotation::Unspecified => &body.at,
     };
-    let (origin, angle) = base(model, sliding);
-    let turning = angle.map_or(dag.zero(), |angle| rate.of(angle));
+    let (origin, turning) = base(model, sliding, rate);
     let arm: Vec<Expr<'d>> = at.iter().zip(origin).map(|(&x, &o)| x - o).collect();
-    // ω × r in the plane.
-    let carried = [-(turning * arm[1]), turning * arm[0]];
-    let velocity: Vec<Expr<'d>> = (0..2)
-        .map(|k| rate.of(at[k]) - rate.of(origin[k]) - carried[k])
-        .collect();
-    [&guide.along, &guide.normal].map(|axis| dot(axis, &velocity))
+    let carried = match (&turning[..], &arm[..]) {
+        (&[turning], arm) => vec![-(turning * arm[1]), turning * arm[0]],
+        (&[x, y, z], &[r, s, t]) => cross(&[x, y, z], &[r, s, t]).to_vec(),
+        _ => vec![model.dag.zero(); arm.len()],
+    };
+    let mut component = |k: usize| rate.of(at[k]) - rate.of(origin[k]) - carried[k];
+    (0..at.len()).map(|k| component(k)).collect()
 }
 
-/// A point of what a body slides on, and how far that is turned.
+/// A point of what a body slides on, and the angular velocity of that: one number in the plane, three in ground axes in
+/// space; none where nothing says how it turns.
 pub(super) fn base<'m, 'd>(
     model: &'m Model<'d>,
     sliding: &Sliding<'d>,
-) -> (&'m [Expr<'d>], Option<Expr<'d>>) {
-    match sliding.on {
-        Place::Frame(pose) => {
-            let pose = &model.poses[pose.index()];
-            (&pose.origin, Some(pose.angle))
+    rate: &mut Tangent<'d>,
+) -> (&'m [Expr<'d>], Vec<Expr<'d>>) {
+    let origin = match sliding.on {
+        Place::Frame(pose) => &model.poses[pose.index()].origin,
+        Place::Body(on) => &model.bodies[on].at,
+    };
+    let rotation = model.rotation(sliding.on);
+    let turning = match (model.space, rotation) {
+        (Space::Plane, rotation) => {
+            let angle = planar_turn(model, rotation).into_iter();
+            angle.map(|angle| rate.of(angle)).collect()
         }
-        Place::Body(on) => {
-            let on = &model.bodies[on];
-            (&on.at, planar_angle(model, on))
+        (Space::Space, Rotation::Frame(pose)) => turning(model, pose, rate),
+        (Space::Space, Rotation::Angle(_) | Rotation::Unspecified) => Vec::new(),
+    };
+    (origin, turning)
+}
+
+/// The angular velocity of a frame in space, in ground axes: the rates of all turns that lead to it, each about its own axis.
+fn turning<'d>(model: &Model<'d>, mut pose: PoseId, rate: &mut Tangent<'d>) -> Vec<Expr<'d>> {
+    let mut terms = vec![Vec::new(); 3];
+    while pose != PoseId::GROUND {
+        let here = &model.poses[pose.index()];
+        if let &Step::Turn { axis, angle } = &here.step {
+            let rate = rate.of(angle);
+            // A turn leaves its own axis where it is.
+            for (terms, &along) in terms.iter_mut().zip(&here.axes[axis]) {
+                terms.push(rate * along);
+            }
         }
+        pose = here.parent;
     }
+    terms
+        .into_iter()
+        .map(|terms| model.dag.sum(terms))
+        .collect()
 }
 
 /// The directions of a contact.
 pub(super) fn guide<'d>(model: &Model<'d>, sliding: &Sliding<'d>) -> Guide<'d> {
     let along = unit(&sliding.direction);
+    if model.space == Space::Space {
+        let axes = model.poses[PoseId::GROUND.index()].axes.clone();
+        return Guide { along, axes };
+    }
     let left = vec![-along[1], along[0]];
     let normal = match &sliding.normal {
         None => left,
@@ -73,7 +128,8 @@ pub(super) fn guide<'d>(model: &Model<'d>, sliding: &Sliding<'d>) -> Guide<'d> {
             }
         }
     };
-    Guide { along, normal }
+    let axes = vec![normal];
+    Guide { along, axes }
 }
 
 /// A vector as long as 1.

@@ -65,17 +65,22 @@ pub struct OracleSliding<'d> {
     pub drift: Expr<'d>,
     /// `dw/dt` with the accelerations in it.
     pub slip_rate: Expr<'d>,
-    /// The equation of the displacement that opens the guide, along its normal: what inertia and
-    /// applied forces leave of it.
+    /// For each component of the reaction the equation of the displacement that opens the guide that way.
+    pub reactions: Vec<OracleReaction<'d>>,
+    /// `μ` and `μ₀`.
+    pub coefficients: [Expr<'d>; 2],
+}
+
+/// The equation of a displacement that opens a guide.
+pub struct OracleReaction<'d> {
+    /// What inertia and applied forces leave of it.
     pub unbalanced: Expr<'d>,
     /// What the multipliers of the constraints do along that displacement,
     pub by_multipliers: Vec<Expr<'d>>,
     /// what the friction forces of the contacts do,
     pub by_friction_forces: Vec<Expr<'d>>,
-    /// and what the normal reactions do.
+    /// and what the components of the normal reactions do.
     pub by_normals: Vec<Expr<'d>>,
-    /// `μ` and `μ₀`.
-    pub coefficients: [Expr<'d>; 2],
 }
 
 impl<'d> Oracle<'d> {
@@ -164,11 +169,28 @@ fn sliding<'d>(model: &Model<'d>) -> Vec<OracleSliding<'d>> {
         .collect();
     let contact = |k: usize| {
         let dimension = model.space.dimension();
-        let along = |column: &dyn Fn(usize) -> Expr<'d>| {
-            let pairs = (n + dimension * k..).zip(&guides[k].normal);
+        let along = |axis: &[Expr<'d>], column: &dyn Fn(usize) -> Expr<'d>| {
+            let pairs = (n + dimension * k..).zip(axis);
             closed(dag.sum(pairs.map(|(i, &normal)| normal * column(i))))
         };
-        let slip = closed(rates[k][0]);
+        let reaction = |axis: &Vec<Expr<'d>>| OracleReaction {
+            unbalanced: along(axis, &|i| oracle.residual[i]),
+            by_multipliers: oracle
+                .constraints
+                .iter()
+                .map(|c| along(axis, &|i| c.row[i]))
+                .collect(),
+            by_friction_forces: rates
+                .iter()
+                .map(|rate| along(axis, &|i| rate.slip.diff(x.v[i])))
+                .collect(),
+            by_normals: rates
+                .iter()
+                .flat_map(|rate| &rate.off)
+                .map(|off| along(axis, &|i| off.diff(x.v[i])))
+                .collect(),
+        };
+        let slip = closed(rates[k].slip);
         let row: Vec<Expr<'d>> = (0..n).map(|i| slip.diff(x.v[i])).collect();
         let moving = (0..n).map(|i| slip.diff(x.q[i]) * model.coordinates[i].v);
         let drift = dag.sum(moving.chain([slip.diff(x.t)]));
@@ -181,20 +203,7 @@ fn sliding<'d>(model: &Model<'d>) -> Vec<OracleSliding<'d>> {
             slip,
             slip_rate: dag.sum(accelerating.chain([drift])),
             drift,
-            unbalanced: along(&|i| oracle.residual[i]),
-            by_multipliers: oracle
-                .constraints
-                .iter()
-                .map(|c| along(&|i| c.row[i]))
-                .collect(),
-            by_friction_forces: rates
-                .iter()
-                .map(|[w, _]| along(&|i| w.diff(x.v[i])))
-                .collect(),
-            by_normals: rates
-                .iter()
-                .map(|[_, u]| along(&|i| u.diff(x.v[i])))
-                .collect(),
+            reactions: guides[k].axes.iter().map(reaction).collect(),
             coefficients: [
                 sliding.friction,
                 sliding.static_friction.unwrap_or(sliding.friction),

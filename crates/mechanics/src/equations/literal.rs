@@ -108,7 +108,7 @@ pub(crate) struct LiteralConstraint<R> {
 }
 
 /// A guided contact at a state.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct LiteralSliding<R> {
     /// `w`, how fast it slides.
     pub slip: R,
@@ -116,11 +116,12 @@ pub(crate) struct LiteralSliding<R> {
     pub slip_rate: R,
     /// The slope of the slip along the direction.
     pub slip_along: R,
-    /// The slope of the velocity off the guide.
-    pub off_along: R,
-    /// The direction of the guide turned left, of length 1.
-    pub left: [R; 2],
-    /// The product of that with the normal which the spec gives; 1 where it gives none.
+    /// The directions in which the reaction is counted: in the plane the direction of the guide turned left, of length 1; in
+    /// space the axes of the ground.
+    pub axes: Vec<Vec<R>>,
+    /// The slopes of the velocities along these.
+    pub off_along: Vec<R>,
+    /// The product of the direction turned left with the normal which the spec gives; 1 where it gives none, and in space.
     pub side: R,
     /// `μ` and `μ₀`.
     pub coefficients: [R; 2],
@@ -564,41 +565,74 @@ impl<'m, 'd> Lagrange<'m, 'd> {
             Rotation::Frame(pose) => &model.poses[pose.index()].origin,
             Rotation::Angle(_) | Rotation::Unspecified => &body.at,
         };
-        let (origin, turned) = match sliding.on {
-            Place::Frame(pose) => {
-                let pose = &model.poses[pose.index()];
-                (&pose.origin, Some(pose.angle))
-            }
-            Place::Body(on) => {
-                let on = &model.bodies[on];
-                (&on.at, angle(model, on))
-            }
+        let origin = match sliding.on {
+            Place::Frame(pose) => &model.poses[pose.index()].origin,
+            Place::Body(on) => &model.bodies[on].at,
         };
-        let turning = turned.map_or(Varied::<R>::ZERO, |angle| x(angle).derivative);
-        let arm = [0, 1].map(|k| here(at[k]) - here(origin[k]));
-        let velocity = [
-            x(at[0]).derivative - x(origin[0]).derivative + turning * arm[1],
-            x(at[1]).derivative - x(origin[1]).derivative - turning * arm[0],
-        ];
-        let direction = [0, 1].map(|k| here(sliding.direction[k]));
-        let length = (direction[0] * direction[0] + direction[1] * direction[1]).sqrt();
-        let along = direction.map(|d| d / length);
-        let left = [-along[1], along[0]];
-        let slip = along[0] * velocity[0] + along[1] * velocity[1];
-        let off = left[0] * velocity[0] + left[1] * velocity[1];
-        let side = match &sliding.normal {
-            None => R::ONE,
-            Some(normal) => {
-                let dot = here(normal[0]) * left[0] + here(normal[1]) * left[1];
-                dot.value.value
+        let dimension = at.len();
+        let arm: Vec<Varied<R>> = (0..dimension)
+            .map(|k| here(at[k]) - here(origin[k]))
+            .collect();
+        let rotation = model.rotation(sliding.on);
+        let carried: Vec<Varied<R>> = match (model.space, rotation) {
+            (Space::Plane, rotation) => {
+                let turned = turned_by(model, rotation);
+                let turning = turned.map_or(Varied::<R>::ZERO, |angle| x(angle).derivative);
+                vec![-(turning * arm[1]), turning * arm[0]]
             }
+            // `ω × r = Σ ėₖ (eₖ·r)` over the axes of what it slides on.
+            (Space::Space, Rotation::Frame(pose)) => {
+                let axes = &model.poses[pose.index()].axes;
+                let along =
+                    |axis: &Vec<Expr<'d>>| sum(axis.iter().zip(&arm).map(|(&e, &r)| here(e) * r));
+                let along: Vec<Varied<R>> = axes.iter().map(along).collect();
+                let component = |i: usize| {
+                    sum(axes
+                        .iter()
+                        .zip(&along)
+                        .map(|(e, &r)| x(e[i]).derivative * r))
+                };
+                (0..dimension).map(component).collect()
+            }
+            (Space::Space, _) => vec![Varied::<R>::ZERO; dimension],
+        };
+        let velocity: Vec<Varied<R>> = (0..dimension)
+            .map(|k| x(at[k]).derivative - x(origin[k]).derivative - carried[k])
+            .collect();
+        let direction: Vec<Varied<R>> = sliding.direction.iter().map(|&e| here(e)).collect();
+        let length = sum(direction.iter().map(|&e| e * e)).sqrt();
+        let along: Vec<Varied<R>> = direction.into_iter().map(|e| e / length).collect();
+        let dot = |u: &[Varied<R>], v: &[Varied<R>]| sum(u.iter().zip(v).map(|(&a, &b)| a * b));
+        let slip = dot(&along, &velocity);
+        let axes: Vec<Vec<Varied<R>>> = match model.space {
+            Space::Plane => vec![vec![-along[1], along[0]]],
+            Space::Space => (0..dimension)
+                .map(|k| {
+                    (0..dimension)
+                        .map(|i| Varied::<R>::from_ratio(i64::from(i == k), 1))
+                        .collect()
+                })
+                .collect(),
+        };
+        let side = match &sliding.normal {
+            Some(normal) if model.space == Space::Plane => {
+                let normal: Vec<Varied<R>> = normal.iter().map(|&e| here(e)).collect();
+                dot(&normal, &axes[0]).value.value
+            }
+            _ => R::ONE,
         };
         LiteralSliding {
             slip: slip.value.value,
             slip_rate: slip.derivative.value,
             slip_along: slip.value.derivative,
-            off_along: off.value.derivative,
-            left: left.map(|x| x.value.value),
+            off_along: axes
+                .iter()
+                .map(|axis| dot(axis, &velocity).value.derivative)
+                .collect(),
+            axes: axes
+                .iter()
+                .map(|axis| axis.iter().map(|x| x.value.value).collect())
+                .collect(),
             side,
             coefficients: [
                 sliding.friction,

@@ -133,10 +133,15 @@ fn refuse_sliding(model: &Model<'_>, report: &mut Report) -> bool {
         report.push(Diagnostic::new(code, span, message).help(help));
         refused = true;
     };
-    if model.space == Space::Space {
-        let message = "sliding with friction can be derived in the plane only".to_owned();
-        let help = "without `sliding` the machine can be derived".to_owned();
-        refuse(Code::NotSupported, first.span, message, help);
+    for contact in sliding
+        .iter()
+        .filter(|s| model.space == Space::Space && s.normal.is_some())
+    {
+        let message = "in space a guide has no side, so no normal".to_owned();
+        let help =
+            "leave `normal` out: its reaction is a vector, in any direction across the guide"
+                .to_owned();
+        refuse(Code::NotSupported, contact.span, message, help);
     }
     let beside = [
         (SectionKind::Approximations, model.approximations.is_empty()),
@@ -157,7 +162,8 @@ fn refuse_sliding(model: &Model<'_>, report: &mut Report) -> bool {
     }
     if model.relaxed.is_none() {
         let message = "the equations of this machine with its guides relaxed are too large";
-        let help = "it is read a second time, with two coordinates more for each contact";
+        let help =
+            "it is read a second time, with a coordinate more for each component of a displacement";
         refuse(
             Code::TooLarge,
             first.span,

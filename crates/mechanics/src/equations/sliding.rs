@@ -11,7 +11,9 @@
 //! The reaction is that of a guide that is let go: δ displaces the body, with all that is built on
 //! its frame, and the row of δ in Lagrange's equations says which force along it keeps δ at zero. It
 //! depends on the accelerations, so friction changes the matrix in front of them. Displacements δ are
-//! in ground axes; what counts is the row along the normal `n`, which is `e` turned left.
+//! in ground axes. In the plane what counts is the row along the normal `n`, which is `e` turned left. In space a guide
+//! holds its body in two directions, and all three rows are taken: the reaction is a vector in ground axes, `|N|` its
+//! length, and that nothing of it is along `e` is (E38).
 //!
 //! Where several guides hold one body, each displacement meets the reactions of all of them: the rows
 //! are solved for the reactions, here and symbolically. Guides that hold the same cannot be told
@@ -22,12 +24,12 @@ use lagrangian_symbolic::{Expr, Tangent, substitute};
 use super::carrying;
 use super::constraints;
 use super::guide::{Guide, base, dot, guide, is_zero, relative};
-use super::kinematics::{Variables, gradient};
+use super::kinematics::{Variables, cross, gradient};
 use super::projected::Projection;
 use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
 use lagrangian_spec::identity;
 use lagrangian_spec::model::element::Sliding;
-use lagrangian_spec::model::{Model, stage};
+use lagrangian_spec::model::{Model, Space, stage};
 
 /// The most contacts of a machine: at a stop, every way in which they may stick or slide is looked at,
 /// and of six contacts there are 46 656.
@@ -45,7 +47,21 @@ pub struct SlidingEquation<'d> {
     pub row: Vec<Expr<'d>>,
     /// `dw/dt` at `a = 0`.
     pub drift: Expr<'d>,
-    /// `ν(q, v, t, u)`, in N: the normal reaction where nothing accelerates.
+    /// The direction `e(q, t)`, of length 1.
+    pub direction: Vec<Expr<'d>>,
+    /// The components of the normal reaction: one in the plane, along the normal; three in space, along the axes of the
+    /// ground.
+    pub reactions: Vec<Reaction<'d>>,
+    /// `μ`.
+    pub friction: Expr<'d>,
+    /// `μ₀`, of what sticks.
+    pub static_friction: Expr<'d>,
+}
+
+/// A component of a normal reaction, as a linear form.
+#[derive(Clone, Debug)]
+pub struct Reaction<'d> {
+    /// `ν(q, v, t, u)`, in N: what it is where nothing accelerates.
     pub load: Expr<'d>,
     /// `ρ(q, t)`, by acceleration.
     pub by_accelerations: Vec<Expr<'d>>,
@@ -53,23 +69,52 @@ pub struct SlidingEquation<'d> {
     pub by_multipliers: Vec<Expr<'d>>,
     /// `κ(q, t)`, by the friction of each contact.
     pub by_friction_forces: Vec<Expr<'d>>,
-    /// `μ`.
-    pub friction: Expr<'d>,
-    /// `μ₀`, of what sticks.
-    pub static_friction: Expr<'d>,
 }
 
 impl<'d> SlidingEquation<'d> {
-    /// `ν + ρ·a`: the normal reaction of a machine that has no constraints and no friction on the
-    /// way, over the symbols of the accelerations.
-    pub fn normal(&self, model: &Model<'d>) -> Expr<'d> {
-        let inertia = model.coordinates.iter().zip(&self.by_accelerations);
-        let inertia = inertia.map(|(c, &weight)| weight * c.a);
-        model.dag.sum([self.load].into_iter().chain(inertia))
+    /// The components of the normal reaction over the symbols of the accelerations and of the multipliers, in their order. The
+    /// friction of other contacts is left out; the contact's own, which is along the direction, has none.
+    pub fn normal(&self, model: &Model<'d>, multipliers: &[Expr<'d>]) -> Vec<Expr<'d>> {
+        let dag = model.dag;
+        let of = |reaction: &Reaction<'d>| {
+            let inertia = model.coordinates.iter().zip(&reaction.by_accelerations);
+            let inertia = inertia.map(|(c, &weight)| weight * c.a);
+            let held = reaction.by_multipliers.iter().zip(multipliers);
+            let held = held.map(|(&by, &multiplier)| by * multiplier);
+            dag.sum([reaction.load].into_iter().chain(inertia).chain(held))
+        };
+        let all: Vec<Expr<'d>> = self.reactions.iter().map(of).collect();
+        if all.len() == 1 {
+            return all;
+        }
+        // With the accelerations of any motion there is a part along the direction: the friction.
+        let along = dot(&self.direction, &all);
+        let pairs = all.into_iter().zip(&self.direction);
+        pairs.map(|(normal, &e)| normal - along * e).collect()
+    }
+
+    /// What presses in a machine that has no constraints and no friction on the way, over the symbols of the accelerations:
+    /// the normal reaction in the plane, its size in space.
+    pub fn pressing(&self, model: &Model<'d>) -> Expr<'d> {
+        match &self.normal(model, &[])[..] {
+            [normal] => *normal,
+            all => model.dag.sum(all.iter().map(|one| one.square())).sqrt(),
+        }
     }
 }
 
-/// The contacts of a machine in the plane; nothing, and a message for each reason, where a guide is
+impl<'d> Reaction<'d> {
+    fn parts(&mut self) -> impl Iterator<Item = &mut Expr<'d>> {
+        let lists = self
+            .by_accelerations
+            .iter_mut()
+            .chain(&mut self.by_multipliers)
+            .chain(&mut self.by_friction_forces);
+        std::iter::once(&mut self.load).chain(lists)
+    }
+}
+
+/// The contacts of a machine; nothing, and a message for each reason, where a guide is
 /// none, or its reaction is not determined.
 pub(super) fn sliding<'d>(
     model: &Model<'d>,
@@ -98,7 +143,10 @@ pub(super) fn sliding<'d>(
         let names = names.collect::<Vec<_>>().join(", ");
         let message = format!("what each of {names} carries is not determined");
         let diagnostic = Diagnostic::new(Code::NoGuide, all[0].span, message);
-        report.push(diagnostic.help("guides that hold a body in the same direction share its load in unknown parts: say it of one of them"));
+        report.push(diagnostic.help(match model.space {
+            Space::Plane => "guides that hold a body in the same direction share its load in unknown parts: say it of one of them",
+            Space::Space => "in space a body has one guide: give what slides at several places a body at each, and tie these by `constraints`",
+        }));
         return None;
     };
     if carrying::refuse_untied(model, report) {
@@ -106,18 +154,17 @@ pub(super) fn sliding<'d>(
     }
     let mut coasting = x.coasting(model);
     let mut equations = Vec::with_capacity(guides.len());
-    for ((sliding, guide), normal) in all.iter().zip(&guides).zip(solved) {
-        let [slip, _] = relative(model, sliding, guide, &mut coasting);
+    let mut solved = solved.into_iter();
+    for (sliding, guide) in all.iter().zip(&guides) {
+        let slip = relative(model, sliding, guide, &mut coasting).slip;
         let (slip, row) = settled(model, &x, slip);
         equations.push(SlidingEquation {
             name: sliding.name.to_string(),
             slip,
             row,
             drift: coasting.of(slip),
-            load: normal.load,
-            by_accelerations: normal.by_accelerations,
-            by_multipliers: normal.by_multipliers,
-            by_friction_forces: normal.by_friction_forces,
+            direction: guide.along.clone(),
+            reactions: solved.by_ref().take(guide.axes.len()).collect(),
             friction: sliding.friction,
             static_friction: sliding.static_friction.unwrap_or(sliding.friction),
         });
@@ -170,8 +217,9 @@ fn what_is_wrong<'d>(
         );
     }
     let mut coasting = Variables::of(model).coasting(model);
-    let [slip, off] = relative(model, sliding, guide, &mut coasting);
-    if !is_zero(off) {
+    let relative = relative(model, sliding, guide, &mut coasting);
+    let (slip, off) = (relative.slip, across(&sliding.direction, &relative.off));
+    if !off.into_iter().all(is_zero) {
         return error(
             format!("the coordinates let the body of `{name}` leave its guide"),
             "the origin of its frame, or the mass centre of a body without one, may move only along the direction, seen from what it slides on",
@@ -200,6 +248,15 @@ fn what_is_wrong<'d>(
     None
 }
 
+/// What of a velocity is across a guide: in the plane the velocity is given by its component along the normal, in space by
+/// all of them, and the cross product with the direction is zero where nothing is across.
+fn across<'d>(direction: &[Expr<'d>], off: &[Expr<'d>]) -> Vec<Expr<'d>> {
+    match (direction, off) {
+        (&[x, y, z], &[u, v, w]) => cross(&[x, y, z], &[u, v, w]).to_vec(),
+        _ => off.to_vec(),
+    }
+}
+
 /// Whether a slip is decided by the motion of what the body slides on: then something else holds the
 /// body, of which nothing is known.
 fn follows<'d>(
@@ -210,10 +267,9 @@ fn follows<'d>(
 ) -> bool {
     let dag = model.dag;
     let x = Variables::of(model);
-    let (origin, angle) = base(model, sliding);
-    let turning = angle.map_or(dag.zero(), |angle| rate.of(angle));
-    let motion = [rate.of(origin[0]), rate.of(origin[1]), turning];
-    let mut rows: Vec<Vec<Expr<'d>>> = motion.iter().map(|&u| gradient(dag, u, &x.v)).collect();
+    let (origin, turning) = base(model, sliding, rate);
+    let motion = origin.iter().map(|&o| rate.of(o)).chain(turning);
+    let mut rows: Vec<Vec<Expr<'d>>> = motion.map(|u| gradient(dag, u, &x.v)).collect();
     rows.push(gradient(dag, slip, &x.v));
     identity::is_combination(dag, &rows)
 }
@@ -221,29 +277,9 @@ fn follows<'d>(
 /// The rows of all displacements along the normals, before they are solved for the reactions.
 struct Reactions<'d> {
     /// What the reactions along each displacement add up to.
-    rows: Vec<Normal<'d>>,
+    rows: Vec<Reaction<'d>>,
     /// By each normal reaction.
     shares: Vec<Vec<Expr<'d>>>,
-}
-
-/// A normal reaction, as a linear form.
-#[derive(Clone)]
-struct Normal<'d> {
-    load: Expr<'d>,
-    by_accelerations: Vec<Expr<'d>>,
-    by_multipliers: Vec<Expr<'d>>,
-    by_friction_forces: Vec<Expr<'d>>,
-}
-
-impl<'d> Normal<'d> {
-    fn parts(&mut self) -> impl Iterator<Item = &mut Expr<'d>> {
-        let lists = self
-            .by_accelerations
-            .iter_mut()
-            .chain(&mut self.by_multipliers)
-            .chain(&mut self.by_friction_forces);
-        std::iter::once(&mut self.load).chain(lists)
-    }
 }
 
 impl<'d> Reactions<'d> {
@@ -257,44 +293,45 @@ impl<'d> Reactions<'d> {
         let unbalanced = Projection::of(relaxed, &x).unbalanced();
         let constraints = constraints::constraints(relaxed);
         let mut coasting = x.coasting(relaxed);
-        let moved: Vec<[Vec<Expr<'d>>; 2]> = relaxed
-            .sliding()
-            .into_iter()
-            .zip(guides)
-            .map(|(sliding, guide)| {
-                relative(relaxed, sliding, guide, &mut coasting)
-                    .map(|rate| gradient(dag, rate, &x.v))
-            })
-            .collect();
+        let (mut slips, mut offs) = (Vec::new(), Vec::new());
+        for (sliding, guide) in relaxed.sliding().into_iter().zip(guides) {
+            let relative = relative(relaxed, sliding, guide, &mut coasting);
+            slips.push(gradient(dag, relative.slip, &x.v));
+            offs.extend(
+                relative
+                    .off
+                    .into_iter()
+                    .map(|rate| gradient(dag, rate, &x.v)),
+            );
+        }
 
         let shut: Vec<_> = (n..x.q.len())
             .flat_map(|i| [x.q[i], x.v[i], x.a[i]])
             .map(|symbol| (symbol, dag.zero()))
             .collect();
         let closed = |values: &[Expr<'d>]| substitute(dag, values, &shut);
-        let along = |k: usize, column: &dyn Fn(usize) -> Expr<'d>| {
-            let pairs = own(k).zip(&guides[k].normal);
+        let along = |(k, axis): (usize, &[Expr<'d>]), column: &dyn Fn(usize) -> Expr<'d>| {
+            let pairs = own(k).zip(axis);
             let row = dag.sum(pairs.map(|(i, &normal)| normal * column(i)));
             closed(&[row])[0]
         };
-        let mut rows = Vec::with_capacity(guides.len());
-        let mut shares = Vec::with_capacity(guides.len());
-        for k in 0..guides.len() {
+        let axes = guides.iter().enumerate();
+        let axes = axes.flat_map(|(k, guide)| guide.axes.iter().map(move |axis| (k, &axis[..])));
+        let mut rows = Vec::with_capacity(offs.len());
+        let mut shares = Vec::with_capacity(offs.len());
+        for k in axes {
             let whole = along(k, &|i| -unbalanced[i]);
             let at_rest: Vec<_> = x.a[..n].iter().map(|&a| (a, dag.zero())).collect();
-            rows.push(Normal {
+            rows.push(Reaction {
                 load: substitute(dag, &[whole], &at_rest)[0],
                 by_accelerations: gradient(dag, whole, &x.a[..n]),
                 by_multipliers: constraints
                     .iter()
                     .map(|c| along(k, &|i| -c.row[i]))
                     .collect(),
-                by_friction_forces: moved
-                    .iter()
-                    .map(|[slip, _]| along(k, &|i| -slip[i]))
-                    .collect(),
+                by_friction_forces: slips.iter().map(|slip| along(k, &|i| -slip[i])).collect(),
             });
-            let share = moved.iter().map(|[_, off]| along(k, &|i| off[i]));
+            let share = offs.iter().map(|off| along(k, &|i| off[i]));
             shares.push(share.collect());
         }
         let mut reactions = Reactions { rows, shares };
@@ -312,7 +349,10 @@ impl<'d> Reactions<'d> {
                 }
             }
         };
-        self.rows.iter_mut().flat_map(Normal::parts).for_each(known);
+        self.rows
+            .iter_mut()
+            .flat_map(Reaction::parts)
+            .for_each(known);
         self.shares.iter_mut().flatten().for_each(known);
     }
 
@@ -320,7 +360,7 @@ impl<'d> Reactions<'d> {
     ///
     /// No rows are exchanged: every diagonal entry is 1, and its pivot is 0 only where two
     /// guides hold the same.
-    fn solved(mut self) -> Option<Vec<Normal<'d>>> {
+    fn solved(mut self) -> Option<Vec<Reaction<'d>>> {
         let count = self.rows.len();
         for k in 0..count {
             let pivot = self.shares[k][k];

@@ -39,6 +39,7 @@ pub(super) fn friction<'d>(lowering: &mut Lowering<'_, 'd>, source: Origin<'_, '
             coordinates: system.coordinates,
             constraints: system.forces.len() - system.coordinates,
             contacts: contacts.len(),
+            axes: lowering.model.space.reaction_axes(),
         };
         let results = results(&mut lowering.graph, layout, &solved, &contacts);
         let known = |pivot: &solve::Pivot| pivot.pivot.is_known() && pivot.scale.is_known();
@@ -63,12 +64,17 @@ pub(super) fn friction<'d>(lowering: &mut Lowering<'_, 'd>, source: Origin<'_, '
 struct Contact {
     row: Vec<Scaled>,
     drift: Scaled,
+    reactions: Vec<Component>,
+    friction: Scaled,
+    static_friction: Scaled,
+}
+
+/// A component of its reaction.
+struct Component {
     load: Scaled,
     by_accelerations: Vec<Scaled>,
     by_multipliers: Vec<Scaled>,
     by_friction_forces: Vec<Scaled>,
-    friction: Scaled,
-    static_friction: Scaled,
 }
 
 impl Contact {
@@ -80,13 +86,19 @@ impl Contact {
         let mut one = |expression| many(&[expression])[0];
         Contact {
             drift: one(sliding.drift),
-            load: one(sliding.load),
             friction: one(sliding.friction),
             static_friction: one(sliding.static_friction),
             row: many(&sliding.row),
-            by_accelerations: many(&sliding.by_accelerations),
-            by_multipliers: many(&sliding.by_multipliers),
-            by_friction_forces: many(&sliding.by_friction_forces),
+            reactions: sliding
+                .reactions
+                .iter()
+                .map(|reaction| Component {
+                    load: many(&[reaction.load])[0],
+                    by_accelerations: many(&reaction.by_accelerations),
+                    by_multipliers: many(&reaction.by_multipliers),
+                    by_friction_forces: many(&reaction.by_friction_forces),
+                })
+                .collect(),
         }
     }
 }
@@ -133,19 +145,19 @@ fn results(
                 combine(start, [(&contact.row, &accelerations), (&[], &[])])
             })
             .collect();
-        let normals: Vec<Scaled> = contacts
-            .iter()
-            .map(|contact| {
+        let reactions = contacts.iter().flat_map(|contact| &contact.reactions);
+        let normals: Vec<Scaled> = reactions
+            .map(|reaction| {
                 let start = match part.checked_sub(1) {
-                    None => contact.load,
-                    Some(k) => contact.by_friction_forces[k],
+                    None => reaction.load,
+                    Some(k) => reaction.by_friction_forces[k],
                 };
                 let by = [
                     (
-                        contact.by_accelerations.as_slice(),
+                        reaction.by_accelerations.as_slice(),
                         accelerations.as_slice(),
                     ),
-                    (contact.by_multipliers.as_slice(), multipliers.as_slice()),
+                    (reaction.by_multipliers.as_slice(), multipliers.as_slice()),
                 ];
                 combine(start, by)
             })

@@ -459,6 +459,7 @@ impl<'a, 'd> Point<'a, 'd> {
             coordinates: n,
             constraints: oracle.constraints.len(),
             contacts: oracle.sliding.len(),
+            axes: self.program.reaction_axes,
         };
         let (m, count, part) = (layout.constraints, layout.contacts, layout.part());
         let responses = self.call(Role::Friction, layout.len())?;
@@ -503,27 +504,24 @@ impl<'a, 'd> Point<'a, 'd> {
             Verdict::from(Disagreement::Result { role, index, point })
         };
         for (k, contact) in oracle.sliding.iter().enumerate() {
-            let known = self.evaluate(&[contact.slip_rate, contact.unbalanced], a)?;
-            if known[0] != slips[k] {
+            if self.evaluate(&[contact.slip_rate], a)?[0] != slips[k] {
                 return Err(wrong(n + m + k));
             }
-            let terms = [
-                (&contact.by_multipliers, multipliers, -Residue::ONE),
-                (
-                    &contact.by_friction_forces,
-                    &friction_forces[..],
-                    -Residue::ONE,
-                ),
-                (&contact.by_normals, normals, -Residue::ONE),
-            ];
-            let mut open = known[1];
-            for (coefficients, values, sign) in terms {
-                for (c, x) in self.evaluate(coefficients, a)?.into_iter().zip(values) {
-                    open = open + sign * c * *x;
+            for (axis, reaction) in contact.reactions.iter().enumerate() {
+                let terms = [
+                    (&reaction.by_multipliers, multipliers),
+                    (&reaction.by_friction_forces, &friction_forces[..]),
+                    (&reaction.by_normals, normals),
+                ];
+                let mut open = self.evaluate(&[reaction.unbalanced], a)?[0];
+                for (coefficients, values) in terms {
+                    for (c, x) in self.evaluate(coefficients, a)?.into_iter().zip(values) {
+                        open = open - c * *x;
+                    }
                 }
-            }
-            if open != Residue::ZERO {
-                return Err(wrong(n + m + count + k));
+                if open != Residue::ZERO {
+                    return Err(wrong(n + m + count + k * layout.axes + axis));
+                }
             }
             let at = (1 + count) * part + k;
             let expected = self.evaluate(&contact.coefficients, a)?;

@@ -38,12 +38,18 @@ fn the_prisms_have_the_coefficients_of_the_paper() {
         let (mu1, mu2, tan) = (of("mu1"), of("mu2"), of("alpha").tan());
         let contacts = &equations.sliding;
         // P = −b q̇ − d q̇ q̈: b_i = Σ μ ν τ_i, d_ij = Σ μ τ_i ρ_j.
-        let b = |i: usize| dag.sum(contacts.iter().map(|c| c.friction * c.load * c.row[i]));
+        let b = |i: usize| {
+            dag.sum(
+                contacts
+                    .iter()
+                    .map(|c| c.friction * c.reactions[0].load * c.row[i]),
+            )
+        };
         let d = |i: usize, j: usize| {
             dag.sum(
                 contacts
                     .iter()
-                    .map(|c| c.friction * c.row[i] * c.by_accelerations[j]),
+                    .map(|c| c.friction * c.row[i] * c.reactions[0].by_accelerations[j]),
             )
         };
         let zero = dag.zero();
@@ -127,13 +133,17 @@ fn two_guides_of_one_body_share_what_it_takes_to_hold_it() {
             model,
             equations,
             &[
-                ("face", face.normal(model), normal),
-                ("slot", slot.normal(model), -(normal * sin)),
+                ("face", face.pressing(model), normal),
+                ("slot", slot.pressing(model), -(normal * sin)),
                 // Friction on the face, along (−cos α, sin α), lifts too: N_face cos α = … + F sin α.
-                ("face by face", face.by_friction_forces[0], sin / cos),
+                (
+                    "face by face",
+                    face.reactions[0].by_friction_forces[0],
+                    sin / cos,
+                ),
                 (
                     "face by slot",
-                    face.by_friction_forces[1],
+                    face.reactions[0].by_friction_forces[1],
                     model.dag.one() / cos,
                 ),
             ],
@@ -251,7 +261,7 @@ fn the_side_of_a_normal_does_not_depend_on_lengths() {
             let [normal_of_bead] = &equations.sliding[..] else {
                 panic!("one guide");
             };
-            let normal_of_bead = normal_of_bead.normal(model);
+            let normal_of_bead = normal_of_bead.pressing(model);
             for (z_at, v_at, s_at) in [
                 (0.3, 1.2, 3.0),
                 (-1.4, 0.5, 3.0),
@@ -569,8 +579,8 @@ fn bodies_that_nothing_holds_across_a_guide_may_share_its_coordinates() {
             let [big, g] = ["M", "g"].map(|name| symbol(model, name));
             let contact = &equations.sliding[0];
             let zero = model.dag.zero();
-            let mut pairs = vec![("load", contact.load, big * g)];
-            let by = contact.by_accelerations.iter();
+            let mut pairs = vec![("load", contact.reactions[0].load, big * g)];
+            let by = contact.reactions[0].by_accelerations.iter();
             pairs.extend(by.map(|by| ("acceleration", *by, zero)));
             assert_equal(model, equations, &pairs);
         });
@@ -588,8 +598,105 @@ fn one_motion_has_several_reactions_where_nobody_says_what_holds_a_body() {
         derived(&text, |model, equations| {
             let [m, big, g] = ["m", "M", "g"].map(|name| symbol(model, name));
             let carried = if carries_both { m + big } else { big };
-            let pairs = [("load", equations.sliding[0].load, carried * g)];
+            let pairs = [("load", equations.sliding[0].reactions[0].load, carried * g)];
             assert_equal(model, equations, &pairs);
         });
     }
+}
+
+/// A bead at `c(u)` with a load on it.
+fn in_space(more: &str) -> String {
+    format!(
+        "machine Bead in space {{
+            parameters {{ m: kg, M: kg, r: m, h: m, l: m, mu: 1, g: m/s^2, k: N/m }}
+            coordinates {{ u: rad, w: rad }}
+            bodies {{
+                bead {{ mass: m, at: (r*cos(u), r*sin(u), -h*u) }},
+                {more}
+            }}
+            gravity (0, 0, -g);
+            sliding {{ wire {{ body: bead, on: ground, direction: (-r*sin(u), r*cos(u), -h), friction: mu }} }}
+        }}"
+    )
+}
+
+#[test]
+fn in_space_a_guide_carries_the_weight_and_the_inertia_across_it() {
+    // A load on a rod of length l below the bead, turned by w about x.
+    let hung = in_space("load { mass: M, at: bead.at + l*(0, sin(w), -cos(w)) }");
+    derived(&hung, |model, equations| {
+        let of = |name| symbol(model, name);
+        let (m, big, r, h, l, g) = (of("m"), of("M"), of("r"), of("h"), of("l"), of("g"));
+        let ([u, w], dag) = ([0, 1].map(|i| &model.coordinates[i]), model.dag);
+        let (sin, cos) = (u.q.sin(), u.q.cos());
+        let total = m + big;
+        // N = (m + M) c̈ + M ρ̈ + (m + M) g e_z, less what of it is along the wire.
+        let curve = [
+            -(r * (cos * u.v.square() + sin * u.a)),
+            r * (cos * u.a - sin * u.v.square()),
+            -(h * u.a),
+        ];
+        let rod = [
+            dag.zero(),
+            l * (w.q.cos() * w.a - w.q.sin() * w.v.square()),
+            l * (w.q.sin() * w.a + w.q.cos() * w.v.square()),
+        ];
+        let mut force: Vec<Expr<'_>> = (0..3).map(|i| total * curve[i] + big * rod[i]).collect();
+        force[2] = force[2] + total * g;
+        let tangent = [-(r * sin), r * cos, -h];
+        let square = r.square() + h.square();
+        let part = dag.sum(tangent.iter().zip(&force).map(|(&e, &f)| e * f)) / square;
+        let wire = &equations.sliding[0];
+        let found = wire.normal(model, &[]);
+        let names = ["along x", "along y", "along z"];
+        let pairs: Vec<_> = (0..3)
+            .map(|i| (names[i], found[i], force[i] - part * tangent[i]))
+            .collect();
+        assert_equal(model, equations, &pairs);
+        // Its own friction is along it.
+        let own: Vec<_> = (0..3)
+            .map(|i| {
+                let by = wire.reactions[i].by_friction_forces[0] * square.sqrt();
+                (names[i], by, -tangent[i])
+            })
+            .collect();
+        assert_equal(model, equations, &own);
+    });
+}
+
+#[test]
+fn in_space_too_what_a_guide_carries_is_said_or_asked_for() {
+    // Built on the bead; written by its coordinate, held by nobody knows what; and free of it.
+    let built = in_space("load { mass: M, at: bead.at + l*(0, sin(w), -cos(w)) }");
+    let written =
+        in_space("load { mass: M, at: (r*cos(u), r*sin(u) + l*sin(w), -h*u - l*cos(w)) }");
+    let apart = in_space("load { mass: M, at: (0, 0, l*w) }");
+    assert!(codes(&built).is_empty(), "{:?}", codes(&built));
+    assert!(codes(&apart).is_empty(), "{:?}", codes(&apart));
+    assert!(
+        matches!(&codes(&written)[..], [(Code::Untied, _)]),
+        "{:?}",
+        codes(&written)
+    );
+    // A direction that is not that of the wire lets the bead off it.
+    let off = apart.replace("-h), friction", "h), friction");
+    assert!(
+        matches!(&codes(&off)[..], [(Code::NoGuide, _)]),
+        "{:?}",
+        codes(&off)
+    );
+    // A second guide of the same body, and a side.
+    let guide = "friction: mu }";
+    let twice = apart.replace(
+        guide,
+        "friction: mu }, same { body: bead, on: ground, direction: (-r*sin(u), r*cos(u), -h), friction: mu }",
+    );
+    assert!(
+        matches!(&codes(&twice)[..], [(Code::NoGuide, _)]),
+        "{:?}",
+        codes(&twice)
+    );
+    let sided = apart.replace(guide, "friction: mu, normal: (0, 0, 1) }");
+    let found = codes(&sided);
+    assert!(matches!(&found[..], [(Code::NotSupported, _)]), "{found:?}");
 }

@@ -79,6 +79,8 @@ fn accelerations_multipliers_and_reactions_are_right_with_any_friction() {
 #[test]
 fn the_contacts_of_the_library_are_proved() {
     for name in [
+        "bead_on_helix",
+        "bead_on_hoop",
         "prisms",
         "wedge_and_block",
         "block_on_incline",
@@ -102,6 +104,7 @@ fn a_wrong_sign_in_what_friction_does_is_found() {
             coordinates: 5,
             constraints: 0,
             contacts: 5,
+            axes: 1,
         };
         assert_eq!(function.results.len(), layout.len());
         for (place, op) in function.code.iter().enumerate().step_by(7) {

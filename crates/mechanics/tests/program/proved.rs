@@ -78,6 +78,8 @@ fn damaged_programs_of_every_kind_of_machine_are_stopped() {
         ("slider_crank", 13),
         ("wedge_and_block", 5),
         ("prisms", 7),
+        ("bead_on_helix", 2),
+        ("bead_on_hoop", 5),
         ("two_body_orbit", 3),
         ("small_angle_crusher", 61),
         ("frozen_crusher", 61),

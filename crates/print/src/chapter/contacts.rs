@@ -1,11 +1,11 @@
 //! Guided contacts: how they slide, what presses, and what friction does with that.
 
-use lagrangian_symbolic::Math;
 use lagrangian_symbolic::print::{Form, Mark, Sign};
+use lagrangian_symbolic::{Expr, Math};
 
 use super::{Chapter, words};
 use crate::document::{Block, Row};
-use lagrangian_mechanics::SlidingEquation;
+use lagrangian_mechanics::{Reaction, SlidingEquation};
 
 impl<'d> Chapter<'_, 'd> {
     pub(super) fn contacts(&self) -> Vec<Block> {
@@ -38,22 +38,29 @@ impl<'d> Chapter<'_, 'd> {
                  accelerations, and so friction changes the matrix in front of them.",
             ]),
         ];
-        for contact in contacts {
-            blocks.extend(self.contact(contact));
+        for (number, contact) in contacts.iter().enumerate() {
+            blocks.extend(self.contact(number, contact));
         }
         blocks
     }
 
-    fn contact(&self, contact: &SlidingEquation<'d>) -> Vec<Block> {
+    fn contact(&self, number: usize, contact: &SlidingEquation<'d>) -> Vec<Block> {
         let heading = Block::Heading(words!["Contact ", contact.name.clone()]);
         let letter = Math::letter;
         let mut rows = self.equality(letter('w'), contact.slip, "slip");
-        let constraints = self.compiled.equations.constraints.iter();
-        let held = constraints.zip(&contact.by_multipliers);
-        let held = held.map(|(constraint, &by)| by * constraint.multiplier);
-        let normal = contact.normal(self.model);
-        let normal = self.model.dag.sum(std::iter::once(normal).chain(held));
-        rows.extend(self.equality(letter('N'), normal, "normal reaction"));
+        let constraints = &self.compiled.equations.constraints;
+        let multipliers: Vec<Expr<'d>> = constraints.iter().map(|one| one.multiplier).collect();
+        for (normal, axis) in contact
+            .normal(self.model, &multipliers)
+            .into_iter()
+            .zip(['x', 'y', 'z'])
+        {
+            let name = match contact.reactions.len() {
+                1 => letter('N'),
+                _ => letter('N').with_index(letter(axis)),
+            };
+            rows.extend(self.equality(name, normal, "normal reaction"));
+        }
         rows.extend(self.equality(letter('μ'), contact.friction, ""));
         if contact.static_friction != contact.friction {
             let name = letter('μ').with_index(Math::number(0));
@@ -72,7 +79,11 @@ impl<'d> Chapter<'_, 'd> {
             }
         }
         let mut blocks = vec![heading, Block::Formula(rows)];
-        if contact.by_friction_forces.iter().any(|by| !by.is_zero()) {
+        let by_others = |reaction: &Reaction<'d>| {
+            let mut by = reaction.by_friction_forces.iter().enumerate();
+            by.any(|(other, by)| other != number && !by.is_zero())
+        };
+        if contact.reactions.iter().any(by_others) {
             blocks.push(Block::Paragraph(words![
                 "The friction forces of other contacts press on this guide as well; that is left out of ",
                 letter('N'),

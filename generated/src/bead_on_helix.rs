@@ -1,0 +1,335 @@
+// @generated from machines/bead_on_helix.machine by `cargo xtask generate`; edits are lost.
+
+//! A bead on a rough helix about a vertical axis, under gravity. The wire presses on it in two
+//! directions: outwards as fast as
+//! it goes, and against its weight; so it does not accelerate for ever, but comes to a speed at
+//! which friction takes what gravity gives.
+//!
+//! 1 coordinate, 6 parameters. Arithmetic of one call:
+//!
+//! | function | mul | add | div | sin cos | other | temporaries |
+//! | --- | --: | --: | --: | --: | --: | --: |
+//! | `prepare` | 20 | 6 | 2 | 0 | 1 | 29 |
+//! | `slips` | 1 | 0 | 0 | 0 | 0 | 1 |
+//! | `friction` | 8 | 4 | 0 | 1 | 0 | 14 |
+//! | `kinetic_energy` | 2 | 0 | 0 | 0 | 0 | 2 |
+//! | `potential_energy` | 1 | 0 | 0 | 0 | 0 | 1 |
+//!
+//! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
+//! function that is not here gives zeros.
+
+// A program uses some of it.
+#![allow(dead_code, unreachable_pub)]
+// Names and numbers are those of the description.
+#![allow(non_snake_case, non_camel_case_types)]
+#![allow(clippy::approx_constant, clippy::upper_case_acronyms)]
+// Formulas are written as derived.
+#![allow(clippy::let_and_return, clippy::too_many_arguments)]
+#![allow(clippy::just_underscores_and_digits, clippy::excessive_precision)]
+#![allow(clippy::pedantic, clippy::nursery)]
+// What the description says is no Markdown.
+#![allow(rustdoc::all)]
+
+/// A bead on a rough helix about a vertical axis, under gravity. The wire presses on it in two
+/// directions: outwards as fast as
+/// it goes, and against its weight; so it does not accelerate for ever, but comes to a speed at
+/// which friction takes what gravity gives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BeadOnHelix<S = f64> {
+    /// Mass of the bead. Unit: `kg`. Default: 0.01.
+    pub m: S,
+    /// Radius of the helix. Unit: `m`. Default: 0.2.
+    pub r: S,
+    /// How far the helix goes down for each radian. Unit: `m`. Default: 0.1.
+    pub h: S,
+    /// Coefficient of friction while it slides. Unit: `1`. Default: 0.3.
+    pub mu: S,
+    /// Coefficient of friction while it sticks. Unit: `1`. Default: 0.4.
+    pub mu0: S,
+    /// Acceleration of gravity. Unit: `m/s^2`. Default: 9.81.
+    pub g: S,
+}
+
+impl<S: ::lagrangian::emitted::Scalar> BeadOnHelix<S> {
+    /// Computes what depends on the parameters alone, once.
+    pub fn prepare(&self) -> Prepared<S> {
+        let t0 = self.m * self.h;
+        let k5 = self.m * self.r;
+        let t1 = self.r * self.r + self.h * self.h;
+        let k1 = t0 * self.g;
+        let k3 = t1.sqrt();
+        let k2 = self.r * k5 + self.h * t0;
+        let t2 = S::ONE / k2;
+        let k6 = k1 * t2;
+        let t3 = S::ONE / k3;
+        let k10 = k3 * t2;
+        let k0 = t1 * (self.m * S::from_f64(0.5));
+        let k4 = -k1;
+        let k7 = k1 * k10;
+        let k8 = k5 * k6;
+        let k9 = self.m * self.g - t0 * k6;
+        let k11 = k3 * k10;
+        let k12 = self.r * t3 - k5 * k10;
+        let k13 = self.h * t3 - t0 * k10;
+        let pivots = [(0, k2, k2)];
+        Prepared {
+            k0,
+            k1,
+            k2,
+            k3,
+            k4,
+            mu: self.mu,
+            mu0: self.mu0,
+            k5,
+            k6,
+            k7,
+            k8,
+            k9,
+            k10,
+            k11,
+            k12,
+            k13,
+            singular: PIVOTS.vanished(pivots),
+        }
+    }
+
+    /// The start values of the description, at rest and `t = 0`.
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
+        let zero = S::ZERO;
+        let q = [zero];
+        let v = [S::ZERO; 1];
+        ::lagrangian::emitted::State {
+            t: 0.0,
+            q: Coordinates::from_array(q),
+            v: Coordinates::from_array(v),
+        }
+    }
+}
+
+/// The coordinates of [`BeadOnHelix`], or their rates, by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinates<S = f64> {
+    /// How far the bead has gone around. Unit: `rad`.
+    pub theta: S,
+}
+
+/// What can be set while a [`BeadOnHelix`] runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inputs {}
+
+/// What can be observed of a [`BeadOnHelix`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outputs {}
+
+/// The parameters of a [`BeadOnHelix`], with the work done that depends on them alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prepared<S = f64> {
+    /// `0.5*m*(h^2 + r^2)`
+    k0: S,
+    /// `m*h*g`
+    k1: S,
+    /// `m*h^2 + m*r^2`
+    k2: S,
+    /// `sqrt(h^2 + r^2)`
+    k3: S,
+    /// `-m*h*g`
+    k4: S,
+    /// `mu`
+    mu: S,
+    /// `mu0`
+    mu0: S,
+    /// `m*r`
+    k5: S,
+    /// `m*h*g/(m*h^2 + m*r^2)`
+    k6: S,
+    /// `m*h*g*sqrt(h^2 + r^2)/(m*h^2 + m*r^2)`
+    k7: S,
+    /// `m^2*r*h*g/(m*h^2 + m*r^2)`
+    k8: S,
+    /// `m*g - m^2*h^2*g/(m*h^2 + m*r^2)`
+    k9: S,
+    /// `sqrt(h^2 + r^2)/(m*h^2 + m*r^2)`
+    k10: S,
+    /// `sqrt(h^2 + r^2)^2/(m*h^2 + m*r^2)`
+    k11: S,
+    /// `r/sqrt(h^2 + r^2) - m*r*sqrt(h^2 + r^2)/(m*h^2 + m*r^2)`
+    k12: S,
+    /// `h/sqrt(h^2 + r^2) - m*h*sqrt(h^2 + r^2)/(m*h^2 + m*r^2)`
+    k13: S,
+    /// Why these parameters leave the machine without accelerations, if they do.
+    singular: Option<::lagrangian::emitted::Singular>,
+}
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 1,
+    tolerance: 8.881784197001252e-16,
+};
+
+/// Mass matrix `M`.
+///
+/// ```text
+/// M[theta, theta] = m*r^2 + m*h^2
+/// ```
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 1]; 1] {
+    [[p.k2]]
+}
+
+/// Applied generalized forces `Q`.
+///
+/// ```text
+/// Q[theta] = m*h*g
+/// ```
+pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 1] {
+    [p.k1]
+}
+
+/// Right-hand side `f = Q - h` of `M a = f`.
+pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 1] {
+    [p.k1]
+}
+
+/// Slips `w` of the guided contacts, in m/s.
+///
+/// ```text
+/// w[wire] = sqrt(r^2 + h^2)*der(theta)
+/// ```
+pub fn slips<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 1]) -> [S; 1] {
+    let theta_dot = v[0];
+    let w1 = p.k3 * theta_dot;
+    [w1]
+}
+
+/// Slip matrix `tau`, the derivatives of the slips by the rates.
+///
+/// ```text
+/// tau[wire, theta] = sqrt(r^2 + h^2)
+/// ```
+pub fn slip_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 1] {
+    [p.k3]
+}
+
+/// What there is without friction, and what a unit of each friction force adds to it:
+/// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these the
+/// coefficients of friction. A machine with contacts has this in place of accelerations and
+/// multipliers.
+///
+/// A pivot that vanishes is an error.
+pub fn friction<S: ::lagrangian::emitted::Number>(
+    p: &Prepared<S>,
+    q: &[S; 1],
+    v: &[S; 1],
+) -> Result<[S; 12], ::lagrangian::emitted::Singular> {
+    S::run(Friction { p, q, v })
+}
+
+/// A call of [`friction`], to be run with whatever instructions the processor has.
+pub struct Friction<'a, S> {
+    /// As `friction` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `friction` takes it.
+    pub q: &'a [S; 1],
+    /// As `friction` takes it.
+    pub v: &'a [S; 1],
+}
+
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
+    type Output = Result<[S; 12], ::lagrangian::emitted::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let theta = n(q[0]);
+        let theta_dot = n(v[0]);
+        let (sin_theta, cos_theta) = theta.sin_cos();
+        let t0 = theta_dot * (theta_dot * n(p.k5));
+        let r2 = -n(p.k8).mul_add(sin_theta, cos_theta * t0);
+        let r3 = n(p.k8).mul_sub(cos_theta, sin_theta * t0);
+        let r7 = sin_theta * n(p.k12);
+        let r8 = -(cos_theta * n(p.k12));
+        let friction = [
+            n(p.k6).store(),
+            n(p.k7).store(),
+            r2.store(),
+            r3.store(),
+            n(p.k9).store(),
+            n(p.k10).store(),
+            n(p.k11).store(),
+            r7.store(),
+            r8.store(),
+            n(p.k13).store(),
+            n(p.mu).store(),
+            n(p.mu0).store(),
+        ];
+        Ok(friction)
+    }
+}
+
+/// Kinetic energy `T`, in J.
+///
+/// ```text
+/// T = 1/2*(r^2 + h^2)*m*der(theta)^2
+/// ```
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 1]) -> S {
+    let theta_dot = v[0];
+    theta_dot * (theta_dot * p.k0)
+}
+
+/// Potential energy `V`, in J.
+///
+/// ```text
+/// V = -m*h*g*theta
+/// ```
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> S {
+    let theta = q[0];
+    p.k4 * theta
+}
+
+::lagrangian::emitted::implement! {
+    machine BeadOnHelix "BeadOnHelix" over S, R;
+    parameters { m, r, h, mu, mu0, g } [
+        m: "m" "kg" = 0.01;
+        r: "r" "m" = 0.2;
+        h: "h" "m" = 0.1;
+        mu: "mu" "1" = 0.3;
+        mu0: "mu0" "1" = 0.4;
+        g: "g" "m/s^2" = 9.81;
+    ]
+    coordinates 1 Coordinates { theta } [
+        theta: "theta" "rad";
+    ]
+    inputs Inputs {} []
+    outputs Outputs {} []
+    prepared Prepared { k0, k1, k2, k3, k4, mu, mu0, k5, k6, k7, k8, k9, k10, k11, k12, k13 }
+    singular singular
+    accelerations friction
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p);
+        vector bias(p, t, q, v);
+        vector applied(p, t, q, v, u) = applied(p);
+        vector forces(p, t, q, v, u) = forces(p);
+        numbers slips(p, t, q, v) = slips(p, v);
+        numbers slip_matrix(p, t, q) = slip_matrix(p);
+        numbers slip_drift(p, t, q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = Outputs {};
+        names contacts(p) = ["wire"];
+        number reaction_axes(p) = 3;
+        ranges slip_ranges(p, v) = slips(p, v);
+        solved friction(p, t, q, v, u) = friction(p, q, v);
+        workspace with_workspace(p) = ::lagrangian::emitted::contact_workspace_in_space(1, 0, 1);
+    }
+    absent [MAY_BE_CONSTRAINED MAY_COLLIDE]
+    intervals [yes]
+    lanes []
+    numbers []
+}

@@ -1,0 +1,406 @@
+// @generated from machines/bead_on_hoop.machine by `cargo xtask generate`; edits are lost.
+
+//! A bead on a rough hoop that is turned about its vertical diameter. It sticks wherever friction
+//! can hold it; the hoop presses
+//! on it in its own plane, and across it while the bead slides.
+//!
+//! 1 coordinate, 5 parameters. Arithmetic of one call:
+//!
+//! | function | mul | add | div | sin cos | other | temporaries |
+//! | --- | --: | --: | --: | --: | --: | --: |
+//! | `prepare` | 13 | 2 | 2 | 0 | 0 | 17 |
+//! | `bias` | 2 | 0 | 0 | 1 | 0 | 4 |
+//! | `applied` | 1 | 0 | 0 | 1 | 0 | 2 |
+//! | `forces` | 3 | 1 | 0 | 1 | 0 | 6 |
+//! | `slips` | 1 | 0 | 0 | 0 | 0 | 1 |
+//! | `friction` | 30 | 12 | 0 | 2 | 0 | 46 |
+//! | `kinetic_energy` | 5 | 1 | 0 | 1 | 0 | 7 |
+//! | `potential_energy` | 1 | 0 | 0 | 1 | 0 | 2 |
+//! | `work_rate` | 3 | 0 | 0 | 1 | 0 | 5 |
+//!
+//! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
+//! function that is not here gives zeros.
+
+// A program uses some of it.
+#![allow(dead_code, unreachable_pub)]
+// Names and numbers are those of the description.
+#![allow(non_snake_case, non_camel_case_types)]
+#![allow(clippy::approx_constant, clippy::upper_case_acronyms)]
+// Formulas are written as derived.
+#![allow(clippy::let_and_return, clippy::too_many_arguments)]
+#![allow(clippy::just_underscores_and_digits, clippy::excessive_precision)]
+#![allow(clippy::pedantic, clippy::nursery)]
+// What the description says is no Markdown.
+#![allow(rustdoc::all)]
+
+/// A bead on a rough hoop that is turned about its vertical diameter. It sticks wherever friction
+/// can hold it; the hoop presses
+/// on it in its own plane, and across it while the bead slides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BeadOnHoop<S = f64> {
+    /// Mass of the bead. Unit: `kg`. Default: 0.01.
+    pub m: S,
+    /// Radius of the hoop. Unit: `m`. Default: 0.2.
+    pub r: S,
+    /// How fast the hoop is turned. Unit: `rad/s`. Default: 10.
+    pub omega: S,
+    /// Coefficient of friction. Unit: `1`. Default: 0.2.
+    pub mu: S,
+    /// Acceleration of gravity. Unit: `m/s^2`. Default: 9.81.
+    pub g: S,
+}
+
+impl<S: ::lagrangian::emitted::Scalar> BeadOnHoop<S> {
+    /// Computes what depends on the parameters alone, once.
+    pub fn prepare(&self) -> Prepared<S> {
+        let t0 = S::ONE / self.r;
+        let k14 = S::ONE / self.m;
+        let t1 = self.r * self.omega;
+        let k6 = self.m * self.r;
+        let k1 = t1 * t1;
+        let k4 = self.g * k6;
+        let k0 = self.r * k6;
+        let k7 = self.m * k1;
+        let k13 = t0 * k14;
+        let k2 = self.r * self.r;
+        let k3 = self.m * S::from_f64(0.5);
+        let k5 = self.omega * t1;
+        let k8 = k7 * S::from_f64(2.0);
+        let k9 = -k7;
+        let k10 = -k4;
+        let k11 = t1 * S::from_f64(2.0);
+        let k12 = t0 * k13;
+        let pivots = [(0, k0, k0)];
+        Prepared {
+            m: self.m,
+            r: self.r,
+            omega: self.omega,
+            g: self.g,
+            k0,
+            k1,
+            k2,
+            k3,
+            k4,
+            k5,
+            k6,
+            k7,
+            k8,
+            k9,
+            k10,
+            mu: self.mu,
+            k11,
+            k12,
+            k13,
+            k14,
+            singular: PIVOTS.vanished(pivots),
+        }
+    }
+
+    /// The start values of the description, at rest and `t = 0`.
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
+        let zero = S::ZERO;
+        let q = [zero];
+        let v = [S::ZERO; 1];
+        ::lagrangian::emitted::State {
+            t: 0.0,
+            q: Coordinates::from_array(q),
+            v: Coordinates::from_array(v),
+        }
+    }
+}
+
+/// The coordinates of [`BeadOnHoop`], or their rates, by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinates<S = f64> {
+    /// How far the bead is from the lowest point. Unit: `rad`.
+    pub theta: S,
+}
+
+/// What can be set while a [`BeadOnHoop`] runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inputs {}
+
+/// What can be observed of a [`BeadOnHoop`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outputs {}
+
+/// The parameters of a [`BeadOnHoop`], with the work done that depends on them alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prepared<S = f64> {
+    /// `m`
+    m: S,
+    /// `r`
+    r: S,
+    /// `omega`
+    omega: S,
+    /// `g`
+    g: S,
+    /// `m*r^2`
+    k0: S,
+    /// `r^2*omega^2`
+    k1: S,
+    /// `r^2`
+    k2: S,
+    /// `0.5*m`
+    k3: S,
+    /// `m*r*g`
+    k4: S,
+    /// `r*omega^2`
+    k5: S,
+    /// `m*r`
+    k6: S,
+    /// `m*r^2*omega^2`
+    k7: S,
+    /// `2*m*r^2*omega^2`
+    k8: S,
+    /// `-m*r^2*omega^2`
+    k9: S,
+    /// `-m*r*g`
+    k10: S,
+    /// `mu`
+    mu: S,
+    /// `2*r*omega`
+    k11: S,
+    /// `1/m/r^2`
+    k12: S,
+    /// `1/m/r`
+    k13: S,
+    /// `1/m`
+    k14: S,
+    /// Why these parameters leave the machine without accelerations, if they do.
+    singular: Option<::lagrangian::emitted::Singular>,
+}
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 1,
+    tolerance: 8.881784197001252e-16,
+};
+
+/// Mass matrix `M`.
+///
+/// ```text
+/// M[theta, theta] = m*r^2
+/// ```
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 1]; 1] {
+    [[p.k0]]
+}
+
+/// Bias `h`: velocity products and explicit time in the inertia forces.
+///
+/// ```text
+/// h[theta] = -m*r^2*omega^2*sin(theta)*cos(theta)
+/// ```
+pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
+    let theta = q[0];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let h_theta = cos_theta * (p.k9 * sin_theta);
+    [h_theta]
+}
+
+/// Applied generalized forces `Q`.
+///
+/// ```text
+/// Q[theta] = -m*r*g*sin(theta)
+/// ```
+pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
+    let theta = q[0];
+    let sin_theta = theta.sin();
+    let q_theta = p.k10 * sin_theta;
+    [q_theta]
+}
+
+/// Right-hand side `f = Q - h` of `M a = f`.
+pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
+    let theta = q[0];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let f_theta = cos_theta * (sin_theta * p.k7) - sin_theta * p.k4;
+    [f_theta]
+}
+
+/// Slips `w` of the guided contacts, in m/s.
+///
+/// ```text
+/// w[wire] = r*der(theta)
+/// ```
+pub fn slips<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 1]) -> [S; 1] {
+    let theta_dot = v[0];
+    let w1 = theta_dot * p.r;
+    [w1]
+}
+
+/// Slip matrix `tau`, the derivatives of the slips by the rates.
+///
+/// ```text
+/// tau[wire, theta] = r
+/// ```
+pub fn slip_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 1] {
+    [p.r]
+}
+
+/// What there is without friction, and what a unit of each friction force adds to it:
+/// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these the
+/// coefficients of friction. A machine with contacts has this in place of accelerations and
+/// multipliers.
+///
+/// A pivot that vanishes is an error.
+pub fn friction<S: ::lagrangian::emitted::Number>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 1],
+    v: &[S; 1],
+) -> Result<[S; 12], ::lagrangian::emitted::Singular> {
+    S::run(Friction { p, t, q, v })
+}
+
+/// A call of [`friction`], to be run with whatever instructions the processor has.
+pub struct Friction<'a, S> {
+    /// As `friction` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `friction` takes it.
+    pub t: S,
+    /// As `friction` takes it.
+    pub q: &'a [S; 1],
+    /// As `friction` takes it.
+    pub v: &'a [S; 1],
+}
+
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
+    type Output = Result<[S; 12], ::lagrangian::emitted::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, t, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let theta = n(q[0]);
+        let theta_dot = n(v[0]);
+        let t0 = n(t) * n(p.omega);
+        let angles = [theta, t0];
+        let circular = N::sin_cos_all(angles);
+        let (sin_theta, cos_theta) = circular[0];
+        let (sin_t0, cos_t0) = circular[1];
+        let t1 = n(t).product_error(n(p.omega));
+        let t2 = theta_dot * n(p.k11);
+        let t3 = theta_dot * (theta_dot * n(p.r));
+        let t4 = t3 * sin_theta;
+        let t5 = sin_theta * n(p.k5);
+        let t6 = t3.mul_add(cos_theta, n(p.g));
+        let t7 = t1.neg_mul_add(sin_t0, cos_t0);
+        let t8 = t1.mul_add(cos_t0, sin_t0);
+        let t9 = cos_theta * t7;
+        let t10 = cos_theta * t8;
+        let t11 = n(p.k6) * cos_theta.mul_sub(t4 + t5, sin_theta * t6);
+        let r0 = n(p.k12) * t11;
+        let t12 = n(p.k6) * r0;
+        let t13 = n(p.m) * t2.mul_add(t10, t4.mul_add(t7, t5 * t7));
+        let t14 = n(p.m) * t9.neg_mul_add(t2, t4.mul_add(t8, t5 * t8));
+        let r1 = n(p.r) * r0;
+        let r2 = t9.mul_sub(t12, t13);
+        let r3 = t12.mul_sub(t10, t14);
+        let r4 = sin_theta.mul_add(t12, t6 * n(p.m));
+        let zero = N::ZERO;
+        let friction = [
+            r0.store(),
+            r1.store(),
+            r2.store(),
+            r3.store(),
+            r4.store(),
+            n(p.k13).store(),
+            n(p.k14).store(),
+            zero.store(),
+            zero.store(),
+            zero.store(),
+            n(p.mu).store(),
+            n(p.mu).store(),
+        ];
+        Ok(friction)
+    }
+}
+
+/// Kinetic energy `T`, in J.
+///
+/// ```text
+/// T = 1/2*m*r^2*der(theta)^2 + 1/2*m*r^2*omega^2*sin(theta)^2
+/// ```
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 1],
+    v: &[S; 1],
+) -> S {
+    let theta = q[0];
+    let theta_dot = v[0];
+    let sin_theta = theta.sin();
+    p.k3 * (theta_dot * (theta_dot * p.k2) + sin_theta * (sin_theta * p.k1))
+}
+
+/// Potential energy `V`, in J.
+///
+/// ```text
+/// V = -m*r*g*cos(theta)
+/// ```
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> S {
+    let theta = q[0];
+    let cos_theta = theta.cos();
+    p.k10 * cos_theta
+}
+
+/// Power `P` that drives, forces and inputs put in, in W.
+///
+/// ```text
+/// P = 2*m*r^2*omega^2*sin(theta)*cos(theta)*der(theta)
+/// ```
+pub fn work_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1], v: &[S; 1]) -> S {
+    let theta = q[0];
+    let theta_dot = v[0];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    cos_theta * (sin_theta * (p.k8 * theta_dot))
+}
+
+::lagrangian::emitted::implement! {
+    machine BeadOnHoop "BeadOnHoop" over S, R;
+    parameters { m, r, omega, mu, g } [
+        m: "m" "kg" = 0.01;
+        r: "r" "m" = 0.2;
+        omega: "omega" "rad/s" = 10.0;
+        mu: "mu" "1" = 0.2;
+        g: "g" "m/s^2" = 9.81;
+    ]
+    coordinates 1 Coordinates { theta } [
+        theta: "theta" "rad";
+    ]
+    inputs Inputs {} []
+    outputs Outputs {} []
+    prepared Prepared {
+        m, r, omega, g, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, mu, k11, k12, k13, k14,
+    }
+    singular singular
+    accelerations friction
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p);
+        vector bias(p, t, q, v) = bias(p, q);
+        vector applied(p, t, q, v, u) = applied(p, q);
+        vector forces(p, t, q, v, u) = forces(p, q);
+        numbers slips(p, t, q, v) = slips(p, v);
+        numbers slip_matrix(p, t, q) = slip_matrix(p);
+        numbers slip_drift(p, t, q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u) = work_rate(p, q, v);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = Outputs {};
+        names contacts(p) = ["wire"];
+        number reaction_axes(p) = 3;
+        ranges slip_ranges(p, v) = slips(p, v);
+        solved friction(p, t, q, v, u) = friction(p, t, q, v);
+        workspace with_workspace(p) = ::lagrangian::emitted::contact_workspace_in_space(1, 0, 1);
+    }
+    absent [MAY_BE_CONSTRAINED MAY_COLLIDE]
+    intervals [yes]
+    lanes []
+    numbers []
+}
