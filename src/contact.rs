@@ -12,13 +12,14 @@
 //! slips and what sticks is a state of the run: between two events it stays as it is, the motion is smooth, and
 //! closed contacts are further constraints, kept as those of the machine are. Where a gap closes, a force vanishes,
 //! or a slip stops, all closed contacts are asked together, by a linear complementarity problem that is solved by
-//! pivoting (`lcp`). (F. Pfeiffer, C. Glocker, *Multibody Dynamics with Unilateral Contacts*, 1996; D. E. Stewart,
+//! pivoting (`lcp`); in space, where friction has two directions, by one on cones (`cone`). (F. Pfeiffer, C. Glocker, *Multibody Dynamics with Unilateral Contacts*, 1996; D. E. Stewart,
 //! J. C. Trinkle, Int. J. Numer. Methods Eng. 39 (1996) 2673–2691.)
 //!
 //! In time stepping contacts are asked once in each step for their impulses, whenever in it they meet (`stepping`).
 //!
 //! All of it is for runs, which may allocate.
 
+mod cone;
 mod delassus;
 mod event;
 mod force;
@@ -29,7 +30,7 @@ mod routh;
 mod stepping;
 mod touching;
 
-pub use event::{ContactEvent, ContactEventKind, ContactImpact};
+pub use event::{ContactEvent, ContactEventKind, ContactImpact, ImpactAcross};
 pub use force::{UnilateralForce, unilateral_forces};
 pub(crate) use impact::{Impact, Jam};
 pub(crate) use stepping::Stepped;

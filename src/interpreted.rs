@@ -665,6 +665,7 @@ impl System for InterpretedSystem {
                 }),
                 rubs: contact.rubs,
                 rolls: contact.rolls,
+                across: contact.across,
             })
     }
 

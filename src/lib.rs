@@ -159,7 +159,7 @@ pub use vector::Vector;
 
 #[cfg(feature = "std")]
 pub use contact::{
-    ContactEvent, ContactEventKind, ContactImpact, UnilateralForce, unilateral_forces,
+    ContactEvent, ContactEventKind, ContactImpact, ImpactAcross, UnilateralForce, unilateral_forces,
 };
 #[cfg(feature = "std")]
 pub use equations::check_equations;

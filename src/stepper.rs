@@ -769,6 +769,10 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         self.newest = 0;
         self.before.copy_from(&self.now);
         #[cfg(feature = "std")]
+        if S::MAY_COLLIDE {
+            self.model.begin_contacts(&self.before);
+        }
+        #[cfg(feature = "std")]
         if let Some(taylor) = &mut self.taylor {
             taylor.begin();
         }

@@ -19,6 +19,10 @@ pub struct UnilateralContact<'a> {
     /// its slip is how fast one body turns relative to the other, in rad/s, its friction the torque that resists this, in N m,
     /// `|τ| ≤ ρ λₙ`, and its coefficient of friction the length ρ, in m.
     pub rolls: bool,
+    /// Whether it is the second tangent of the contact before it, in space, on which it leans: it has the gap, the normal force and
+    /// the coefficients of that contact; its slip and its friction are those along the second tangent. Both together obey Coulomb's
+    /// law, `|λₜ| ≤ μ λₙ`.
+    pub across: bool,
 }
 
 /// Whether contacts that are closed take part in one impact.
@@ -83,6 +87,8 @@ pub enum ImpactLaw {
 pub enum ContactTrouble {
     /// The law of friction leaves no motion, or more than one: P. Painlevé's paradox.
     Paradox,
+    /// No forces were found that obey the law of friction in space, by a method that converges where there are.
+    Unsolved,
     /// A gap is negative at the start.
     Penetrates,
     /// The law of impact is for one contact at a time, and several meet.
@@ -101,6 +107,9 @@ impl ContactTrouble {
         match self {
             Self::Paradox => {
                 "its friction leaves no motion, or more than one (a paradox of P. Painlevé)"
+            }
+            Self::Unsolved => {
+                "no forces were found that obey the law of friction in space: there may be none"
             }
             Self::Penetrates => "it is not open but penetrated",
             Self::SeveralAtOnce => {

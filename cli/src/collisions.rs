@@ -48,7 +48,16 @@ fn accounts(run: &Run) -> Vec<Account> {
             is_closed: closed.get(k).copied().unwrap_or(false),
         }
     };
-    contacts.map(of_contact).collect()
+    let mut accounts: Vec<Account> = Vec::new();
+    for (k, contact) in contacts {
+        let account = of_contact((k, contact));
+        // What was lost along the second tangent of a contact is lost in it.
+        match accounts.last_mut().filter(|_| contact.across) {
+            Some(first) => first.loss += account.loss,
+            None => accounts.push(account),
+        }
+    }
+    accounts
 }
 
 /// Whether an event is one of the contacts.
@@ -121,7 +130,14 @@ pub fn fields(run: &Run) -> Vec<(&'static str, Value)> {
         })
         .collect();
     let lost: f64 = run.impact_losses().iter().sum();
-    let events = run.contact_events().iter().map(event);
+    let slips_across = |contact: &str| {
+        let second = format!("{contact}.across");
+        run.system()
+            .unilateral_contacts()
+            .any(|known| known.across && known.name == second)
+    };
+    let events = run.contact_events().iter();
+    let events = events.map(|told| event(told, slips_across(&told.contact)));
     let mut fields = vec![
         ("contact_events", events.collect()),
         ("unilateral_contacts", accounts.into()),
@@ -144,7 +160,8 @@ pub fn fields(run: &Run) -> Vec<(&'static str, Value)> {
     fields
 }
 
-fn event(event: &ContactEvent<Named>) -> Value {
+/// What is told of an event of a contact, which slips along two tangents or one.
+fn event(event: &ContactEvent<Named>, slips_across: bool) -> Value {
     let mut document = json!({
         "t": event.state.t,
         "contact": event.contact,
@@ -162,9 +179,18 @@ fn event(event: &ContactEvent<Named>) -> Value {
         fields.insert("gap_rate".into(), json!(impact.gap_rate));
         fields.insert("slip".into(), json!(impact.slip));
         fields.insert("impulse".into(), json!(impact.impulse));
+        if let Some(across) = impact.across {
+            fields.insert("slip_across".into(), json!(across.slip));
+            let [normal, tangential] = impact.impulse;
+            let impulse = [normal, tangential, across.impulse];
+            fields.insert("impulse".into(), json!(impulse));
+        }
         fields.insert("loss".into(), json!(impact.loss));
     }
-    if event.direction != 0.0 {
+    if slips_across && event.kind == ContactEventKind::Slips {
+        let direction = [event.direction, event.across];
+        fields.insert("direction".into(), json!(direction));
+    } else if event.direction != 0.0 {
         fields.insert("direction".into(), json!(event.direction));
     }
     if event.time_error > 0.0 {

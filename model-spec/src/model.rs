@@ -22,6 +22,7 @@ pub mod bounds;
 pub mod circles;
 pub mod element;
 mod published;
+pub mod spheres;
 
 pub use published::*;
 
@@ -89,7 +90,7 @@ pub struct Model<'d> {
     /// move off, by two coordinates for each guide behind all others. It tells what holds the guides
     /// shut. None where nothing slides.
     pub relaxed: Option<Box<Model<'d>>>,
-    /// Circles that can touch.
+    /// Circles that can touch, or in space spheres.
     pub circles: Vec<Circle<'d>>,
     /// Unilateral contacts.
     pub contacts: Vec<Contact<'d>>,
@@ -403,7 +404,7 @@ pub enum Place {
     Body(usize),
 }
 
-/// A circle, fixed to a frame or body.
+/// A circle, or a sphere in space, fixed to a frame or body.
 #[derive(Clone)]
 pub struct Circle<'d> {
     /// Its name.
@@ -434,7 +435,7 @@ pub enum Surface {
     Inside(usize),
     /// Another circle, by its index, out of which it is.
     Outside(usize),
-    /// The first axis of a frame, on the side of the second.
+    /// The first axis of a frame, on the side of the second; in space the plane of its first two axes, on the side of the third.
     Along(PoseId),
 }
 
@@ -458,6 +459,17 @@ pub struct Contact<'d> {
     pub rolling_resistance: Option<Expr<'d>>,
     /// Its name in the spec.
     pub span: Span,
+}
+
+impl Contact<'_> {
+    /// Whether friction acts along two tangents, in space.
+    pub fn slips_across(&self, space: Space) -> bool {
+        let has_two = match &self.geometry {
+            ContactGeometry::Circles(_) | ContactGeometry::Point { .. } => space == Space::Space,
+            ContactGeometry::Expressions { across, .. } => across.is_some(),
+        };
+        has_two && self.friction.is_some()
+    }
 }
 
 /// What a contact does where its gap closes.
@@ -543,6 +555,8 @@ pub enum ContactGeometry<'d> {
         gap: Expr<'d>,
         /// The slip velocity.
         slip: Expr<'d>,
+        /// In space, the slip velocity in a second direction, if friction acts in two.
+        across: Option<Expr<'d>>,
     },
 }
 

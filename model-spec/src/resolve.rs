@@ -290,7 +290,8 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         self.facts = facts.map(|fact| (fact, fact.symbols())).collect();
         let elements = self.elements(layers);
         bodies.append(&mut self.rotors);
-        let circles = self.each(Circles, Self::circle);
+        let mut circles = self.each(Circles, Self::circle);
+        circles.extend(self.each(Spheres, Self::sphere));
         let contacts = self.each(Contacts, Self::contacts);
         let contacts = contacts.into_iter().flatten().collect();
         let approximations = self.each(Approximations, |resolver, member| {

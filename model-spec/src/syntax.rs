@@ -23,7 +23,7 @@
 //!             | ("potentials" | "dissipations") "{" list(declared ":" expression) "}"
 //! records     = ("bodies" | "rotors" | "springs" | "torsion_springs" | "dampers" | "bushings" | "stops"
 //!               | "forces" | "torques" | "actuators" | "drag" | "transmissions" | "ropes"
-//!               | "wheels" | "sliding" | "circles" | "rolling" | "contacts") "{" list(declared record) "}"
+//!               | "wheels" | "sliding" | "circles" | "spheres" | "rolling" | "contacts") "{" list(declared record) "}"
 //! record      = "{" list(NAME ":" expression) "}"
 //! constraints = "constraints" "{" list(declared ":" equation) "}"
 //! assume      = "assume" "{" list(fact) "}"

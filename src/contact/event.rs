@@ -15,8 +15,10 @@ pub struct ContactEvent<C> {
     pub kind: ContactEventKind,
     /// Time, and the state after it.
     pub state: State<C>,
-    /// The direction of the slip that begins, 1 or −1; 0 where none does.
+    /// The direction of the slip that begins, 1 or −1; 0 where none does. In space the component of it along the first tangent.
     pub direction: f64,
+    /// In space the component of that direction along the second tangent; 0 elsewhere.
+    pub across: f64,
     /// By how much the time may be off, in s, where bounces were closed at the sum of all that were left; 0 else.
     pub time_error: f64,
     /// What an impact did.
@@ -91,4 +93,17 @@ pub struct ContactImpact {
     pub impulse: [f64; 2],
     /// The energy lost in it, in J: `−½ Λ·(γ⁺ + γ⁻)`.
     pub loss: f64,
+    /// What it did along the second tangent, in space.
+    pub across: Option<ImpactAcross>,
+}
+
+/// What an impact in space did to a contact along its second tangent.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct ImpactAcross {
+    /// The slip before and after, in m/s.
+    pub slip: [f64; 2],
+    /// The impulse, in N s.
+    pub impulse: f64,
 }

@@ -23,6 +23,9 @@ const LEAST_BOUNCE: f64 = 1e-9;
 /// A bounce is no higher than so many roundings of its gap.
 const LEAST_HEIGHT: f64 = 64.0;
 
+/// A slip in space that is no more than so many of its roundings has stopped.
+const STOPPED: f64 = 10.0;
+
 /// What an impact did to a contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Impact {
@@ -245,6 +248,7 @@ impl Touching {
     ) -> Asked {
         let friction = here.friction(contact)[0];
         match self.leans(contact) {
+            Some(_) if self.first(contact) != contact => Asked::Across,
             None => Asked::Both {
                 friction,
                 beside: beside[place],
@@ -272,15 +276,15 @@ impl Touching {
             trouble,
             t,
         };
-        let paradox = || trouble(0, ContactTrouble::Paradox);
+        let unsolved = || self.unsolved(meets, t);
         let width = before.len();
         let solved = |beside: &[f64], b: &[f64]| -> Result<Answer, StepError> {
             let asked: Vec<Asked> = (meets.iter().enumerate())
                 .map(|(place, &k)| self.asked_of_impact(here, (place, k), beside))
                 .collect();
-            let answer = problem::solve(&asked, g, b).map_err(|_| paradox())?;
+            let answer = problem::solve(&asked, g, b).map_err(|_| unsolved())?;
             match answer.residual > 1e-8 {
-                true => Err(paradox()),
+                true => Err(unsolved()),
                 false => Ok(answer),
             }
         };
@@ -401,12 +405,40 @@ impl Touching {
         v: &S::Vector,
     ) -> Vec<bool> {
         let here = Here::of(system, t, q, v);
-        (0..here.gaps.len())
-            .map(|k| {
-                let rounding = here.rate_rounding[2 * k + 1].max(1e-12 * self.speed);
-                here.rates[2 * k + 1].abs() <= rounding
-            })
-            .collect()
+        let rests = |k: usize| {
+            let least = 1e-12 * self.speed;
+            if self.has_two_tangents(k) {
+                let [slip, rounding] = self.slip(&here, k);
+                return slip[0].hypot(slip[1]) <= rounding[0].hypot(rounding[1]).max(least);
+            }
+            here.rates[2 * k + 1].abs() <= here.rate_rounding[2 * k + 1].max(least)
+        };
+        (0..here.gaps.len()).map(rests).collect()
+    }
+
+    /// Whether a contact that skids has come to rest where its slip is at right angles to what it was when the step began: then it
+    /// is what the step has left of it, and not a turn.
+    pub fn has_stopped<S: System>(
+        &self,
+        system: &S,
+        at: super::touching::At<'_, S>,
+        contact: usize,
+    ) -> Result<bool, StepError> {
+        let Mode::Skids(_) = self.modes()[contact] else {
+            return Ok(true);
+        };
+        let (t, q, v, _) = at;
+        let here = Here::of(system, t, q, v);
+        let [slip, rounding] = self.slip(&here, contact);
+        let speed = slip[0].hypot(slip[1]);
+        if speed <= STOPPED * rounding[0].hypot(rounding[1]).max(1e-12 * self.speed) {
+            return Ok(true);
+        }
+        // It has stopped if it does so before time goes on.
+        let a = self.reaction(system, at)?.a;
+        let braked = [1, 3].map(|part| here.acceleration(2 * self.first(contact) + part, &a)[0]);
+        let left = speed / braked[0].hypot(braked[1]);
+        Ok(left <= 64.0 * f64::EPSILON * t.abs())
     }
 
     /// Which contacts neither open nor close; of those that yield, which are pressed.

@@ -1,4 +1,4 @@
-//! The complementarity problem of contacts with friction in the plane.
+//! The complementarity problem of contacts with friction.
 //!
 //! ```text
 //! γ = G Λ + b,    0 ≤ Λₙ ⊥ γₙ ≥ 0,    −Λₜ ∈ μ (Λₙ + Λ₀) Sgn γₜ
@@ -15,10 +15,13 @@
 //!
 //! (D. E. Stewart, J. C. Trinkle, Int. J. Numer. Methods Eng. 39 (1996) 2673–2691.) Where it is known how a contact
 //! slips, `Λₜ = κ Λₙ` and there is no question of β and σ.
+//!
+//! In space a contact has two tangents, and friction a disc: that problem is not linear, and `cone` solves it.
 
 use std::vec;
 use std::vec::Vec;
 
+use super::cone::{self, Part};
 use super::lcp::{Unsolved, lemke};
 
 /// What is asked of a contact.
@@ -40,11 +43,16 @@ pub(super) enum Asked {
     },
     /// The tangent, whose force is `κ` times the normal one of another contact.
     Carried { share: f64, on: usize },
+    /// The second tangent of the contact before it, whose friction limits both together.
+    Across,
 }
 
 /// Solves for normal and tangential forces or impulses of each contact. `g` has two rows and columns for each, its
 /// normal and its tangent, and so has `b`.
 pub(super) fn solve(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Unsolved> {
+    if asked.iter().any(|asked| matches!(asked, Asked::Across)) {
+        return in_space(asked, g, b);
+    }
     let m = asked.len();
     let entry = |i: usize, j: usize| g[i * 2 * m + j];
     // What is unknown: for each contact its kind, and in which units of impulse.
@@ -54,7 +62,7 @@ pub(super) fn solve(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Uns
             Asked::Both { friction, .. } => *friction > 0.0,
             Asked::Tangent { friction, normal } => friction * normal > 0.0,
             Asked::Leaning { friction, .. } => *friction > 0.0,
-            Asked::Normal { .. } | Asked::Nothing | Asked::Carried { .. } => false,
+            Asked::Normal { .. } | Asked::Nothing | Asked::Carried { .. } | Asked::Across => false,
         };
         if matches!(asked, Asked::Both { .. } | Asked::Normal { .. }) {
             unknowns.push((k, Kind::Normal));
@@ -109,7 +117,9 @@ pub(super) fn solve(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Uns
             Asked::Leaning {
                 friction, beside, ..
             } => (friction, beside / (unit[k] * rate)),
-            Asked::Normal { .. } | Asked::Nothing | Asked::Carried { .. } => (0.0, 0.0),
+            Asked::Normal { .. } | Asked::Nothing | Asked::Carried { .. } | Asked::Across => {
+                (0.0, 0.0)
+            }
         };
         // Where what presses is another contact, which, and how many of its units are one of these.
         let leans = match asked[k] {
@@ -166,6 +176,125 @@ pub(super) fn solve(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Uns
     })
 }
 
+/// As [`solve`], where some contacts have a second tangent.
+fn in_space(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Unsolved> {
+    let (m, all_asked) = (asked.len(), asked);
+    let entry = |i: usize, j: usize| g[i * 2 * m + j];
+    let rate = b.iter().fold(0.0_f64, |size, b| size.max(b.abs()));
+    if rate == 0.0 {
+        return Ok(Answer {
+            forces: vec![[0.0; 2]; m],
+            residual: 0.0,
+        });
+    }
+    // The unknown forces, by direction, and of each by what it is multiplied in other directions: what slips in a known
+    // direction is a share of the normal force.
+    let mut unknowns: Vec<Vec<(usize, f64)>> = Vec::new();
+    let mut normals = vec![None; m];
+    for (k, asked) in asked.iter().enumerate() {
+        match *asked {
+            Asked::Both { .. } => {
+                normals[k] = Some(unknowns.len());
+                unknowns.push(vec![(2 * k, 1.0)]);
+            }
+            Asked::Normal { share } => {
+                normals[k] = Some(unknowns.len());
+                unknowns.push(vec![(2 * k, 1.0), (2 * k + 1, share)]);
+            }
+            Asked::Carried { share, on } => {
+                if let Some(normal) = normals[on] {
+                    unknowns[normal].push((2 * k + 1, share));
+                }
+            }
+            _ => {}
+        }
+    }
+    let mut parts = Vec::new();
+    for (k, asked) in asked.iter().enumerate() {
+        let (friction, on, beside) = match *asked {
+            Asked::Both { friction, beside } => (friction, normals[k], beside),
+            Asked::Tangent { friction, normal } => (friction, None, normal),
+            Asked::Leaning {
+                friction,
+                beside,
+                on,
+            } => (friction, normals[on], beside),
+            Asked::Normal { .. } | Asked::Carried { .. } | Asked::Nothing | Asked::Across => {
+                parts.extend(normals[k].map(Part::Normal));
+                continue;
+            }
+        };
+        if matches!(asked, Asked::Both { .. }) {
+            parts.extend(normals[k].map(Part::Normal));
+        }
+        if friction <= 0.0 || (on.is_none() && beside <= 0.0) {
+            continue;
+        }
+        let is_across = |next: &usize| matches!(all_asked.get(*next), Some(Asked::Across));
+        let tangents = [k].into_iter().chain([k + 1].into_iter().filter(is_across));
+        let mut places = Vec::new();
+        for tangent in tangents {
+            places.push(unknowns.len());
+            unknowns.push(vec![(2 * tangent + 1, 1.0)]);
+        }
+        parts.push(Part::Disc {
+            places,
+            friction,
+            on,
+            beside,
+        });
+    }
+    // Both tangents of a contact have one unit of impulse, so that its disc stays one.
+    let own = |unknown: &[(usize, f64)]| {
+        let (direction, _) = unknown[0];
+        entry(direction, direction)
+    };
+    let mut units: Vec<f64> = unknowns.iter().map(|unknown| own(unknown)).collect();
+    for part in &parts {
+        if let Part::Disc { places, .. } = part {
+            let greatest = places.iter().fold(0.0_f64, |most, i| most.max(units[*i]));
+            places.iter().for_each(|i| units[*i] = greatest);
+        }
+    }
+    for unit in &mut units {
+        *unit = if *unit > 0.0 { 1.0 / *unit } else { 1.0 };
+    }
+    let n = unknowns.len();
+    let mut problem = cone::Problem {
+        matrix: vec![0.0; n * n],
+        b: unknowns.iter().map(|u| b[u[0].0] / rate).collect(),
+        parts,
+    };
+    for (i, row) in unknowns.iter().enumerate() {
+        for (j, column) in unknowns.iter().enumerate() {
+            let terms = column.iter().map(|(d, share)| share * entry(row[0].0, *d));
+            problem.matrix[i * n + j] = units[j] * terms.sum::<f64>();
+        }
+    }
+    for part in &mut problem.parts {
+        if let Part::Disc {
+            places,
+            friction,
+            on,
+            beside,
+        } = part
+        {
+            let own = units[places[0]];
+            let pressing = on.map_or(own, |on| units[on]);
+            *friction *= pressing / own;
+            *beside /= pressing * rate;
+        }
+    }
+    let (z, residual) = cone::solve(&problem)?;
+    let mut forces = vec![[0.0; 2]; m];
+    for ((unknown, z), unit) in unknowns.iter().zip(&z).zip(&units) {
+        for (direction, share) in unknown {
+            forces[direction / 2][direction % 2] += share * z * unit * rate;
+        }
+    }
+    Ok(Answer { forces, residual })
+}
+
 /// The forces or impulses of contacts, along normal and tangent.
 #[derive(Clone, Debug)]
 pub(super) struct Answer {
@@ -180,4 +309,78 @@ enum Kind {
     Forward,
     Backward,
     Slip,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers between −1 and 1 that look drawn at random.
+    fn drawn(seed: &mut u64) -> f64 {
+        *seed ^= *seed << 13;
+        *seed ^= *seed >> 7;
+        *seed ^= *seed << 17;
+        (*seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    /// Contacts in the plane are contacts in space that do not move across it: Lemke's method and that of cones say the same, whatever
+    /// is known of how they slip and are pressed.
+    #[test]
+    fn in_a_plane_cones_agree_with_pivoting() {
+        let mut seed = 11;
+        for case in 0..400 {
+            let n = 4;
+            let rows: Vec<Vec<f64>> = (0..n)
+                .map(|_| (0..n).map(|_| drawn(&mut seed)).collect())
+                .collect();
+            let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            let mut g: Vec<f64> = (0..n * n)
+                .map(|k| dot(&rows[k / n], &rows[k % n]))
+                .collect();
+            // Each with a mass of its own, as large as 0.1 to 3 times the other.
+            for i in 0..n {
+                g[i * n + i] += 1.55 + 1.45 * drawn(&mut seed);
+            }
+            let b: Vec<f64> = (0..n).map(|_| drawn(&mut seed)).collect();
+            let both = Asked::Both {
+                friction: 0.3,
+                beside: 0.2 * f64::from(u8::from(case % 4 == 3)),
+            };
+            let first = match case % 4 {
+                1 => Asked::Tangent {
+                    friction: 0.3,
+                    normal: 0.4,
+                },
+                2 => Asked::Normal { share: 0.2 },
+                _ => both,
+            };
+            let plane = solve(&[first, both], &g, &b).expect("solved by pivoting");
+            // Behind each stands its second tangent, which nothing moves; that of one whose slip is known has no friction.
+            let second = match first {
+                Asked::Normal { .. } => Asked::Carried { share: 0.0, on: 0 },
+                _ => Asked::Across,
+            };
+            let places = [0, 1, 4, 5];
+            let mut wide = vec![0.0; 64];
+            for i in 0..n {
+                for j in 0..n {
+                    wide[places[i] * 8 + places[j]] = g[i * n + j];
+                }
+            }
+            (wide[3 * 8 + 3], wide[7 * 8 + 7]) = (1.0, 2.0);
+            let mut rates = vec![0.0; 8];
+            places.iter().zip(&b).for_each(|(i, b)| rates[*i] = *b);
+            let asked = [first, second, both, Asked::Across];
+            let space = solve(&asked, &wide, &rates).expect("solved on cones");
+            for (k, place) in [0, 2].into_iter().enumerate() {
+                for (plane, space) in plane.forces[k].iter().zip(&space.forces[place]) {
+                    assert!(
+                        (plane - space).abs() < 1e-11,
+                        "case {case}: {plane}, {space}"
+                    );
+                }
+                assert!(space.forces[place + 1][1].abs() < 1e-11);
+            }
+        }
+    }
 }

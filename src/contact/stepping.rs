@@ -151,6 +151,11 @@ impl Touching {
 
         let mut stepped = Stepped::default();
         let width = directions.len();
+        let slip_after = |place: usize| {
+            let own = g[(2 * place + 1) * width..][..width].iter();
+            let by = own.zip(answer.forces.as_flattened()).map(|(g, i)| g * i);
+            free[2 * active[place] + 1] + by.sum::<f64>()
+        };
         for (place, (&k, &impulse)) in active.iter().zip(&answer.forces).enumerate() {
             let [gap_rate, slip] = [0, 1].map(|part| {
                 let own = g[(2 * place + part) * width..][..width].iter();
@@ -172,6 +177,23 @@ impl Touching {
             };
             let most = here.friction(k)[0] * pressing;
             modes[k] = match self.rubs(k) {
+                true if self.first(k) != k => modes[k - 1],
+                true if self.second(k).is_some() => {
+                    let used = [0, 1].map(|part| answer.forces[place + part][1]);
+                    let size = used[0].hypot(used[1]);
+                    let slips = [0, 1].map(|part| slip_after(place + part));
+                    let speed = slips[0].hypot(slips[1]);
+                    let [_, rounding] = self.slip(&here, k);
+                    if size < most * (1.0 - SATURATED) {
+                        Mode::Sticks
+                    } else if size > 0.0 {
+                        Mode::Skids(used.map(|used| -used / size))
+                    } else if speed > rounding[0].hypot(rounding[1]) {
+                        Mode::Skids(slips.map(|slip| slip / speed))
+                    } else {
+                        Mode::Sticks
+                    }
+                }
                 false => Mode::Slides(0.0),
                 true if impulse[1].abs() < most * (1.0 - SATURATED) => Mode::Sticks,
                 true if impulse[1] != 0.0 => Mode::Slides(-impulse[1].signum()),

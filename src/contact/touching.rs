@@ -30,8 +30,30 @@ pub(crate) enum Mode {
     Open,
     /// It touches and slips, forward or backward; 0 where it has no friction.
     Slides(f64),
+    /// It touches and slips in space, in the direction of its slip. Through rest that is followed as if it went on backwards, as it
+    /// was when the step began: its components are kept here, of length 1.
+    Skids([f64; 2]),
     /// It touches and does not slip.
     Sticks,
+}
+
+impl Mode {
+    /// Whether contacts do the same, in whatever direction they skid.
+    pub fn is_like(self, other: Mode) -> bool {
+        match (self, other) {
+            (Mode::Skids(_), Mode::Skids(_)) => true,
+            _ => self == other,
+        }
+    }
+
+    /// The direction of the slip along both tangents; 0 where there is none.
+    pub fn direction(self) -> [f64; 2] {
+        match self {
+            Mode::Slides(sign) => [sign, 0.0],
+            Mode::Skids(heading) => heading,
+            Mode::Open | Mode::Sticks => [0.0; 2],
+        }
+    }
 }
 
 pub(crate) use crate::friction::Margin;
@@ -41,8 +63,11 @@ pub(crate) use crate::friction::Margin;
 pub(crate) struct Touching {
     modes: Vec<Mode>,
     rubs: Vec<bool>,
-    /// Of the rolling of a contact, that contact: it has its gap and its normal force, and is open where that is.
+    /// Of the rolling of a contact, and of its second tangent, that contact: it has its gap and its normal force, and is open where
+    /// that is.
     leans: Vec<Option<usize>>,
+    /// Which of these are second tangents. What a contact does along one tangent it does along both.
+    across: Vec<bool>,
     /// Of contacts that yield, their law and what it remembers.
     yielding: Vec<Option<Yielding>>,
     pub(super) law: ImpactLaw,
@@ -53,6 +78,8 @@ pub(crate) struct Touching {
     pub(super) speed: f64,
     /// How fast each contact opened after its last impact.
     pub openings: Vec<f64>,
+    /// Whether a direction is followed through rest, within a step: see [`Mode::Skids`].
+    follows: bool,
     /// In time stepping the mean forces of the last step along normal and tangent, in N.
     stepped: Option<Vec<[f64; 2]>>,
 }
@@ -174,8 +201,12 @@ impl Touching {
     pub fn new<S: System>(system: &S) -> Touching {
         let rubs: Vec<bool> = system.unilateral_contacts().map(|c| c.rubs).collect();
         let leans = system.unilateral_contacts().enumerate();
-        let leans = leans.map(|(k, c)| if c.rolls { k.checked_sub(1) } else { None });
+        let leans = leans.map(|(k, c)| match c.rolls || c.across {
+            true => k.checked_sub(1),
+            false => None,
+        });
         let leans = leans.collect();
+        let across = system.unilateral_contacts().map(|c| c.across).collect();
         let mut bouncing = system.unilateral_contacts();
         let bouncing = bouncing.find(|c| c.compliance.is_none());
         let (law, order) = (bouncing.map(|c| c.law), bouncing.map(|c| c.order));
@@ -192,7 +223,9 @@ impl Touching {
             speed: 0.0,
             openings: vec![0.0; rubs.len()],
             leans,
+            across,
             rubs,
+            follows: true,
             stepped: None,
         }
     }
@@ -250,6 +283,88 @@ impl Touching {
     /// The contact on which another leans, if that is the rolling of one.
     pub fn leans(&self, contact: usize) -> Option<usize> {
         self.leans[contact]
+    }
+
+    /// The second tangent of a contact, if it has one.
+    pub fn second(&self, contact: usize) -> Option<usize> {
+        let next = contact + 1;
+        (self.across.get(next) == Some(&true)).then_some(next)
+    }
+
+    /// The contact of which this is one of two tangents, or the contact itself.
+    pub fn first(&self, contact: usize) -> usize {
+        contact - usize::from(self.across[contact])
+    }
+
+    /// Whether it is one of two tangents of a contact.
+    pub(super) fn has_two_tangents(&self, contact: usize) -> bool {
+        self.across[contact] || self.second(contact).is_some()
+    }
+
+    /// The slip of a contact along both of its tangents, and the rounding of each.
+    pub(super) fn slip(&self, here: &Here, contact: usize) -> [[f64; 2]; 2] {
+        let first = self.first(contact);
+        let of = |values: &[f64]| [values[2 * first + 1], values[2 * first + 3]];
+        [of(&here.rates), of(&here.rate_rounding)]
+    }
+
+    /// The component along this tangent of the direction in which a contact skids. Where it has come through rest since the step
+    /// began it is taken to slip backwards, so that its friction changes smoothly through there: that it has is found, and the
+    /// step ends there.
+    fn course(&self, here: &Here, contact: usize) -> f64 {
+        let Mode::Skids(heading) = self.modes[contact] else {
+            return 0.0;
+        };
+        let part = usize::from(self.across[contact]);
+        let [slip, rounding] = self.slip(here, contact);
+        let speed = slip[0].hypot(slip[1]);
+        if speed <= rounding[0].hypot(rounding[1]) {
+            return heading[part];
+        }
+        let ahead = heading[0] * slip[0] + heading[1] * slip[1];
+        let direction = slip[part] / speed;
+        match self.follows && ahead < 0.0 {
+            true => -direction,
+            false => direction,
+        }
+    }
+
+    /// As it is looked at after the run, at any time until something changes: by then a slip may have turned anywhere.
+    pub fn as_seen_later(&self) -> Touching {
+        Touching {
+            follows: false,
+            ..self.clone()
+        }
+    }
+
+    /// Takes note of the directions in which contacts skid where a step begins.
+    pub fn take_headings<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
+        if !self.modes.iter().any(|mode| matches!(mode, Mode::Skids(_))) {
+            return;
+        }
+        let here = Here::of(system, t, q, v);
+        for k in 0..self.modes.len() {
+            if let Mode::Skids(_) = self.modes[k] {
+                let [slip, rounding] = self.slip(&here, k);
+                let speed = slip[0].hypot(slip[1]);
+                if speed > rounding[0].hypot(rounding[1]) {
+                    self.modes[k] = Mode::Skids(slip.map(|slip| slip / speed));
+                }
+            }
+        }
+    }
+
+    /// The error where contacts that are asked together have no answer.
+    pub(super) fn unsolved(&self, asked_of: &[usize], t: f64) -> StepError {
+        let trouble = match asked_of.iter().any(|k| self.across[*k]) {
+            true => ContactTrouble::Unsolved,
+            false => ContactTrouble::Paradox,
+        };
+        StepError::Contact {
+            contact: asked_of[0],
+            trouble,
+            t,
+        }
     }
 
     /// Says of what leans what is said of the contact that it leans on.
@@ -321,6 +436,7 @@ impl Touching {
         // Of what slides the tangential force is a share of the normal one; what sticks has two unknowns.
         let share = |k: usize| match self.modes[k] {
             Mode::Slides(sign) => -sign * here.friction(k)[0],
+            Mode::Skids(_) => -self.course(&here, k) * here.friction(k)[0],
             _ => 0.0,
         };
         let mut unknowns: Vec<(usize, usize)> = Vec::new();
@@ -484,7 +600,7 @@ impl Touching {
                 let row = here.row(2 * k + part).iter().zip(v.as_slice());
                 on_coordinates += force * row.map(|(w, v)| w * v).sum::<f64>();
             }
-            if let Mode::Slides(_) = self.modes[k] {
+            if let Mode::Slides(_) | Mode::Skids(_) = self.modes[k] {
                 let friction = -force[1] * here.rates[2 * k + 1];
                 taken += friction;
                 lost += friction;
@@ -541,6 +657,16 @@ impl Touching {
             };
             *margin = match self.modes[k] {
                 Mode::Open => continue,
+                // What a contact does along both tangents is asked of the first.
+                _ if self.across[k] => continue,
+                Mode::Skids(heading) => {
+                    let [slip, rounding] = self.slip(&here, k);
+                    let slips = Margin {
+                        value: heading[0] * slip[0] + heading[1] * slip[1],
+                        rounding: rounding[0].hypot(rounding[1]),
+                    };
+                    [presses, slips, loads]
+                }
                 Mode::Slides(0.0) => [presses, Margin::ENDLESS, loads],
                 Mode::Slides(sign) => {
                     let slips = Margin {
@@ -552,8 +678,12 @@ impl Touching {
                 Mode::Sticks if !self.rubs[k] => [presses, Margin::ENDLESS, loads],
                 Mode::Sticks => {
                     let friction = here.friction(k)[1];
+                    let used = match self.second(k) {
+                        Some(second) => tangential.hypot(reaction.forces[second][1]),
+                        None => tangential.abs(),
+                    };
                     let reserve = Margin {
-                        value: friction * normal - tangential.abs(),
+                        value: friction * normal - used,
                         rounding: rounding * (1.0 + friction),
                     };
                     [presses, reserve, loads]
@@ -568,7 +698,9 @@ impl Touching {
             // Forces that share a load may share it otherwise: only all together can tell.
             let resting: Vec<bool> = self.modes.iter().map(|m| *m == Mode::Sticks).collect();
             let closed: Vec<bool> = self.modes.iter().map(|m| *m != Mode::Open).collect();
-            if self.settled(system, at, &closed, &resting, None)? == self.modes {
+            let settled = self.settled(system, at, &closed, &resting, None)?;
+            let mut pairs = settled.iter().zip(&self.modes);
+            if pairs.all(|(settled, mode)| settled.is_like(*mode)) {
                 for (k, (margin, mode)) in margins.iter_mut().zip(&self.modes).enumerate() {
                     if !self.yields(k) {
                         margin[0] = Margin::ENDLESS;
@@ -643,13 +775,33 @@ impl Touching {
                     _ => None,
                 },
                 (true, true) => None,
+                (true, false) if self.has_two_tangents(k) => {
+                    let [slip, _] = self.slip(&here, k);
+                    Some(slip[usize::from(self.across[k])] / slip[0].hypot(slip[1]))
+                }
                 (true, false) => Some(here.rates[2 * k + 1].signum()),
+            })
+            .collect();
+        // Which contacts with two tangents are at rest and will skid: in which direction is for their friction to say.
+        let mut breaks: Vec<bool> = (asked_of.iter())
+            .map(|&k| match known {
+                Some((known, Mode::Skids(_))) => known == k,
+                _ => false,
             })
             .collect();
         for _ in 0..=asked_of.len() {
             let mut asked = Vec::with_capacity(asked_of.len());
             for (place, &k) in asked_of.iter().enumerate() {
                 let [friction, static_friction] = here.friction(k);
+                let static_friction = if breaks[place] {
+                    friction
+                } else {
+                    static_friction
+                };
+                if self.across[k] && slipping[place].is_none() {
+                    asked.push(Asked::Across);
+                    continue;
+                }
                 if let (Some(on), None) = (leans(place), pressing[place]) {
                     asked.push(match slipping[place] {
                         Some(sign) => Asked::Carried {
@@ -677,7 +829,12 @@ impl Touching {
                     (Some(sign), None) => {
                         let share = -sign * friction;
                         let own = g[2 * place * width + 2 * place];
-                        let coupled = share * g[2 * place * width + 2 * place + 1];
+                        let mut coupled = share * g[2 * place * width + 2 * place + 1];
+                        if let (Some(_), Some(Some(sign))) =
+                            (self.second(k), slipping.get(place + 1))
+                        {
+                            coupled -= sign * friction * g[2 * place * width + 2 * place + 3];
+                        }
                         // Pressed, it would be pressed the more: none or several motions.
                         if own + coupled <= ROUNDING_OF_FORCES * own {
                             return Err(paradox(k));
@@ -702,9 +859,9 @@ impl Touching {
                     by.fold(*value, |sum, (g, force)| sum + g * force)
                 })
                 .collect();
-            let answer = problem::solve(&asked, &g, &b).map_err(|_| paradox(asked_of[0]))?;
+            let answer = problem::solve(&asked, &g, &b).map_err(|_| self.unsolved(&asked_of, t))?;
             if answer.residual > 1e-8 {
-                return Err(paradox(asked_of[0]));
+                return Err(self.unsolved(&asked_of, t));
             }
             let mut breaks_away = false;
             for (place, &k) in asked_of.iter().enumerate() {
@@ -734,7 +891,36 @@ impl Touching {
                     {
                         Mode::Open
                     }
+                    // It is said with the first tangent what is done along both.
+                    _ if self.across[k] => modes[k - 1],
+                    Some(sign) if self.second(k).is_some() => {
+                        Mode::Skids([sign, slipping[place + 1].unwrap_or(0.0)])
+                    }
                     Some(sign) => Mode::Slides(sign),
+                    None if self.second(k).is_some() => {
+                        let used = [0, 1].map(|part| answer.forces[place + part][1]);
+                        let normal = pressing[place].unwrap_or(answer.forces[place][0]);
+                        let [kinetic, at_rest] = here.friction(k);
+                        let most = normal * if breaks[place] { kinetic } else { at_rest };
+                        let slips = [1, 3].map(&after);
+                        let size = used[0].hypot(used[1]);
+                        let speeds_up = slips[0].0.hypot(slips[1].0);
+                        let is_held = size < most * (1.0 - SATURATED) && !breaks[place];
+                        let is_still = speeds_up <= slips[0].1.hypot(slips[1].1);
+                        // Friction is against the slip that begins; where there is none of it, what pulls says where to.
+                        if is_held || (size == 0.0 && is_still) {
+                            Mode::Sticks
+                        } else {
+                            if kinetic != at_rest && !breaks[place] {
+                                (breaks[place], breaks_away) = (true, true);
+                                breaks[place + 1] = true;
+                            }
+                            match size > 0.0 {
+                                true => Mode::Skids(used.map(|used| -used / size)),
+                                false => Mode::Skids(slips.map(|(slip, _)| slip / speeds_up)),
+                            }
+                        }
+                    }
                     None => {
                         let tangential = answer.forces[place][1];
                         let normal = answer.forces[leans(place).unwrap_or(place)][0];

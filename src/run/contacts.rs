@@ -14,7 +14,8 @@ use crate::solution::Ending;
 use crate::step_error::StepError;
 use crate::stepper::{Cause, Happened};
 use crate::{
-    ContactEvent, ContactEventKind, ContactImpact, ContactTrouble, Error, Machine, System,
+    ContactEvent, ContactEventKind, ContactImpact, ContactTrouble, Error, ImpactAcross, Machine,
+    System,
 };
 
 /// How often contacts may change at one instant, for each of them and beyond.
@@ -38,8 +39,8 @@ pub(super) struct Meeting {
     corrected: usize,
 }
 
-/// What is told of a contact: which, what, the direction of its slip, and its impact if it is one.
-pub(super) type Told = (usize, ContactEventKind, f64, Option<ContactImpact>);
+/// What is told of a contact: which, what, the direction of its slip along both tangents, and its impact if it is one.
+pub(super) type Told = (usize, ContactEventKind, [f64; 2], Option<ContactImpact>);
 
 /// What the run does next.
 pub(super) enum Next {
@@ -204,7 +205,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let mut told: Vec<Told> = Vec::new();
         let size = |impulse: [f64; 2]| impulse[0].abs().max(impulse[1].abs());
         let greatest = (happened.impacts.iter()).fold(0.0_f64, |most, i| most.max(size(i.impulse)));
-        for impact in &happened.impacts {
+        for (place, impact) in happened.impacts.iter().enumerate() {
             let &Impact {
                 contact,
                 gap_rate,
@@ -217,13 +218,15 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             let leans = self.leans(contact);
             let is_hit = size(impulse) > 1e-12 * greatest && !leans;
             if is_hit {
+                let across = self.across_of(&happened.impacts[place..]);
                 let impact = ContactImpact {
                     gap_rate,
                     slip,
                     impulse,
-                    loss,
+                    loss: loss + across.map_or(0.0, |(_, loss)| loss),
+                    across: across.map(|(across, _)| across),
                 };
-                told.push((contact, ContactEventKind::Impact, 0.0, Some(impact)));
+                told.push((contact, ContactEventKind::Impact, [0.0; 2], Some(impact)));
             }
         }
         self.note_gains(&happened.impacts, t);
@@ -233,6 +236,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 (Mode::Open, Mode::Open) => continue,
                 // What leans on a contact closes and opens with it.
                 (Mode::Open, _) | (_, Mode::Open) if self.leans(contact) => continue,
+                // What is done along both tangents is told of the contact.
+                _ if self.is_across(contact) => continue,
                 (Mode::Open, _) if at_start => continue,
                 (Mode::Open, _) => (Closes, 0.0),
                 (_, Mode::Open) if self.yields(contact) => (Opens, 0.0),
@@ -240,9 +245,15 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 (Mode::Slides(from), Mode::Slides(to)) if from != to => (Reverses, to),
                 (Mode::Slides(from), Mode::Sticks) if from != 0.0 => (Sticks, 0.0),
                 (Mode::Sticks, Mode::Slides(to)) if to != 0.0 => (Slips, to),
+                (Mode::Skids(_), Mode::Sticks) => (Sticks, 0.0),
+                (Mode::Sticks, Mode::Skids(_)) => (Slips, 0.0),
                 _ => continue,
             };
-            told.push((contact, kind, direction, None));
+            let directions = match kind {
+                Slips => after.direction(),
+                _ => [direction, 0.0],
+            };
+            told.push((contact, kind, directions, None));
         }
         for &(contact, is_loaded) in &happened.turned {
             let [before, after] = [&happened.before, &happened.after].map(|of| of[contact]);
@@ -251,7 +262,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     true => ContactEventKind::Crushes,
                     false => ContactEventKind::Turns,
                 };
-                told.push((contact, kind, 0.0, None));
+                told.push((contact, kind, [0.0; 2], None));
             }
         }
         let shared = happened.lost_at_end / happened.ended.len().max(1) as f64;
@@ -292,7 +303,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 contact: names[contact].clone(),
                 kind,
                 state,
-                direction,
+                direction: direction[0],
+                across: direction[1],
                 time_error: left,
                 impact,
             });
@@ -303,6 +315,26 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     pub(super) fn leans(&self, contact: usize) -> bool {
         let touching = self.stepper.touching().as_ref();
         touching.is_some_and(|touching| touching.leans(contact).is_some())
+    }
+
+    /// Whether it is the second tangent of a contact.
+    pub(super) fn is_across(&self, contact: usize) -> bool {
+        let touching = self.stepper.touching().as_ref();
+        touching.is_some_and(|touching| touching.first(contact) != contact)
+    }
+
+    /// What the first of these impacts did along the second tangent of its contact, if it has one, and the loss of that: what is
+    /// next among them.
+    pub(super) fn across_of(&self, impacts: &[Impact]) -> Option<(ImpactAcross, f64)> {
+        let [own, next, ..] = impacts else {
+            return None;
+        };
+        let is_own = next.contact == own.contact + 1 && self.is_across(next.contact);
+        let across = ImpactAcross {
+            slip: next.slip,
+            impulse: next.impulse[1],
+        };
+        is_own.then_some((across, next.loss))
     }
 
     fn yields(&self, contact: usize) -> bool {
@@ -453,7 +485,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                         (true, ..) => Cause::Asked,
                         (_, _, 0) => Cause::Lifts(k),
                         (_, _, 2) => Cause::Turns(k),
-                        (_, Mode::Slides(_), _) => Cause::Stops(k),
+                        (_, Mode::Slides(_) | Mode::Skids(_), _) => Cause::Stops(k),
                         _ => Cause::Breaks(k),
                     };
                     if is_shared {

@@ -269,7 +269,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if let Some(touching) = self.stepper.touching() {
             self.record.unilateral.phases.push(Phase {
                 since: self.stepper.t(),
-                touching: touching.clone(),
+                touching: touching.as_seen_later(),
                 constraints: self.stepper.constraints().clone(),
             });
         }

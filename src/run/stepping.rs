@@ -44,33 +44,42 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             self.record.unilateral.losses[k] -= lifted;
         }
         let mut told: Vec<Told> = Vec::new();
-        for impact in &impacts {
+        for (place, impact) in impacts.iter().enumerate() {
             self.record.unilateral.losses[impact.contact] += impact.loss;
             if before[impact.contact] == Mode::Open && !self.leans(impact.contact) {
+                let across = self.across_of(&impacts[place..]);
                 let of = ContactImpact {
                     gap_rate: impact.gap_rate,
                     slip: impact.slip,
                     impulse: impact.impulse,
-                    loss: impact.loss,
+                    loss: impact.loss + across.map_or(0.0, |(_, loss)| loss),
+                    across: across.map(|(across, _)| across),
                 };
-                told.push((impact.contact, ContactEventKind::Impact, 0.0, Some(of)));
+                told.push((impact.contact, ContactEventKind::Impact, [0.0; 2], Some(of)));
             }
         }
         for (k, (before, after)) in before.iter().zip(now.modes()).enumerate() {
-            let leans = self.leans(k);
+            let (leans, is_across) = (self.leans(k), self.is_across(k));
             let lasts = &mut self.record.unilateral.last[k];
             let kind = match (before, after) {
                 (Mode::Open, _) => continue,
                 (_, Mode::Open) if leans => continue,
+                _ if is_across => continue,
                 (_, Mode::Open) if std::mem::take(lasts) => (Lifts, 0.0),
                 (_, Mode::Open) => continue,
                 _ if !leans && !std::mem::replace(lasts, true) => (Closes, 0.0),
                 (Mode::Slides(from), Mode::Slides(to)) if from != to => (Reverses, *to),
                 (Mode::Slides(from), Mode::Sticks) if *from != 0.0 => (Sticks, 0.0),
                 (Mode::Sticks, Mode::Slides(to)) if *to != 0.0 => (Slips, *to),
+                (Mode::Skids(_), Mode::Sticks) => (Sticks, 0.0),
+                (Mode::Sticks, Mode::Skids(_)) => (Slips, 0.0),
                 _ => continue,
             };
-            told.push((k, kind.0, kind.1, None));
+            let directions = match kind.0 {
+                Slips => after.direction(),
+                _ => [kind.1, 0.0],
+            };
+            told.push((k, kind.0, directions, None));
         }
         let is_new = |impact: &&Impact| before[impact.contact] == Mode::Open;
         let hits: Vec<Impact> = impacts.iter().filter(is_new).copied().collect();
@@ -81,7 +90,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if is_new {
             self.record.unilateral.phases.push(Phase {
                 since: self.stepper.t_before(),
-                touching: now,
+                touching: now.as_seen_later(),
                 constraints: self.stepper.constraints().clone(),
             });
         }

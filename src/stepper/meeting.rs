@@ -78,7 +78,19 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let stored_before = stored(model.system.get(), &touching, now);
         let loaded_before: Vec<bool> = touching.loaded().collect();
         model.set_inputs(t, &now.q, &now.v);
+        // Where a slip in space is at right angles to what it was, it may have turned and not stopped.
+        let cause = match cause {
+            Cause::Stops(k) => {
+                let at = (t, &now.q, &now.v, &model.inputs);
+                match touching.has_stopped(model.system.get(), at, k)? {
+                    true => cause,
+                    false => Cause::Asked,
+                }
+            }
+            cause => cause,
+        };
         let known = match cause {
+            Cause::Breaks(k) if touching.second(k).is_some() => Some((k, Mode::Skids([0.0; 2]))),
             Cause::Lifts(k) => Some((k, Mode::Open)),
             Cause::Breaks(k) => {
                 let at = (t, &now.q, &now.v, &model.inputs);
@@ -87,7 +99,10 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             }
             Cause::Asked | Cause::Stops(_) | Cause::Presses(_) | Cause::Turns(_) => None,
         };
-        let stops = |k: usize| cause == Cause::Stops(k);
+        let pairs: Vec<usize> = (0..touching.modes().len())
+            .map(|k| touching.first(k))
+            .collect();
+        let stops = |k: usize| cause == Cause::Stops(pairs[k]);
 
         let mut touches = Vec::new();
         for round in 0.. {
@@ -275,6 +290,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
 }
 
 impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
+    /// Takes note of the beginning of a step.
+    pub(super) fn begin_contacts(&mut self, now: &Point<S::Vector>) {
+        if let Some(touching) = &mut self.touching {
+            touching.take_headings(self.system.get(), now.t, &now.q, &now.v);
+        }
+    }
+
     /// Takes note of the end of a step.
     pub(super) fn accept_contacts(&mut self, now: &Point<S::Vector>) {
         let Some(touching) = &self.touching else {

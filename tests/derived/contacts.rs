@@ -68,3 +68,56 @@ fn a_machine_of_a_macro_yields_and_bounces() {
         );
     }
 }
+
+lagrangian::machine! {
+    /// A ball on a table, which slips until it rolls.
+    machine Cue in space {
+        parameters { m: kg = 0.2, r: m = 0.03, mu: 1 = 0.2, g: m/s^2 = 9.81 }
+        coordinates {
+            x: m, y: m, z: m = r, a: rad, b: rad, c: rad,
+            der(x): m/s = 1, der(a): rad/s = 30, der(c): rad/s = 8,
+        }
+        frames { ball = ground.shift(x, y, z).turn(x, a).turn(y, b).turn(z, c) }
+        bodies { ball { mass: m, inertia: (2/5*m*r^2, 2/5*m*r^2, 2/5*m*r^2), frame: ball } }
+        spheres { ball { on: ball, center: (0, 0, 0), radius: r } }
+        gravity (0, 0, -g);
+        contacts { cloth { sphere: ball, along: ground, restitution: 0.5, friction: mu } }
+    }
+}
+
+/// It slips at u = (1, 0.9) m/s at first, for 2|u|/(7 μ g), and then rolls at its velocity less 2/7 u: by every method that finds events,
+/// each to its tolerance.
+#[test]
+fn a_ball_of_a_macro_slips_in_two_directions() {
+    let machine = Cue::default();
+    let system = machine.prepare();
+    let across: Vec<_> = system.unilateral_contacts().map(|c| c.across).collect();
+    assert_eq!(across, [false, true]);
+    let slip = [1.0_f64, 0.9];
+    let rolls = 2.0 * slip[0].hypot(slip[1]) / (7.0 * 0.2 * 9.81);
+    for method in &METHODS {
+        let run = Simulation::new(&machine)
+            .method(method)
+            .tolerance(1e-10)
+            .energy_balance(true)
+            .until(0.4)
+            .run(machine.start())
+            .expect("it runs");
+        let [event] = run.contact_events() else {
+            panic!("{}: {:?}", method.tableau.name, run.contact_events());
+        };
+        assert_eq!(event.kind, ContactEventKind::Sticks);
+        // At most 10⁴ steps, each within the tolerance.
+        let error = event.state.t - rolls;
+        assert!(error.abs() < 1e-6, "{}: {error:e}", method.tableau.name);
+        let after = [1.0 - 2.0 / 7.0 * slip[0], -2.0 / 7.0 * slip[1]];
+        let v = run.end().v;
+        assert!((v.x - after[0]).abs() < 1e-6 && (v.y - after[1]).abs() < 1e-6);
+        let balance = run.energy_balance().expect("it was kept");
+        assert!(
+            balance.residual().abs() < 1e-6,
+            "{}: {balance:?}",
+            method.tableau.name
+        );
+    }
+}

@@ -14,6 +14,7 @@ mod fmu;
 mod host;
 mod impacts;
 mod import;
+mod in_space;
 mod library;
 mod linearize;
 mod map;

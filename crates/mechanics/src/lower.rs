@@ -123,6 +123,7 @@ pub fn lower_by<'d>(
         compliance: u.compliance,
         rubs: u.rubs,
         rolls: u.rolls,
+        across: u.across,
     });
     program.unilateral = unilateral.collect();
     debug_assert_eq!(program.verify(), Ok(()));

@@ -198,6 +198,9 @@ pub struct Unilateral {
     /// contact, its slip is how fast one body turns relative to the other, in rad/s, its friction the torque that resists
     /// this, in N m, and its coefficient of friction a length, in m.
     pub rolls: bool,
+    /// Whether it is the second tangent of the contact before it, in space: it has the gap, the normal and the coefficients of
+    /// that contact, and a slip and a friction of its own. Of both together friction is no more than `μ` times the normal force.
+    pub across: bool,
 }
 
 /// How the results of [`Role::Friction`] are arranged.

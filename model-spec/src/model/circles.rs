@@ -196,7 +196,7 @@ fn with_circle<'d>(
 }
 
 /// `a − b` with what both have in common left out.
-fn difference<'d>(a: Expr<'d>, b: Expr<'d>) -> Expr<'d> {
+pub(super) fn difference<'d>(a: Expr<'d>, b: Expr<'d>) -> Expr<'d> {
     let dag = a.dag();
     let (a, b) = (terms(a), terms(b));
     dag.sum(a.into_iter().chain(b.into_iter().map(|term| -term)))

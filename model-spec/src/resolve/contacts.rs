@@ -1,7 +1,6 @@
 //! Unilateral contacts: what touches what, how it bounces and how it rubs.
 
 use super::Resolver;
-use super::names::Namespace;
 use super::value::{MemberId, Vector, is_linear, limits};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::bounds::BoundKind;
@@ -16,7 +15,9 @@ use lagrangian_symbolic::Expr;
 const VELOCITY: Unit = Unit::base(0, 1, -1);
 
 /// The fields that say what touches what.
-const GEOMETRY: [&str; 6] = ["circle", "point", "on", "inside", "outside", "along"];
+const GEOMETRY: [&str; 7] = [
+    "circle", "sphere", "point", "on", "inside", "outside", "along",
+];
 
 /// The fields that say how a contact bounces, which one that yields does not have.
 const BOUNCING: [&str; 5] = [
@@ -64,35 +65,49 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     pub fn contacts(&mut self, member: MemberId) -> Option<Vec<Contact<'d>>> {
         let record = self.record(member)?;
         let name = self.name(member);
-        let geometries: Option<Vec<(Name, ContactGeometry<'d>)>> =
-            if record.field("circles").is_some() {
-                for field in ["gap", "slip", "corners"].iter().chain(&GEOMETRY) {
-                    self.conflict(record, field, "circles");
-                }
-                self.pairs(member, record)
-            } else if record.field("corners").is_some() {
-                for field in ["gap", "slip", "circle", "point"] {
-                    self.conflict(record, field, "corners");
-                }
-                self.corners(member, record)
-            } else if ["gap", "slip"]
-                .iter()
-                .any(|field| record.field(field).is_some())
-            {
-                for field in GEOMETRY {
-                    self.conflict(record, field, "gap");
-                }
-                let geometry = self.gap_and_slip(member, record);
-                geometry.map(|geometry| vec![(name, geometry)])
-            } else if record.field("point").is_some() {
-                self.conflict(record, "circle", "point");
-                let geometry = self.touching_point(member, record);
-                geometry.map(|geometry| vec![(name, geometry)])
-            } else {
-                self.conflict(record, "on", "circle");
-                let touching = self.touching(member, record);
-                touching.map(|touching| vec![(name, ContactGeometry::Circles(touching))])
-            };
+        let (one, family, [other, other_family]) = match self.space {
+            Space::Plane => ("circle", "circles", ["sphere", "spheres"]),
+            Space::Space => ("sphere", "spheres", ["circle", "circles"]),
+        };
+        for (foreign, here) in [(other, one), (other_family, family)] {
+            if let Some(field) = record.field(foreign) {
+                let message = format!("`{foreign}` says nothing here");
+                let diagnostic = Diagnostic::new(Code::WrongSpace, field.name.span, message);
+                self.push(diagnostic.help(format!(
+                    "it is `{here}`: circles exist in the plane, spheres in space"
+                )));
+                return None;
+            }
+        }
+        let geometries: Option<Vec<(Name, ContactGeometry<'d>)>> = if record.field(family).is_some()
+        {
+            for field in ["gap", "slip", "corners"].iter().chain(&GEOMETRY) {
+                self.conflict(record, field, family);
+            }
+            self.pairs(member, record, family)
+        } else if record.field("corners").is_some() {
+            for field in ["gap", "slip", one, "point"] {
+                self.conflict(record, field, "corners");
+            }
+            self.corners(member, record)
+        } else if ["gap", "slip"]
+            .iter()
+            .any(|field| record.field(field).is_some())
+        {
+            for field in GEOMETRY {
+                self.conflict(record, field, "gap");
+            }
+            let geometry = self.gap_and_slip(member, record);
+            geometry.map(|geometry| vec![(name, geometry)])
+        } else if record.field("point").is_some() {
+            self.conflict(record, one, "point");
+            let geometry = self.touching_point(member, record);
+            geometry.map(|geometry| vec![(name, geometry)])
+        } else {
+            self.conflict(record, "on", one);
+            let touching = self.touching(member, record);
+            touching.map(|touching| vec![(name, ContactGeometry::Circles(touching))])
+        };
         let response = match record.get("compliance") {
             Some(said) => {
                 for field in BOUNCING {
@@ -121,7 +136,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             sticking
         });
         let rolling = record.get("rolling_resistance").map(|said| {
-            for other in ["gap", "slip", "point", "corners"] {
+            for other in ["gap", "slip", "point", "corners", "sphere", "spheres"] {
                 if record.field(other).is_some() {
                     self.conflict(record, "rolling_resistance", other);
                 }
@@ -152,30 +167,33 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(geometries?.into_iter().map(contact).collect())
     }
 
-    /// `circles`, of which each may touch each other from outside.
+    /// `circles` or `spheres`, of which each may touch each other from outside.
     fn pairs(
         &mut self,
         member: MemberId,
         record: &'a Record,
+        family: &str,
     ) -> Option<Vec<(Name, ContactGeometry<'d>)>> {
-        let said = self.field(member, record, "circles")?;
+        let said = self.field(member, record, family)?;
+        let one = self.round_word();
         let reference = match &said.kind {
             ExpressionKind::Name(reference) if reference.index.is_none() => reference,
             ExpressionKind::Error => return None,
             _ => {
-                let message = "the name of a family of circles is expected here";
+                let message = format!("the name of a family of {family} is expected here");
                 self.error(Code::WrongKind, said.span, message);
                 return None;
             }
         };
-        let group = self.known_group(Namespace::CIRCLES, "no circle is", &reference.base)?;
+        let (namespace, none) = self.round_names();
+        let group = self.known_group(namespace, none, &reference.base)?;
         let mut circles: Vec<(Option<i64>, usize)> = Vec::new();
         for circle in self.members_under(group, None) {
             circles.push((self.name(circle).index, self.ordinal(circle)?));
         }
         let count = circles.len() * circles.len().saturating_sub(1) / 2;
         if count > MOST_UNILATERAL {
-            let message = format!("{} circles make {count} pairs", circles.len());
+            let message = format!("{} {family} make {count} pairs", circles.len());
             let diagnostic = Diagnostic::new(Code::TooLarge, said.span, message);
             let help = format!("a machine may have {MOST_UNILATERAL} contacts");
             self.push(diagnostic.help(help));
@@ -183,14 +201,13 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
         if circles.len() < 2 {
             let message = format!(
-                "`{}` is one circle, and a pair needs two",
+                "`{}` is one {one}, and a pair needs two",
                 reference.base.text
             );
             let diagnostic = Diagnostic::new(Code::WrongKind, said.span, message);
-            self.push(
-                diagnostic
-                    .help("`circles` names a family: `disc`, where `disc[i in 1..N]` are circles"),
-            );
+            self.push(diagnostic.help(format!(
+                "`{family}` names a family: `disc`, where `disc[i in 1..N]` are {family}"
+            )));
             return None;
         }
         let base = self.name(member);
@@ -216,9 +233,6 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         record: &'a Record,
     ) -> Option<Vec<(Name, ContactGeometry<'d>)>> {
         let said = self.field(member, record, "corners")?;
-        if !self.is_planar(member) {
-            return None;
-        }
         let base = self.name(member).to_string();
         let points = match &said.kind {
             ExpressionKind::Tuple(corners) => self.points_on(member, record, corners)?,
@@ -227,7 +241,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
             ExpressionKind::Error => return None,
             _ => {
-                let message = "corners are a list of points, `((-b, -h), (b, -h))`, or `outline`, those of the body";
+                let message = match self.space {
+                    Space::Plane => {
+                        "corners are a list of points, `((-b, -h), (b, -h))`, or `outline`, those of the body"
+                    }
+                    Space::Space => "corners are a list of points, `((-a, -b, -c), (a, -b, -c))`",
+                };
                 self.error(Code::WrongKind, said.span, message);
                 return None;
             }
@@ -251,15 +270,6 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let point = record.get("point")?;
         let points = self.points_on(member, record, std::slice::from_ref(point));
         points?.pop()
-    }
-
-    /// Whether points may touch here, which is said where they may not.
-    fn is_planar(&mut self, member: MemberId) -> bool {
-        if self.space == Space::Space {
-            let message = "points touch lines and circles only in the plane";
-            self.error(Code::WrongSpace, self.span(member), message);
-        }
-        self.space == Space::Plane
     }
 
     /// A point that is fixed to this place.
@@ -289,9 +299,6 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         record: &'a Record,
         points: &'a [Expression],
     ) -> Option<Vec<ContactGeometry<'d>>> {
-        if !self.is_planar(member) {
-            return None;
-        }
         let on = self.field(member, record, "on");
         let on = on.and_then(|on| self.place(member, on));
         let scope = self.scope(member, &limits::RADIUS);
@@ -315,35 +322,47 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let scope = self.scope(member, &limits::GAP);
         let gap = gap.and_then(|gap| self.scalar_in(gap, Unit::METRE, "a gap is in m", scope));
         // Without friction nothing depends on the slip.
-        let slip = match (record.get("slip"), record.field("friction")) {
-            (None, None) => Some(self.dag.zero()),
+        let (slip, across) = match (record.get("slip"), record.field("friction")) {
+            (None, None) => (Some(self.dag.zero()), None),
             (None, Some(_)) => {
                 self.field(member, record, "slip");
-                None
+                (None, None)
             }
-            (Some(said), _) => {
-                let scope = self.scope(member, &limits::SLIP);
-                let why = "a slip is a velocity, in m/s";
-                let slip = self.scalar_in(said, VELOCITY, why, scope);
-                let slip = slip.map(|slip| slip.expr);
-                let help = "a slip is a sum of terms a(q, t)*der(q)";
-                if let Some(slip) = slip
-                    && self.refuse_states(slip, said.span, "a slip", help)
-                {
-                    return None;
+            (Some(said), _) => match &said.kind {
+                ExpressionKind::Tuple(parts) => {
+                    if self.space == Space::Plane || parts.len() != 2 {
+                        let message = "a slip is one velocity, and in space one or two: `(a, b)`";
+                        self.error(Code::WrongDimension, said.span, message);
+                        return None;
+                    }
+                    let [slip, across] = [0, 1].map(|k| self.slip(member, &parts[k]));
+                    (slip, Some(across?))
                 }
-                if slip.is_some_and(|slip| !is_linear(slip)) {
-                    let message = "this slip is not linear in the velocities";
-                    let diagnostic = Diagnostic::new(Code::NotLinear, said.span, message);
-                    self.push(diagnostic.help("a slip is a sum of terms a(q, t)*der(q)"));
-                }
-                slip
-            }
+                _ => (self.slip(member, said), None),
+            },
         };
         Some(ContactGeometry::Expressions {
             gap: gap?.expr,
             slip: slip?,
+            across,
         })
+    }
+
+    /// How fast something slips, in one direction.
+    fn slip(&mut self, member: MemberId, said: &'a Expression) -> Option<Expr<'d>> {
+        let scope = self.scope(member, &limits::SLIP);
+        let why = "a slip is a velocity, in m/s";
+        let slip = self.scalar_in(said, VELOCITY, why, scope)?.expr;
+        let help = "a slip is a sum of terms a(q, t)*der(q)";
+        if self.refuse_states(slip, said.span, "a slip", help) {
+            return None;
+        }
+        if !is_linear(slip) {
+            let message = "this slip is not linear in the velocities";
+            let diagnostic = Diagnostic::new(Code::NotLinear, said.span, message);
+            self.push(diagnostic.help(help));
+        }
+        Some(slip)
     }
 
     /// How a contact bounces that does not yield.

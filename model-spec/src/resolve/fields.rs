@@ -9,7 +9,7 @@ use super::value::{Limit, MemberId, Scope, Value, limits};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::identity;
 use crate::model::bounds::BoundKind;
-use crate::model::{Assumption, Place, Rotation, Surface, Touching, circles, stage};
+use crate::model::{Assumption, Place, Rotation, Space, Surface, Touching, circles, stage};
 use crate::source::Span;
 use crate::syntax::{self, Equation, Expression, ExpressionKind, Quantity, Record, SectionKind};
 use crate::unit::Unit;
@@ -93,8 +93,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             SectionKind::Element(section) => section.help,
             SectionKind::Bodies => "a body is `name { mass: …, at: … }`",
             SectionKind::Circles => "a circle is `name { on: …, center: …, radius: … }`",
+            SectionKind::Spheres => "a sphere is `name { on: …, center: …, radius: … }`",
             _ => {
-                "a contact is `name { circle: …, inside: …, restitution: …, friction: … }`, \
+                "a contact is `name { circle: …, inside: …, restitution: …, friction: … }`, in space with `sphere`, \
                  with `outside`, or with `gap` and `slip` in their place"
             }
         };
@@ -360,9 +361,17 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(scalar.expr)
     }
 
-    /// `circle` with `inside`, `outside` or `along`: what touches what.
+    /// What is round here: circles, and spheres in space.
+    pub fn round_word(&self) -> &'static str {
+        match self.space {
+            Space::Plane => "circle",
+            Space::Space => "sphere",
+        }
+    }
+
+    /// `circle` or `sphere` with `inside`, `outside` or `along`: what touches what.
     pub fn touching(&mut self, member: MemberId, record: &'a Record) -> Option<Touching> {
-        let circle = self.field(member, record, "circle");
+        let circle = self.field(member, record, self.round_word());
         let circle = circle.map(|circle| self.circle_at(member, circle));
         let surface = self.surface(member, record, circle.flatten());
         Some(Touching {
@@ -371,7 +380,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         })
     }
 
-    /// `inside`, `outside` or `along`: what is touched, by a circle or by something else.
+    /// `inside`, `outside` or `along`: what is touched, by a circle, a sphere or something else.
     pub fn surface(
         &mut self,
         member: MemberId,
@@ -393,13 +402,14 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         if other.is_none() {
             let base = self.base_name(member);
             let message = format!(
-                "`{base}` needs the circle that it is `inside` or `outside`, or the frame `along` which it moves"
+                "`{base}` needs the {} that it is `inside` or `outside`, or the frame `along` which it moves",
+                self.round_word()
             );
             self.missing_field(member, message);
         }
         let other_member = other.and_then(|other| self.circle_at(member, other))?;
         if circle == Some(other_member) {
-            let message = "a circle does not touch itself";
+            let message = format!("a {} does not touch itself", self.round_word());
             self.error(Code::ConflictingFields, other?.span, message);
         }
         let other = self.ordinal(other_member)?;
@@ -409,19 +419,28 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         })
     }
 
-    /// The circle that an expression names.
+    /// The circle, or in space the sphere, that an expression names.
     pub fn circle_at(&mut self, member: MemberId, circle: &'a Expression) -> Option<MemberId> {
         let scope = self.scope(member, &limits::DEFINITION);
         match &circle.kind {
             ExpressionKind::Name(reference) => {
-                self.named_member(Namespace::CIRCLES, "no circle is", reference, scope)
+                let (namespace, none) = self.round_names();
+                self.named_member(namespace, none, reference, scope)
             }
             ExpressionKind::Error => None,
             _ => {
-                let message = "the name of a circle is expected here";
+                let message = format!("the name of a {} is expected here", self.round_word());
                 self.error(Code::WrongKind, circle.span, message);
                 None
             }
+        }
+    }
+
+    /// Where circles or spheres have their names, and how a message begins that says that there is none.
+    pub(super) fn round_names(&self) -> (Namespace, &'static str) {
+        match self.space {
+            Space::Plane => (Namespace::CIRCLES, "no circle is"),
+            Space::Space => (Namespace::SPHERES, "no sphere is"),
         }
     }
 }

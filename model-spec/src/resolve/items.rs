@@ -497,15 +497,38 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(Rotation::Angle(angle.expr))
     }
 
-    // Circles and contacts.
+    // Circles, spheres and contacts.
 
     pub fn circle(&mut self, member: MemberId) -> Option<Circle<'d>> {
         let record = self.record(member)?;
         if self.space == Space::Space {
             let message = "circles exist only in the plane";
-            self.error(Code::WrongSpace, self.span(member), message);
+            let diagnostic = Diagnostic::new(Code::WrongSpace, self.span(member), message);
+            self.push(
+                diagnostic
+                    .help("in space it is `spheres { name { on: …, center: …, radius: … } }`"),
+            );
             return None;
         }
+        self.round(member, record)
+    }
+
+    pub fn sphere(&mut self, member: MemberId) -> Option<Circle<'d>> {
+        let record = self.record(member)?;
+        if self.space == Space::Plane {
+            let message = "spheres exist only in space";
+            let diagnostic = Diagnostic::new(Code::WrongSpace, self.span(member), message);
+            self.push(
+                diagnostic
+                    .help("in the plane it is `circles { name { on: …, center: …, radius: … } }`"),
+            );
+            return None;
+        }
+        self.round(member, record)
+    }
+
+    /// A circle or a sphere.
+    fn round(&mut self, member: MemberId, record: &'a Record) -> Option<Circle<'d>> {
         let on = self.field(member, record, "on");
         let center = self.field(member, record, "center");
         let radius = self.field(member, record, "radius");

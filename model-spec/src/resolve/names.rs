@@ -53,6 +53,7 @@ impl Namespace {
     pub const FRAMES: Namespace = Namespace::Section(SectionKind::Frames);
     pub const BODIES: Namespace = Namespace::Section(SectionKind::Bodies);
     pub const CIRCLES: Namespace = Namespace::Section(SectionKind::Circles);
+    pub const SPHERES: Namespace = Namespace::Section(SectionKind::Spheres);
 
     pub fn of(section: SectionKind) -> Namespace {
         match section {
@@ -164,6 +165,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         for (section, items) in [
             (Bodies, &spec.bodies),
             (Circles, &spec.circles),
+            (Spheres, &spec.spheres),
             (Contacts, &spec.contacts),
         ] {
             self.declare_section(layer, section, items, Content::Record);

@@ -52,7 +52,9 @@ pub struct Spec {
     pub bodies: Vec<Item<Record>>,
     /// `name { on, center, radius }`
     pub circles: Vec<Item<Record>>,
-    /// `name { circle, inside or outside or along, restitution, friction }` or `name { gap, slip, … }`
+    /// `name { on, center, radius }`, in space
+    pub spheres: Vec<Item<Record>>,
+    /// `name { circle or sphere, inside or outside or along, restitution, friction }` or `name { gap, slip, … }`
     pub contacts: Vec<Item<Record>>,
 
     /// The items of all sections of elements: springs, forces, constraints, …
@@ -204,6 +206,7 @@ sections! {
     Frames => "frames",
     Bodies => "bodies",
     Circles => "circles",
+    Spheres => "spheres",
     Contacts => "contacts",
     Approximations => "approximations",
     Outputs => "outputs",
@@ -241,10 +244,12 @@ impl SectionKind {
         match self {
             SectionKind::Bodies => &["mass", "inertia", "at", "angle", "frame", "outline"],
             SectionKind::Element(section) => section.fields(),
-            SectionKind::Circles => &["on", "center", "radius"],
+            SectionKind::Circles | SectionKind::Spheres => &["on", "center", "radius"],
             SectionKind::Contacts => &[
                 "circle",
                 "circles",
+                "sphere",
+                "spheres",
                 "inside",
                 "outside",
                 "along",
@@ -281,6 +286,7 @@ impl SectionKind {
             SectionKind::Bodies => "a body",
             SectionKind::Element(section) => section.item,
             SectionKind::Circles => "a circle",
+            SectionKind::Spheres => "a sphere",
             SectionKind::Contacts => "a contact",
             SectionKind::Approximations => "an approximated coordinate",
             SectionKind::Outputs => "an output",

@@ -255,6 +255,7 @@ impl Parser<'_> {
             SectionKind::Frames => self.values(kind, &mut spec.frames, '='),
             SectionKind::Bodies => self.records(kind, &mut spec.bodies),
             SectionKind::Circles => self.records(kind, &mut spec.circles),
+            SectionKind::Spheres => self.records(kind, &mut spec.spheres),
             SectionKind::Contacts => self.records(kind, &mut spec.contacts),
             SectionKind::Approximations => self.approximations(&mut spec.approximations),
             SectionKind::Derivatives => self.words(kind, &mut spec.derivatives),

@@ -34,6 +34,7 @@
 //! velocity, no derivative and no simplification of [`super::projected`] is in it.
 
 mod frozen;
+mod in_space;
 
 use lagrangian_scalar::{Dual, Scalar};
 use lagrangian_symbolic::{Expr, Id, Symbol, evaluate};
@@ -511,13 +512,26 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         x: &impl Fn(Expr<'d>) -> Moving<R>,
     ) -> Vec<LiteralUnilateral<R>> {
         let model = self.model;
-        let [gap, slip] = match &contact.geometry {
-            ContactGeometry::Circles(touching) => {
-                let circle = &model.circles[touching.circle];
-                on_surface(model, circle, touching.surface, x)
+        let touch = |round: &Circle<'d>, surface: Surface| match model.space {
+            Space::Plane => {
+                let [gap, slip] = on_surface(model, round, surface, x);
+                (gap, slip.value, None)
             }
-            ContactGeometry::Point { point, surface } => on_surface(model, point, *surface, x),
-            ContactGeometry::Expressions { gap, slip } => [x(*gap), x(*slip)],
+            Space::Space => {
+                let (gap, [slip, across]) = in_space::touch(model, round, surface, x);
+                (gap, slip, Some(across))
+            }
+        };
+        let (gap, slip, across) = match &contact.geometry {
+            ContactGeometry::Circles(touching) => {
+                touch(&model.circles[touching.circle], touching.surface)
+            }
+            ContactGeometry::Point { point, surface } => touch(point, *surface),
+            ContactGeometry::Expressions { gap, slip, across } => (
+                x(*gap),
+                x(*slip).value,
+                across.map(|across| x(across).value),
+            ),
         };
         let here = |e: Expr<'d>| x(e).value.value.value;
         let known = |e: Option<Expr<'d>>| e.map_or(R::ZERO, here);
@@ -526,7 +540,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         let mut all = vec![LiteralUnilateral {
             gap: of_position(gap),
             // Without friction nobody looks at the slip.
-            slip: of_rate(friction.map_or(nothing, |_| slip.value)),
+            slip: of_rate(friction.map_or(nothing, |_| slip)),
             coefficients: [
                 here(contact.response.coefficients()[0]),
                 here(contact.response.coefficients()[1]),
@@ -534,6 +548,12 @@ impl<'m, 'd> Lagrange<'m, 'd> {
                 known(contact.static_friction.or(friction)),
             ],
         }];
+        if let (Some(_), Some(across)) = (friction, across) {
+            all.push(LiteralUnilateral {
+                slip: of_rate(across),
+                ..all[0]
+            });
+        }
         if let (ContactGeometry::Circles(touching), Some(resistance)) =
             (&contact.geometry, contact.rolling_resistance)
         {
@@ -840,7 +860,10 @@ fn geometry<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
                 surface: Surface::Along(frame),
                 ..
             } => pose(*frame, &mut roots),
-            ContactGeometry::Expressions { gap, slip } => roots.extend([*gap, *slip]),
+            ContactGeometry::Expressions { gap, slip, across } => {
+                roots.extend([*gap, *slip]);
+                roots.extend(across);
+            }
             _ => {}
         }
         roots.extend(contact.response.coefficients());

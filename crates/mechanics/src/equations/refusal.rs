@@ -51,10 +51,24 @@ fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
         let help = format!("without `{section}`, or without `contacts`, it can be derived");
         refuse(Code::NotSupported, span, message, help);
     }
-    if model.space == Space::Space {
-        for contact in model.contacts.iter().filter(|c| c.friction.is_some()) {
-            let message = "contacts with friction can be derived in the plane only".to_owned();
-            let help = "in space there are two directions of slip: leave `friction` out".to_owned();
+    for contact in model
+        .contacts
+        .iter()
+        .filter(|c| c.slips_across(model.space))
+    {
+        let law = contact.response.impact_law();
+        if let Some(law @ (ImpactLaw::Poisson | ImpactLaw::Stronge)) = law {
+            let message = format!("`law: {}` with friction is for the plane only", law.name());
+            let help = "Routh's path along two tangents has no closed form: the laws `newton` and `poisson_glocker` know them"
+                .to_owned();
+            refuse(Code::NotSupported, contact.span, message, help);
+        }
+        if contact.response.painleve() == Painleve::Impact {
+            let message =
+                "`painleve: impact` is for contacts with one direction of slip".to_owned();
+            let help =
+                "leave it out: where friction leaves no motion the run then ends with an error"
+                    .to_owned();
             refuse(Code::NotSupported, contact.span, message, help);
         }
     }
@@ -85,9 +99,16 @@ fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
             }
         }
     }
-    let most = MOST_UNILATERAL - rolling().count().min(MOST_UNILATERAL);
+    // What leans on a contact counts as one.
+    let leaning = rolling().count()
+        + model
+            .contacts
+            .iter()
+            .filter(|c| c.slips_across(model.space))
+            .count();
+    let most = MOST_UNILATERAL - leaning.min(MOST_UNILATERAL);
     if let Some(contact) = model.contacts.get(most) {
-        let count = model.contacts.len() + rolling().count();
+        let count = model.contacts.len() + leaning;
         let message = format!("{count} unilateral contacts are too many");
         let help = format!("a machine may have {MOST_UNILATERAL} of them");
         refuse(Code::TooLarge, contact.span, message, help);
@@ -187,12 +208,18 @@ pub(super) fn refuse_unturned(model: &Model<'_>, report: &mut Report) -> bool {
                 continue;
             };
             let body = &model.bodies[body];
-            if matches!(body.rotation, Rotation::Unspecified) {
+            let in_space = model.space == Space::Space;
+            // In space an angle turns a rotor about an axis that no contact knows.
+            let is_rotor = in_space && matches!(body.rotation, Rotation::Angle(_));
+            if matches!(body.rotation, Rotation::Unspecified) || is_rotor {
                 let message = format!("nothing says how the body `{}` turns", body.name);
-                let help = format!(
-                    "the circle `{}` is on it: give it an `angle` or a `frame`",
-                    circle.name
-                );
+                let help = match in_space {
+                    false => format!(
+                        "the circle `{}` is on it: give it an `angle` or a `frame`",
+                        circle.name
+                    ),
+                    true => format!("`{}` is on it: give it a `frame`", circle.name),
+                };
                 report.push(Diagnostic::new(Code::MissingRotation, span, message).help(help));
                 refused = true;
             }

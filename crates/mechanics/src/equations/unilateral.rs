@@ -5,6 +5,7 @@
 //! slip       γₜ = wₜ v + b(q, t),                     wₜ = ∂γₜ/∂v                      (E52)
 //! rates      dγ/dt = w a + δ,                         δ = Dγ at a = 0                  (E53)
 //! rolling    γ = ω − ω′, of circles that resist it
+//! across     γₜ along a second tangent, in space
 //! motion     M a = f + Gᵀλ + Σ wₙᵀ λₙ + Σ wₜᵀ λₜ
 //! ```
 //!
@@ -18,7 +19,8 @@ use super::kinematics::gradient;
 use lagrangian_spec::identity;
 use lagrangian_spec::model::circles::{self, Contact};
 use lagrangian_spec::model::{
-    self, Compliance, ContactGeometry, ImpactLaw, ImpactOrder, Model, Painleve,
+    self, Circle, Compliance, ContactGeometry, ImpactLaw, ImpactOrder, Model, Painleve, Space,
+    Surface, spheres,
 };
 
 /// The most terms of a gap that is multiplied out, to see what cancels.
@@ -47,6 +49,8 @@ pub struct UnilateralEquation<'d> {
     pub rubs: bool,
     /// Whether it is the rolling of the contact before it: see [`Unilateral`](lagrangian_program::Unilateral).
     pub rolls: bool,
+    /// Whether it is the second tangent of the contact before it, in space: see [`Unilateral`](lagrangian_program::Unilateral).
+    pub across: bool,
 }
 
 /// A direction of a contact.
@@ -65,12 +69,23 @@ pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
     let x = Variables::of(model);
     let of_contact = |contact: &model::Contact<'d>| -> Vec<UnilateralEquation<'d>> {
         let mut coasting = x.coasting(model);
-        let Contact { gap, slip } = match &contact.geometry {
-            ContactGeometry::Circles(touching) => circles::contact(model, touching, &mut coasting),
-            ContactGeometry::Point { point, surface } => {
-                circles::touch(model, point, *surface, &mut coasting)
+        let mut touch = |round: &Circle<'d>, surface: Surface| match model.space {
+            Space::Plane => {
+                let Contact { gap, slip } = circles::touch(model, round, surface, &mut coasting);
+                (gap, slip, None)
             }
-            &ContactGeometry::Expressions { gap, slip } => Contact { gap, slip },
+            Space::Space => {
+                let spheres::Contact { gap, slip } =
+                    spheres::touch(model, round, surface, &mut coasting);
+                (gap, slip[0], Some(slip[1]))
+            }
+        };
+        let (gap, slip, across) = match &contact.geometry {
+            ContactGeometry::Circles(touching) => {
+                touch(&model.circles[touching.circle], touching.surface)
+            }
+            ContactGeometry::Point { point, surface } => touch(point, *surface),
+            &ContactGeometry::Expressions { gap, slip, across } => (gap, slip, across),
         };
         let plain = |e: Expr<'d>| match normal::expand(e, TERMS) {
             Some(expanded) => normal::readable(expanded.to_expr(), TERMS),
@@ -99,7 +114,21 @@ pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
             compliance: contact.response.compliance(),
             rubs,
             rolls: false,
+            across: false,
         };
+        if let (true, Some(across)) = (rubs, across) {
+            // What it leans on has its gap and its normal; all that is its own is the other component of the slip.
+            let [normal, _] = own.directions.clone();
+            let second = UnilateralEquation {
+                name: format!("{}.across", contact.name),
+                directions: [normal, direction(model, &x, plain(across))],
+                painleve: Painleve::default(),
+                compliance: None,
+                across: true,
+                ..own.clone()
+            };
+            return vec![own, second];
+        }
         let (ContactGeometry::Circles(touching), Some(resistance)) =
             (&contact.geometry, contact.rolling_resistance)
         else {

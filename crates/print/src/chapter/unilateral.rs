@@ -19,13 +19,21 @@ impl Chapter<'_, '_> {
              where one closes there is an impact, and while it stays closed it presses and rubs. What energy and momentum \
              impacts and friction take is not what is said to be conserved.",
         ])];
-        for contact in contacts.iter().take(MOST) {
+        for (k, contact) in contacts.iter().enumerate().take(MOST) {
+            // The second tangent of a contact stands with the first.
+            if contact.across {
+                continue;
+            }
             let [normal, tangent] = &contact.directions;
             let rate = |index: &'static str| Math::letter('γ').with_index(Math::text(index));
             let mut rows = self.equality(Math::letter('g'), contact.gap, "gap");
             rows.extend(self.equality(rate("n"), normal.rate, "at which it opens"));
             if contact.rubs {
                 rows.extend(self.equality(rate("t"), tangent.rate, "at which it slips"));
+            }
+            if let Some(second) = contacts.get(k + 1).filter(|next| next.across) {
+                let [_, tangent] = &second.directions;
+                rows.extend(self.equality(rate("s"), tangent.rate, "along a second tangent"));
             }
             blocks.push(Block::Heading(words!["Contact ", contact.name.clone()]));
             blocks.push(Block::Formula(rows));

@@ -1,0 +1,480 @@
+//! Contacts in space, where friction has two directions: against closed forms, and against the same machines written otherwise.
+
+use serde_json::Value;
+
+use crate::collisions::{close, events, is_good, number, simulate};
+use crate::support::{Scratch, lagrangian};
+
+const G: f64 = 9.81;
+
+fn settings(pairs: &[(&str, f64)]) -> Vec<String> {
+    let said = pairs
+        .iter()
+        .map(|(name, value)| format!("{name}={value:?}"));
+    said.collect()
+}
+
+fn run(spec: &str, until: f64, pairs: &[(&str, f64)]) -> Value {
+    let settings = settings(pairs);
+    let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
+    simulate(spec, until, &settings)
+}
+
+/// A ball slips at u = v − r ω × n, which keeps its direction and falls by 7/2 μ g a second: after 2|u|/(7 μ g) it rolls, at v − 2/7 u,
+/// and until then its path is a parabola (G.-G. Coriolis, 1835). The spin about the vertical is left alone.
+#[test]
+fn a_cue_ball_slips_along_a_parabola_until_it_rolls() {
+    let spec = "machines/contacts/cue_ball.machine";
+    let (m, r, mu) = (0.21, 0.03075, 0.2);
+    for (v, w) in [
+        ([2.0, 0.0], [40.0, -30.0, 60.0]),
+        ([1.0, 0.5], [0.0; 3]),
+        // So much back spin that it comes back.
+        ([0.4, 0.3], [35.0, -50.0, 0.0]),
+    ] {
+        let pairs = [
+            ("vx", v[0]),
+            ("vy", v[1]),
+            ("wx", w[0]),
+            ("wy", w[1]),
+            ("wz", w[2]),
+        ];
+        let slip: [f64; 2] = [v[0] - r * w[1], v[1] + r * w[0]];
+        let speed = slip[0].hypot(slip[1]);
+        let rolls = 2.0 * speed / (7.0 * mu * G);
+        let until = 1.25 * rolls;
+        let run = run(spec, until, &pairs);
+        is_good(&run);
+        let sticks = events(&run, "sticks");
+        assert_eq!(sticks.len(), 1, "{}", run["contact_events"]);
+        assert_eq!(sticks[0]["contact"], "cloth");
+        close(number(&sticks[0]["t"]), rolls, 1e-12);
+        for (name, k) in [("x", 0), ("y", 1)] {
+            let after = v[k] - 2.0 / 7.0 * slip[k];
+            let braked = mu * G * slip[k] / speed;
+            let place = v[k] * rolls - 0.5 * braked * rolls * rolls;
+            close(number(&sticks[0]["q"][name]), place, 1e-12);
+            close(number(&run["v"][name]), after, 1e-12);
+            close(
+                number(&run["q"][name]),
+                place + after * (until - rolls),
+                1e-12,
+            );
+        }
+        // What friction has taken: half the mass that slips, 2/7 m, times the square of the slip.
+        close(number(&run["dissipated"]), speed * speed * m / 7.0, 1e-11);
+        close(number(&run["energy_residual"]), 0.0, 1e-11);
+    }
+}
+
+/// In time stepping too, up to the error of its steps, which is at least of the first order: half of it at half their length.
+#[test]
+fn by_time_stepping_a_cue_ball_rolls_at_the_same_rates() {
+    let (r, v, w) = (0.03075, [2.0, 0.0], [40.0, -30.0]);
+    let slip: [f64; 2] = [v[0] - r * w[1], v[1] + r * w[0]];
+    let error = |step: &str| {
+        let output = lagrangian(&[
+            "simulate",
+            "machines/contacts/cue_ball.machine",
+            "--until",
+            "0.6",
+            "--method",
+            "moreau",
+            "--longest-step",
+            step,
+            "--json",
+        ]);
+        let run: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        assert_eq!(run["error"], Value::Null, "{run:#}");
+        assert_eq!(events(&run, "sticks").len(), 1, "{}", run["contact_events"]);
+        let missed = |k: usize, name: &str| {
+            let after = v[k] - 2.0 / 7.0 * slip[k];
+            (number(&run["v"][name]) - after).abs()
+        };
+        missed(0, "x").max(missed(1, "y"))
+    };
+    let [whole, half] = ["1e-3", "5e-4"].map(error);
+    // It turns by 0.08 in a step, and the square of that is 0.6 % of 2 m/s.
+    assert!(whole < 0.013, "{whole:e}");
+    assert!(half < 0.6 * whole, "{half:e} of {whole:e}");
+}
+
+/// Straight along an axis of the plane, a ball in space is the disc of the plane with the inertia of a ball.
+#[test]
+fn a_ball_that_moves_in_a_plane_has_the_numbers_of_the_plane() {
+    let pairs = [("m", 7.0), ("r", 0.108), ("mu", 0.1)];
+    let plane = run(
+        "machines/contacts/bowling_ball.machine",
+        3.0,
+        &[&pairs[..], &[("speed", 8.0), ("spin", 5.0)]].concat(),
+    );
+    let rest = [
+        ("vx", 8.0),
+        ("vy", 0.0),
+        ("wx", 0.0),
+        ("wy", -5.0),
+        ("wz", 0.0),
+    ];
+    let space = run(
+        "machines/contacts/cue_ball.machine",
+        3.0,
+        &[&pairs[..], &rest[..]].concat(),
+    );
+    is_good(&plane);
+    is_good(&space);
+    let stops = |run: &Value| number(&events(run, "sticks")[0]["t"]);
+    close(stops(&space), stops(&plane), 1e-13);
+    close(number(&space["q"]["x"]), number(&plane["q"]["x"]), 1e-12);
+    close(
+        number(&space["q"]["b"]),
+        -number(&plane["q"]["theta"]),
+        1e-10,
+    );
+    close(
+        number(&space["dissipated"]),
+        number(&plane["dissipated"]),
+        1e-10,
+    );
+    for rest in ["y", "a", "c"] {
+        assert_eq!(number(&space["q"][rest]), 0.0);
+    }
+}
+
+/// A ball of rubber that falls with spin: with the law of Moreau, Λₙ = (1 + e) m v and Λₜ = (1 + eₜ) 2/7 m u, or μ Λₙ if that is less.
+#[test]
+fn a_ball_bounces_with_spin() {
+    let (m, r, e, v) = (0.21, 0.03075, 0.5, [0.7, -0.4]);
+    let w = [25.0, 60.0, 10.0];
+    let height = 0.2;
+    for (mu, et) in [(2.0, 0.6), (0.1, 0.6), (1.0, 0.0)] {
+        let spec = Scratch::new(
+            "cue_ball.machine",
+            std::fs::read_to_string(
+                crate::support::root().join("machines/contacts/cue_ball.machine"),
+            )
+            .expect("it is there")
+            .replace(
+                "friction: mu }",
+                &format!("friction: mu, tangential_restitution: {et:?} }}"),
+            )
+            .replace("z: m = r", &format!("z: m = r + {height:?}"))
+            .as_str(),
+        );
+        let falls = (2.0 * height / G).sqrt();
+        let pairs = [
+            ("vx", v[0]),
+            ("vy", v[1]),
+            ("wx", w[0]),
+            ("wy", w[1]),
+            ("wz", w[2]),
+            ("mu", mu),
+        ];
+        let run = run(spec.path(), 1.2 * falls, &pairs);
+        is_good(&run);
+        let impacts = events(&run, "impact");
+        assert_eq!(impacts.len(), 1);
+        let impact = impacts[0];
+        close(number(&impact["t"]), falls, 1e-13);
+        let slip: [f64; 2] = [v[0] - r * w[1], v[1] + r * w[0]];
+        let speed = slip[0].hypot(slip[1]);
+        let normal = (1.0 + e) * m * G * falls;
+        let taken = (2.0 / 7.0 * m * (1.0 + et) * speed).min(mu * normal);
+        close(number(&impact["impulse"][0]), normal, 1e-13);
+        let mut lost = 0.5 * m * (1.0 - e * e) * (G * falls).powi(2);
+        for (k, name) in ["x", "y"].into_iter().enumerate() {
+            let impulse = -taken * slip[k] / speed;
+            close(number(&impact["impulse"][1 + k]), impulse, 1e-13);
+            close(number(&run["v"][name]), v[k] + impulse / m, 1e-12);
+            lost -= impulse * (slip[k] + 3.5 / m * impulse / 2.0);
+        }
+        close(number(&impact["loss"]), lost, 1e-12);
+        close(number(&run["impact_loss"]), lost, 1e-12);
+    }
+}
+
+/// On a slope a puck is braked along its slip, which turns: with κ = μ/tan α, v (cos φ + κ) falls by g sin α (κ² − 1) a second, and
+/// where that is none left it rests. For κ = 1 it never does, and comes to half its first speed if it was thrown across.
+#[test]
+fn a_puck_turns_into_the_fall_line() {
+    let spec = "machines/contacts/puck_on_slope.machine";
+    for (alpha, v, phi, mu) in [
+        (0.4_f64, 3.0, 2.0_f64, 0.6_f64),
+        (0.2, 1.0, 1.2, 0.3),
+        (0.3, 2.0, 3.0, 0.5),
+    ] {
+        let kappa = mu / alpha.tan();
+        let rests = v * (phi.cos() + kappa) / (G * alpha.sin() * (kappa * kappa - 1.0));
+        let pairs = [
+            ("alpha", alpha),
+            ("v", v),
+            ("phi", phi),
+            ("mu", mu),
+            ("mu0", mu),
+        ];
+        let run = run(spec, 1.5 * rests, &pairs);
+        is_good(&run);
+        let told = run["contact_events"].as_array().expect("events");
+        assert_eq!(told.len(), 1, "{told:?}");
+        assert_eq!(told[0]["kind"], "sticks");
+        // The last of its slip is braked by g cos α (μ − tan α): an error of 1e-12 of its speed.
+        close(number(&told[0]["t"]), rests, 1e-9 * rests);
+        for name in ["x", "y", "z"] {
+            close(number(&run["v"][name]), 0.0, 1e-14);
+        }
+        // Weight has done what friction has taken, and what it had.
+        let m = 0.16;
+        let weight = m * G * alpha.sin() * number(&run["q"]["x"]);
+        close(number(&run["dissipated"]), 0.5 * m * v * v + weight, 1e-10);
+    }
+    let alpha = 0.3_f64;
+    let pairs = [
+        ("alpha", alpha),
+        ("v", 2.0),
+        ("phi", std::f64::consts::FRAC_PI_2),
+        ("mu", alpha.tan()),
+        ("mu0", alpha.tan()),
+    ];
+    for until in [0.1, 1.0, 20.0] {
+        let run = run(spec, until, &pairs);
+        is_good(&run);
+        let [x, y] = ["x", "y"].map(|name| number(&run["v"][name]));
+        close(x.hypot(y) + x, 2.0, 1e-10);
+    }
+}
+
+/// A block that is pulled by a growing force of a fixed direction breaks away where the force is μ₀ N, in that direction, and is
+/// then braked by μ N.
+#[test]
+fn what_sticks_breaks_away_along_what_pulls() {
+    let (mu, mu0, rate, m) = (0.25, 0.4, 3.0, 1.5);
+    let pull: [f64; 2] = [0.6, -0.8];
+    let spec = Scratch::new(
+        "pulled.machine",
+        "machine Pulled in space {
+            parameters { m: kg = 1.5, g: m/s^2 = 9.81, k: N/s = 3, mu: 1 = 0.25, mu0: 1 = 0.4 }
+            coordinates { x: m, y: m, z: m }
+            bodies { block { mass: m, at: (x, y, z) } }
+            gravity (0, 0, -g);
+            forces { rope { at: (x, y, z), force: (0.6*k*t, -0.8*k*t, 0) } }
+            contacts { floor { gap: z, slip: (der(x), der(y)), restitution: 0, friction: mu, static_friction: mu0 } }
+        }",
+    );
+    let breaks = mu0 * m * G / rate;
+    let until = breaks + 1.0;
+    let run = run(spec.path(), until, &[]);
+    is_good(&run);
+    let told = run["contact_events"].as_array().expect("events");
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert_eq!(told[0]["kind"], "slips");
+    close(number(&told[0]["t"]), breaks, 1e-12 * breaks);
+    // v = ∫ (k t/m − μ g) dt from there.
+    let speed = rate / m * 0.5 * (until * until - breaks * breaks) - mu * G * (until - breaks);
+    for (k, name) in ["x", "y"].into_iter().enumerate() {
+        close(number(&told[0]["direction"][k]), pull[k], 1e-12);
+        close(number(&run["v"][name]), speed * pull[k], 1e-11);
+    }
+}
+
+/// Two equal balls that meet: along the line of their centres by e, across it by 1/7 m of the slip, or μ times that impulse.
+#[test]
+fn balls_meet_with_friction() {
+    let (m, r, e) = (0.2, 0.05, 0.8);
+    for (mu, below) in [
+        (0.05, 0.0_f64),
+        (1.0, 0.0),
+        (0.2, 0.03),
+        (0.2, -0.06),
+        (1.0, 0.1),
+    ] {
+        // The second flies past at a height of `below` less, and spins.
+        let spec = Scratch::new(
+            "balls.machine",
+            &format!(
+                "machine Balls in space {{
+                    constants {{ N = 2 }}
+                    parameters {{ m: kg = {m:?}, r: m = {r:?}, mu: 1 = {mu:?} }}
+                    coordinates {{
+                        x[i in 1..N]: m = (i - 1)*0.5, y[i in 1..N]: m, z[i in 1..N]: m = (i - 1)*({below:?}),
+                        a[i in 1..N]: rad, b[i in 1..N]: rad, c[i in 1..N]: rad,
+                        der(x[1]): m/s = 3, der(y[1]): m/s = 0.02,
+                        der(a[2]): rad/s = 4, der(b[2]): rad/s = -20, der(c[2]): rad/s = 15,
+                    }}
+                    frames {{ ball[i in 1..N] = ground.shift(x[i], y[i], z[i]).turn(x, a[i]).turn(y, b[i]).turn(z, c[i]) }}
+                    bodies {{ ball[i in 1..N] {{ mass: m, inertia: (2/5*m*r^2, 2/5*m*r^2, 2/5*m*r^2), frame: ball[i] }} }}
+                    spheres {{ ball[i in 1..N] {{ on: ball[i], center: (0, 0, 0), radius: r }} }}
+                    contacts {{ every {{ spheres: ball, restitution: {e:?}, friction: mu }} }}
+                }}"
+            ),
+        );
+        let run = run(spec.path(), 0.3, &[]);
+        is_good(&run);
+        if below.abs() >= 2.0 * r {
+            assert_eq!(events(&run, "impact").len(), 0);
+            continue;
+        }
+        let impact = events(&run, "impact")[0];
+        let q = |name: &str| number(&impact["q"][name]);
+        let line = ["x", "y", "z"].map(|c| q(&format!("{c}[2]")) - q(&format!("{c}[1]")));
+        let distance = line.iter().map(|c| c * c).sum::<f64>().sqrt();
+        close(distance, 2.0 * r, 1e-15);
+        let n = line.map(|c| c / distance);
+        // The second ball's point, less the first's; the second turns by its angles up to here about axes of its own, so its
+        // angular velocity is what it was.
+        let spin = [4.0, -20.0, 15.0];
+        let turned = [
+            spin[1] * n[2] - spin[2] * n[1],
+            spin[2] * n[0] - spin[0] * n[2],
+            spin[0] * n[1] - spin[1] * n[0],
+        ];
+        let first = [3.0, 0.02, 0.0];
+        let relative: [f64; 3] = [0, 1, 2].map(|k| -first[k] - r * turned[k]);
+        let opens: f64 = (0..3).map(|k| relative[k] * n[k]).sum();
+        let slip = [0, 1, 2].map(|k| relative[k] - opens * n[k]);
+        let speed = slip.iter().map(|c| c * c).sum::<f64>().sqrt();
+        // Inertia: 1/m of both along the line, and 7/2 of that across it.
+        let normal = -(1.0 + e) * opens * m / 2.0;
+        let tangential = (speed * m / 7.0).min(mu * normal);
+        close(number(&impact["impulse"][0]), normal, 1e-13);
+        let across = number(&impact["impulse"][1]).hypot(number(&impact["impulse"][2]));
+        close(across, tangential, 1e-13);
+        for (k, name) in ["x", "y", "z"].into_iter().enumerate() {
+            let impulse = normal * n[k] - tangential * slip[k] / speed;
+            close(number(&run["v"][&format!("{name}[2]")]), impulse / m, 1e-12);
+            close(
+                number(&run["v"][&format!("{name}[1]")]),
+                first[k] - impulse / m,
+                1e-12,
+            );
+        }
+    }
+}
+
+/// With friction enough a ball in a turning bowl rolls as the machine does that is made to roll.
+#[test]
+fn a_ball_in_a_turning_bowl_rolls_as_by_its_constraints() {
+    let rolls = run("machines/ball_in_bowl.machine", 1.0, &[]);
+    let touches = run("machines/contacts/ball_in_turning_bowl.machine", 1.0, &[]);
+    is_good(&touches);
+    assert_eq!(
+        touches["contact_events"].as_array().map(Vec::len),
+        Some(0),
+        "{}",
+        touches["contact_events"]
+    );
+    for name in ["x", "y", "z", "a", "b", "c"] {
+        for of in ["q", "v"] {
+            let scale = 1.0 + number(&rolls[of][name]).abs();
+            close(
+                number(&touches[of][name]),
+                number(&rolls[of][name]),
+                1e-10 * scale,
+            );
+        }
+    }
+}
+
+/// So does a coin, whose point that touches is given by expressions.
+#[test]
+fn a_coin_that_does_not_slip_rolls_as_by_its_constraints() {
+    let rolls = run("machines/rolling_coin.machine", 1.0, &[]);
+    let touches = run("machines/contacts/spinning_coin.machine", 1.0, &[]);
+    is_good(&touches);
+    assert_eq!(touches["contact_events"].as_array().map(Vec::len), Some(0));
+    for name in ["heading", "lean", "roll"] {
+        for of in ["q", "v"] {
+            let scale = 1.0 + number(&rolls[of][name]).abs();
+            close(
+                number(&touches[of][name]),
+                number(&rolls[of][name]),
+                1e-10 * scale,
+            );
+        }
+    }
+}
+
+/// Not turned, a box falls as one in the plane does: its corners stand by twos behind each other, and share what presses.
+#[test]
+fn a_box_that_falls_in_a_plane_has_the_numbers_of_the_plane() {
+    let plane = Scratch::new(
+        "plane.machine",
+        "machine Plane in plane {
+            parameters { m: kg = 0.8, a: m = 0.1, c: m = 0.04, h: m = 0.3, e: 1 = 0.2, mu: 1 = 0.4, g: m/s^2 = 9.81 }
+            coordinates { x: m, z: m = h, theta: rad = -0.3, der(x): m/s = 0.5 }
+            frames { held = ground.shift(x, z).turn(theta) }
+            bodies { box { mass: m, inertia: m/3*(a^2 + c^2), frame: held } }
+            gravity (0, -g);
+            contacts {
+                floor { corners: ((a, c), (a, -c), (-a, c), (-a, -c)), on: held, along: ground, restitution: e, friction: mu },
+            }
+        }",
+    );
+    let plane = run(plane.path(), 0.5, &[]);
+    let pairs = [("roll", 0.0), ("turning", 0.0)];
+    let space = run("machines/contacts/dropped_box.machine", 0.5, &pairs);
+    is_good(&plane);
+    is_good(&space);
+    let first = |run: &Value| number(&events(run, "impact")[0]["t"]);
+    close(first(&space), first(&plane), 1e-14);
+    close(number(&space["q"]["x"]), number(&plane["q"]["x"]), 1e-10);
+    close(number(&space["q"]["z"]), number(&plane["q"]["z"]), 1e-10);
+    close(
+        number(&space["q"]["theta"]),
+        -number(&plane["q"]["theta"]),
+        1e-9,
+    );
+    close(
+        number(&space["impact_loss"]),
+        number(&plane["impact_loss"]),
+        1e-9,
+    );
+}
+
+/// A box that is dropped comes to rest on the floor, and what it had is in the books.
+#[test]
+fn a_dropped_box_comes_to_rest() {
+    let spec = "machines/contacts/dropped_box.machine";
+    let run = run(spec, 1.0, &[]);
+    assert_eq!(run["error"], Value::Null, "{run:#}");
+    close(number(&run["q"]["z"]), 0.04, 1e-12);
+    for name in ["x", "y", "z", "yaw", "theta", "phi"] {
+        close(number(&run["v"][name]), 0.0, 1e-10);
+    }
+    close(number(&run["energy_residual"]), 0.0, 1e-9);
+    let had = 0.5 * 0.8 * 0.25 + 0.8 * G * (0.3 - 0.04);
+    assert!(number(&run["dissipated"]) > had);
+}
+
+/// What the laws of one direction do not know is refused where it stands.
+#[test]
+fn what_is_not_known_in_space_is_refused() {
+    for (added, message) in [
+        (
+            "law: poisson",
+            "`law: poisson` with friction is for the plane only",
+        ),
+        (
+            "law: stronge",
+            "`law: stronge` with friction is for the plane only",
+        ),
+        (
+            "painleve: impact",
+            "`painleve: impact` is for contacts with one direction of slip",
+        ),
+        (
+            "rolling_resistance: 1e-3*m",
+            "`rolling_resistance` does not go with `sphere`",
+        ),
+    ] {
+        let text = std::fs::read_to_string(
+            crate::support::root().join("machines/contacts/cue_ball.machine"),
+        );
+        let text = text
+            .expect("it is there")
+            .replace("friction: mu }", &format!("friction: mu, {added} }}"));
+        let spec = Scratch::new("refused.machine", &text);
+        let output = lagrangian(&["check", spec.path()]);
+        assert_eq!(output.status.code(), Some(1));
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(said.contains(message), "{said}");
+    }
+}

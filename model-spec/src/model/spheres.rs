@@ -1,0 +1,165 @@
+//! Spheres in space: how one touches another, or a plane.
+//!
+//! A point is a sphere of no radius. The slip has two components, along two directions at right angles to the normal.
+
+use lagrangian_symbolic::{Expr, Tangent};
+
+use super::circles::{difference, distance, placed};
+use super::{Circle, Model, Place, PoseId, Rotation, Step, Surface};
+
+/// How a sphere stands to what it touches.
+pub struct Contact<'d> {
+    /// How far they are apart, in m: 0 where they touch.
+    pub gap: Expr<'d>,
+    /// The velocity of the point of the sphere that is nearest, less that of the other's, along both tangents.
+    pub slip: [Expr<'d>; 2],
+}
+
+/// How a sphere, which need not be one of the machine's, touches a surface.
+pub fn touch<'d>(
+    model: &Model<'d>,
+    sphere: &Circle<'d>,
+    surface: Surface,
+    rate: &mut Tangent<'d>,
+) -> Contact<'d> {
+    match surface {
+        Surface::Inside(other) => with_sphere(model, [sphere, &model.circles[other]], true, rate),
+        Surface::Outside(other) => with_sphere(model, [sphere, &model.circles[other]], false, rate),
+        Surface::Along(pose) => with_plane(model, sphere, pose, rate),
+    }
+}
+
+/// The angular velocity of what a sphere is fixed to, along the ground's axes: each turn of a frame about one of its own
+/// axes, which it leaves where that is, adds its rate along that axis.
+fn turning<'d>(model: &Model<'d>, place: Place, rate: &mut Tangent<'d>) -> Vec<Expr<'d>> {
+    let mut terms = vec![Vec::new(); 3];
+    let mut at = match place {
+        Place::Frame(pose) => pose,
+        Place::Body(body) => match model.bodies[body].rotation {
+            Rotation::Frame(pose) => pose,
+            // Nothing says how it turns; where that matters it is refused.
+            Rotation::Unspecified | Rotation::Angle(_) => PoseId::GROUND,
+        },
+    };
+    while at != PoseId::GROUND {
+        let pose = &model.poses[at.index()];
+        if let Step::Turn { axis, angle } = pose.step {
+            let speed = rate.of(angle);
+            for (terms, &along) in terms.iter_mut().zip(&pose.axes[axis]) {
+                terms.push(speed * along);
+            }
+        }
+        at = pose.parent;
+    }
+    terms
+        .into_iter()
+        .map(|terms| model.dag.sum(terms))
+        .collect()
+}
+
+/// How a sphere touches the plane of the first two axes `e₁`, `e₂` of a frame, from the side of the third, `n`. With `c` from
+/// the frame's origin to the centre, radius `r`, and angular velocities `ω` of the sphere and `Ω` of the frame:
+///
+/// ```text
+/// gap = c·n − r,    slip = ċ − r ω × n − Ω × (c − r n),  along e₁ and e₂
+/// ```
+fn with_plane<'d>(
+    model: &Model<'d>,
+    sphere: &Circle<'d>,
+    pose: PoseId,
+    rate: &mut Tangent<'d>,
+) -> Contact<'d> {
+    let frame = &model.poses[pose.index()];
+    let (centre, _) = placed(model, sphere);
+    let pairs = centre.iter().zip(&frame.origin);
+    let line: Vec<Expr<'d>> = pairs.map(|(&a, &b)| difference(a, b)).collect();
+    let velocity: Vec<Expr<'d>> = line.iter().map(|&c| rate.of(c)).collect();
+    let [spin, of_plane] = [sphere.on, Place::Frame(pose)].map(|place| turning(model, place, rate));
+    let normal = &frame.axes[2];
+    let arm: Vec<Expr<'d>> = normal.iter().map(|&n| sphere.radius * n).collect();
+    let foot: Vec<Expr<'d>> = line.iter().zip(&arm).map(|(&c, &a)| c - a).collect();
+    let (turned, carried) = (cross(&spin, &arm), cross(&of_plane, &foot));
+    let slip: Vec<Expr<'d>> = (0..3)
+        .map(|k| model.dag.sum([velocity[k], -turned[k], -carried[k]]))
+        .collect();
+    Contact {
+        gap: dot(normal, &line) - sphere.radius,
+        slip: [0, 1].map(|axis| dot(&frame.axes[axis], &slip)),
+    }
+}
+
+/// How two spheres touch. With `c` from the centre of the other sphere to that of the first, `d` its length, `e = c/d`, radii
+/// `r` and `R`, and angular velocities `ω` and `Ω`:
+///
+/// ```text
+/// inside    gap = R − r − d,    slip = ċ + (r ω − R Ω) × e
+/// outside   gap = d − r − R,    slip = ċ − (r ω + R Ω) × e
+/// ```
+///
+/// along both of the [`tangents`] of the direction into which the gap opens.
+fn with_sphere<'d>(
+    model: &Model<'d>,
+    [first, other]: [&Circle<'d>; 2],
+    is_inside: bool,
+    rate: &mut Tangent<'d>,
+) -> Contact<'d> {
+    let centres = [first, other].map(|sphere| placed(model, sphere).0);
+    let [a, b] = &centres;
+    let line: Vec<Expr<'d>> = a.iter().zip(b).map(|(&a, &b)| difference(a, b)).collect();
+    let facts = model.assumptions.iter().map(|fact| fact.excess);
+    let facts: Vec<_> = facts.map(|fact| (fact, fact.symbols())).collect();
+    let distance = distance(&line, &facts);
+    let direction: Vec<Expr<'d>> = line.iter().map(|&c| c / distance).collect();
+    let velocity: Vec<Expr<'d>> = line.iter().map(|&c| rate.of(c)).collect();
+    let [spin, of_other] = [first, other].map(|sphere| turning(model, sphere.on, rate));
+    let (r, big) = (first.radius, other.radius);
+    let sign = if is_inside { 1 } else { -1 };
+    let both: Vec<Expr<'d>> = spin
+        .iter()
+        .zip(&of_other)
+        .map(|(&own, &other)| r * own * sign - big * other)
+        .collect();
+    let turned = cross(&both, &direction);
+    let slip: Vec<Expr<'d>> = velocity.iter().zip(&turned).map(|(&v, &t)| v + t).collect();
+    let normal: Vec<Expr<'d>> = direction.iter().map(|&e| -e * sign).collect();
+    Contact {
+        gap: match is_inside {
+            true => big - r - distance,
+            false => distance - r - big,
+        },
+        slip: tangents(&normal).map(|tangent| dot(&tangent, &slip)),
+    }
+}
+
+/// Two directions at right angles to a unit vector `n` and to each other, with `n` right-handed. With `s` 1 where
+/// `n₃ ≥ −0.3125`, and −1 below, and `a = −1/(s + n₃)`:
+///
+/// ```text
+/// t₁ = (1 + s a n₁², s a n₁ n₂, −s n₁),    t₂ = (a n₁ n₂, s + a n₂², −n₂)
+/// ```
+///
+/// No field of tangents is steady on the whole sphere; this one jumps far from the places where things touch: from below, from
+/// above and from the side. (T. Duff et al., *Building an orthonormal basis, revisited*, J. Comput. Graph. Tech. 6 (2017) 1–8,
+/// with another place for the jump.)
+fn tangents<'d>(n: &[Expr<'d>]) -> [[Expr<'d>; 3]; 2] {
+    let dag = n[0].dag();
+    let side = (n[2] + dag.int(5) / 16).sign();
+    // The sign of 0 is 0, and there is to be a side even there.
+    let s = side + 1 - side.abs();
+    let a = -dag.one() / (s + n[2]);
+    let product = a * n[0] * n[1];
+    [
+        [s * a * n[0].square() + 1, s * product, -s * n[0]],
+        [product, s + a * n[1].square(), -n[1]],
+    ]
+}
+
+fn dot<'d>(u: &[Expr<'d>], v: &[Expr<'d>]) -> Expr<'d> {
+    let products = u.iter().zip(v).map(|(&u, &v)| u * v);
+    u[0].dag().sum(products)
+}
+
+fn cross<'d>(u: &[Expr<'d>], v: &[Expr<'d>]) -> Vec<Expr<'d>> {
+    let pairs = [(1, 2), (2, 0), (0, 1)];
+    pairs.map(|(i, j)| u[i] * v[j] - u[j] * v[i]).to_vec()
+}

@@ -1,0 +1,577 @@
+//! The complementarity problem of contacts with friction in space, where friction obeys a disc.
+//!
+//! ```text
+//! γ = G Λ + b,    0 ≤ Λₙ ⊥ γₙ ≥ 0,    |Λₜ| ≤ r,  Λₜ = −r γₜ/|γₜ| where γₜ ≠ 0,    r = μ (Λₙ + Λ₀)
+//! ```
+//!
+//! In units in which the diagonal of G is 1 this is `Φ(Λ) = 0` with
+//!
+//! ```text
+//! Φₙ = Λₙ − max(0, Λₙ − γₙ),    Φₜ = Λₜ − proj(Λₜ − γₜ, disc of radius r)
+//! ```
+//!
+//! (P. Alart, A. Curnier, Comput. Methods Appl. Mech. Eng. 92 (1991) 353–375.) Sweeps over the contacts, each solved exactly with
+//! the others as they are, find which of them are open, stick and slip (M. Jean, Comput. Methods Appl. Mech. Eng. 177 (1999)
+//! 235–257); Newton's method on Φ then finds the numbers to rounding. Both are repeated, with more and more sweeps, until Φ is
+//! rounding, or it is said that it is not.
+
+use std::vec;
+use std::vec::Vec;
+
+use super::lcp::{self, Unsolved};
+
+/// What Φ is of a solution, relative to the size of the terms.
+const GOOD: f64 = 1e-13;
+
+/// With how much of it a solution is still one: what rounding leaves where contacts depend on each other.
+const TOLERABLE: f64 = 1e-10;
+
+/// Sweeps before the first try of Newton's method; each further time there are twice as many.
+const FIRST_SWEEPS: usize = 8;
+
+/// How often sweeps and Newton's method follow each other: some 4000 sweeps in all.
+const ROUNDS: usize = 9;
+
+/// The most steps of Newton's method in one round.
+const STEPS: usize = 40;
+
+/// Directions in which the friction of one contact is looked for first.
+const LOOKS: usize = 48;
+
+/// A normal direction, or the tangent or both tangents of a contact.
+#[derive(Clone, Debug)]
+pub(super) enum Part {
+    /// The place of a normal force among the unknowns.
+    Normal(usize),
+    /// The places of one or two tangential forces, which together are no greater than `μ` times the force at `on`, if there is
+    /// one, and `beside` that.
+    Disc {
+        places: Vec<usize>,
+        friction: f64,
+        on: Option<usize>,
+        beside: f64,
+    },
+}
+
+/// Unknown forces `z`, of which `γ = A z + b`. `A` has ones, or numbers about as large, on its diagonal, and `b` is at most 1.
+#[derive(Clone, Debug)]
+pub(super) struct Problem {
+    pub matrix: Vec<f64>,
+    pub b: Vec<f64>,
+    pub parts: Vec<Part>,
+}
+
+/// Forces that solve the problem, and by how much they miss a condition.
+pub(super) fn solve(problem: &Problem) -> Result<(Vec<f64>, f64), Unsolved> {
+    let n = problem.b.len();
+    let is_finite = |values: &[f64]| values.iter().all(|x| x.is_finite());
+    if !is_finite(&problem.b) || !is_finite(&problem.matrix) {
+        return Err(Unsolved);
+    }
+    let mut z = vec![0.0; n];
+    let mut best = (problem.missed(&z), z.clone());
+    for round in 0..ROUNDS {
+        for _ in 0..FIRST_SWEEPS << round {
+            let moved = problem.sweep(&mut z);
+            if moved <= f64::EPSILON {
+                break;
+            }
+        }
+        problem.polish(&z, &mut best);
+        if best.0 <= GOOD {
+            break;
+        }
+    }
+    match best.0 <= TOLERABLE {
+        true => Ok((best.1, best.0)),
+        false => Err(Unsolved),
+    }
+}
+
+impl Problem {
+    fn n(&self) -> usize {
+        self.b.len()
+    }
+
+    fn row(&self, i: usize) -> &[f64] {
+        &self.matrix[i * self.n()..][..self.n()]
+    }
+
+    /// The rate of a direction with these forces.
+    fn rate(&self, i: usize, z: &[f64]) -> f64 {
+        let terms = self.row(i).iter().zip(z);
+        terms.fold(self.b[i], |sum, (a, z)| sum + a * z)
+    }
+
+    fn radius(friction: f64, on: Option<usize>, beside: f64, z: &[f64]) -> f64 {
+        (friction * (on.map_or(0.0, |on| z[on]) + beside)).max(0.0)
+    }
+
+    /// `Φ`, in the order of the unknowns.
+    fn residual(&self, z: &[f64]) -> Vec<f64> {
+        let mut phi = vec![0.0; self.n()];
+        for part in &self.parts {
+            match part {
+                Part::Normal(i) => phi[*i] = z[*i] - (z[*i] - self.rate(*i, z)).max(0.0),
+                Part::Disc {
+                    places,
+                    friction,
+                    on,
+                    beside,
+                } => {
+                    let radius = Self::radius(*friction, *on, *beside, z);
+                    let towards = places.iter().map(|&i| z[i] - self.rate(i, z));
+                    let towards: Vec<f64> = towards.collect();
+                    let length = norm(&towards);
+                    let factor = if length > radius {
+                        radius / length
+                    } else {
+                        1.0
+                    };
+                    for (&i, y) in places.iter().zip(&towards) {
+                        phi[i] = z[i] - factor * y;
+                    }
+                }
+            }
+        }
+        phi
+    }
+
+    /// The greatest part of `Φ`, relative to the size of forces and rates.
+    fn missed(&self, z: &[f64]) -> f64 {
+        let size = z.iter().fold(1.0_f64, |size, z| size.max(z.abs()));
+        let phi = self.residual(z);
+        phi.iter().fold(0.0_f64, |most, phi| most.max(phi.abs())) / size
+    }
+
+    /// Newton's method from `z`; `best` is the best that has been found so far.
+    fn polish(&self, z: &[f64], best: &mut (f64, Vec<f64>)) {
+        let mut z = z.to_vec();
+        let mut note = |z: &[f64]| {
+            let missed = self.missed(z);
+            if missed < best.0 {
+                *best = (missed, z.to_vec());
+            }
+            missed
+        };
+        let mut missed = note(&z);
+        let mut stalled = 0;
+        for _ in 0..STEPS {
+            if missed == 0.0 || stalled > 3 {
+                return;
+            }
+            let mut phi = self.residual(&z);
+            let mut slopes = self.slopes(&z);
+            let (by, _) = lcp::solve(&mut slopes, &mut phi);
+            // The whole step, or as much of it as makes Φ smaller.
+            let mut factor = 1.0;
+            let (mut next, mut then) = (z.clone(), f64::INFINITY);
+            for _ in 0..6 {
+                next = z.iter().zip(&by).map(|(z, by)| z - factor * by).collect();
+                then = note(&next);
+                if then < missed {
+                    break;
+                }
+                factor *= 0.5;
+            }
+            if !then.is_finite() {
+                return;
+            }
+            stalled = if then < missed { 0 } else { stalled + 1 };
+            (z, missed) = (next, then);
+        }
+    }
+
+    /// The derivatives of `Φ`, row after row.
+    fn slopes(&self, z: &[f64]) -> Vec<f64> {
+        let n = self.n();
+        let mut slopes = vec![0.0; n * n];
+        for part in &self.parts {
+            match part {
+                Part::Normal(i) => {
+                    let presses = z[*i] - self.rate(*i, z) > 0.0;
+                    let row = &mut slopes[i * n..][..n];
+                    match presses {
+                        true => row.copy_from_slice(self.row(*i)),
+                        false => row[*i] = 1.0,
+                    }
+                }
+                Part::Disc {
+                    places,
+                    friction,
+                    on,
+                    beside,
+                } => {
+                    let radius = Self::radius(*friction, *on, *beside, z);
+                    let towards = places.iter().map(|&i| z[i] - self.rate(i, z));
+                    let towards: Vec<f64> = towards.collect();
+                    let length = norm(&towards);
+                    for (k, &i) in places.iter().enumerate() {
+                        let row = i * n;
+                        if length <= radius {
+                            slopes[row..][..n].copy_from_slice(self.row(i));
+                            continue;
+                        }
+                        slopes[row + i] = 1.0;
+                        if radius == 0.0 {
+                            continue;
+                        }
+                        let unit = |k: usize| towards[k] / length;
+                        // z − r y/|y| with y = z − γ.
+                        for (l, &j) in places.iter().enumerate() {
+                            let same = if k == l { 1.0 } else { 0.0 };
+                            let turns = radius / length * (same - unit(k) * unit(l));
+                            slopes[row + j] -= turns;
+                            for (slope, a) in slopes[row..][..n].iter_mut().zip(self.row(j)) {
+                                *slope += turns * a;
+                            }
+                        }
+                        if let Some(on) = on {
+                            slopes[row + on] -= friction * unit(k);
+                        }
+                    }
+                }
+            }
+        }
+        slopes
+    }
+
+    /// Solves every contact once, with the others as they are. By how much that changes the forces.
+    fn sweep(&self, z: &mut [f64]) -> f64 {
+        let mut moved = 0.0_f64;
+        let mut solved = vec![false; self.n()];
+        for (index, part) in self.parts.iter().enumerate() {
+            match part {
+                Part::Normal(i) => {
+                    let own = self.parts.get(index + 1).and_then(|next| match next {
+                        Part::Disc {
+                            places,
+                            friction,
+                            on: Some(on),
+                            beside,
+                        } if on == i => Some((places, *friction, *beside)),
+                        _ => None,
+                    });
+                    let (places, friction, beside) = match &own {
+                        Some((places, friction, beside)) => (places.as_slice(), *friction, *beside),
+                        None => (&[][..], 0.0, 0.0),
+                    };
+                    let all: Vec<usize> = [*i].into_iter().chain(places.iter().copied()).collect();
+                    let found = self.alone(&all, friction, beside, z);
+                    for (&i, value) in all.iter().zip(found) {
+                        moved = moved.max((value - z[i]).abs());
+                        (z[i], solved[i]) = (value, true);
+                    }
+                }
+                Part::Disc {
+                    places,
+                    friction,
+                    on,
+                    beside,
+                } if !solved[places[0]] => {
+                    let radius = Self::radius(*friction, *on, *beside, z);
+                    let found = self.on_disc(places, radius, z);
+                    for (&i, value) in places.iter().zip(found) {
+                        moved = moved.max((value - z[i]).abs());
+                        z[i] = value;
+                    }
+                }
+                Part::Disc { .. } => {}
+            }
+        }
+        moved
+    }
+
+    /// The rates of some directions without the forces along these.
+    fn without(&self, places: &[usize], z: &[f64]) -> Vec<f64> {
+        let own = |i: usize| {
+            let row = self.row(i);
+            places.iter().map(|&j| row[j] * z[j]).sum::<f64>()
+        };
+        places.iter().map(|&i| self.rate(i, z) - own(i)).collect()
+    }
+
+    /// The forces of one contact, normal and tangents, with all others as they are.
+    fn alone(&self, places: &[usize], friction: f64, beside: f64, z: &[f64]) -> Vec<f64> {
+        let m = places.len();
+        let w = |i: usize, j: usize| self.matrix[places[i] * self.n() + places[j]];
+        let q = self.without(places, z);
+        // What is beside the normal force rubs even where the contact opens.
+        if q[0] >= 0.0 {
+            let mut found = vec![0.0; m];
+            if beside > 0.0 && m > 1 {
+                let mut open = z.to_vec();
+                open[places[0]] = 0.0;
+                let rest = self.on_disc(&places[1..], friction * beside, &open);
+                found[1..].copy_from_slice(&rest);
+                let rate = (1..m).fold(q[0], |rate, j| rate + w(0, j) * found[j]);
+                if rate >= 0.0 {
+                    return found;
+                }
+            } else {
+                return found;
+            }
+        }
+        if m == 1 {
+            return vec![(-q[0] / w(0, 0)).max(0.0)];
+        }
+        // Nothing slips.
+        let mut left: Vec<f64> = (0..m * m).map(|k| w(k / m, k % m)).collect();
+        let mut right: Vec<f64> = q.iter().map(|q| -q).collect();
+        let (held, _) = lcp::solve(&mut left, &mut right);
+        let most = friction * (held[0] + beside);
+        if held[0] >= 0.0 && norm(&held[1..]) <= most {
+            return held;
+        }
+        // It slips in a direction e: with Λₜ = −r e and γₙ = 0, γₜ is to lie along e.
+        let slipping = |e: &[f64]| -> Option<(Vec<f64>, Vec<f64>)> {
+            let against = |i: usize| e.iter().zip(1..m).map(|(e, j)| w(i, j) * e).sum::<f64>();
+            let given = friction * beside;
+            let own = w(0, 0) - friction * against(0);
+            let normal = -(q[0] - given * against(0)) / own;
+            if own <= 0.0 || normal < 0.0 {
+                return None;
+            }
+            let radius = friction * normal + given;
+            let slip = |i: usize| q[i] + w(i, 0) * normal - radius * against(i);
+            let slip = (1..m).map(slip).collect();
+            let forces = [normal].into_iter().chain(e.iter().map(|e| -radius * e));
+            Some((forces.collect(), slip))
+        };
+        slipping_direction(m - 1, slipping).unwrap_or_else(|| {
+            // None is found: a small step towards one.
+            let normal = (z[places[0]] - 0.5 * self.rate(places[0], z)).max(0.0);
+            let radius = friction * (normal + beside);
+            let rest = places[1..].iter();
+            let towards: Vec<f64> = rest.map(|&i| z[i] - 0.5 * self.rate(i, z)).collect();
+            let length = norm(&towards);
+            let factor = if length > radius {
+                radius / length
+            } else {
+                1.0
+            };
+            let tangents = towards.iter().map(|y| factor * y);
+            [normal].into_iter().chain(tangents).collect()
+        })
+    }
+
+    /// Tangential forces of which is known how large they may be together, with all others as they are.
+    fn on_disc(&self, places: &[usize], radius: f64, z: &[f64]) -> Vec<f64> {
+        let m = places.len();
+        let w = |i: usize, j: usize| self.matrix[places[i] * self.n() + places[j]];
+        let q = self.without(places, z);
+        let mut left: Vec<f64> = (0..m * m).map(|k| w(k / m, k % m)).collect();
+        let mut right: Vec<f64> = q.iter().map(|q| -q).collect();
+        let (held, _) = lcp::solve(&mut left, &mut right);
+        if norm(&held) <= radius {
+            return held;
+        }
+        let slipping = |e: &[f64]| {
+            let forces: Vec<f64> = e.iter().map(|e| -radius * e).collect();
+            let slip = |i: usize| (0..m).fold(q[i], |slip, j| slip + w(i, j) * forces[j]);
+            let slip: Vec<f64> = (0..m).map(slip).collect();
+            Some((forces, slip))
+        };
+        slipping_direction(m, slipping).unwrap_or_else(|| {
+            let length = norm(&held);
+            held.iter().map(|held| held * radius / length).collect()
+        })
+    }
+}
+
+fn norm(x: &[f64]) -> f64 {
+    x.iter().fold(0.0_f64, |length, x| length.hypot(*x))
+}
+
+/// The direction `e` in which a contact slips along itself, of those with the least normal force if there are several: what its
+/// forces then are. `slipping` gives these for a direction, and how the contact then slips.
+fn slipping_direction(
+    dimension: usize,
+    slipping: impl Fn(&[f64]) -> Option<(Vec<f64>, Vec<f64>)>,
+) -> Option<Vec<f64>> {
+    if dimension == 1 {
+        let along = |sign: f64| {
+            let (forces, slip) = slipping(&[sign])?;
+            (sign * slip[0] >= 0.0).then_some(forces)
+        };
+        return along(1.0).or_else(|| along(-1.0));
+    }
+    let direction = |angle: f64| [angle.cos(), angle.sin()];
+    // How far the slip is to the left of the direction: 0 where it is along it, or against it.
+    let aside = |angle: f64| {
+        let e = direction(angle);
+        let (_, slip) = slipping(&e)?;
+        Some(e[0] * slip[1] - e[1] * slip[0])
+    };
+    let mut best: Option<Vec<f64>> = None;
+    let whole = 2.0 * core::f64::consts::PI;
+    let at = |look: usize| whole * look as f64 / LOOKS as f64;
+    let mut before = aside(at(0));
+    for look in 1..=LOOKS {
+        let (mut from, mut to) = (at(look - 1), at(look));
+        let after = aside(to);
+        let (Some(mut low), Some(high)) = (before, after) else {
+            before = after;
+            continue;
+        };
+        before = after;
+        if low != 0.0 && (low > 0.0) == (high > 0.0) {
+            continue;
+        }
+        if low != 0.0 {
+            // Bisection to rounding: what is found is the start of Newton's method, or a contact alone.
+            for _ in 0..60 {
+                let middle = 0.5 * (from + to);
+                let Some(value) = aside(middle) else {
+                    break;
+                };
+                if (value > 0.0) == (low > 0.0) {
+                    (from, low) = (middle, value);
+                } else {
+                    to = middle;
+                }
+            }
+        }
+        let e = direction(if low == 0.0 { from } else { 0.5 * (from + to) });
+        let Some((forces, slip)) = slipping(&e) else {
+            continue;
+        };
+        let is_along = e[0] * slip[0] + e[1] * slip[1] >= 0.0;
+        let is_less = best.as_ref().is_none_or(|best| forces[0] < best[0]);
+        if is_along && (dimension + 1 != forces.len() || is_less) {
+            best = Some(forces);
+        }
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers between −1 and 1 that look drawn at random.
+    fn drawn(seed: &mut u64) -> f64 {
+        *seed ^= *seed << 13;
+        *seed ^= *seed >> 7;
+        *seed ^= *seed << 17;
+        (*seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    /// `count` contacts with friction, whose inertia is that of `rank` directions in which a machine moves.
+    fn random(seed: &mut u64, count: usize, rank: usize, friction: f64) -> Problem {
+        let n = 3 * count;
+        let mut rows: Vec<Vec<f64>> = (0..n)
+            .map(|_| (0..rank).map(|_| drawn(seed)).collect())
+            .collect();
+        for row in &mut rows {
+            let length = norm(row);
+            row.iter_mut().for_each(|x| *x /= length);
+        }
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let v: Vec<f64> = (0..rank).map(|_| drawn(seed)).collect();
+        let parts = (0..count).flat_map(|k| {
+            [
+                Part::Normal(3 * k),
+                Part::Disc {
+                    places: vec![3 * k + 1, 3 * k + 2],
+                    friction,
+                    on: Some(3 * k),
+                    beside: 0.0,
+                },
+            ]
+        });
+        Problem {
+            matrix: (0..n * n)
+                .map(|k| dot(&rows[k / n], &rows[k % n]))
+                .collect(),
+            b: rows.iter().map(|row| dot(row, &v)).collect(),
+            parts: parts.collect(),
+        }
+    }
+
+    /// The conditions themselves, as they stand at the top, and not Φ.
+    fn breach(problem: &Problem, z: &[f64]) -> f64 {
+        let mut worst = 0.0_f64;
+        for part in &problem.parts {
+            match part {
+                Part::Normal(i) => {
+                    let rate = problem.rate(*i, z);
+                    worst = worst.max(-z[*i]).max(-rate).max((z[*i] * rate).abs());
+                }
+                Part::Disc {
+                    places,
+                    friction,
+                    on,
+                    beside,
+                } => {
+                    let most = friction * (on.map_or(0.0, |on| z[on]) + beside);
+                    let force: Vec<f64> = places.iter().map(|i| z[*i]).collect();
+                    let slip: Vec<f64> = places.iter().map(|i| problem.rate(*i, z)).collect();
+                    worst = worst.max(norm(&force) - most);
+                    // Power is the most that the disc can take.
+                    let power: f64 = force.iter().zip(&slip).map(|(f, s)| f * s).sum();
+                    worst = worst.max((power + most * norm(&slip)).abs());
+                }
+            }
+        }
+        worst
+    }
+
+    #[test]
+    fn random_contacts_of_every_rank_obey_every_condition() {
+        let mut seed = 0x9e37_79b9_7f4a_7c15;
+        for case in 0..400 {
+            let count = 1 + case % 6;
+            let rank = 3 + case % (3 * count);
+            // With little friction there is a solution whatever the directions are.
+            let problem = random(&mut seed, count, rank, 0.2);
+            let found = solve(&problem);
+            let Ok((z, missed)) = found else {
+                panic!("case {case} of {count} contacts and rank {rank} was not solved");
+            };
+            let size = z.iter().fold(1.0_f64, |size, z| size.max(z.abs()));
+            let breach = breach(&problem, &z) / (size * size);
+            assert!(
+                breach < 1e-9,
+                "case {case} of {count}, rank {rank}: {breach:e}, Φ {missed:e}"
+            );
+        }
+    }
+
+    /// A point mass on a table: what friction takes of its slip is along the slip, and no more than there is.
+    #[test]
+    fn a_point_is_stopped_or_braked_along_its_slip() {
+        for (slip, presses) in [([0.3, 0.4], 2.0), ([0.3, 0.4], 0.5), ([0.0, -0.7], 0.2)] {
+            let mut matrix = vec![0.0; 9];
+            (0..3).for_each(|i| matrix[4 * i] = 1.0);
+            let disc = Part::Disc {
+                places: vec![1, 2],
+                friction: 0.5,
+                on: Some(0),
+                beside: 0.0,
+            };
+            let problem = Problem {
+                matrix,
+                b: vec![-presses, slip[0], slip[1]],
+                parts: vec![Part::Normal(0), disc],
+            };
+            let (z, _) = solve(&problem).expect("there is one solution");
+            let speed = norm(&slip);
+            let taken = speed.min(0.5 * presses);
+            assert!((z[0] - presses).abs() < 1e-14);
+            for (z, slip) in z[1..].iter().zip(slip) {
+                assert!((z + taken * slip / speed).abs() < 1e-14, "{z} of {slip}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_has_no_solution_is_not_solved() {
+        let problem = Problem {
+            matrix: vec![-1.0],
+            b: vec![-1.0],
+            parts: vec![Part::Normal(0)],
+        };
+        assert!(solve(&problem).is_err());
+    }
+}
