@@ -8,7 +8,8 @@ mod values;
 
 pub use crate::constraints::constraint_workspace;
 pub use crate::friction::{
-    accelerations_with_friction, contact_workspace, multipliers_with_friction,
+    accelerations_with_friction, contact_workspace, contact_workspace_in_space,
+    multipliers_with_friction,
 };
 pub use crate::implement_machine as implement;
 pub use crate::{

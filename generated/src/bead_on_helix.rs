@@ -323,7 +323,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         number dissipation_rate(p, t, q, v, u);
         outputs outputs(p, t, q, v, a, u) = Outputs {};
         names contacts(p) = ["wire"];
-        number reaction_axes(p) = 3;
+        count reaction_axes(p) = 3;
         ranges slip_ranges(p, v) = slips(p, v);
         solved friction(p, t, q, v, u) = friction(p, q, v);
         workspace with_workspace(p) = ::lagrangian::emitted::contact_workspace_in_space(1, 0, 1);

@@ -394,7 +394,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1], 
         number dissipation_rate(p, t, q, v, u);
         outputs outputs(p, t, q, v, a, u) = Outputs {};
         names contacts(p) = ["wire"];
-        number reaction_axes(p) = 3;
+        count reaction_axes(p) = 3;
         ranges slip_ranges(p, v) = slips(p, v);
         solved friction(p, t, q, v, u) = friction(p, t, q, v);
         workspace with_workspace(p) = ::lagrangian::emitted::contact_workspace_in_space(1, 0, 1);

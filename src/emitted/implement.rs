@@ -443,8 +443,8 @@ macro_rules! implement_method {
         }
     };
 
-    // A number that a machine has.
-    ($types:tt number $method:ident($p:ident) = $value:expr) => {
+    // How many there are of something.
+    ($types:tt count $method:ident($p:ident) = $value:expr) => {
         fn $method(&self) -> ::core::primitive::usize {
             $value
         }

@@ -346,7 +346,7 @@ impl Emitter<'_> {
         self.row("names", "contacts", &["p"], Some(names));
         if self.program.reaction_axes != 1 {
             let axes = Layout::Atom(self.program.reaction_axes.to_string());
-            self.row("number", "reaction_axes", &["p"], Some(axes));
+            self.row("count", "reaction_axes", &["p"], Some(axes));
         }
         let slips = self.emitted(Role::Slips);
         let needs = slips.map(|function| self.needs(function));

@@ -76,21 +76,31 @@ impl<'d> SlidingEquation<'d> {
     /// friction of other contacts is left out; the contact's own, which is along the direction, has none.
     pub fn normal(&self, model: &Model<'d>, multipliers: &[Expr<'d>]) -> Vec<Expr<'d>> {
         let dag = model.dag;
-        let of = |reaction: &Reaction<'d>| {
-            let inertia = model.coordinates.iter().zip(&reaction.by_accelerations);
-            let inertia = inertia.map(|(c, &weight)| weight * c.a);
-            let held = reaction.by_multipliers.iter().zip(multipliers);
-            let held = held.map(|(&by, &multiplier)| by * multiplier);
-            dag.sum([reaction.load].into_iter().chain(inertia).chain(held))
+        // With the accelerations of any motion there is a part along the direction in space: the friction.
+        let across = |part: Vec<Expr<'d>>| {
+            if part.len() == 1 {
+                return part;
+            }
+            let along = dot(&self.direction, &part);
+            let pairs = part.into_iter().zip(&self.direction);
+            let mut part: Vec<Expr<'d>> = pairs.map(|(x, &e)| x - along * e).collect();
+            identity::settle(dag, &mut part);
+            part
         };
-        let all: Vec<Expr<'d>> = self.reactions.iter().map(of).collect();
-        if all.len() == 1 {
-            return all;
-        }
-        // With the accelerations of any motion there is a part along the direction: the friction.
-        let along = dot(&self.direction, &all);
-        let pairs = all.into_iter().zip(&self.direction);
-        pairs.map(|(normal, &e)| normal - along * e).collect()
+        let part = |of: &dyn Fn(&Reaction<'d>) -> Expr<'d>| {
+            across(self.reactions.iter().map(of).collect())
+        };
+        let load = part(&|reaction| reaction.load);
+        let inertia = model.coordinates.iter().enumerate();
+        let inertia = inertia.map(|(i, c)| (c.a, part(&|reaction| reaction.by_accelerations[i])));
+        let held = multipliers.iter().enumerate();
+        let held = held.map(|(i, &by)| (by, part(&|reaction| reaction.by_multipliers[i])));
+        let parts: Vec<(Expr<'d>, Vec<Expr<'d>>)> = inertia.chain(held).collect();
+        let sum = |(axis, load): (usize, Expr<'d>)| {
+            let terms = parts.iter().map(|(by, part)| *by * part[axis]);
+            dag.sum(std::iter::once(load).chain(terms))
+        };
+        load.into_iter().enumerate().map(sum).collect()
     }
 
     /// What presses in a machine that has no constraints and no friction on the way, over the symbols of the accelerations:

@@ -40,13 +40,25 @@ impl<'d> Chapter<'_, 'd> {
         };
         match &self.facts.energy {
             Energy::Conserved => {
+                if let Some(touching) = self.touching() {
+                    let text = format!(
+                        "Energy is changed by {touching} alone: nothing else drives the machine, nothing else damps it."
+                    );
+                    return vec![Block::Paragraph(words![text])];
+                }
                 let text = "Energy is conserved: nothing drives the machine, nothing damps it. Along every motion";
                 let constant = sum().equals(Math::text("constant"));
                 vec![Block::Paragraph(words![text]), Block::formula(&constant)]
             }
             Energy::Jacobi(integral) => {
-                let text = "Energy is not conserved, since something is driven; but the energies do not show explicit time, \
-                            and Jacobi's integral is conserved:";
+                let conserved = match self.touching() {
+                    None => "conserved".to_owned(),
+                    Some(touching) => format!("changed by {touching} alone"),
+                };
+                let text = format!(
+                    "Energy is not conserved, since something is driven; but the energies do not show explicit time, and Jacobi's \
+                     integral is {conserved}:"
+                );
                 let rows = self.equality(Math::letter('E'), *integral, "");
                 vec![Block::Paragraph(words![text]), Block::Formula(rows)]
             }
@@ -76,7 +88,14 @@ impl<'d> Chapter<'_, 'd> {
                 let balance = (rate * sum().in_parentheses()).equals(right);
                 let mut lines = Row::lines(&balance, 0, "");
                 lines.extend(rows);
-                let text = "Energy is not conserved. Along every motion";
+                let text = match self.touching() {
+                    None => "Energy is not conserved. Along every motion".to_owned(),
+                    Some(touching) => {
+                        format!(
+                            "Energy is not conserved. Beside what {touching} does, along every motion"
+                        )
+                    }
+                };
                 vec![Block::Paragraph(words![text]), Block::Formula(lines)]
             }
         }
@@ -88,12 +107,25 @@ impl<'d> Chapter<'_, 'd> {
         let p = || Math::letter('p').with_index(q());
         let (t, v) = (Math::letter('T'), Math::letter('V'));
         let mut words = words![q(), " is cyclic: neither ", t, " nor ", v, " depends on it"];
-        words.extend(match cyclic.force.is_zero() {
-            true => words![", and nothing else acts on it. Its momentum is conserved:"],
-            false if self.compiled.equations.constraints.is_empty() => {
+        let touching = self
+            .touching()
+            .filter(|_| self.is_touched(cyclic.coordinate));
+        words.extend(match (cyclic.force.is_zero(), touching) {
+            (true, Some(touching)) => {
+                words![format!(
+                    ", and {touching} alone acts on it. Its momentum is"
+                )]
+            }
+            (false, Some(touching)) => {
+                words![format!(
+                    ". Beside what {touching} does, its momentum is changed as:"
+                )]
+            }
+            (true, None) => words![", and nothing else acts on it. Its momentum is conserved:"],
+            (false, None) if self.compiled.equations.constraints.is_empty() => {
                 words![". Its momentum is changed by what is applied and damped alone:"]
             }
-            false => {
+            (false, None) => {
                 words![
                     ". Its momentum is changed by what is applied, damped and constrained alone:"
                 ]
@@ -114,6 +146,29 @@ impl<'d> Chapter<'_, 'd> {
             rows.extend(self.equality(rate, all, ""));
         }
         vec![Block::Paragraph(words), Block::Formula(rows)]
+    }
+
+    /// What acts where things touch, of which the equations without it know nothing.
+    fn touching(&self) -> Option<&'static str> {
+        let equations = &self.compiled.equations;
+        if !equations.unilateral.is_empty() {
+            return Some("contact");
+        }
+        let rubs = equations.sliding.iter().any(|one| !one.friction.is_zero());
+        rubs.then_some("friction in the guides")
+    }
+
+    /// Whether that acts on a coordinate.
+    fn is_touched(&self, coordinate: usize) -> bool {
+        let equations = &self.compiled.equations;
+        let directions = equations.unilateral.iter().flat_map(|one| &one.directions);
+        let rows = directions.map(|direction| &direction.row);
+        let rubbing = equations
+            .sliding
+            .iter()
+            .filter(|one| !one.friction.is_zero());
+        let rows = rows.chain(rubbing.map(|one| &one.row));
+        rows.into_iter().any(|row| !row[coordinate].is_zero())
     }
 
     /// `Σ Mᵢⱼ vⱼ`, and what is driven.
