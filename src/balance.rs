@@ -1,5 +1,8 @@
 //! The balance of energy, integrated beside the motion.
 
+#[cfg(feature = "std")]
+use std::vec::Vec;
+
 use crate::System;
 use crate::compensated::Sum;
 use crate::methods::MAX_STAGES;
@@ -29,6 +32,16 @@ pub trait Quadratures<S: System>: Clone + sealed::Sealed {
     #[inline(always)]
     fn add_at_once(&mut self, _work: f64, _lost: f64) {}
 
+    /// Says what of the rates at a stage each unilateral contact has a part in, in W; all of them have none where nothing is given.
+    #[doc(hidden)]
+    #[cfg(feature = "std")]
+    fn share_out(&mut self, _stage: usize, _of_each: &[PartOfContact]) {}
+
+    /// Says what of work and losses of an instant a unilateral contact has a part in, in J.
+    #[doc(hidden)]
+    #[cfg(feature = "std")]
+    fn share_out_at_once(&mut self, _contact: usize, _part: PartOfContact) {}
+
     /// Adds a step of length `h` whose stages have the weights `b`; the stage after them is the
     /// next step's first.
     #[doc(hidden)]
@@ -46,6 +59,34 @@ pub trait Quadratures<S: System>: Clone + sealed::Sealed {
 
     /// The integrals of the energy balance, if it is kept.
     fn integrals(&self) -> Option<&EnergyIntegrals>;
+}
+
+/// What a unilateral contact has a part in: powers in W, or energies in J.
+#[cfg(feature = "std")]
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PartOfContact {
+    /// What its friction takes, beyond impacts.
+    pub friction: f64,
+    /// What it takes as it yields, by its damping or by what it leaves when it opens; of a layer what crushes it.
+    pub yielding: f64,
+    /// What walls that move by themselves do through it.
+    pub work: f64,
+}
+
+#[cfg(feature = "std")]
+impl PartOfContact {
+    fn of([friction, yielding, work]: [f64; 3]) -> PartOfContact {
+        PartOfContact {
+            friction,
+            yielding,
+            work,
+        }
+    }
+
+    fn numbers(self) -> [f64; 3] {
+        [self.friction, self.yielding, self.work]
+    }
 }
 
 mod sealed {
@@ -84,9 +125,19 @@ impl<S: System> Quadratures<S> for NoBalance {
 
 /// The integrals over time of the powers of a machine, by the same method and steps as its motion.
 /// They have no part in the choice of steps; a run whose step is too long for them integrates them again along it.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct EnergyIntegrals {
-    /// Work rate, its absolute value, and dissipation rate at each stage.
+    /// Of work rate, its absolute value, and dissipation rate.
+    own: Integrals,
+    /// For each unilateral contact those of its parts; nothing until one has a part in anything.
+    #[cfg(feature = "std")]
+    of_contacts: Vec<Integrals>,
+}
+
+/// Three powers and their integrals.
+#[derive(Clone, Copy, Debug, Default)]
+struct Integrals {
+    /// At each stage.
     rates: [[f64; 3]; MAX_STAGES],
     sums: [Sum; 3],
     sums_before: [Sum; 3],
@@ -94,66 +145,9 @@ pub struct EnergyIntegrals {
     last: [f64; 3],
 }
 
-impl EnergyIntegrals {
-    /// Work done on the machine so far by drives, applied forces and inputs, in J.
-    pub fn work(&self) -> f64 {
-        self.sums[0].high
-    }
-
-    /// The integral of the absolute value of the work rate, in J: work that went to and fro counts
-    /// twice.
-    pub fn work_turned_over(&self) -> f64 {
-        self.sums[1].high
-    }
-
-    /// Energy lost in dampers and by friction so far, in J.
-    pub fn dissipated(&self) -> f64 {
-        self.sums[2].high
-    }
-
-    /// Work rate, its absolute value, and dissipation rate at a stage of the last step, in W.
-    #[cfg(feature = "std")]
-    pub(crate) fn rates(&self, stage: usize) -> [f64; 3] {
-        self.rates[stage]
-    }
-
-    /// Puts other integrals over the last step in the place of those by the weights of the method, in J.
-    #[cfg(feature = "std")]
-    pub(crate) fn replace_last(&mut self, by: [f64; 3]) {
-        for ((sum, last), by) in self.sums.iter_mut().zip(&mut self.last).zip(by) {
-            *sum = sum.plus(by - *last);
-            *last = by;
-        }
-    }
-}
-
-impl<S: System> Quadratures<S> for EnergyIntegrals {
-    #[inline]
-    fn stage(
-        &mut self,
-        stage: usize,
-        system: &S,
-        (t, q, v, a): (f64, &S::Vector, &S::Vector, &S::Vector),
-        u: &S::Inputs,
-    ) {
-        let work_rate = system.work_rate(t, q, v, a, u);
-        self.rates[stage] = [
-            work_rate,
-            work_rate.abs(),
-            system.dissipation_rate(t, q, v, u),
-        ];
-    }
-
-    #[inline]
-    fn add(&mut self, stage: usize, work: f64, lost: f64) {
-        let [rate, absolute, dissipation] = &mut self.rates[stage];
-        *rate += work;
-        *absolute = rate.abs();
-        *dissipation += lost;
-    }
-
-    fn add_at_once(&mut self, work: f64, lost: f64) {
-        for (sum, by) in self.sums.iter_mut().zip([work, work.abs(), lost]) {
+impl Integrals {
+    fn add_at_once(&mut self, by: [f64; 3]) {
+        for (sum, by) in self.sums.iter_mut().zip(by) {
             *sum = sum.plus(by);
         }
     }
@@ -176,6 +170,132 @@ impl<S: System> Quadratures<S> for EnergyIntegrals {
     fn retreat(&mut self, b: &[f64]) {
         self.sums = self.sums_before;
         self.rates.swap(0, b.len());
+    }
+
+    #[cfg(feature = "std")]
+    fn replace_last(&mut self, by: [f64; 3]) {
+        for ((sum, last), by) in self.sums.iter_mut().zip(&mut self.last).zip(by) {
+            *sum = sum.plus(by - *last);
+            *last = by;
+        }
+    }
+}
+
+impl EnergyIntegrals {
+    /// Work done on the machine so far by drives, applied forces and inputs, in J.
+    pub fn work(&self) -> f64 {
+        self.own.sums[0].high
+    }
+
+    /// The integral of the absolute value of the work rate, in J: work that went to and fro counts
+    /// twice.
+    pub fn work_turned_over(&self) -> f64 {
+        self.own.sums[1].high
+    }
+
+    /// Energy lost in dampers and by friction so far, in J.
+    pub fn dissipated(&self) -> f64 {
+        self.own.sums[2].high
+    }
+
+    /// What a unilateral contact has had a part in so far, in J.
+    #[cfg(feature = "std")]
+    pub(crate) fn of_contact(&self, contact: usize) -> PartOfContact {
+        let sums = self.of_contacts.get(contact).map(|of| of.sums);
+        PartOfContact::of(sums.unwrap_or_default().map(|sum| sum.high))
+    }
+
+    /// How fast that grows at the beginning of the next step, in W.
+    #[cfg(feature = "std")]
+    pub(crate) fn power_of(&self, contact: usize) -> PartOfContact {
+        let rates = self.of_contacts.get(contact).map(|of| of.rates[0]);
+        PartOfContact::of(rates.unwrap_or_default())
+    }
+
+    /// All powers at a stage of the last step, in W: work rate, its absolute value and dissipation rate, then three for each
+    /// unilateral contact.
+    #[cfg(feature = "std")]
+    pub(crate) fn rates(&self, stage: usize) -> impl Iterator<Item = [f64; 3]> {
+        let all = core::iter::once(&self.own).chain(&self.of_contacts);
+        all.map(move |of| of.rates[stage])
+    }
+
+    /// Puts other integrals over the last step in the place of those by the weights of the method, in J, in the order of
+    /// [`rates`](Self::rates).
+    #[cfg(feature = "std")]
+    pub(crate) fn replace_last(&mut self, by: &[[f64; 3]]) {
+        let all = core::iter::once(&mut self.own).chain(&mut self.of_contacts);
+        for (of, by) in all.zip(by) {
+            of.replace_last(*by);
+        }
+    }
+
+    #[cfg(feature = "std")]
+    fn at_least(&mut self, contacts: usize) {
+        if self.of_contacts.len() < contacts {
+            self.of_contacts.resize(contacts, Integrals::default());
+        }
+    }
+}
+
+impl<S: System> Quadratures<S> for EnergyIntegrals {
+    #[inline]
+    fn stage(
+        &mut self,
+        stage: usize,
+        system: &S,
+        (t, q, v, a): (f64, &S::Vector, &S::Vector, &S::Vector),
+        u: &S::Inputs,
+    ) {
+        let work_rate = system.work_rate(t, q, v, a, u);
+        self.own.rates[stage] = [
+            work_rate,
+            work_rate.abs(),
+            system.dissipation_rate(t, q, v, u),
+        ];
+    }
+
+    #[inline]
+    fn add(&mut self, stage: usize, work: f64, lost: f64) {
+        let [rate, absolute, dissipation] = &mut self.own.rates[stage];
+        *rate += work;
+        *absolute = rate.abs();
+        *dissipation += lost;
+    }
+
+    fn add_at_once(&mut self, work: f64, lost: f64) {
+        self.own.add_at_once([work, work.abs(), lost]);
+    }
+
+    #[cfg(feature = "std")]
+    fn share_out(&mut self, stage: usize, of_each: &[PartOfContact]) {
+        self.at_least(of_each.len());
+        for (k, of) in self.of_contacts.iter_mut().enumerate() {
+            of.rates[stage] = of_each.get(k).copied().unwrap_or_default().numbers();
+        }
+    }
+
+    #[cfg(feature = "std")]
+    fn share_out_at_once(&mut self, contact: usize, part: PartOfContact) {
+        self.at_least(contact + 1);
+        self.of_contacts[contact].add_at_once(part.numbers());
+    }
+
+    #[inline]
+    fn advance(&mut self, h: f64, b: &[f64]) {
+        self.own.advance(h, b);
+        #[cfg(feature = "std")]
+        for of in &mut self.of_contacts {
+            of.advance(h, b);
+        }
+    }
+
+    fn retreat(&mut self, b: &[f64]) {
+        self.own.retreat(b);
+        #[cfg(feature = "std")]
+        for of in &mut self.of_contacts {
+            of.retreat(b);
+        }
     }
 
     fn integrals(&self) -> Option<&EnergyIntegrals> {
@@ -214,6 +334,20 @@ impl<S: System> Quadratures<S> for Option<EnergyIntegrals> {
     fn add_at_once(&mut self, work: f64, lost: f64) {
         if let Some(integrals) = self {
             Quadratures::<S>::add_at_once(integrals, work, lost);
+        }
+    }
+
+    #[cfg(feature = "std")]
+    fn share_out(&mut self, stage: usize, of_each: &[PartOfContact]) {
+        if let Some(integrals) = self {
+            Quadratures::<S>::share_out(integrals, stage, of_each);
+        }
+    }
+
+    #[cfg(feature = "std")]
+    fn share_out_at_once(&mut self, contact: usize, part: PartOfContact) {
+        if let Some(integrals) = self {
+            Quadratures::<S>::share_out_at_once(integrals, contact, part);
         }
     }
 
@@ -286,6 +420,30 @@ impl EnergyBalance {
         } else {
             residual / self.turned_over
         }
+    }
+}
+
+/// Where the energy of a run went in a unilateral contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct ContactEnergies {
+    /// What its impacts took, their friction with it, in J.
+    pub impact_loss: f64,
+    /// What friction took while it was closed, in J; of the rolling of a contact what resisted that.
+    pub friction_loss: f64,
+    /// What it took as it yielded and was not crushed: its damping, and what it still held when it opened, in J.
+    pub damping_loss: f64,
+    /// The work that has crushed its layer, in J.
+    pub crushing_work: f64,
+    /// What walls that move by themselves did through it, in J: part of the work of the drive.
+    pub work: f64,
+}
+
+impl ContactEnergies {
+    /// All that it took, in J.
+    pub fn lost(&self) -> f64 {
+        self.impact_loss + self.friction_loss + self.damping_loss + self.crushing_work
     }
 }
 

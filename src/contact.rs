@@ -34,6 +34,7 @@ pub use event::{ContactEvent, ContactEventKind, ContactImpact, ImpactAcross};
 pub use force::{UnilateralForce, unilateral_forces};
 pub(crate) use impact::{Impact, Jam};
 pub(crate) use stepping::Stepped;
-pub(crate) use touching::{Mode, Touching};
+pub use touching::Mode;
+pub(crate) use touching::Touching;
 
 use crate::{ContactTrouble, ImpactLaw, ImpactOrder, Painleve};

@@ -68,6 +68,11 @@ pub enum Error {
         /// The first of its constraints.
         constraint: String,
     },
+    /// The motion of a machine was to be differentiated as a whole, and its contacts open and close.
+    CollidingSensitivity {
+        /// The first of its unilateral contacts.
+        contact: String,
+    },
     /// There is no method of integration of that name.
     UnknownMethod {
         /// The name.
@@ -515,6 +520,11 @@ impl Display for Error {
                 f,
                 "the motion is held by the constraint `{constraint}`, and derivatives of its start on the constraints are not known: \
                  take differences of runs, or coordinates that need no constraint"
+            ),
+            Self::CollidingSensitivity { contact } => write!(
+                f,
+                "the motion meets the contact `{contact}`, where derivatives jump: `lagrangian sensitivities` takes them across, and \
+                 `lagrangian_linear::across` in programs"
             ),
             Self::UnknownMethod { name } => {
                 write!(f, "no method of integration is named `{name}`; there are")?;

@@ -128,7 +128,9 @@ mod solution;
 mod table;
 
 pub use adapted::{Adapted, AdaptedSystem, HasFriction};
-pub use balance::{Energies, EnergyBalance, EnergyIntegrals, NoBalance, Quadratures};
+pub use balance::{
+    ContactEnergies, Energies, EnergyBalance, EnergyIntegrals, NoBalance, Quadratures,
+};
 pub use constraints::{constraint_workspace, least_multipliers};
 pub use control::Work;
 pub use explicit::{Arrival, Ensemble, ExplicitStepper, ExplicitStepperBuilder, Trajectory};
@@ -159,7 +161,8 @@ pub use vector::Vector;
 
 #[cfg(feature = "std")]
 pub use contact::{
-    ContactEvent, ContactEventKind, ContactImpact, ImpactAcross, UnilateralForce, unilateral_forces,
+    ContactEvent, ContactEventKind, ContactImpact, ImpactAcross, Mode as ContactMode,
+    UnilateralForce, unilateral_forces,
 };
 #[cfg(feature = "std")]
 pub use equations::check_equations;
@@ -175,6 +178,8 @@ pub use motion::StepMotion;
 pub use names::UnknownName;
 #[cfg(feature = "std")]
 pub use observation::Observation;
+#[cfg(feature = "std")]
+pub use phases::{ContactPhase, PhaseCause};
 #[cfg(feature = "std")]
 pub use roots::extremes;
 #[cfg(feature = "std")]

@@ -2,17 +2,137 @@
 
 use std::vec::Vec;
 
+use crate::balance::PartOfContact;
 use crate::constraints::Constraints;
-use crate::contact::Touching;
-use crate::{ContactEvent, System, Warning};
+use crate::contact::{Impact, Mode as ContactMode, Touching};
+use crate::stepper::Cause;
+use crate::{ContactEnergies, ContactEvent, ContactImpact, System, Warning};
 
 /// What contacts did from some instant on.
 #[derive(Clone, Debug)]
 pub(crate) struct Phase<V> {
     pub since: f64,
     pub touching: Touching,
+    /// Why they changed, and how.
+    pub change: Change,
     /// What is known of what they hold.
     pub constraints: Option<Constraints<V>>,
+}
+
+/// Where energy went in each contact until an instant, and how fast it goes there.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Book {
+    pub of_each: Vec<ContactEnergies>,
+    pub powers: Vec<PartOfContact>,
+}
+
+impl Book {
+    /// Where energy went in a contact until a share of the time `h` to another instant, before which nothing jumps.
+    pub fn towards(&self, next: &Book, contact: usize, h: f64, share: f64) -> ContactEnergies {
+        let [from, to] = [self, next].map(|book| book.of_each[contact]);
+        let power = |book: &Book| book.powers.get(contact).copied().unwrap_or_default();
+        let [begins, ends] = [power(self), power(next)];
+        // Hermite's cubic.
+        let between = |[from, to]: [f64; 2], [begins, ends]: [f64; 2]| {
+            let rest = 1.0 - share;
+            let of_powers = h * share * rest * (rest * begins - share * ends);
+            from + share * share * (1.0 + 2.0 * rest) * (to - from) + of_powers
+        };
+        ContactEnergies {
+            impact_loss: from.impact_loss,
+            friction_loss: between(
+                [from.friction_loss, to.friction_loss],
+                [begins.friction, ends.friction],
+            ),
+            damping_loss: between(
+                [from.damping_loss, to.damping_loss],
+                [begins.yielding, ends.yielding],
+            ),
+            crushing_work: between(
+                [from.crushing_work, to.crushing_work],
+                [begins.yielding, ends.yielding],
+            ),
+            work: between([from.work, to.work], [begins.work, ends.work]),
+        }
+    }
+}
+
+/// Why contacts changed at an instant, and how.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Change {
+    pub cause: Option<Cause>,
+    pub impacts: Vec<Impact>,
+    /// Contacts whose bounces came to their end.
+    pub ended: Vec<usize>,
+}
+
+/// Unilateral contacts between two changes of what they do in a run.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct ContactPhase<'s> {
+    /// Since when, in s.
+    pub since: f64,
+    /// What each contact does.
+    pub modes: &'s [ContactMode],
+    /// Of each contact whether it is a layer that is loaded further.
+    pub loaded: Vec<bool>,
+    /// Why it began, and at which contact if one is the cause.
+    pub cause: PhaseCause,
+    /// The impacts with which it began, of all contacts that took part in the order in which they did.
+    pub impacts: Vec<(usize, ContactImpact)>,
+    /// Contacts whose bounces came to their end there.
+    pub ended: &'s [usize],
+}
+
+/// Why contacts go on in another way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum PhaseCause {
+    /// The run began, or gaps closed.
+    Asked,
+    /// The force of a contact vanished.
+    Lifts(usize),
+    /// The slip of a contact stopped.
+    Stops(usize),
+    /// The friction of a contact was used up.
+    Breaks(usize),
+    /// A contact that yields began to press.
+    Presses(usize),
+    /// A layer turned from loading to unloading, or came back to its greatest depth.
+    Turns(usize),
+    /// It is a step of time stepping.
+    Stepped,
+}
+
+impl<V> Phase<V> {
+    /// What everybody may know of it.
+    pub fn told(&self) -> ContactPhase<'_> {
+        let impact = |of: &Impact| {
+            let told = ContactImpact {
+                gap_rate: of.gap_rate,
+                slip: of.slip,
+                impulse: of.impulse,
+                loss: of.loss,
+            };
+            (of.contact, told)
+        };
+        ContactPhase {
+            since: self.since,
+            modes: self.touching.modes(),
+            loaded: self.touching.loaded().collect(),
+            cause: match self.change.cause {
+                Some(Cause::Asked) => PhaseCause::Asked,
+                Some(Cause::Lifts(k)) => PhaseCause::Lifts(k),
+                Some(Cause::Stops(k)) => PhaseCause::Stops(k),
+                Some(Cause::Breaks(k)) => PhaseCause::Breaks(k),
+                Some(Cause::Presses(k)) => PhaseCause::Presses(k),
+                Some(Cause::Turns(k)) => PhaseCause::Turns(k),
+                None => PhaseCause::Stepped,
+            },
+            impacts: self.change.impacts.iter().map(impact).collect(),
+            ended: &self.change.ended,
+        }
+    }
 }
 
 /// What a run keeps of its contacts.
@@ -22,6 +142,8 @@ pub(crate) struct Kept<C, V> {
     pub events: Vec<ContactEvent<C>>,
     /// For each contact how much energy its impacts took, in J.
     pub losses: Vec<f64>,
+    /// Where energy went in each contact, at the same instants as the energies of the machine.
+    pub books: Vec<Book>,
     /// In time stepping, for each contact whether it is closed and lasts.
     pub last: Vec<bool>,
     /// Impacts that created energy: how many, and the worst.
@@ -35,6 +157,7 @@ impl<C, V> Default for Kept<C, V> {
             phases: Vec::new(),
             events: Vec::new(),
             losses: Vec::new(),
+            books: Vec::new(),
             last: Vec::new(),
             gains: 0,
             worst: None,

@@ -769,11 +769,16 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             && record.energies.last().is_some_and(Energies::are_finite)
         {
             record.energies.pop();
+            record.unilateral.books.pop();
         }
         record.energies.push(Energies {
             potential: energies.potential + stored,
             ..energies
         });
+        if <M::System as System>::MAY_COLLIDE && self.stepper.touching().is_some() {
+            let book = self.book();
+            self.record.unilateral.books.push(book);
+        }
         explained
     }
 
@@ -811,6 +816,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             && let Some(now) = self.record.energies.last_mut()
         {
             (now.work, now.dissipated) = (integrals.work(), integrals.dissipated());
+            self.correct_book();
         }
     }
 

@@ -36,6 +36,8 @@ use crate::{
 /// own steps are others, by as much as the tolerance allows. Its absolute part is the same number
 /// for all; [`absolute_of`](crate::Simulation::absolute_of) sets it for one of them, `"theta by l"`.
 ///
+/// Machines with unilateral contacts are refused: where these open and close derivatives jump.
+///
 /// Machines with constraints are refused unless the caller knows how their start changes
 /// ([`with_start_on_constraints`](Self::with_start_on_constraints)): it obeys the constraints, and changes with
 /// parameters as these do.
@@ -149,7 +151,7 @@ impl<'m, M: Machine<System: Differentiate>> Sensitive<'m, M> {
     /// By the start value of a coordinate, `"s1"`, or `"q[3]"` in a family.
     ///
     /// # Errors
-    /// If there is no such coordinate, or the machine has constraints.
+    /// If there is no such coordinate, or the machine has constraints or contacts.
     pub fn by_start(self, coordinate: &str) -> Result<Self, Error> {
         self.check_free()?;
         let index = self.coordinate(coordinate)?;
@@ -159,7 +161,7 @@ impl<'m, M: Machine<System: Differentiate>> Sensitive<'m, M> {
     /// By the start value of a coordinate's rate.
     ///
     /// # Errors
-    /// If there is no such coordinate, or the machine has constraints.
+    /// If there is no such coordinate, or the machine has constraints or contacts.
     pub fn by_start_rate(self, coordinate: &str) -> Result<Self, Error> {
         self.check_free()?;
         let index = self.coordinate(coordinate)?;
@@ -170,7 +172,7 @@ impl<'m, M: Machine<System: Differentiate>> Sensitive<'m, M> {
     /// column for each.
     ///
     /// # Errors
-    /// If the machine has constraints.
+    /// If the machine has constraints or contacts.
     pub fn by_state(mut self) -> Result<Self, Error> {
         self.check_free()?;
         let n = self.dimension();
@@ -188,7 +190,7 @@ impl<'m, M: Machine<System: Differentiate>> Sensitive<'m, M> {
     ///
     /// # Errors
     /// If the accelerations' derivatives by it are not there: it must be in the `derivatives` of the
-    /// description. Or if the machine has constraints.
+    /// description. Or if the machine has constraints or contacts.
     pub fn by(self, name: &str) -> Result<Self, Error> {
         self.check_free()?;
         let system = self.machine.prepare();
@@ -252,6 +254,10 @@ impl<'m, M: Machine<System: Differentiate>> Sensitive<'m, M> {
     /// of the constraints are no derivatives by parameters.
     fn check_free(&self) -> Result<(), Error> {
         let system = self.machine.prepare();
+        if let Some(contact) = system.unilateral_contacts().next() {
+            let contact = contact.name.to_string();
+            return Err(Error::CollidingSensitivity { contact });
+        }
         let first = system
             .constraints()
             .next()

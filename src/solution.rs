@@ -24,8 +24,8 @@ use crate::settings::Settings;
 use crate::step_error::StepError;
 use crate::stepper::project;
 use crate::{
-    ContactEvent, Coordinates, Energies, EnergyBalance, Error, Inputs, Machine, State, System,
-    Vector, Warning,
+    ContactEnergies, ContactEvent, ContactPhase, Coordinates, Energies, EnergyBalance, Error,
+    Inputs, Machine, State, System, Vector, Warning,
 };
 
 /// A run: where the machine was at every instant of it, and what happened.
@@ -341,6 +341,11 @@ impl<M: Machine, L> Solution<M, L> {
         phases.get(after.saturating_sub(1))
     }
 
+    /// What the unilateral contacts did, from one change to the next.
+    pub fn contact_phases(&self) -> impl ExactSizeIterator<Item = ContactPhase<'_>> {
+        self.unilateral.phases.iter().map(Phase::told)
+    }
+
     /// What unilateral contacts that yield hold, in J.
     fn stored(&self, t: f64, q: &VectorOf<M>, v: &VectorOf<M>) -> f64 {
         if M::System::MAY_COLLIDE
@@ -369,6 +374,11 @@ impl<M: Machine, L> Solution<M, L> {
         &self.unilateral.losses
     }
 
+    /// Where energy went in each unilateral contact, if the simulation was told to keep the balance; else nothing.
+    pub fn contact_energies(&self) -> &[ContactEnergies] {
+        (self.unilateral.books.last()).map_or(&[], |book| book.of_each.as_slice())
+    }
+
     /// For each unilateral contact the work that has crushed its layer until the end, in J; 0 of those without.
     pub fn crushing_work(&self) -> Vec<f64> {
         let Some(phase) = self.unilateral.phases.last() else {
@@ -385,6 +395,25 @@ impl<M: Machine, L> Solution<M, L> {
     /// Where the energy went, if the simulation was told to keep the balance.
     pub fn energy_balance(&self) -> Option<EnergyBalance> {
         self.balance
+    }
+
+    /// The same until a time within the run; until after an impact at its time. Known at the ends of steps, and between them
+    /// by cubics through what is taken there and how fast. None where the energies of the ends of steps were not kept.
+    pub fn contact_energies_at(&self, t: f64) -> Option<Vec<ContactEnergies>> {
+        let books = &self.unilateral.books;
+        if !self.settings.keep_energies || books.len() != self.energies.len() {
+            return (t == self.end.t && !books.is_empty())
+                .then(|| self.contact_energies().to_vec());
+        }
+        let after = self.energies.partition_point(|of| of.t <= t);
+        let (before, next) = (books.get(after.checked_sub(1)?)?, books.get(after));
+        let from = self.energies[after - 1].t;
+        let Some(next) = next else {
+            return (from == t).then(|| before.of_each.clone());
+        };
+        let h = self.energies[after].t - from;
+        let of_each = (0..before.of_each.len()).map(|k| before.towards(next, k, h, (t - from) / h));
+        Some(of_each.collect())
     }
 
     /// The energies at the beginning and after every step, if the simulation was told to keep their
@@ -525,9 +554,9 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
             if M::System::MAY_COLLIDE
                 && let Some(phase) = run.phase_at(t)
             {
-                let [work, lost] = phase.touching.power(&run.system, (t, &q, &v, &u));
-                energies.work += half * weight * work;
-                energies.dissipated += half * weight * lost;
+                let powers = phase.touching.powers(&run.system, (t, &q, &v, &u));
+                energies.work += half * weight * powers.work;
+                energies.dissipated += half * weight * powers.lost;
             }
         }
         Ok(energies)

@@ -1196,8 +1196,9 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             && quadratures.integrals().is_some()
         {
             let (t, q, v, _) = at;
-            let [work, lost] = touching.power(self.system.get(), (t, q, v, &self.inputs));
-            quadratures.add(stage, work, lost);
+            let powers = touching.powers(self.system.get(), (t, q, v, &self.inputs));
+            quadratures.add(stage, powers.work, powers.lost);
+            quadratures.share_out(stage, &powers.of_each);
         }
     }
 }

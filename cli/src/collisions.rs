@@ -2,7 +2,8 @@
 
 use lagrangian::interpreted::{InterpretedSystem, Named};
 use lagrangian::{
-    Compliance, ContactEvent, ContactEventKind, Event, System, UnilateralContact, UnilateralForce,
+    Compliance, ContactEnergies, ContactEvent, ContactEventKind, Event, System, UnilateralContact,
+    UnilateralForce,
 };
 use serde_json::{Value, json};
 
@@ -13,10 +14,14 @@ use crate::recording::Run;
 struct Account {
     name: String,
     impacts: usize,
-    loss: f64,
-    /// Whether it yields, and the work that has crushed its layer, if it is one.
+    /// Where energy went in it. Without a balance of energy only impacts and layers are known.
+    energies: ContactEnergies,
+    has_balance: bool,
+    /// Whether it has friction.
+    rubs: bool,
+    /// Whether it yields, and whether as a layer that is crushed.
     yields: bool,
-    crushing_work: Option<f64>,
+    is_layer: bool,
     /// Whether it is the rolling of another.
     rolls: bool,
     /// When it closed last, with by how much that time may be off, and whether it is closed at the end.
@@ -27,6 +32,7 @@ struct Account {
 fn accounts(run: &Run) -> Vec<Account> {
     let closed = run.closed_contacts(run.end().t);
     let crushing = run.crushing_work();
+    let books = run.contact_energies();
     let contacts = run.system().unilateral_contacts().enumerate();
     let of_contact = |(k, contact): (usize, UnilateralContact<'_>)| {
         let own = || {
@@ -39,11 +45,17 @@ fn accounts(run: &Run) -> Vec<Account> {
         Account {
             name: contact.name.to_owned(),
             impacts: of_kind(ContactEventKind::Impact).count(),
-            loss: run.impact_losses().get(k).copied().unwrap_or(0.0),
+            energies: books.get(k).copied().unwrap_or_else(|| {
+                let mut energies = ContactEnergies::default();
+                energies.impact_loss = run.impact_losses().get(k).copied().unwrap_or(0.0);
+                energies.crushing_work = crushing.get(k).copied().unwrap_or(0.0);
+                energies
+            }),
+            has_balance: k < books.len(),
+            rubs: contact.rubs,
             yields: contact.compliance.is_some(),
+            is_layer: contact.compliance == Some(Compliance::Layer),
             rolls: contact.rolls,
-            crushing_work: (contact.compliance == Some(Compliance::Layer))
-                .then(|| crushing.get(k).copied().unwrap_or(0.0)),
             closed_at: closes.map(|event| (event.state.t, event.time_error)),
             is_closed: closed.get(k).copied().unwrap_or(false),
         }
@@ -58,6 +70,26 @@ fn accounts(run: &Run) -> Vec<Account> {
         }
     }
     accounts
+}
+
+/// What contacts took, and how: words and J, for what each of them has.
+pub fn taken(system: &InterpretedSystem, energies: &[ContactEnergies]) -> Vec<(String, f64)> {
+    let contacts = system.unilateral_contacts().zip(energies);
+    let of_contact = |(contact, of): (UnilateralContact<'_>, &ContactEnergies)| {
+        let is_layer = contact.compliance == Some(Compliance::Layer);
+        let yields = contact.compliance.is_some();
+        [
+            ("impacts", of.impact_loss, !yields),
+            ("friction", of.friction_loss, contact.rubs),
+            ("damping", of.damping_loss, yields && !is_layer),
+            ("crushing", of.crushing_work, is_layer),
+        ]
+        .into_iter()
+        .filter(|(.., has)| *has)
+        .map(|(how, taken, _)| (format!("taken by `{}`, {how}", contact.name), taken))
+        .collect::<Vec<_>>()
+    };
+    contacts.flat_map(of_contact).collect()
 }
 
 /// Whether an event is one of the contacts.
@@ -76,20 +108,35 @@ pub fn lines(run: &Run) -> Vec<String> {
         let Account {
             name,
             impacts,
-            loss,
+            energies,
+            has_balance,
+            rubs,
             yields,
-            crushing_work,
+            is_layer,
             rolls,
             closed_at,
             is_closed,
         } = account;
-        let mut line = match (impacts, crushing_work) {
-            (_, Some(work)) => format!("{name}: crushed by {work:.6e} J"),
+        let loss = energies.impact_loss;
+        let mut line = match impacts {
+            _ if is_layer => format!("{name}: crushed by {:.6e} J", energies.crushing_work),
             _ if yields => format!("{name}: yields"),
-            _ if rolls => return format!("{name}: impacts took {loss:.6e} J"),
-            (1, _) => format!("{name}: 1 impact, which took {loss:.6e} J"),
+            _ if rolls => format!("{name}: impacts took {loss:.6e} J"),
+            1 => format!("{name}: 1 impact, which took {loss:.6e} J"),
             _ => format!("{name}: {impacts} impacts, which took {loss:.6e} J"),
         };
+        if has_balance && (rubs || rolls) {
+            line.push_str(&format!("; friction took {:.6e} J", energies.friction_loss));
+        }
+        if has_balance && yields && !is_layer {
+            line.push_str(&format!("; damping took {:.6e} J", energies.damping_loss));
+        }
+        if energies.work != 0.0 {
+            line.push_str(&format!("; what moves did {:.6e} J", energies.work));
+        }
+        if rolls {
+            return line;
+        }
         if let Some((t, error)) = closed_at {
             line.push_str(&format!("; closed at t = {} s", shortest(t)));
             if error > 0.0 {
@@ -111,25 +158,40 @@ pub fn fields(run: &Run) -> Vec<(&'static str, Value)> {
         return Vec::new();
     }
     let accounts = accounts(run);
-    let crushing: Vec<f64> = accounts.iter().filter_map(|a| a.crushing_work).collect();
+    let has_layers = accounts.iter().any(|account| account.is_layer);
+    let all: Vec<ContactEnergies> = accounts.iter().map(|account| account.energies).collect();
+    let sum = |part: fn(&ContactEnergies) -> f64| all.iter().map(part).sum::<f64>();
     let accounts: Vec<Value> = accounts
         .into_iter()
         .map(|account| {
             let mut document = json!({
                 "name": account.name,
                 "impacts": account.impacts,
-                "impact_loss": account.loss,
+                "impact_loss": account.energies.impact_loss,
                 "closed_at": account.closed_at.map(|(t, _)| t),
                 "closed_at_error": account.closed_at.map(|(_, error)| error),
                 "closed": account.is_closed,
             });
-            if let (Some(work), Value::Object(fields)) = (account.crushing_work, &mut document) {
-                fields.insert("crushing_work".into(), work.into());
+            if let Value::Object(fields) = &mut document {
+                let ContactEnergies {
+                    friction_loss,
+                    damping_loss,
+                    crushing_work,
+                    work,
+                    ..
+                } = account.energies;
+                if account.has_balance {
+                    fields.insert("friction_loss".into(), friction_loss.into());
+                    fields.insert("damping_loss".into(), damping_loss.into());
+                    fields.insert("work".into(), work.into());
+                }
+                if account.is_layer {
+                    fields.insert("crushing_work".into(), crushing_work.into());
+                }
             }
             document
         })
         .collect();
-    let lost: f64 = run.impact_losses().iter().sum();
     let slips_across = |contact: &str| {
         let second = format!("{contact}.across");
         run.system()
@@ -141,7 +203,7 @@ pub fn fields(run: &Run) -> Vec<(&'static str, Value)> {
     let mut fields = vec![
         ("contact_events", events.collect()),
         ("unilateral_contacts", accounts.into()),
-        ("impact_loss", lost.into()),
+        ("impact_loss", sum(|of| of.impact_loss).into()),
     ];
     if !run.handovers().is_empty() {
         let handovers = run.handovers().iter().map(|handover| match handover.step {
@@ -153,9 +215,13 @@ pub fn fields(run: &Run) -> Vec<(&'static str, Value)> {
     if let Some(balance) = run.energy_balance() {
         fields.push(("work", balance.work.into()));
         fields.push(("dissipated", balance.dissipated.into()));
+        fields.push(("friction_loss", sum(|of| of.friction_loss).into()));
+        // What contacts have not taken otherwise, dampers of the machine have.
+        let otherwise = sum(|of| of.lost() - of.damping_loss);
+        fields.push(("damping_loss", (balance.dissipated - otherwise).into()));
     }
-    if !crushing.is_empty() {
-        fields.push(("crushing_work", crushing.iter().sum::<f64>().into()));
+    if has_layers {
+        fields.push(("crushing_work", sum(|of| of.crushing_work).into()));
     }
     fields
 }

@@ -20,6 +20,7 @@ use lagrangian_mechanics::Compiled;
 use lagrangian_symbolic::Symbol;
 use serde_json::{Value, json};
 
+use crate::collisions;
 use crate::contacts::Found;
 use crate::recording::{Column, Kind, Recording, panels, thin};
 
@@ -76,6 +77,8 @@ pub struct Outcome<'a> {
     warnings: &'a [Warning],
     statistics: Statistics,
     energy: Option<EnergyBalance>,
+    /// What each unilateral contact took, and how, in J.
+    taken_by_contacts: Vec<(String, f64)>,
 }
 
 impl<'a, L> From<&'a Solution<InterpretedMachine, L>> for Outcome<'a> {
@@ -88,6 +91,7 @@ impl<'a, L> From<&'a Solution<InterpretedMachine, L>> for Outcome<'a> {
             warnings: run.warnings(),
             statistics: run.statistics(),
             energy: run.energy_balance(),
+            taken_by_contacts: collisions::taken(run.system(), run.contact_energies()),
         }
     }
 }

@@ -123,6 +123,7 @@ pub fn sensitivities<'py>(
         Lost::Run(
             error @ (Error::UnknownVariable { .. }
             | Error::ConstrainedSensitivity { .. }
+            | Error::CollidingSensitivity { .. }
             | Error::UnknownCoordinate { .. }
             | Error::InvalidSetting { .. }),
         ) => PyValueError::new_err(error.to_string()),

@@ -37,6 +37,15 @@ pub(crate) struct Impact {
     pub impulse: [f64; 2],
     /// In J.
     pub loss: f64,
+    /// What walls that move by themselves did in it, in J.
+    pub work: f64,
+}
+
+impl Impact {
+    /// What of the loss friction takes, in J. In time stepping it is that of a contact that lasts.
+    pub fn taken_by_slip(&self) -> f64 {
+        -0.5 * self.impulse[1] * (self.slip[0] + self.slip[1])
+    }
 }
 
 /// A way out of Painlevé's paradox.
@@ -174,6 +183,7 @@ impl Touching {
                 slip,
                 impulse,
                 loss,
+                work: here.work_of_walls(k, impulse, v.as_slice()),
             };
             return Ok(Some(Jam::Impact { impact, change }));
         }
@@ -230,6 +240,7 @@ impl Touching {
                 slip,
                 impulse,
                 loss,
+                work: here.work_of_walls(k, impulse, v.as_slice()),
             });
         }
         let change = inertia.response(&images, impulses.into_iter().flatten());

@@ -210,6 +210,7 @@ impl Touching {
                 slip,
                 impulse,
                 loss,
+                work: here.work_of_walls(k, impulse, before.as_slice()),
             });
         }
         if !stepped.impacts.is_empty() {

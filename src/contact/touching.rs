@@ -10,6 +10,7 @@ use super::delassus::{Inertia, matrix};
 use super::lcp;
 use super::problem::{self, Asked};
 use super::{ContactTrouble, ImpactLaw, ImpactOrder, Painleve};
+use crate::balance::PartOfContact;
 use crate::{Singular, StepError, System, Vector};
 use compliant::Yielding;
 pub(crate) use held::Held;
@@ -23,9 +24,9 @@ const ROUNDING_OF_FORCES: f64 = 1e-11;
 /// Friction within this of the greatest that there is, relative to that, is used up.
 pub(super) const SATURATED: f64 = 1e-10;
 
-/// The state of a contact.
+/// What a closed contact does, or that it is open.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Mode {
+pub enum Mode {
     /// It does not touch.
     Open,
     /// It touches and slips, forward or backward; 0 where it has no friction.
@@ -145,6 +146,18 @@ impl Here {
         ]
     }
 
+    /// What walls that move by themselves do against the forces of a contact, in W, or against its impulses, in J.
+    pub fn work_of_walls(&self, contact: usize, forces: [f64; 2], v: &[f64]) -> f64 {
+        let of_direction = |part: usize| {
+            // The rate that there would be if the machine were at rest.
+            let direction = 2 * contact + part;
+            let by_machine = self.row(direction).iter().zip(v);
+            let at_rest = self.rates[direction] - by_machine.map(|(w, v)| w * v).sum::<f64>();
+            -forces[part] * at_rest
+        };
+        of_direction(0) + of_direction(1)
+    }
+
     pub fn friction(&self, contact: usize) -> [f64; 2] {
         let own = &self.coefficients[4 * contact..][..4];
         [own[2], own[3]]
@@ -186,6 +199,17 @@ pub(crate) struct Margins {
     pub each: Vec<[Margin; 3]>,
     /// Whether the forces that they are taken from are the only ones.
     pub is_only: bool,
+}
+
+/// What contacts do and take, in W.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Powers {
+    /// The work that what moves by itself does through them.
+    pub work: f64,
+    /// What friction takes, and what yields.
+    pub lost: f64,
+    /// The part of each contact; none where none has one.
+    pub of_each: Vec<PartOfContact>,
 }
 
 /// Time, state and inputs.
@@ -581,34 +605,40 @@ impl Touching {
         Ok(())
     }
 
-    /// The work that what moves by itself does through the contacts, and what friction takes, in W.
-    pub fn power<S: System>(&self, system: &S, at: At<'_, S>) -> [f64; 2] {
+    /// What the contacts do and take.
+    pub fn powers<S: System>(&self, system: &S, at: At<'_, S>) -> Powers {
         let (t, q, v, _) = at;
         // What impulses did is booked with each step.
         if self.is_free() || self.stepped.is_some() {
-            return [0.0; 2];
+            return Powers::default();
         }
         let Ok(reaction) = self.reaction(system, at) else {
-            return [f64::NAN; 2];
+            return Powers {
+                work: f64::NAN,
+                lost: f64::NAN,
+                of_each: Vec::new(),
+            };
         };
         let here = Here::of(system, t, q, v);
         // What the forces do to the coordinates, what they take from both sides of the contacts, and what of that is
         // lost and not stored.
         let (mut on_coordinates, mut taken, mut lost) = (0.0, 0.0, 0.0);
-        for (k, force) in reaction.forces.iter().enumerate() {
+        let mut of_each = vec![PartOfContact::default(); self.modes.len()];
+        for (k, (force, own)) in reaction.forces.iter().zip(&mut of_each).enumerate() {
+            own.work = here.work_of_walls(k, *force, v.as_slice());
             for (part, force) in force.iter().enumerate() {
                 let row = here.row(2 * k + part).iter().zip(v.as_slice());
                 on_coordinates += force * row.map(|(w, v)| w * v).sum::<f64>();
             }
             if let Mode::Slides(_) | Mode::Skids(_) = self.modes[k] {
-                let friction = -force[1] * here.rates[2 * k + 1];
-                taken += friction;
-                lost += friction;
+                own.friction = -force[1] * here.rates[2 * k + 1];
+                taken += own.friction;
             }
             if let Some(pressed) = self.pressed(&here, k) {
+                own.yielding = pressed.lost;
                 taken -= pressed.force * here.rates[2 * k];
-                lost += pressed.lost;
             }
+            lost += own.friction + own.yielding;
         }
         // Where constraints move by themselves, the machine counts as work whatever changes its energy.
         let m = system.constraints().len();
@@ -616,9 +646,14 @@ impl Touching {
         if m > 0 {
             system.constraint_rates(t, q, &v.zeros_like(), &mut moving);
         }
-        match moving.iter().any(|rate| *rate != 0.0) {
-            true => [taken, lost],
-            false => [on_coordinates + taken, lost],
+        let work = match moving.iter().any(|rate| *rate != 0.0) {
+            true => taken,
+            false => on_coordinates + taken,
+        };
+        Powers {
+            work,
+            lost,
+            of_each,
         }
     }
 

@@ -164,6 +164,7 @@ impl Recording {
                 column(format!("{what}({name})"), unit.into(), Kind::Contact);
             }
         }
+        let has_books = !run.contact_energies().is_empty();
         for contact in system.unilateral_contacts() {
             let name = contact.name;
             let [friction, slip] = match contact.rolls {
@@ -181,6 +182,9 @@ impl Recording {
             if contact.compliance == Some(Compliance::Layer) {
                 column(format!("crushing({name})"), "J".into(), Kind::Contact);
             }
+            if has_books {
+                column(format!("lost({name})"), "J".into(), Kind::Contact);
+            }
         }
         for name in ["kinetic energy", "potential energy", "total energy"] {
             column(name.into(), "J".into(), Kind::Energy);
@@ -194,8 +198,11 @@ impl Recording {
         let reactions = system.constraints().len()
             + 3 * system.contacts().len()
             + 4 * system.unilateral_contacts().len()
-            + is_layer.iter().filter(|is_layer| **is_layer).count();
+            + is_layer.iter().filter(|is_layer| **is_layer).count()
+            + if has_books { is_layer.len() } else { 0 };
         for state in states {
+            let books = run.contact_energies_at(state.t);
+            let lost = |k: usize| (books.as_ref()).map_or(f64::NAN, |of_each| of_each[k].lost());
             // Where a run ends early there may be no accelerations, and then nothing that is made from them.
             let (seen, inputs, reactions, energies) = match run.observe_state(state) {
                 Ok(seen) => {
@@ -204,11 +211,13 @@ impl Recording {
                     let contacts = seen.contacts.iter();
                     let contacts = contacts.flat_map(|c| [c.normal, c.friction, c.slip]);
                     let unilateral = seen.unilateral.iter();
-                    let unilateral = unilateral.zip(&is_layer).flat_map(|(c, is_layer)| {
+                    let unilateral = unilateral.zip(&is_layer).enumerate();
+                    let unilateral = unilateral.flat_map(|(k, (c, is_layer))| {
                         let crushing = is_layer.then_some(c.crushing_work);
                         [c.gap, c.normal, c.friction, c.slip]
                             .into_iter()
                             .chain(crushing)
+                            .chain(has_books.then(|| lost(k)))
                     });
                     let reactions = seen.multipliers.iter().copied().chain(contacts);
                     let reactions = reactions.chain(unilateral);

@@ -10,6 +10,7 @@ use crate::contact::{Impact, Mode};
 use crate::event::{self, Crossing, Event, Triple, made, state};
 use crate::friction::Margin;
 use crate::inputs::InputLaw;
+use crate::phases::{Book, Change};
 use crate::solution::Ending;
 use crate::step_error::StepError;
 use crate::stepper::{Cause, Happened};
@@ -195,8 +196,50 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             self.enter_energies();
         }
         self.tell(&happened, at_start);
-        self.keep_phase();
+        if !at_start {
+            self.correct_book();
+        }
+        self.keep_phase(Change {
+            cause: Some(cause),
+            impacts: happened.impacts,
+            ended: happened.ended.iter().map(|(contact, _)| *contact).collect(),
+        });
         Ok(())
+    }
+
+    /// Where energy went in each contact so far.
+    pub(super) fn book(&self) -> Book {
+        let Self {
+            model,
+            stepper,
+            record,
+            ..
+        } = self;
+        let (Some(integrals), Some(touching)) =
+            (stepper.quadratures().integrals(), stepper.touching())
+        else {
+            return Book::default();
+        };
+        let place = (stepper.t(), stepper.q(), stepper.v());
+        let crushed = touching.crushing_works(model.system, place);
+        let losses = &record.unilateral.losses;
+        let of_each = crushed.into_iter().enumerate().map(|(k, crushing_work)| {
+            let part = integrals.of_contact(k);
+            let impact_loss = losses.get(k).copied().unwrap_or(0.0);
+            touching.energies(k, part, impact_loss, crushing_work)
+        });
+        Book {
+            of_each: of_each.collect(),
+            powers: (0..losses.len()).map(|k| integrals.power_of(k)).collect(),
+        }
+    }
+
+    /// Writes down anew where energy went in each contact until now.
+    pub(super) fn correct_book(&mut self) {
+        let book = self.book();
+        if let Some(last) = self.record.unilateral.books.last_mut() {
+            *last = book;
+        }
     }
 
     /// Writes down what happened.
@@ -212,6 +255,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 slip,
                 impulse,
                 loss,
+                ..
             } = impact;
             self.record.unilateral.losses[contact] += loss;
             // What is at rest and is not hit has an impulse of rounding.

@@ -10,7 +10,7 @@ use crate::balance::Quadratures;
 use crate::contact::Mode;
 use crate::inputs::InputLaw;
 use crate::methods::Kind;
-use crate::phases::Phase;
+use crate::phases::{Change, Phase};
 use crate::solution::Handover;
 use crate::stepper::Happened;
 use crate::{ContactTrouble, Error, Machine, StepError, System};
@@ -176,7 +176,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         self.pace.times.clear();
         self.pace.quiet = 0;
         (self.pace.step, self.pace.kinetic) = (step, kinetic);
-        self.keep_phase();
+        self.keep_phase(Change::default());
         self.record.handovers.push(Handover {
             t,
             step: Some(step),
@@ -255,7 +255,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             }
         }
         self.tell(&happened, false);
-        self.keep_phase();
+        self.correct_book();
+        self.keep_phase(Change::default());
         self.record.handovers.push(Handover {
             t: self.stepper.t(),
             step: None,
@@ -265,11 +266,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     }
 
     /// Keeps what contacts do from now on.
-    pub(super) fn keep_phase(&mut self) {
+    pub(super) fn keep_phase(&mut self, change: Change) {
         if let Some(touching) = self.stepper.touching() {
             self.record.unilateral.phases.push(Phase {
                 since: self.stepper.t(),
                 touching: touching.as_seen_later(),
+                change,
                 constraints: self.stepper.constraints().clone(),
             });
         }

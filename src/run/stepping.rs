@@ -8,7 +8,7 @@ use super::contacts::Told;
 use crate::balance::Quadratures;
 use crate::contact::{Impact, Mode, Touching};
 use crate::inputs::InputLaw;
-use crate::phases::Phase;
+use crate::phases::{Change, Phase};
 use crate::{ContactEventKind, ContactImpact, Error, Machine};
 
 impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
@@ -22,6 +22,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         self.record.unilateral.phases.push(Phase {
             since: t,
             touching: touching.clone(),
+            change: Change::default(),
             constraints: self.stepper.constraints().clone(),
         });
         Ok(())
@@ -45,7 +46,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
         let mut told: Vec<Told> = Vec::new();
         for (place, impact) in impacts.iter().enumerate() {
-            self.record.unilateral.losses[impact.contact] += impact.loss;
+            // What friction takes while a contact lasts is no loss of an impact.
+            let of_friction = match before[impact.contact] {
+                Mode::Open => 0.0,
+                _ => impact.taken_by_slip(),
+            };
+            self.record.unilateral.losses[impact.contact] += impact.loss - of_friction;
             if before[impact.contact] == Mode::Open && !self.leans(impact.contact) {
                 let across = self.across_of(&impacts[place..]);
                 let of = ContactImpact {
@@ -91,6 +97,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             self.record.unilateral.phases.push(Phase {
                 since: self.stepper.t_before(),
                 touching: now.as_seen_later(),
+                change: Change::default(),
                 constraints: self.stepper.constraints().clone(),
             });
         }

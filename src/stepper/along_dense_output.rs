@@ -1,5 +1,7 @@
 //! The integrals of powers over a step that is too long for the weights of its method.
 
+use std::vec::Vec;
+
 use super::Stepper;
 use crate::balance::Quadratures;
 use crate::interpolant::Interpolant;
@@ -33,14 +35,14 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         bound: f64,
     ) -> Result<bool, StepError> {
         let mut is_known = false;
-        let mut before = [f64::NAN; 3];
+        let mut before = std::vec![[f64::NAN; 3]];
         let mut parts = 1;
         while parts <= MOST_PARTS {
             let found = self.integrals_in_parts(interpolant, parts)?;
-            let [work, to_and_fro, lost] = [0, 1, 2].map(|i| (found[i] - before[i]).abs());
-            if work + lost <= bound && to_and_fro <= 0.01 * found[1].abs() {
+            let [work, to_and_fro, lost] = [0, 1, 2].map(|i| (found[0][i] - before[0][i]).abs());
+            if work + lost <= bound && to_and_fro <= 0.01 * found[0][1].abs() {
                 if let Some(integrals) = self.quadratures.integrals_mut() {
-                    integrals.replace_last(found);
+                    integrals.replace_last(&found);
                 }
                 is_known = true;
                 break;
@@ -53,13 +55,14 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         Ok(is_known)
     }
 
-    /// The integrals over the last step of work rate, its absolute value, and dissipation rate, in J.
+    /// The integrals over the last step of work rate, its absolute value, and dissipation rate, and of the parts of each unilateral
+    /// contact, in J.
     fn integrals_in_parts(
         &mut self,
         interpolant: &Interpolant<S::Vector>,
         parts: usize,
-    ) -> Result<[f64; 3], StepError> {
-        let mut integrals = [0.0; 3];
+    ) -> Result<Vec<[f64; 3]>, StepError> {
+        let mut integrals = Vec::new();
         let length = self.control.last_step / parts as f64;
         let mut a = self.now.q.zeros_like();
         for part in 0..parts {
@@ -77,8 +80,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 model.accelerations(t, &q, &v, &mut a, &mut control.work)?;
                 model.take_rates(quadratures, FREE, (t, &q, &v, &a));
                 if let Some(balance) = quadratures.integrals() {
-                    for (integral, rate) in integrals.iter_mut().zip(balance.rates(FREE)) {
-                        *integral += weight * length * rate;
+                    for (k, rates) in balance.rates(FREE).enumerate() {
+                        if k == integrals.len() {
+                            integrals.push([0.0; 3]);
+                        }
+                        for (integral, rate) in integrals[k].iter_mut().zip(rates) {
+                            *integral += weight * length * rate;
+                        }
                     }
                 }
             }

@@ -4,9 +4,9 @@ use std::vec::Vec;
 
 use super::{Model, Stepper};
 use crate::attempt::not_finite;
-use crate::balance::Quadratures;
+use crate::balance::{PartOfContact, Quadratures};
 use crate::compensated::two_sum;
-use crate::contact::{Stepped, Touching};
+use crate::contact::{Mode, Stepped, Touching};
 use crate::stages::Point;
 use crate::{InputLaw, StepError, System, Vector};
 
@@ -76,6 +76,16 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 work, lost, lifted, ..
             } = impulses.stepped;
             self.quadratures.add_at_once(work, lost - lifted);
+            let lasting = impulses.before.as_ref().map(Touching::modes);
+            for impact in &impulses.stepped.impacts {
+                let lasts = lasting.is_some_and(|modes| modes[impact.contact] != Mode::Open);
+                let part = PartOfContact {
+                    friction: if lasts { impact.taken_by_slip() } else { 0.0 },
+                    work: impact.work,
+                    yielding: 0.0,
+                };
+                (self.quadratures).share_out_at_once(impact.contact, part);
+            }
         }
         Ok(())
     }

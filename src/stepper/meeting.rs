@@ -4,7 +4,7 @@ use std::vec;
 use std::vec::Vec;
 
 use super::{Model, Stepper};
-use crate::balance::Quadratures;
+use crate::balance::{PartOfContact, Quadratures};
 use crate::constraints::Constraints;
 use crate::contact::{Impact, Jam, Mode, Touching};
 use crate::inputs::InputLaw;
@@ -75,7 +75,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             return Ok(happened);
         };
         happened.before = touching.modes().to_vec();
-        let stored_before = stored(model.system.get(), &touching, now);
+        let stored_before = stored_by_each(model.system.get(), &touching, now);
         let loaded_before: Vec<bool> = touching.loaded().collect();
         model.set_inputs(t, &now.q, &now.v);
         // Where a slip in space is at right angles to what it was, it may have turned and not stopped.
@@ -238,7 +238,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             .filter(|(_, (is, was))| is != was)
             .map(|(k, (is, _))| (k, is))
             .collect();
-        let released = stored_before - stored(model.system.get(), &touching, now);
+        let stored_after = stored_by_each(model.system.get(), &touching, now);
         model.constraints = hold(model.system.get(), &touching, now)?;
         happened.after = touching.modes().to_vec();
         model.touching = Some(touching);
@@ -252,9 +252,25 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         if !happened.impacts.is_empty() {
             self.quadratures.add_at_once(gained + lost, lost);
         }
-        if released != 0.0 {
-            // A force that vanishes before its contact is back leaves what is stored to nobody.
-            self.quadratures.add_at_once(0.0, released);
+        for impact in &happened.impacts {
+            let part = PartOfContact {
+                work: impact.work,
+                ..PartOfContact::default()
+            };
+            self.quadratures.share_out_at_once(impact.contact, part);
+        }
+        for contact in 0..stored_before.len().max(stored_after.len()) {
+            let of = |stored: &[f64]| stored.get(contact).copied().unwrap_or(0.0);
+            let released = of(&stored_before) - of(&stored_after);
+            if released != 0.0 {
+                // A force that vanishes before its contact is back leaves what is stored to nobody.
+                self.quadratures.add_at_once(0.0, released);
+                let part = PartOfContact {
+                    yielding: released,
+                    ..PartOfContact::default()
+                };
+                self.quadratures.share_out_at_once(contact, part);
+            }
         }
         self.begin_again(end, step, happened.flight)?;
         Ok(happened)
@@ -313,9 +329,9 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     }
 }
 
-/// What contacts that yield hold, in J.
-fn stored<S: System>(system: &S, touching: &Touching, now: &Point<S::Vector>) -> f64 {
-    touching.stored(system, now.t, &now.q, &now.v)
+/// What each contact that yields holds, in J.
+fn stored_by_each<S: System>(system: &S, touching: &Touching, now: &Point<S::Vector>) -> Vec<f64> {
+    touching.stored_by_each(system, now.t, &now.q, &now.v)
 }
 
 /// Brings a state onto what is held; what is known of these constraints.

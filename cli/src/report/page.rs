@@ -52,6 +52,7 @@ pub fn text(
         "parameters" => parameters(report),
         "start" => start(report),
         "energy" => energy(report),
+        "marks" => marks(report),
         "events" => [events(report), contacts(report)].concat(),
         "statistics" => statistics(report, samples),
         "counts" => counts(&report.compiled.program),
@@ -380,7 +381,7 @@ fn energy(report: &Report<'_, '_>) -> String {
     };
     let row = |what: &str, value: Cell| vec![Cell::Words(what.into()), value];
     let share = format!("{:.1e}", balance.relative()).replace('-', "−");
-    let rows = [
+    let mut rows = vec![
         row(
             "kinetic and potential energy at the start",
             joules(balance.start),
@@ -400,7 +401,38 @@ fn energy(report: &Report<'_, '_>) -> String {
             Cell::Figure(share),
         ),
     ];
+    for (words, taken) in &report.run.taken_by_contacts {
+        rows.push(row(words, joules(*taken)));
+    }
     html::table("Energy balance", &["", "J"], &rows)
+}
+
+/// Marks of events beside the time line, each of which leads to its instant; nothing where nothing happened. Of very many events that
+/// stand closer than marks are wide one is marked.
+fn marks(report: &Report<'_, '_>) -> String {
+    let (from, to) = (report.run.start.t, report.run.end.t);
+    if from == to {
+        return String::new();
+    }
+    let mut marked = std::collections::BTreeSet::new();
+    let mut marks = String::new();
+    for event in other_events(report.run.events, report.contacts) {
+        let t = event.state.t;
+        let share = ((t - from) / (to - from)).clamp(0.0, 1.0);
+        // 0 to 1000, of the share.
+        let place = (1000.0 * share).round() as u16;
+        if marked.insert(place) {
+            let said = safe(&format!("{} at t = {} s", event.name, shortest(t)));
+            marks.push_str(&format!(
+                "<a href=\"#t={t:?}\" style=\"left:{:.1}%\" title=\"{said}\" aria-label=\"{said}\"></a>",
+                100.0 * share
+            ));
+        }
+    }
+    match marks.is_empty() {
+        true => marks,
+        false => format!("<div class=\"marks\">{marks}</div>\n"),
+    }
 }
 
 /// What happened, each with a link to its instant.

@@ -1,5 +1,6 @@
 //! What is kept of each motion: `--record`, `--reduce`.
 
+use lagrangian::ContactEventKind;
 use lagrangian_sweep::plan::{Function, Reduction, Watch};
 
 use crate::call::{self, Assignment};
@@ -105,7 +106,12 @@ fn reduction(given: &Assignment, events: &[Watch]) -> Result<Reduction, Failure>
     if of.is_empty() {
         return Err(wanted());
     }
-    let is_event = events.iter().any(|event| event.name == of);
+    // What happens to a contact is named by two words, which no formula is.
+    let is_of_contact = of.rsplit_once(' ').is_some_and(|(_, word)| {
+        let mut kinds = ContactEventKind::ALL.into_iter();
+        kinds.any(|kind| kind.word() == word)
+    });
+    let is_event = is_of_contact || events.iter().any(|event| event.name == of);
     let function = match known {
         Function::First if is_event => Function::FirstEvent,
         Function::Last if is_event => Function::LastEvent,

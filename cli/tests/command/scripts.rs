@@ -265,3 +265,52 @@ fn the_crusher_over_speed_is_the_crusher_at_each_speed() {
         );
     }
 }
+
+/// How often parts collide and what crushing takes are those of one run: of its events, and of what its contacts took until each time.
+#[test]
+fn the_layered_crusher_over_speed_is_the_crusher_at_each_speed() {
+    let size = ["2", "0.4"];
+    let folder = run("layered_crusher_over_speed", &size, "layered_crusher");
+    let table = Table::read(&folder, "layered_crusher.csv");
+    let simulate = |until: &str| -> serde_json::Value {
+        let output = lagrangian(&[
+            "simulate",
+            "machines/contacts/layered_crusher.machine",
+            "--set",
+            "w=80",
+            "--until",
+            until,
+            "--json",
+        ]);
+        serde_json::from_slice(&output.stdout).expect("a document")
+    };
+    let (half, whole) = (simulate("0.2"), simulate("0.4"));
+    let events = whole["contact_events"].as_array().expect("events").iter();
+    let impacts = events.filter(|event| {
+        let t = event["t"].as_f64().expect("a time");
+        event["contact"] == "outer" && event["kind"] == "impact" && t >= 0.2
+    });
+    let impacts = impacts.count() as f64 / 0.2;
+    assert!(impacts > 0.0);
+    assert_eq!(table.numbers("impacts")[0], impacts);
+    let taken = |run: &serde_json::Value| -> f64 {
+        let contacts = run["unilateral_contacts"].as_array().expect("contacts");
+        let bed = contacts
+            .iter()
+            .find(|own| own["name"] == "bed")
+            .expect("a bed");
+        let parts = [
+            "impact_loss",
+            "friction_loss",
+            "damping_loss",
+            "crushing_work",
+        ];
+        parts
+            .iter()
+            .map(|part| bed[part].as_f64().expect("a number"))
+            .sum()
+    };
+    let power = (taken(&whole) - taken(&half)) / 0.2;
+    let found = table.numbers("crushing")[0];
+    assert!((found - power).abs() < 1e-4 * power, "{found} {power}");
+}

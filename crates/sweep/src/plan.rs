@@ -167,11 +167,15 @@ pub enum Function {
     FirstEvent,
     /// When an event happens last.
     LastEvent,
+    /// How often an event happens a second.
+    Frequency,
+    /// What a unilateral contact takes a second, by impacts, friction, damping and crushing.
+    Power,
 }
 
 impl Function {
     /// Their names; `first` and `last` are of events where an event has the name that stands behind.
-    pub const NAMES: [(&'static str, Function); 11] = [
+    pub const NAMES: [(&'static str, Function); 13] = [
         ("max", Function::Max),
         ("min", Function::Min),
         ("range", Function::Range),
@@ -183,14 +187,21 @@ impl Function {
         ("when_max", Function::WhenMax),
         ("when_min", Function::WhenMin),
         ("count", Function::Count),
+        ("frequency", Function::Frequency),
+        ("power", Function::Power),
     ];
 
     /// Whether it is of an event.
     pub fn is_of_event(self) -> bool {
         matches!(
             self,
-            Function::Count | Function::FirstEvent | Function::LastEvent
+            Function::Count | Function::FirstEvent | Function::LastEvent | Function::Frequency
         )
+    }
+
+    /// Whether it is of an expression along the motion, and neither of an event nor of a contact.
+    pub(crate) fn is_of_formula(self) -> bool {
+        !self.is_of_event() && self != Function::Power
     }
 }
 

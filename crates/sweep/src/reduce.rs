@@ -114,7 +114,11 @@ impl Tracker {
                 }
             }
             Function::Last => self.last = Some(value(1.0)?),
-            Function::Count | Function::FirstEvent | Function::LastEvent => {}
+            Function::Count
+            | Function::FirstEvent
+            | Function::LastEvent
+            | Function::Frequency
+            | Function::Power => {}
         }
         Ok(())
     }
@@ -152,7 +156,11 @@ impl Tracker {
             Function::Integral => self.since.map(|_| self.integral),
             Function::First => self.first,
             Function::Last => self.last,
-            Function::Count | Function::FirstEvent | Function::LastEvent => None,
+            Function::Count
+            | Function::FirstEvent
+            | Function::LastEvent
+            | Function::Frequency
+            | Function::Power => None,
         }
     }
 }

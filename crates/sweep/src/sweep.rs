@@ -5,11 +5,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use lagrangian::interpreted::{Engine, InterpretedMachine, InterpretedSystem, Named, Signals};
 use lagrangian::methods::{Method, TAYLOR};
-use lagrangian::{Crossing, Ending, Machine, Observation, Simulation, State, System};
+use lagrangian::{
+    ContactEventKind, Crossing, Ending, Machine, Observation, Simulation, State, System,
+};
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_spec::diagnostic::{Report, Severity, nearest};
-use lagrangian_spec::model::{Coordinate, Model, stage};
+use lagrangian_spec::model::{Contact, Coordinate, Model, stage};
 use lagrangian_spec::resolve::Formula as Asked;
 use lagrangian_spec::source::Sources;
 use lagrangian_spec::unit::{integral_name, rate_name, rate_unit, state_of};
@@ -279,15 +281,14 @@ impl Sweep {
         let mut units = Vec::new();
         let mut reductions = Vec::new();
         for reduction in &plan.reduce {
-            if reduction.function.is_of_event() {
-                units.push(
-                    if reduction.function == Function::Count {
-                        "1"
-                    } else {
-                        "s"
-                    }
-                    .to_owned(),
-                );
+            if !reduction.function.is_of_formula() {
+                let unit = match reduction.function {
+                    Function::Count => "1",
+                    Function::Frequency => "1/s",
+                    Function::Power => "W",
+                    _ => "s",
+                };
+                units.push(unit.to_owned());
                 reductions.push(Made::Of(reduction.function, reduction.of.clone()));
                 continue;
             }
@@ -487,8 +488,12 @@ impl Sweep {
             .until(plan.until)
             .max_steps(usize::try_from(plan.max_steps).unwrap_or(usize::MAX))
             .energy_balance(true)
-            .forget_steps()
-            .forget_energies();
+            .forget_steps();
+        let asks_for_power = (plan.reduce.iter()).any(|of| of.function == Function::Power);
+        let simulation = match asks_for_power && plan.after.is_some() {
+            true => simulation,
+            false => simulation.forget_energies(),
+        };
         let mut simulation = self.signals.drive(simulation, &machine);
         if let Some(keep) = &plan.keep {
             simulation = simulation.keep_none();
@@ -567,13 +572,29 @@ impl Sweep {
             let made = self.reductions.iter().zip(&watched.trackers);
             outcome.reductions = made
                 .map(|(made, tracker)| match (made, tracker) {
+                    (Made::Of(Function::Power, contact), _) => {
+                        let mut names = solution.system().unilateral_contacts();
+                        let k = names.position(|of| of.name == contact)?;
+                        let since = plan.after.unwrap_or(solution.start().t);
+                        let before = match plan.after {
+                            Some(after) => solution.contact_energies_at(after)?.get(k)?.lost(),
+                            None => 0.0,
+                        };
+                        let taken = solution.contact_energies().get(k)?.lost() - before;
+                        Some(taken / (solution.end().t - since))
+                    }
                     (Made::Of(function, name), _) => {
+                        let since = plan.after.unwrap_or(solution.start().t);
                         let events = solution.events().iter();
                         let mut times = events
                             .filter(|event| event.name == *name && after(event.state.t))
                             .map(|event| event.state.t);
                         match function {
                             Function::Count => Some(times.count() as f64),
+                            Function::Frequency => {
+                                let length = (solution.end().t - since).abs();
+                                Some(times.count() as f64 / length)
+                            }
                             Function::FirstEvent => times.next(),
                             _ => times.next_back(),
                         }
@@ -790,7 +811,7 @@ fn names(plan: &Plan, model: &Model<'_>) -> Vec<(String, String, String, Option<
     for reduction in plan
         .reduce
         .iter()
-        .filter(|reduction| !reduction.function.is_of_event())
+        .filter(|reduction| reduction.function.is_of_formula())
     {
         let name = &reduction.name;
         let (text, _) = subject(reduction);
@@ -845,7 +866,11 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
             "--record every and --record event: samples are of one kind, and so are what they are drawn by".into(),
         );
     }
-    let known = || plan.events.iter().map(|watch| watch.name.as_str());
+    let of_contacts = contact_events(model);
+    let known = || {
+        let own = plan.events.iter().map(|watch| watch.name.as_str());
+        own.chain(of_contacts.iter().map(String::as_str))
+    };
     if let Some(name) = plan
         .at_events
         .iter()
@@ -914,7 +939,7 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
         .iter()
         .filter(|reduction| reduction.function.is_of_event())
     {
-        let names = || plan.events.iter().map(|event| event.name.as_str());
+        let names = known;
         if !names().any(|name| name == reduction.of) {
             let help = match nearest(&reduction.of, names()) {
                 Some(near) => format!("did you mean `{near}`?"),
@@ -926,10 +951,42 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
             ));
         }
     }
+    let mut powers = plan.reduce.iter();
+    if let Some(reduction) = powers.find(|reduction| {
+        let is_named = |contact: &Contact<'_>| contact.name.to_string() == reduction.of;
+        reduction.function == Function::Power && !model.contacts.iter().any(is_named)
+    }) {
+        let names: Vec<String> = model
+            .contacts
+            .iter()
+            .map(|of| of.name.to_string())
+            .collect();
+        let help = match nearest(&reduction.of, names.iter().map(String::as_str)) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None if names.is_empty() => "the machine has no `contacts`".into(),
+            None => format!("there are: {}", names.join(", ")),
+        };
+        return wrong(format!(
+            "--reduce {}: no contact named `{}`; {help}",
+            reduction.name, reduction.of
+        ));
+    }
     Ok(varied
         .into_iter()
         .map(|name| Place::of(name, model))
         .collect())
+}
+
+/// What may happen to the unilateral contacts of a machine, as runs name it: `floor impact`.
+fn contact_events(model: &Model<'_>) -> Vec<String> {
+    let of_contact = |contact: &Contact<'_>| {
+        let kinds = ContactEventKind::ALL.into_iter();
+        let name = contact.name.to_string();
+        kinds
+            .map(move |kind| format!("{name} {}", kind.word()))
+            .collect::<Vec<_>>()
+    };
+    model.contacts.iter().flat_map(of_contact).collect()
 }
 
 /// Sets families first.

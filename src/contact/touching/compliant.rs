@@ -11,7 +11,8 @@ use std::vec;
 use std::vec::Vec;
 
 use super::{Here, Margin, Mode, Touching};
-use crate::{Compliance, System};
+use crate::balance::PartOfContact;
+use crate::{Compliance, ContactEnergies, System};
 
 /// The law of a contact that yields, and what it remembers.
 #[derive(Clone, Copy, Debug)]
@@ -182,12 +183,25 @@ impl Touching {
 
     /// What contacts that yield hold, in J.
     pub fn stored<S: System>(&self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> f64 {
+        self.stored_by_each(system, t, q, v).iter().sum()
+    }
+
+    /// What each contact that yields holds, in J; nothing where none does.
+    pub fn stored_by_each<S: System>(
+        &self,
+        system: &S,
+        t: f64,
+        q: &S::Vector,
+        v: &S::Vector,
+    ) -> Vec<f64> {
         if !self.any_yields() || self.is_free() {
-            return 0.0;
+            return Vec::new();
         }
         let here = Here::of(system, t, q, v);
-        let pressed = (0..self.yielding.len()).filter_map(|k| self.pressed(&here, k));
-        pressed.map(|pressed| pressed.stored).sum()
+        let of_each = (0..self.yielding.len()).map(|k| self.pressed(&here, k));
+        of_each
+            .map(|pressed| pressed.map_or(0.0, |pressed| pressed.stored))
+            .collect()
     }
 
     /// The work that has crushed the layer of a contact so far, in J; 0 where it has none.
@@ -205,12 +219,35 @@ impl Touching {
         }
     }
 
+    /// Where energy went in a contact. What a layer takes as it yields is what crushes it.
+    pub fn energies(
+        &self,
+        contact: usize,
+        part: PartOfContact,
+        impact_loss: f64,
+        crushing_work: f64,
+    ) -> ContactEnergies {
+        ContactEnergies {
+            impact_loss,
+            friction_loss: part.friction,
+            damping_loss: match self.is_layer(contact) {
+                true => 0.0,
+                false => part.yielding,
+            },
+            crushing_work,
+            work: part.work,
+        }
+    }
+
     /// The work that has crushed each layer so far, in J.
     pub fn crushing_works<S: System>(
         &self,
         system: &S,
         (t, q, v): (f64, &S::Vector, &S::Vector),
     ) -> Vec<f64> {
+        if !(0..self.yielding.len()).any(|k| self.is_layer(k)) {
+            return vec![0.0; self.yielding.len()];
+        }
         let here = Here::of(system, t, q, v);
         (0..self.yielding.len())
             .map(|k| self.crushing_work(&here, k))
