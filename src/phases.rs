@@ -113,6 +113,8 @@ impl<V> Phase<V> {
                 slip: of.slip,
                 impulse: of.impulse,
                 loss: of.loss,
+                // The second tangent of a contact has an impact of its own here.
+                across: None,
             };
             (of.contact, told)
         };

@@ -65,17 +65,32 @@ fn accounts(run: &Run) -> Vec<Account> {
         let account = of_contact((k, contact));
         // What was lost along the second tangent of a contact is lost in it.
         match accounts.last_mut().filter(|_| contact.across) {
-            Some(first) => first.loss += account.loss,
+            Some(first) => add(&mut first.energies, &account.energies),
             None => accounts.push(account),
         }
     }
     accounts
 }
 
+/// Adds what another took to what one took.
+fn add(sum: &mut ContactEnergies, other: &ContactEnergies) {
+    sum.impact_loss += other.impact_loss;
+    sum.friction_loss += other.friction_loss;
+    sum.damping_loss += other.damping_loss;
+    sum.crushing_work += other.crushing_work;
+    sum.work += other.work;
+}
+
 /// What contacts took, and how: words and J, for what each of them has.
 pub fn taken(system: &InterpretedSystem, energies: &[ContactEnergies]) -> Vec<(String, f64)> {
-    let contacts = system.unilateral_contacts().zip(energies);
-    let of_contact = |(contact, of): (UnilateralContact<'_>, &ContactEnergies)| {
+    let mut contacts: Vec<(UnilateralContact<'_>, ContactEnergies)> = Vec::new();
+    for (contact, of) in system.unilateral_contacts().zip(energies) {
+        match contacts.last_mut().filter(|_| contact.across) {
+            Some((_, first)) => add(first, of),
+            None => contacts.push((contact, *of)),
+        }
+    }
+    let of_contact = |(contact, of): &(UnilateralContact<'_>, ContactEnergies)| {
         let is_layer = contact.compliance == Some(Compliance::Layer);
         let yields = contact.compliance.is_some();
         [
@@ -89,7 +104,7 @@ pub fn taken(system: &InterpretedSystem, energies: &[ContactEnergies]) -> Vec<(S
         .map(|(how, taken, _)| (format!("taken by `{}`, {how}", contact.name), taken))
         .collect::<Vec<_>>()
     };
-    contacts.flat_map(of_contact).collect()
+    contacts.iter().flat_map(of_contact).collect()
 }
 
 /// Whether an event is one of the contacts.

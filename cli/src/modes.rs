@@ -155,15 +155,14 @@ pub fn compiled<'d, 'a>(
     files: impl IntoIterator<Item = &'a Destination>,
     what: &str,
 ) -> Result<Compiled<'d>, Failure> {
-    let refused = [
-        format!(
-            "friction holds a machine that is at rest wherever it stands within a range, and what slides has no linearization there: a \
-             machine with `sliding` has no {what}; take a variant without friction, with a constraint in the place of each guide"
-        ),
-        format!(
-            "what collides has no linearization: a machine with `contacts` has no {what}; say it without them"
-        ),
-    ];
+    let with_sliding = format!(
+        "friction holds a machine that is at rest wherever it stands within a range, and what slides has no linearization there: a \
+         machine with `sliding` has no {what}; take a variant without friction, with a constraint in the place of each guide"
+    );
+    let with_contacts = format!(
+        "what collides has no linearization: a machine with `contacts` has no {what}; say it without them"
+    );
+    let refused = (with_sliding, Some(with_contacts));
     compile(Reading::open(spec)?, dag, files, refused, |_| Ok(()))
 }
 
@@ -175,26 +174,21 @@ pub fn compiled_with<'d, 'a>(
     what: &str,
     change: impl FnOnce(&mut Model<'d>) -> Result<(), Failure>,
 ) -> Result<Compiled<'d>, Failure> {
-    let refused = [
-        format!(
-            "the {what} of a machine with `sliding` would be found by derivatives of its motion, and there are none where it begins to \
-             stick or to slide; take a variant without friction, with a constraint in the place of each guide"
-        ),
-        format!(
-            "the {what} of a machine with `contacts` would be found by derivatives of its motion, and there are none where contacts \
-             open and close; say it without them"
-        ),
-    ];
-    compile(reading, dag, files, refused, change)
+    let with_sliding = format!(
+        "the {what} of a machine with `sliding` would be found by derivatives of its motion, and there are none where it begins to \
+         stick or to slide; take a variant without friction, with a constraint in the place of each guide"
+    );
+    // Derivatives pass across impacts.
+    compile(reading, dag, files, (with_sliding, None), change)
 }
 
-/// Compiles a spec that was opened, whose model is changed before it is derived; why it is refused with `sliding`, and with
-/// `contacts`.
+/// Compiles a spec that was opened, whose model is changed before it is derived; why it is refused with `sliding`, and, if it is,
+/// with `contacts`.
 fn compile<'d, 'a>(
     mut reading: Reading,
     dag: &'d Dag,
     files: impl IntoIterator<Item = &'a Destination>,
-    [with_sliding, with_contacts]: [String; 2],
+    (with_sliding, with_contacts): (String, Option<String>),
     change: impl FnOnce(&mut Model<'d>) -> Result<(), Failure>,
 ) -> Result<Compiled<'d>, Failure> {
     let mut model = reading.model(dag);
@@ -203,12 +197,19 @@ fn compile<'d, 'a>(
         if !model.sliding().is_empty() {
             return Err(Failure::Run(with_sliding));
         }
-        if !model.contacts.is_empty() {
-            return Err(Failure::Run(with_contacts));
+        if let Some(refused) = with_contacts
+            && !model.contacts.is_empty()
+        {
+            return Err(Failure::Run(refused));
         }
     }
     if let Some(model) = &mut model {
+        let derivatives = model.derivatives.clone();
         change(model)?;
+        // Across impacts the proved program itself is differentiated.
+        if !model.contacts.is_empty() {
+            model.derivatives = derivatives;
+        }
     }
     let compiled = model.and_then(|model| Compiled::new(model, &mut reading.report));
     match compiled {

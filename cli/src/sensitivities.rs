@@ -1,9 +1,11 @@
 //! `lagrangian sensitivities`: how a motion changes with parameters, inputs and starts.
 
-use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
-use lagrangian::methods::TAYLOR;
+use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named, Signals};
+use lagrangian::methods::{Method, TAYLOR};
 use lagrangian::{Machine, Sensitive, Simulation, State, System, Varied};
+use lagrangian_linear::across::{self, NoDerivatives};
 use lagrangian_linear::starts::{self, Cause, Change};
+use lagrangian_linear::varied::Direction;
 use lagrangian_program::{Arguments, Interpreter, Role};
 use lagrangian_scalar::Dual;
 use lagrangian_spec::diagnostic::nearest;
@@ -400,11 +402,14 @@ fn made(
         .map(|q| q.name.to_owned())
         .collect();
     let is_held = machine.prepare().constraints().len() > 0;
+    let collides = machine.prepare().unilateral_contacts().len() > 0;
+    // Where contacts open and close there are no variational equations for a whole run.
+    let varied: &[Variation] = if collides { &[] } else { variations };
     let mut sensitive = Sensitive::new(machine);
     if is_held {
         sensitive = sensitive.with_start_on_constraints();
     }
-    for variation in variations {
+    for variation in varied {
         sensitive = match variation.by {
             By::Parameter(_) | By::Input(_) => sensitive.by(&variation.name),
             By::Start(k) => sensitive.by_start(&coordinates[k]),
@@ -425,6 +430,19 @@ fn made(
         false => start.clone(),
     };
     let mut from = sensitive.start_from(start.clone());
+    if collides {
+        from.q.by = vec![start.q.clone(); variations.len()];
+        from.v.by = vec![start.v.clone(); variations.len()];
+        for (k, variation) in variations.iter().enumerate() {
+            from.q.by[k].values.fill(0.0);
+            from.v.by[k].values.fill(0.0);
+            match variation.by {
+                By::Start(i) => from.q.by[k].values[i] = 1.0,
+                By::StartRate(i) => from.v.by[k].values[i] = 1.0,
+                By::Parameter(_) | By::Input(_) => {}
+            }
+        }
+    }
     for (k, variation) in variations.iter().enumerate() {
         if is_held {
             [from.q.by[k].values, from.v.by[k].values] =
@@ -457,6 +475,9 @@ fn made(
     }
     let interval = call.every.unwrap_or(call.until.abs() / SAMPLES);
     progress::run(call.until);
+    if collides {
+        return across_impacts(call, machine, method, &from, variations, observed);
+    }
     let mut simulation = Simulation::new(&sensitive)
         .tolerance(call.tolerance)
         .method(method)
@@ -477,23 +498,7 @@ fn made(
         [] => std::slice::from_ref(run.start()),
         states => states,
     };
-    let mut columns: Vec<Column> = observed
-        .iter()
-        .map(|observed| Column {
-            name: observed.name.clone(),
-            unit: observed.unit.clone(),
-            values: Vec::with_capacity(states.len()),
-        })
-        .collect();
-    for observed in observed {
-        for variation in variations {
-            columns.push(Column {
-                name: format!("{} by {}", observed.name, variation.name),
-                unit: per(&observed.unit, &variation.unit),
-                values: Vec::with_capacity(states.len()),
-            });
-        }
-    }
+    let mut columns = columns(variations, observed);
     let system = machine.prepare();
     let mut interpreters: Vec<Interpreter<Dual<f64>>> = variations
         .iter()
@@ -506,6 +511,148 @@ fn made(
         }
     }
     Ok((states.iter().map(|state| state.t).collect(), columns))
+}
+
+/// Empty columns: of each value, then of its derivatives.
+fn columns(variations: &[Variation], observed: &[Observed]) -> Vec<Column> {
+    let own = observed.iter().map(|observed| Column {
+        name: observed.name.clone(),
+        unit: observed.unit.clone(),
+        values: Vec::new(),
+    });
+    let derivatives = observed.iter().flat_map(|observed| {
+        variations.iter().map(|variation| Column {
+            name: format!("{} by {}", observed.name, variation.name),
+            unit: per(&observed.unit, &variation.unit),
+            values: Vec::new(),
+        })
+    });
+    own.chain(derivatives).collect()
+}
+
+/// The run of a machine with unilateral contacts, whose derivatives are taken across each impact and each change of what is closed.
+fn across_impacts(
+    call: &call::Sensitivities,
+    machine: &InterpretedMachine,
+    method: &'static Method,
+    from: &State<Varied<Named>>,
+    variations: &[Variation],
+    observed: &[Observed],
+) -> Result<(Vec<f64>, Vec<Column>), Failure> {
+    let inputs = machine.prepare().default_inputs().values;
+    // Derivatives by numbers of size 1, so that one tolerance is as good for all of them.
+    let size = |variation: &Variation| {
+        let size = match variation.by {
+            By::Parameter(index) => machine.parameter_values()[index].abs(),
+            By::Input(index) => inputs[index].abs(),
+            By::Start(_) | By::StartRate(_) => 1.0,
+        };
+        if size > 0.0 { size } else { 1.0 }
+    };
+    let sizes: Vec<f64> = variations.iter().map(size).collect();
+    let direction = |(variation, size): (&Variation, &f64)| {
+        let mut direction = Direction::of_start(machine);
+        match variation.by {
+            By::Parameter(index) => direction.parameters[index] = *size,
+            By::Input(index) => direction.inputs[index] = *size,
+            By::Start(_) | By::StartRate(_) => {}
+        }
+        direction
+    };
+    let all = |list: &Varied<Named>| -> Vec<f64> {
+        let by = list.by.iter().zip(&sizes);
+        let by = by.flat_map(|(by, size)| by.values.iter().map(move |by| by * size));
+        list.value.values.iter().copied().chain(by).collect()
+    };
+    let start = State {
+        t: from.t,
+        q: all(&from.q),
+        v: all(&from.v),
+    };
+    let signals = Signals::default();
+    let wanted = across::Wanted {
+        machine,
+        signals: &signals,
+        directions: variations.iter().zip(&sizes).map(direction).collect(),
+        method,
+        tolerance: call.tolerance,
+        until: call.until,
+        most_steps: call.max_steps,
+    };
+    let failed = |error: lagrangian::Error| Failure::Run(verdict::said(&error));
+    let run = across::run(&wanted, &start).map_err(|why| match why {
+        NoDerivatives::Run(error) => failed(error),
+        broken => Failure::Run(broken.to_string()),
+    })?;
+    let n = machine.program().dimension();
+    let end = run.end();
+    if machine.prepare().constraints().len() > 0 {
+        let split = |list: &[f64]| Varied {
+            value: with_values(&from.q.value, &list[..n]),
+            by: (list[n..].chunks(n).zip(&sizes))
+                .map(|(by, size)| {
+                    let by: Vec<f64> = by.iter().map(|by| by / size).collect();
+                    with_values(&from.q.value, &by)
+                })
+                .collect(),
+        };
+        let end = State {
+            t: end.t,
+            q: split(&end.q),
+            v: split(&end.v),
+        };
+        check_drift(machine, &end, variations)?;
+    }
+    let interval = call.every.unwrap_or(call.until.abs() / SAMPLES);
+    let count = match call.until == from.t {
+        true => 0,
+        false => ((call.until - from.t) / interval * (1.0 - 1e-9)).floor() as usize,
+    };
+    let mut times: Vec<f64> = (0..=count).map(|k| from.t + k as f64 * interval).collect();
+    if call.until != from.t {
+        times.push(call.until);
+    }
+    let system = machine.prepare();
+    let mut columns = columns(variations, observed);
+    for t in &times {
+        let State { q, v, .. } = run.at(*t).map_err(failed)?;
+        let there = run.observe(*t, (&q, &v)).map_err(failed)?;
+        let u = &there.inputs.own.values;
+        let own = |list: &Vec<f64>| list[..n].to_vec();
+        let value = |observed: &Observed| match observed.of {
+            Of::Coordinate(i) => q[i],
+            Of::Rate(i) => v[i],
+            Of::Output(i) => system.output(i, *t, &own(&q), &own(&v), &own(&there.a), u),
+        };
+        let by = |observed: &Observed| -> Vec<f64> {
+            let part = |list: &[f64], i: usize| list[n..].chunks(n).map(|by| by[i]).collect();
+            let scaled: Vec<f64> = match observed.of {
+                Of::Coordinate(i) => part(&q, i),
+                Of::Rate(i) => part(&v, i),
+                Of::Output(i) => (there.system).output(i, *t, [&q, &v, &there.a], &there.inputs),
+            };
+            scaled
+                .iter()
+                .zip(&sizes)
+                .map(|(by, size)| by / size)
+                .collect()
+        };
+        let row = observed
+            .iter()
+            .map(value)
+            .chain(observed.iter().flat_map(by));
+        let row: Vec<f64> = row.collect();
+        for (column, value) in columns.iter_mut().zip(row) {
+            column.values.push(value);
+        }
+    }
+    Ok((times, columns))
+}
+
+fn with_values(like: &Named, values: &[f64]) -> Named {
+    let mut named = like.clone();
+    named.values.copy_from_slice(values);
+    named
 }
 
 /// The start of a run from a state, which the constraints move.

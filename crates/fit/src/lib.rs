@@ -11,6 +11,5 @@ pub mod least_squares;
 pub mod motion;
 pub mod searches;
 pub mod statistics;
-mod varied;
 
 pub use nalgebra::{DMatrix, DVector};

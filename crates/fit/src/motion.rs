@@ -6,13 +6,14 @@ use std::sync::Arc;
 use lagrangian::interpreted::{InterpretedMachine, Named, Signal, Signals};
 use lagrangian::methods::Method;
 use lagrangian::{Machine, Simulation, State, System};
+use lagrangian_linear::across::{self, NoDerivatives};
 use lagrangian_linear::starts;
+use lagrangian_linear::varied::{Direction, Varied, VariedInputs, VariedLaw, VariedSystem};
 use nalgebra::DMatrix;
 
 use crate::combinations::{Combination, combinations};
 use crate::least_squares::{Minimum, Options, Problem, Trouble, minimize};
 use crate::statistics::{Standing, Statistics};
-use crate::varied::{Direction, Varied, VariedLaw};
 
 /// What is fitted.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -203,9 +204,6 @@ impl Fit<'_> {
             let mut driven = experiment.signals.driven();
             if driven.any(|(_, signal)| matches!(signal, Signal::Function(_))) {
                 return Some("an input is a function that says nothing of its derivatives");
-            }
-            if !program.unilateral.is_empty() {
-                return Some("the machine has contacts");
             }
             (!program.contacts.is_empty()).then_some("the machine has sliding friction")
         });
@@ -517,16 +515,17 @@ impl Fit<'_> {
             .collect();
         // Derivatives by numbers of size 1, so that one tolerance is as good for all of them.
         let directions = here.iter().map(|j| {
-            let mut parameters = vec![0.0; machine.parameter_values().len()];
+            let mut direction = Direction::of_start(&machine);
             if let Subject::Parameter(index) = self.sought[*j].subject {
-                parameters[index] = sizes[*j];
+                direction.parameters[index] = sizes[*j];
             }
-            Direction { parameters }
+            direction
         });
         let varied = Varied {
             machine: &machine,
             directions: directions.collect(),
             signals: &own.signals,
+            phase: None,
         };
         let mut start = varied.start();
         let n = machine.program().dimension();
@@ -571,12 +570,63 @@ impl Fit<'_> {
             start.q[..n].copy_from_slice(&on.q.values);
             start.v[..n].copy_from_slice(&on.v.values);
         }
+        let at = |system: &VariedSystem,
+                  (t, q, v): (f64, &Vec<f64>, &Vec<f64>),
+                  (a, u): (&Vec<f64>, &VariedInputs)| {
+            let by = |column: &Column| -> Vec<f64> {
+                let scaled: Vec<f64> = match column.quantity {
+                    Quantity::Coordinate(i) => (1..=here.len()).map(|k| q[k * n + i]).collect(),
+                    Quantity::Rate(i) => (1..=here.len()).map(|k| v[k * n + i]).collect(),
+                    Quantity::Output(i) => system.output(i, t, [q, v, a], u),
+                };
+                let mut all = vec![0.0; sizes.len()];
+                for (j, by) in here.iter().zip(scaled) {
+                    all[*j] = by / sizes[*j];
+                }
+                all
+            };
+            Row {
+                values: Vec::new(),
+                by: own.columns.iter().map(by).collect(),
+            }
+        };
+        if !machine.program().unilateral.is_empty() {
+            let wanted = across::Wanted {
+                machine: &machine,
+                signals: &own.signals,
+                directions: varied.directions.clone(),
+                method: self.running.method,
+                tolerance: self.running.tolerance,
+                until: own.times.last().copied().unwrap_or(0.0),
+                most_steps: self.running.most_steps,
+            };
+            let run = across::run(&wanted, &start).map_err(|why| match why {
+                NoDerivatives::Run(error) => Lost::Trouble(self.trouble(own, error)),
+                broken => Lost::Held(broken.to_string()),
+            })?;
+            let row = |t: &f64| -> Result<Row, lagrangian::Error> {
+                let State { q, v, .. } = run.at(*t)?;
+                let observed = run.observe(*t, (&q, &v))?;
+                Ok(at(
+                    observed.system,
+                    (*t, &q, &v),
+                    (&observed.a, &observed.inputs),
+                ))
+            };
+            let rows: Result<Vec<Row>, _> = own.times.iter().map(row).collect();
+            let rows = rows.map_err(|error| self.trouble(own, error))?;
+            let off = match is_held {
+                true => self.off_constraints(experiment, x, run.end(), &here),
+                false => 0.0,
+            };
+            return self.checked(experiment, rows, off);
+        }
         let system = varied.prepare();
         let simulation = Simulation::new(&varied).law(VariedLaw(&own.signals));
         let simulation = self.set(simulation, own);
         let mut rows: Vec<Row> = Vec::with_capacity(own.times.len());
         let seen = &mut rows;
-        let (sizes, here, system) = (&sizes, &here, &system);
+        let (system, at) = (&system, &at);
         let run = simulation
             .each_step(move |step| {
                 while let Some(t) = due(&own.times, seen.len(), step.span()) {
@@ -587,40 +637,33 @@ impl Fit<'_> {
                         u = step.inputs(t, &q, &v);
                         step.accelerations((t, &q, &v), &u, &mut a)?;
                     }
-                    let by = |column: &Column| -> Vec<f64> {
-                        let scaled: Vec<f64> = match column.quantity {
-                            Quantity::Coordinate(i) => {
-                                (1..=here.len()).map(|k| q[k * n + i]).collect()
-                            }
-                            Quantity::Rate(i) => (1..=here.len()).map(|k| v[k * n + i]).collect(),
-                            Quantity::Output(i) => system.output(i, t, [&q, &v, &a], &u),
-                        };
-                        let mut all = vec![0.0; sizes.len()];
-                        for (j, by) in here.iter().zip(scaled) {
-                            all[*j] = by / sizes[*j];
-                        }
-                        all
-                    };
-                    seen.push(Row {
-                        values: Vec::new(),
-                        by: own.columns.iter().map(by).collect(),
-                    });
+                    seen.push(at(system, (t, &q, &v), (&a, &u)));
                 }
                 Ok(())
             })
             .run(start);
         let run = run.map_err(|error| self.trouble(own, error))?;
         let off = match is_held {
-            true => self.off_constraints(experiment, x, run.end(), here),
+            true => self.off_constraints(experiment, x, run.end(), &here),
             false => 0.0,
         };
+        self.checked(experiment, rows, off)
+    }
+
+    /// Rows with derivatives that are so far off constraints, if that is near enough.
+    fn checked(
+        &self,
+        experiment: usize,
+        rows: Vec<Row>,
+        off: f64,
+    ) -> Result<(Vec<Row>, f64), Lost> {
         // Where differences of runs, which are held on the constraints, are as exact, they are taken.
         if off.is_nan() || ELSEWHERE * off > self.exact_differences() {
             return Err(Lost::Held(format!(
                 "errors of steps move derivatives by {off:.1e} of their numbers off the constraints"
             )));
         }
-        Ok((self.whole(own, rows)?, off))
+        Ok((self.whole(&self.experiments[experiment], rows)?, off))
     }
 
     /// How far a motion and its derivatives by numbers of size 1 are off the constraints, as a share of their numbers.

@@ -26,14 +26,16 @@
 use std::f64::consts::TAU;
 use std::fmt;
 
-use lagrangian::interpreted::{InterpretedMachine, Named};
+use lagrangian::interpreted::{InterpretedMachine, Named, Signals};
 use lagrangian::{Crossing, Machine, Sensitive, Simulation, State, System};
 use lagrangian_units::{rate_name, state_of};
 use nalgebra::{Complex, DMatrix, DVector};
 
+use crate::across;
 use crate::chart::Chart;
 use crate::poles::poles;
 use crate::search::{MOST_STEPS, Wanted};
+use crate::varied::Direction;
 use crate::{starts, steady};
 
 /// Which period an orbit is to have.
@@ -249,6 +251,9 @@ impl fmt::Display for NoOrbit {
 
 impl std::error::Error for NoOrbit {}
 
+/// Steps between two changes of contacts.
+const MOST_STEPS_OF_PART: usize = 10_000_000;
+
 /// How often (E55) is solved at most.
 const MOST_ROUNDS: usize = 60;
 
@@ -293,19 +298,10 @@ struct Search<'a> {
 /// Why there is none.
 pub fn find(machine: &InterpretedMachine, sought: &Sought) -> Result<Orbit, NoOrbit> {
     let system = machine.prepare();
-    for (count, what) in [
-        (
-            system.contacts().len(),
-            "friction that sticks, which has no variational equations",
-        ),
-        (
-            system.unilateral_contacts().len(),
-            "contacts, which have no variational equations where they open and close",
-        ),
-    ] {
-        if count > 0 {
-            return Err(NoOrbit::Refused(format!("the machine has {what}")));
-        }
+    if system.contacts().len() > 0 {
+        return Err(NoOrbit::Refused(
+            "the machine has friction that sticks, which has no variational equations".into(),
+        ));
     }
     let n = sought.start.q.values.len();
     if n == 0 {
@@ -331,11 +327,15 @@ pub fn find(machine: &InterpretedMachine, sought: &Sought) -> Result<Orbit, NoOr
 
 impl Search<'_> {
     fn run(&self) -> Result<Orbit, NoOrbit> {
-        let drive = self.drives();
+        let drive = self.drives().and_then(|()| match self.walls_move() {
+            true => Err(Vec::new()),
+            false => Ok(()),
+        });
         let is_autonomous = drive.is_ok();
         let x = self.state()?;
         // Whether there are numbers that tell its neighbours.
         self.chart(&x)?;
+        self.check_open(&x)?;
         let (mut period, is_free) = match (self.sought.period, drive) {
             (Period::Given(period), _) => (period, false),
             (Period::Near(period), Ok(())) => (period, true),
@@ -386,6 +386,46 @@ impl Search<'_> {
             steps: MOST_STEPS,
         };
         steady::drives(self.machine, &self.sought.start.q.values, &wanted)
+    }
+
+    /// Gaps of contacts at a state, and the rates along normal and tangent that they have where the machine does not move.
+    fn walls(&self, t: f64, x: &DVector<f64>) -> Vec<f64> {
+        let system = self.machine.prepare();
+        let contacts = system.unilateral_contacts().len();
+        let q = x.as_slice()[..self.n].to_vec();
+        let (mut gaps, mut rates) = (vec![0.0; contacts], vec![0.0; 2 * contacts]);
+        system.gaps(t, &q, &mut gaps);
+        system.contact_rates(t, &q, &vec![0.0; self.n], &mut rates);
+        gaps.extend(rates);
+        gaps
+    }
+
+    /// Whether walls that contacts are with move by themselves.
+    fn walls_move(&self) -> bool {
+        let start = &self.sought.start;
+        let x = DVector::from_column_slice(&start.q.values);
+        let here = self.walls(start.t, &x);
+        let contacts = here.len() / 3;
+        [0.0, 0.37, 1.91, 17.3].into_iter().any(|later| {
+            let there = self.walls(start.t + later, &x);
+            there[contacts..].iter().any(|rate| *rate != 0.0)
+        })
+    }
+
+    /// An orbit begins where nothing touches: there its neighbours differ by every number of the state.
+    fn check_open(&self, x: &DVector<f64>) -> Result<(), NoOrbit> {
+        let system = self.machine.prepare();
+        let mut gaps = vec![0.0; system.unilateral_contacts().len()];
+        let q = x.as_slice()[..self.n].to_vec();
+        system.gaps(self.sought.start.t, &q, &mut gaps);
+        let mut contacts = system.unilateral_contacts().zip(&gaps);
+        match contacts.find(|(_, gap)| **gap <= 0.0) {
+            Some((contact, _)) => Err(NoOrbit::Refused(format!(
+                "the contact `{}` is closed at the start; start where nothing touches",
+                contact.name
+            ))),
+            None => Ok(()),
+        }
     }
 
     /// The start, on the constraints.
@@ -493,6 +533,9 @@ impl Search<'_> {
         let failed = |error: lagrangian::Error| NoOrbit::Run(error.to_string());
         let n = self.n;
         let system = self.machine.prepare();
+        if system.unilateral_contacts().len() > 0 {
+            return self.passage_with_contacts(chart, x, period, tolerance);
+        }
         let names: Vec<&str> = system.coordinates().map(|of| of.name).collect();
         let mut sensitive = Sensitive::new(self.machine).with_start_on_constraints();
         for &of in chart.picked() {
@@ -532,6 +575,71 @@ impl Search<'_> {
         let none = || NoOrbit::Run(format!("there are no accelerations at t = {t} s"));
         Ok(Passage {
             rate: chart.of(&self.rate(t, &there).ok_or_else(none)?),
+            x: there,
+            monodromy,
+        })
+    }
+
+    /// The same across impacts and other changes of contacts.
+    fn passage_with_contacts(
+        &self,
+        chart: &Chart,
+        x: &DVector<f64>,
+        period: f64,
+        tolerance: f64,
+    ) -> Result<Passage, NoOrbit> {
+        let (n, t) = (self.n, self.sought.start.t);
+        let spread = chart.spread(self.machine, t, x);
+        let spread = spread.map_err(|_| NoOrbit::Constraints)?;
+        let part = |rows: std::ops::Range<usize>| -> Vec<f64> {
+            let own = x
+                .rows_range(rows.clone())
+                .iter()
+                .copied()
+                .collect::<Vec<_>>();
+            let by = spread.column_iter();
+            let by = by.flat_map(|column| {
+                column
+                    .rows_range(rows.clone())
+                    .iter()
+                    .copied()
+                    .collect::<Vec<_>>()
+            });
+            own.into_iter().chain(by).collect()
+        };
+        let start = State {
+            t,
+            q: part(0..n),
+            v: part(n..2 * n),
+        };
+        let signals = Signals::default();
+        let wanted = across::Wanted {
+            machine: self.machine,
+            signals: &signals,
+            directions: vec![Direction::of_start(self.machine); chart.size()],
+            method: Default::default(),
+            tolerance,
+            until: t + period,
+            most_steps: MOST_STEPS_OF_PART,
+        };
+        let run = across::run(&wanted, &start).map_err(|why| NoOrbit::Run(why.to_string()))?;
+        let end = run.end();
+        let all = end.q[..n].iter().chain(&end.v[..n]).copied();
+        let there = DVector::from_iterator(2 * n, all);
+        let picked = chart.picked();
+        let monodromy = DMatrix::from_fn(picked.len(), picked.len(), |i, j| match picked[i] {
+            of if of < n => end.q[(j + 1) * n + of],
+            of => end.v[(j + 1) * n + of - n],
+        });
+        self.check_open(&there)?;
+        let none = || {
+            NoOrbit::Run(format!(
+                "there are no accelerations at t = {} s",
+                t + period
+            ))
+        };
+        Ok(Passage {
+            rate: chart.of(&self.rate(t + period, &there).ok_or_else(none)?),
             x: there,
             monodromy,
         })
@@ -680,6 +788,22 @@ impl Search<'_> {
                 // A period that is rounded, or a turn, moves a phase by its rounding; forces may grow with it.
                 (0..self.n).find(|k| off(k) > 1e-6 * size)
             };
+            if !is_autonomous {
+                // Walls that move are where they were a period ago, too.
+                let [here, there] = [t, t + period].map(|t| self.walls(t, &state));
+                let size = here.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+                let differs = |(here, there): (&f64, &f64)| (here - there).abs() > 1e-6 * size;
+                if let Some(k) = here.iter().zip(&there).position(|pair| differs(pair)) {
+                    let contacts = here.len() / 3;
+                    let contact = if k < contacts { k } else { (k - contacts) / 2 };
+                    let mut names = system.unilateral_contacts();
+                    let name = names.nth(contact).map_or("?", |contact| contact.name);
+                    return Err(NoOrbit::OtherPeriod(
+                        format!("what the contact `{name}` touches"),
+                        period,
+                    ));
+                }
+            }
             if !is_autonomous
                 && let Some(k) = self.rate(t + period, &state).as_ref().and_then(differs)
             {

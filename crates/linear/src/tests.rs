@@ -25,6 +25,15 @@ fn machine(name: &str) -> InterpretedMachine {
     of(&path.to_string_lossy(), &text)
 }
 
+/// A machine of the library with other values of parameters.
+pub(crate) fn machine_with(name: &str, set: &[(&str, f64)]) -> InterpretedMachine {
+    let mut machine = machine(name);
+    for (name, value) in set {
+        machine.set(name, *value).expect("a parameter");
+    }
+    machine
+}
+
 fn of(name: &str, text: &str) -> InterpretedMachine {
     let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
     let model = lagrangian_spec::model(&dag, name, text, &[], &mut Disk, &mut sources, &mut report);

@@ -1,11 +1,16 @@
-//! A machine's motion together with its derivatives by what is fitted, equation (I.14.5) of E. Hairer, S. P. Nørsett, G. Wanner,
-//! *Solving Ordinary Differential Equations I*, 2nd ed. 1993.
+//! A machine's motion together with its derivatives by whatever it depends on, equation (I.14.5) of E. Hairer, S. P. Nørsett,
+//! G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed. 1993.
 //!
 //! The proved program itself is evaluated over dual numbers, once for each direction in which the machine may change. So a
-//! direction is whatever the motion depends on: parameters, starts that follow from them, and the state by way of formulas
-//! that drive inputs; and the same numbers give derivatives of outputs. The spec needs no `derivatives`.
+//! direction is whatever the motion depends on: parameters, inputs, starts that follow from parameters, and the state by way of
+//! formulas that drive inputs; and the same numbers give derivatives of outputs. The spec needs no `derivatives`.
+//!
+//! Unilateral contacts are what they are in one phase of a run: what is closed is a constraint, what slips has friction in one
+//! direction. [`crate::across`] puts phases together.
 
-use std::sync::{Mutex, PoisonError};
+mod contacts;
+
+use std::sync::{Arc, Mutex, PoisonError};
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named, Signal, Signals};
 use lagrangian::{
@@ -14,26 +19,50 @@ use lagrangian::{
 use lagrangian_program::{Arguments, Interpreter, Role};
 use lagrangian_scalar::Dual;
 
-/// A direction in which a machine changes: by how much each of its parameters does.
+pub use contacts::{Layer, Phase};
+pub(crate) use contacts::{Place, Sought, add};
+
+/// A direction in which a machine changes: by how much each of its parameters does, and each input that nothing drives.
 #[derive(Clone, Debug)]
-pub(crate) struct Direction {
+pub struct Direction {
+    /// By how much each parameter changes.
     pub parameters: Vec<f64>,
+    /// By how much the value changes that each input has while nothing drives it.
+    pub inputs: Vec<f64>,
+}
+
+impl Direction {
+    /// A direction in which neither parameters nor inputs of a machine change: its start may.
+    pub fn of_start(machine: &InterpretedMachine) -> Direction {
+        Direction {
+            parameters: vec![0.0; machine.program().parameters.len()],
+            inputs: vec![0.0; machine.program().inputs.len()],
+        }
+    }
 }
 
 /// A machine that is run together with its derivatives.
 #[derive(Clone, Debug)]
-pub(crate) struct Varied<'m> {
+pub struct Varied<'m> {
+    /// The machine.
     pub machine: &'m InterpretedMachine,
+    /// In which directions it changes.
     pub directions: Vec<Direction>,
+    /// What drives its inputs.
     pub signals: &'m Signals,
+    /// What its unilateral contacts do; all of them are open where nothing is said.
+    pub phase: Option<Arc<Phase>>,
 }
 
 /// Its equations of motion. Vectors are the machine's own, one after another: the values, then the derivatives in each direction.
 #[derive(Debug)]
-pub(crate) struct VariedSystem {
+pub struct VariedSystem {
     system: InterpretedSystem,
     dimension: usize,
     names: Vec<(String, String)>,
+    phase: Option<Arc<Phase>>,
+    /// Derivatives of inputs that nothing drives, in each direction.
+    inputs: Vec<Vec<f64>>,
     /// The program with its parameters, for each direction.
     duals: Mutex<Vec<Interpreter<Dual<f64>>>>,
     /// Inputs that are formulas, with the numbers of these, in an order in which each reads only what was set before.
@@ -42,8 +71,10 @@ pub(crate) struct VariedSystem {
 
 /// Inputs with their derivatives in each direction.
 #[derive(Clone, Debug)]
-pub(crate) struct VariedInputs {
+pub struct VariedInputs {
+    /// The inputs.
     pub own: Named,
+    /// Their derivatives.
     pub by: Vec<Vec<f64>>,
 }
 
@@ -116,6 +147,8 @@ impl Machine for Varied<'_> {
                     .collect(),
             ),
             formulas: formulas.collect(),
+            phase: self.phase.clone(),
+            inputs: self.directions.iter().map(|of| of.inputs.clone()).collect(),
             system,
         }
     }
@@ -246,6 +279,20 @@ impl System for VariedSystem {
         a: &mut Vec<f64>,
     ) -> Result<(), Singular> {
         let n = self.dimension;
+        if let Some(phase) = self.phase.as_ref().filter(|phase| !phase.is_free()) {
+            for (k, interpreter) in self.interpreters().iter_mut().enumerate() {
+                let (q, v) = (self.part(q, k), self.part(v, k));
+                let u = duals(&u.own.values, &u.by[k]);
+                let state = [Dual::constant(t)].into_iter().chain(q).chain(v);
+                let mut at = Place::new(interpreter, state.collect(), &u, phase)?;
+                let reaction = at.reaction(phase, k)?;
+                for (i, dual) in reaction.a.iter().enumerate() {
+                    a[i] = dual.value;
+                    a[(k + 1) * n + i] = dual.derivative;
+                }
+            }
+            return Ok(());
+        }
         let mut own = vec![0.0; n];
         self.system
             .accelerations(t, &self.own(q), &self.own(v), &u.own, &mut own)?;
@@ -282,7 +329,7 @@ impl System for VariedSystem {
     fn default_inputs(&self) -> VariedInputs {
         let own = self.system.default_inputs();
         VariedInputs {
-            by: vec![vec![0.0; own.values.len()]; self.names.len() / self.dimension.max(1) - 1],
+            by: self.inputs.clone(),
             own,
         }
     }
@@ -304,7 +351,7 @@ impl System for VariedSystem {
 
 /// The signals of a machine, as those of the machine with its derivatives.
 #[derive(Clone, Debug)]
-pub(crate) struct VariedLaw<'m>(pub &'m Signals);
+pub struct VariedLaw<'m>(pub &'m Signals);
 
 impl InputLaw<VariedSystem> for VariedLaw<'_> {
     fn set(

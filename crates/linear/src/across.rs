@@ -1,0 +1,1048 @@
+//! How a run of a machine with unilateral contacts changes with what it depends on.
+//!
+//! Between two changes of the contacts a motion and its derivatives obey the variational equations of one machine
+//! ([`crate::varied`]). Where h(t, x) = 0 brings a change, the instant itself moves, by δt, and all that happens there is evaluated at
+//! the moved instant over dual numbers: with x⁻ before and x⁺ = R(t, x⁻) after, and ẋ⁻ and ẋ⁺ how fast the state changes,
+//!
+//! ```text
+//! δt = −(∂h/∂x δx⁻ + ∂h/∂s)/ḣ,   δx⁺ = d/ds R(t + δt, x⁻ + δx⁻ + ẋ⁻ δt) − ẋ⁺ δt                      (E66)
+//! ```
+//!
+//! (M. A. Aizerman, F. R. Gantmakher, *On the stability of periodic motions*, J. Appl. Math. Mech. 22 (1958) 1065–1078; R. I. Leine, H. Nijmeijer,
+//! *Dynamics and Bifurcations of Non-Smooth Mechanical Systems*, 2004, chapter 7.) R is the law of impact with the contacts that the
+//! run has found to press, stick and slip; without an impact it changes nothing.
+
+use std::fmt;
+use std::sync::Arc;
+
+use lagrangian::interpreted::{InterpretedMachine, Named, Signals};
+use lagrangian::{
+    Compliance, ContactImpact, ContactMode, ImpactLaw, ImpactOrder, InputLaw, Machine, Method,
+    PhaseCause, Simulation, Solution, State, System,
+};
+use lagrangian_program::Interpreter;
+use lagrangian_scalar::Dual;
+
+use crate::varied::{
+    Direction, Phase, Place, Sought, Varied, VariedInputs, VariedLaw, VariedSystem,
+};
+
+type Number = Dual<f64>;
+
+/// What would be penetrated without an impact is at least so many tolerances of the gap before it: else it grazes, and
+/// whether it happens at all is not known.
+const GRAZES: f64 = 100.0;
+
+/// Accelerations on both sides of a change that agree to this share of them go on without a jump, as far as a run of a usual
+/// tolerance can tell.
+const GOES_ON: f64 = 1e-6;
+
+/// Friction this close to the greatest that there is, relative to that, is used up.
+const SATURATED: f64 = 1e-10;
+
+/// Contacts that change the rates of each other by less than this share meet apart.
+const COUPLED: f64 = 1e-12;
+
+/// Derivatives below this share of the terms that they are the sum of are rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// What is run.
+#[derive(Clone, Debug)]
+pub struct Wanted<'m> {
+    /// The machine.
+    pub machine: &'m InterpretedMachine,
+    /// What drives its inputs.
+    pub signals: &'m Signals,
+    /// The directions in which it changes, best of such a length that derivatives are of the size of the motion: the tolerance is one.
+    pub directions: Vec<Direction>,
+    /// By which method.
+    pub method: &'static Method,
+    /// Relative and absolute, of motion and derivatives.
+    pub tolerance: f64,
+    /// Until when, in s.
+    pub until: f64,
+    /// How many steps a part between two changes may take, and the run itself.
+    pub most_steps: usize,
+}
+
+/// A run with its derivatives, in parts from one change of the contacts to the next.
+pub struct Across<'m> {
+    parts: Vec<Part<'m>>,
+    /// The state after the last change, if nothing follows it.
+    end: State<Vec<f64>>,
+    /// Changes that were passed.
+    changes: usize,
+}
+
+/// What there is beside a state.
+pub struct Observed<'a> {
+    /// The equations of motion, between two changes.
+    pub system: &'a VariedSystem,
+    /// Accelerations and their derivatives in each direction.
+    pub a: Vec<f64>,
+    /// Inputs with theirs.
+    pub inputs: VariedInputs,
+}
+
+/// Between two changes.
+struct Part<'m> {
+    from: f64,
+    law: VariedLaw<'m>,
+    run: Solution<Varied<'m>, VariedLaw<'m>>,
+}
+
+/// Why there are no derivatives.
+#[derive(Clone, Debug)]
+pub enum NoDerivatives {
+    /// A run ended early.
+    Run(lagrangian::Error),
+    /// The run has no derivatives: what stands in the way, and when.
+    Broken {
+        /// When, in s.
+        t: f64,
+        /// The contact.
+        contact: String,
+        /// Why.
+        why: &'static str,
+    },
+}
+
+impl fmt::Display for NoDerivatives {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NoDerivatives::Run(error) => write!(f, "{error}"),
+            NoDerivatives::Broken { t, contact, why } => write!(
+                f,
+                "the run has no derivatives from t = {t} s on: the contact `{contact}` {why}"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for NoDerivatives {}
+
+impl<'m> Across<'m> {
+    /// The state at a time within the run, and behind it its derivatives in each direction; at a change what follows it.
+    ///
+    /// # Errors
+    /// Where there is none.
+    pub fn at(&self, t: f64) -> Result<State<Vec<f64>>, lagrangian::Error> {
+        if t == self.end.t {
+            return Ok(self.end.clone());
+        }
+        match self.part(t) {
+            Some(part) => part.run.at(t),
+            None => Ok(self.end.clone()),
+        }
+    }
+
+    /// The state at the end of the run.
+    pub fn end(&self) -> &State<Vec<f64>> {
+        &self.end
+    }
+
+    /// How often contacts changed.
+    pub fn changes(&self) -> usize {
+        self.changes
+    }
+
+    /// Accelerations and inputs at a state of the run, which [`at`](Self::at) gives for this time.
+    ///
+    /// # Errors
+    /// Where there are none.
+    pub fn observe(
+        &self,
+        t: f64,
+        (q, v): (&Vec<f64>, &Vec<f64>),
+    ) -> Result<Observed<'_>, lagrangian::Error> {
+        let Some(part) = self.part(t) else {
+            return Err(lagrangian::Error::StepsForgotten);
+        };
+        let system = part.run.system();
+        let mut inputs = system.default_inputs();
+        part.law.set(system, t, q, v, &mut inputs);
+        let mut a = vec![0.0; q.len()];
+        system
+            .accelerations(t, q, v, &inputs, &mut a)
+            .map_err(|singular| {
+                let error = lagrangian::StepError::Singular { singular, t };
+                lagrangian::Error::of_step(error, system)
+            })?;
+        Ok(Observed { system, a, inputs })
+    }
+
+    fn part(&self, t: f64) -> Option<&Part<'m>> {
+        let after = self.parts.partition_point(|part| part.from <= t);
+        self.parts.get(after.saturating_sub(1))
+    }
+}
+
+/// Runs a machine with derivatives in some directions, from a start behind which those of the start stand.
+///
+/// # Errors
+/// Where the run ends early, or has no derivatives.
+pub fn run<'m>(wanted: &Wanted<'m>, start: &State<Vec<f64>>) -> Result<Across<'m>, NoDerivatives> {
+    let Wanted {
+        machine,
+        signals,
+        directions,
+        ..
+    } = wanted;
+    let system = machine.prepare();
+    if let Some(contact) = system.unilateral_contacts().find(|contact| contact.across) {
+        return Err(NoDerivatives::Broken {
+            t: start.t,
+            contact: contact.name.to_owned(),
+            why: "slips in two directions, and how that changes with the start is not known across changes of contacts",
+        });
+    }
+    let n = system.coordinates().len();
+    let mut own = machine.start();
+    own.t = start.t;
+    own.q.values.copy_from_slice(&start.q[..n]);
+    own.v.values.copy_from_slice(&start.v[..n]);
+    let base = Simulation::new(*machine)
+        .law((*signals).clone())
+        .tolerance(wanted.tolerance)
+        .method(wanted.method)
+        .until(wanted.until)
+        .max_steps(wanted.most_steps)
+        .run(own)
+        .map_err(NoDerivatives::Run)?;
+    let passing = Passing {
+        wanted,
+        names: system
+            .unilateral_contacts()
+            .map(|contact| contact.name.to_owned())
+            .collect(),
+        laws: system
+            .unilateral_contacts()
+            .map(|contact| (contact.law, contact.order))
+            .collect(),
+        n,
+        directions: directions.len(),
+        interpreters: std::cell::RefCell::new(interpreters(machine, directions)),
+    };
+    passing.run(&base, start.clone())
+}
+
+/// The program of a machine over numbers with a derivative in each direction.
+pub fn interpreters(
+    machine: &InterpretedMachine,
+    directions: &[Direction],
+) -> Vec<Interpreter<Number>> {
+    let of_direction = |direction: &Direction| {
+        let values = machine.parameter_values().iter();
+        let parameters: Vec<Number> = (values.zip(&direction.parameters))
+            .map(|(value, derivative)| Dual {
+                value: *value,
+                derivative: *derivative,
+            })
+            .collect();
+        Interpreter::new(machine.program(), &parameters)
+    };
+    directions.iter().map(of_direction).collect()
+}
+
+/// An impact of a contact, as the run told it.
+type Hit = (usize, ContactImpact);
+
+struct Passing<'w, 'm> {
+    wanted: &'w Wanted<'m>,
+    names: Vec<String>,
+    laws: Vec<(ImpactLaw, ImpactOrder)>,
+    n: usize,
+    directions: usize,
+    interpreters: std::cell::RefCell<Vec<Interpreter<Number>>>,
+}
+
+/// A change: when it is, what contacts do before and after it, and why.
+struct Change<'a> {
+    t: f64,
+    before: &'a Phase,
+    after: &'a mut Phase,
+    cause: PhaseCause,
+    hits: &'a [Hit],
+    ended: &'a [usize],
+    /// How far each gap opened since it was closed.
+    excursions: &'a [f64],
+}
+
+impl<'m> Passing<'_, 'm> {
+    fn run(
+        &self,
+        base: &Solution<InterpretedMachine, Signals>,
+        mut state: State<Vec<f64>>,
+    ) -> Result<Across<'m>, NoDerivatives> {
+        let system = base.system();
+        let mut phase = Phase::open(system, self.directions);
+        let mut parts: Vec<Part<'m>> = Vec::new();
+        let mut excursions = vec![0.0; phase.modes.len()];
+        let mut changes = 0;
+        let all: Vec<_> = base.contact_phases().collect();
+        for (index, told) in all.iter().enumerate() {
+            let ends = all.get(index + 1).map_or(base.end().t, |next| next.since);
+            let mut after = Phase {
+                modes: told.modes.to_vec(),
+                ..phase.clone()
+            };
+            for (layer, is_loaded) in after.layers.iter_mut().zip(&told.loaded) {
+                layer.is_loaded = *is_loaded;
+            }
+            // The values are those of the run itself.
+            let here = base.at(told.since).map_err(NoDerivatives::Run)?;
+            if index == 0 {
+                self.put_values(&mut state, &here);
+                self.check_start(&state, &after, &told.impacts)?;
+            } else {
+                let change = Change {
+                    t: told.since,
+                    before: &phase,
+                    after: &mut after,
+                    cause: told.cause,
+                    hits: &told.impacts,
+                    ended: told.ended,
+                    excursions: &excursions,
+                };
+                self.pass(change, &mut state, &here)?;
+                changes += 1;
+            }
+            phase = after;
+            for (k, excursion) in excursions.iter_mut().enumerate() {
+                if phase.is_closed(k) || told.impacts.iter().any(|(contact, _)| *contact == k) {
+                    *excursion = 0.0;
+                }
+            }
+            let is_last = index + 1 == all.len();
+            if ends > told.since || is_last && parts.is_empty() {
+                self.check_forces(&state, &phase)?;
+                let part = self.part(&phase, state.clone(), ends)?;
+                let mut gaps = vec![0.0; excursions.len()];
+                for t in [told.since, 0.5 * (told.since + ends), ends] {
+                    let at = part.run.at(t).map_err(NoDerivatives::Run)?;
+                    system.gaps(t, &at.q[..self.n].to_vec(), &mut gaps);
+                    for (excursion, gap) in excursions.iter_mut().zip(&gaps) {
+                        *excursion = excursion.max(gap.abs());
+                    }
+                }
+                state = part.run.end().clone();
+                parts.push(part);
+            }
+        }
+        Ok(Across {
+            parts,
+            end: state,
+            changes,
+        })
+    }
+
+    /// The motion from a state on, until contacts change.
+    fn part(
+        &self,
+        phase: &Phase,
+        start: State<Vec<f64>>,
+        until: f64,
+    ) -> Result<Part<'m>, NoDerivatives> {
+        let signals = self.wanted.signals;
+        let varied = Varied {
+            machine: self.wanted.machine,
+            directions: self.wanted.directions.clone(),
+            signals,
+            phase: Some(Arc::new(phase.clone())),
+        };
+        let from = start.t;
+        let run = Simulation::new(&varied)
+            .law(VariedLaw(signals))
+            .tolerance(self.wanted.tolerance)
+            .method(self.wanted.method)
+            .until(until)
+            .max_steps(self.wanted.most_steps)
+            .run(start);
+        let run = run.map_err(NoDerivatives::Run)?;
+        Ok(Part {
+            from,
+            law: VariedLaw(signals),
+            run,
+        })
+    }
+
+    fn broken(&self, t: f64, contact: usize, why: &'static str) -> NoDerivatives {
+        NoDerivatives::Broken {
+            t,
+            contact: self.names[contact].clone(),
+            why,
+        }
+    }
+
+    fn put_values(&self, state: &mut State<Vec<f64>>, own: &State<Named>) {
+        state.q[..self.n].copy_from_slice(&own.q.values);
+        state.v[..self.n].copy_from_slice(&own.v.values);
+    }
+
+    /// A list of time, coordinates and rates with their derivatives in a direction, where the instant moves by `by` and the state with it at
+    /// these accelerations.
+    fn moved(&self, state: &State<Vec<f64>>, direction: usize, by: f64, a: &[f64]) -> Vec<Number> {
+        let n = self.n;
+        let part = (direction + 1) * n;
+        let time = [Dual {
+            value: state.t,
+            derivative: by,
+        }];
+        let place = (0..n).map(|i| Dual {
+            value: state.q[i],
+            derivative: state.q[part + i] + state.v[i] * by,
+        });
+        let rate = (0..n).map(|i| Dual {
+            value: state.v[i],
+            derivative: state.v[part + i] + a[i] * by,
+        });
+        time.into_iter().chain(place).chain(rate).collect()
+    }
+
+    /// Evaluates something at a state in a direction.
+    fn place<T>(
+        &self,
+        state: Vec<Number>,
+        direction: usize,
+        phase: &Phase,
+        ask: impl FnOnce(&mut Place<'_>) -> Option<T>,
+    ) -> Option<T> {
+        let inputs = self.inputs(&state, direction);
+        let mut interpreters = self.interpreters.borrow_mut();
+        let interpreter = interpreters.get_mut(direction)?;
+        let mut place = Place::new(interpreter, state, &inputs, phase).ok()?;
+        ask(&mut place)
+    }
+
+    /// Inputs at a state, with their derivatives in a direction.
+    fn inputs(&self, state: &[Number], direction: usize) -> Vec<Number> {
+        let varied = Varied {
+            machine: self.wanted.machine,
+            directions: vec![self.wanted.directions[direction].clone()],
+            signals: self.wanted.signals,
+            phase: None,
+        };
+        let system = varied.prepare();
+        let n = self.n;
+        let both = |list: &[Number]| -> Vec<f64> {
+            let values = list.iter().map(|x| x.value);
+            values.chain(list.iter().map(|x| x.derivative)).collect()
+        };
+        let (q, v) = (both(&state[1..=n]), both(&state[n + 1..]));
+        let mut inputs = system.default_inputs();
+        VariedLaw(self.wanted.signals).set(&system, state[0].value, &q, &v, &mut inputs);
+        let own = inputs.own.values.iter().zip(&inputs.by[0]);
+        own.map(|(value, derivative)| Dual {
+            value: *value,
+            derivative: *derivative,
+        })
+        .collect()
+    }
+
+    /// Accelerations while everything stays as it is.
+    fn accelerations(&self, state: &State<Vec<f64>>, phase: &Phase) -> Option<Vec<f64>> {
+        let still = self.moved(state, 0, 0.0, &vec![0.0; self.n]);
+        self.place(still, 0, phase, |place| {
+            let reaction = place.reaction(phase, 0).ok()?;
+            Some(reaction.a.iter().map(|a| a.value).collect())
+        })
+    }
+
+    /// What contacts press is to be the only forces that go with the motion.
+    fn check_forces(&self, state: &State<Vec<f64>>, phase: &Phase) -> Result<(), NoDerivatives> {
+        if self.directions == 0 || phase.is_free() || self.accelerations(state, phase).is_some() {
+            return Ok(());
+        }
+        let closed = (0..phase.modes.len()).find(|k| phase.is_closed(*k));
+        Err(self.broken(
+            state.t,
+            closed.unwrap_or(0),
+            "shares its load with others in more than one way",
+        ))
+    }
+
+    /// A start that touches stays on what it touches.
+    fn check_start(
+        &self,
+        state: &State<Vec<f64>>,
+        phase: &Phase,
+        hits: &[Hit],
+    ) -> Result<(), NoDerivatives> {
+        if let Some((contact, _)) = hits.first() {
+            return Err(self.broken(
+                state.t,
+                *contact,
+                "has an impact at the start itself, before which there is no motion; start a little before it, or after it",
+            ));
+        }
+        for direction in 0..self.directions {
+            let still = self.moved(state, direction, 0.0, &vec![0.0; self.n]);
+            let size = still
+                .iter()
+                .fold(0.0_f64, |most, x| most.max(x.derivative.abs()));
+            let left = self.place(still, direction, phase, |place| {
+                let closed = (0..phase.modes.len()).filter(|k| phase.is_closed(*k));
+                let mut rigid = closed.filter(|k| phase.compliances[phase.presses(*k)].is_none());
+                Some(rigid.find(|&k| {
+                    let sticks = phase.modes[k] == ContactMode::Sticks && phase.rubs[k];
+                    let is_open = !phase.rolls[k]
+                        && (off(place.gaps[k], size) || off(place.rates[2 * k], size));
+                    is_open || sticks && off(place.rates[2 * k + 1], size)
+                }))
+            });
+            if let Some(Some(contact)) = left {
+                return Err(self.broken(
+                    state.t,
+                    contact,
+                    "touches at the start, and what is varied would open it, penetrate it or let it slip; start with it open",
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes derivatives past a change. `here` is the state after it.
+    fn pass(
+        &self,
+        change: Change<'_>,
+        state: &mut State<Vec<f64>>,
+        here: &State<Named>,
+    ) -> Result<(), NoDerivatives> {
+        if self.directions == 0 {
+            self.put_values(state, here);
+            return Ok(());
+        }
+        if change.hits.is_empty() {
+            return self.pass_without_impact(change, state, here);
+        }
+        let before = |k: usize| change.before.modes[k];
+        let mut closing: Vec<usize> = (change.hits.iter())
+            .filter(|(k, hit)| {
+                let is_own = !change.before.rolls[*k];
+                is_own && before(*k) == ContactMode::Open && hit.gap_rate[0] < 0.0
+            })
+            .map(|(k, _)| *k)
+            .collect();
+        closing.dedup();
+        let is_sequence = self.laws[change.hits[0].0].1 == ImpactOrder::Sequence;
+        let first = match closing.as_slice() {
+            [] => {
+                return Err(self.broken(
+                    change.t,
+                    change.hits[0].0,
+                    "has an impact without a gap that closes",
+                ));
+            }
+            [first] => *first,
+            [first, ..] if is_sequence => *first,
+            [first, second, ..] => {
+                let apart = (change.hits.len() == closing.len() && change.ended.is_empty())
+                    .then(|| self.meet_apart(&closing, state, change.before))
+                    .flatten();
+                if apart != Some(true) {
+                    return Err(self.broken(
+                        change.t,
+                        *second,
+                        "meets at the same instant as another, and which of both comes first matters",
+                    ));
+                }
+                *first
+            }
+        };
+        // Contacts that do not change each other's rates meet one after the other, in any order.
+        let apart: &[usize] = match is_sequence || closing.len() == 1 {
+            true => &[first],
+            false => &closing,
+        };
+        let mut phase = change.before.clone();
+        for (round, &contact) in apart.iter().enumerate() {
+            let is_last = round + 1 == apart.len();
+            let hits: Vec<Hit> = match apart.len() {
+                1 => change.hits.to_vec(),
+                _ => (change.hits.iter())
+                    .filter(|(k, _)| *k == contact)
+                    .copied()
+                    .collect(),
+            };
+            let mut next = phase.clone();
+            if is_last {
+                next = change.after.clone();
+            } else {
+                next.modes[contact] = change.after.modes[contact];
+            }
+            let ended: &[usize] = if is_last { change.ended } else { &[] };
+            self.meet(
+                contact,
+                (&phase, &mut next),
+                (&hits, ended),
+                change.excursions[contact],
+                state,
+            )?;
+            phase = next;
+        }
+        *change.after = phase;
+        // The law of impact over dual numbers and that of the run are to say the same.
+        let jump: f64 = (change.hits.iter())
+            .map(|(_, hit)| hit.gap_rate[0].abs() + hit.gap_rate[1].abs())
+            .fold(0.0, f64::max);
+        for (i, v) in here.v.values.iter().enumerate() {
+            let size = here
+                .v
+                .values
+                .iter()
+                .fold(0.0_f64, |most, v| most.max(v.abs()));
+            if (state.v[i] - v).abs() > 1e-3 * size.max(jump) {
+                return Err(self.broken(
+                    change.t,
+                    first,
+                    "meets others in several rounds at one instant",
+                ));
+            }
+        }
+        self.put_values(state, here);
+        Ok(())
+    }
+
+    /// Whether the impulses of contacts change no rates of each other.
+    fn meet_apart(
+        &self,
+        contacts: &[usize],
+        state: &State<Vec<f64>>,
+        phase: &Phase,
+    ) -> Option<bool> {
+        let still = self.moved(state, 0, 0.0, &vec![0.0; self.n]);
+        self.place(still, 0, phase, |place| {
+            let mut apart = true;
+            for &k in contacts {
+                for part in [0, 1] {
+                    let (change, _) = place.respond(&[], place.row(2 * k + part))?;
+                    let by = |direction: usize| {
+                        let terms = place.row(direction).iter().zip(&change);
+                        terms.fold([0.0; 2], |[sum, size], (w, by)| {
+                            let term = w.value * by.value;
+                            [sum + term, size + term.abs()]
+                        })
+                    };
+                    for &other in contacts.iter().filter(|other| **other != k) {
+                        for direction in [2 * other, 2 * other + 1] {
+                            let [sum, size] = by(direction);
+                            apart &= sum.abs() <= COUPLED * size;
+                        }
+                    }
+                }
+            }
+            Some(apart)
+        })
+    }
+
+    /// Takes derivatives past an impact that one closing gap brings.
+    fn meet(
+        &self,
+        contact: usize,
+        (before, after): (&Phase, &mut Phase),
+        (hits, ended): (&[Hit], &[usize]),
+        excursion: f64,
+        state: &mut State<Vec<f64>>,
+    ) -> Result<(), NoDerivatives> {
+        let t = state.t;
+        let broken = |contact: usize, why| self.broken(t, contact, why);
+        let no_forces = || broken(contact, "shares its load with others in more than one way");
+        let a_before = self.accelerations(state, before).ok_or_else(no_forces)?;
+        let (mut moved, mut shifts) = (Vec::new(), Vec::new());
+        for direction in 0..self.directions {
+            let still = self.moved(state, direction, 0.0, &a_before);
+            let [gap, rate, bend] = self
+                .place(still, direction, before, |place| {
+                    let a: Vec<Number> = a_before.iter().map(|a| Dual::constant(*a)).collect();
+                    let bend = place.acceleration(2 * contact, &a);
+                    Some([place.gaps[contact], place.rates[2 * contact], bend])
+                })
+                .ok_or_else(no_forces)?;
+            // How deep it would be penetrated if it were not for the impact.
+            let depth = 0.5 * rate.value * rate.value / bend.value.abs();
+            if rate.value >= 0.0 || depth < GRAZES * self.wanted.tolerance * excursion {
+                return Err(broken(
+                    contact,
+                    "is grazed: whether it is touched at all changes with what is varied",
+                ));
+            }
+            let by = -gap.derivative / rate.value;
+            let there = self.moved(state, direction, by, &a_before);
+            let v = self.place(there.clone(), direction, before, |place| {
+                Some(self.rates_after(place, (before, &*after), (hits, ended)))
+            });
+            let v = v
+                .ok_or_else(no_forces)?
+                .map_err(|(contact, why)| broken(contact, why))?;
+            moved.push((there, v));
+            shifts.push(by);
+        }
+        let n = self.n;
+        for (i, v) in moved[0].1.iter().enumerate() {
+            state.v[i] = v.value;
+        }
+        let places: Vec<Vec<Number>> = moved.iter().map(|(there, _)| there.clone()).collect();
+        self.load_layers(after, &places);
+        let a_after = self
+            .accelerations(state, after)
+            .ok_or_else(|| broken(contact, "shares its load with others in more than one way"))?;
+        for (direction, ((there, v), by)) in moved.into_iter().zip(shifts).enumerate() {
+            let part = (direction + 1) * n;
+            for i in 0..n {
+                state.q[part + i] = there[1 + i].derivative - v[i].value * by;
+                state.v[part + i] = v[i].derivative - a_after[i] * by;
+            }
+        }
+        Ok(())
+    }
+
+    /// The rates after an impact.
+    fn rates_after(
+        &self,
+        place: &mut Place<'_>,
+        (before, after): (&Phase, &Phase),
+        (hits, ended): (&[Hit], &[usize]),
+    ) -> Result<Vec<Number>, (usize, &'static str)> {
+        let is_sequence = hits.len() > 1 && self.laws[hits[0].0].1 == ImpactOrder::Sequence;
+        let rounds: Vec<&[Hit]> = match is_sequence {
+            true => hits.chunks(1).collect(),
+            false => vec![hits],
+        };
+        for round in rounds {
+            self.impact(place, (before, after), round)?;
+        }
+        if !ended.is_empty() {
+            // The last rates of bounces are dropped, without friction.
+            let mut sought = Vec::new();
+            for k in (0..after.modes.len()).filter(|k| after.is_closed(*k)) {
+                let rigid = after.compliances[after.presses(k)].is_none();
+                let stuck = before.modes[k] == ContactMode::Sticks && after.rubs[k];
+                for (part, is_held) in [(0, rigid && !after.rolls[k]), (1, rigid && stuck)] {
+                    if is_held {
+                        let row = place.row(2 * k + part).to_vec();
+                        sought.push(Sought {
+                            along: row.clone(),
+                            row,
+                            change: zero() - place.rates[2 * k + part],
+                        });
+                    }
+                }
+            }
+            self.push(place, &sought, &after.modes)
+                .ok_or((ended[0], "ends its bounces where several share a load"))?;
+        }
+        Ok(place.v.clone())
+    }
+
+    /// Changes rates by impulses along what is sought; returns the impulses.
+    fn push(
+        &self,
+        place: &mut Place<'_>,
+        sought: &[Sought],
+        modes: &[ContactMode],
+    ) -> Option<Vec<Number>> {
+        let (change, impulses) = place.respond(sought, &vec![zero(); self.n])?;
+        for (v, by) in place.v.iter_mut().zip(&change) {
+            *v = *v + *by;
+        }
+        for direction in 0..2 * modes.len() {
+            let row = place.row(direction).to_vec();
+            let by = row.iter().zip(&change);
+            let by = by.fold(zero(), |sum, (w, by)| sum + *w * *by);
+            place.rates[direction] = place.rates[direction] + by;
+        }
+        Some(impulses)
+    }
+
+    /// One impact of contacts that take part at once, by Newton's law with what the run found to press, stick and slip.
+    fn impact(
+        &self,
+        place: &mut Place<'_>,
+        (before, after): (&Phase, &Phase),
+        hits: &[Hit],
+    ) -> Result<(), (usize, &'static str)> {
+        let greatest = hits.iter().fold(0.0_f64, |most, (_, hit)| {
+            most.max(hit.impulse[0].abs()).max(hit.impulse[1].abs())
+        });
+        let one = Dual::constant(1.0);
+        let impulse_of = |k: usize| hits.iter().find(|(other, _)| *other == k);
+        // What presses, and what of it is at rest and has no impulse but goes on being closed.
+        let presses = |k: usize, hit: &ContactImpact| {
+            hit.impulse[0] > 1e-12 * greatest || before.is_closed(k) && after.is_closed(k)
+        };
+        let mut sought = Vec::new();
+        let mut idle = Vec::new();
+        for (k, hit) in hits.iter().filter(|(k, _)| !after.rolls[*k]) {
+            if !presses(*k, hit) {
+                continue;
+            }
+            if hit.impulse[0] <= 1e-12 * greatest {
+                idle.push((sought.len(), *k));
+            }
+            let [restitution, ..] = place.coefficients(*k);
+            let (law, _) = self.laws[*k];
+            let mut along = place.row(2 * k).to_vec();
+            let mut tangents = Vec::new();
+            for j in [*k, k + 1] {
+                let Some((_, own)) = impulse_of(j) else {
+                    continue;
+                };
+                if after.presses(j) != *k || !after.rubs[j] {
+                    continue;
+                }
+                if law != ImpactLaw::Newton {
+                    return Err((
+                        *k,
+                        "bounces with friction by another law than `newton`, which has no derivatives here",
+                    ));
+                }
+                let [_, tangential, friction, _] = place.coefficients(j);
+                let most = friction.value * hit.impulse[0];
+                let row = place.row(2 * j + 1).to_vec();
+                let is_idle = hit.impulse[0] <= 1e-12 * greatest;
+                let sticks = match is_idle {
+                    true => after.modes[j] == ContactMode::Sticks,
+                    false => own.impulse[1].abs() < most * (1.0 - SATURATED),
+                };
+                if sticks {
+                    let change = zero() - (one + tangential) * place.rates[2 * j + 1];
+                    tangents.push(Sought {
+                        along: row.clone(),
+                        row,
+                        change,
+                    });
+                } else {
+                    let sign = match after.modes[j] {
+                        ContactMode::Slides(sign) if is_idle => -sign,
+                        _ => own.impulse[1].signum(),
+                    };
+                    let left = own.slip[1] + tangential.value * own.slip[0];
+                    let size = own.slip[0].abs() + own.slip[1].abs();
+                    if !is_idle && most > 0.0 && left.abs() <= ROUNDING * size {
+                        return Err((*k, "is just between slipping and sticking in its impact"));
+                    }
+                    crate::varied::add(&mut along, Dual::constant(sign) * friction, &row);
+                }
+            }
+            if law != ImpactLaw::Newton && hits.len() > 1 && !self.is_alone(hits, *k) {
+                return Err((
+                    *k,
+                    "meets others by another law than `newton`, which has no derivatives here",
+                ));
+            }
+            sought.push(Sought {
+                along,
+                row: place.row(2 * k).to_vec(),
+                change: zero() - (one + restitution) * place.rates[2 * k],
+            });
+            sought.append(&mut tangents);
+        }
+        let impulses = self.push(place, &sought, &after.modes).ok_or((
+            hits[0].0,
+            "shares its impact with others in more than one way",
+        ))?;
+        let size = impulses
+            .iter()
+            .fold(0.0_f64, |most, x| most.max(x.derivative.abs()));
+        for (index, contact) in idle {
+            // On one side it would be pressed, on the other it would open.
+            if impulses[index].derivative.abs() > ROUNDING * size {
+                return Err((
+                    contact,
+                    "touches without an impulse while others meet, and would have one, or open, as what is varied changes",
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a contact is the only one that has an impulse.
+    fn is_alone(&self, hits: &[Hit], contact: usize) -> bool {
+        hits.iter()
+            .all(|(k, hit)| *k == contact || hit.impulse == [0.0; 2])
+    }
+
+    /// Takes derivatives past a change without an impact: of accelerations alone.
+    fn pass_without_impact(
+        &self,
+        change: Change<'_>,
+        state: &mut State<Vec<f64>>,
+        here: &State<Named>,
+    ) -> Result<(), NoDerivatives> {
+        let Change {
+            t,
+            before,
+            after,
+            cause,
+            ..
+        } = change;
+        let broken = |contact: usize, why| self.broken(t, contact, why);
+        let first = (0..before.modes.len()).find(|k| before.modes[*k] != after.modes[*k]);
+        let contact = match cause {
+            PhaseCause::Lifts(k)
+            | PhaseCause::Stops(k)
+            | PhaseCause::Breaks(k)
+            | PhaseCause::Presses(k)
+            | PhaseCause::Turns(k) => k,
+            PhaseCause::Stepped => {
+                return Err(broken(
+                    first.unwrap_or(0),
+                    "went on by time stepping, which finds no instants",
+                ));
+            }
+            _ => match first {
+                Some(k) => k,
+                None => {
+                    self.put_values(state, here);
+                    return Ok(());
+                }
+            },
+        };
+        let grazes = before.modes[contact] == ContactMode::Open
+            && after.is_closed(contact)
+            && after.compliances[after.presses(contact)].is_none();
+        if grazes {
+            return Err(broken(contact, "closes without a speed"));
+        }
+        let shared = || broken(contact, "shares its load with others in more than one way");
+        let a_before = self.accelerations(state, before).ok_or_else(shared)?;
+        self.put_values(state, here);
+        // Where a layer turns by itself its depth is greatest, and the same a moment later.
+        let still = |direction| self.moved(state, direction, 0.0, &vec![0.0; self.n]);
+        let places: Vec<Vec<Number>> = (0..self.directions).map(still).collect();
+        self.load_layers(after, &places);
+        let a_after = self.accelerations(state, after).ok_or_else(shared)?;
+        let jump = a_before.iter().zip(&a_after).map(|(a, b)| (a - b).abs());
+        let jump = jump.fold(0.0, f64::max);
+        let size = (a_before.iter().chain(&a_after)).fold(0.0_f64, |most, a| most.max(a.abs()));
+        if jump <= GOES_ON * size {
+            return Ok(());
+        }
+        if cause == PhaseCause::Asked {
+            return Err(broken(
+                contact,
+                "changes where forces jump, for no cause that is known",
+            ));
+        }
+        // Several slips that stop at one instant are one event only if they always do so together.
+        let stops = |k: &usize| match (before.modes[*k], after.modes[*k]) {
+            (ContactMode::Slides(from), ContactMode::Sticks) => from != 0.0,
+            (ContactMode::Slides(from), ContactMode::Slides(to)) => from != to && from != 0.0,
+            _ => false,
+        };
+        let others: Vec<usize> = (0..before.modes.len())
+            .filter(stops)
+            .filter(|k| *k != contact)
+            .collect();
+        if matches!(cause, PhaseCause::Breaks(_) | PhaseCause::Lifts(_))
+            && !self.wanted.signals.is_empty()
+        {
+            return Err(broken(
+                contact,
+                "changes where forces jump, by a force that a driven input has a part in",
+            ));
+        }
+        let mut shifts = Vec::new();
+        for direction in 0..self.directions {
+            let along = |by: f64| self.moved(state, direction, by, &a_before);
+            let of = |list: Vec<Number>, contact: usize, interpreter: usize| {
+                self.place(list, interpreter, before, |place| {
+                    self.margin(place, (before, cause), contact, interpreter)
+                })
+            };
+            // What a moved instant adds is the derivative along the motion, ḣ.
+            let moves = |contact: usize| -> Option<f64> {
+                let changes = of(along(0.0), contact, direction)?.derivative;
+                let with_time = of(along(1.0), contact, direction)?.derivative;
+                Some(-changes / (with_time - changes))
+            };
+            let by = moves(contact).filter(|by| by.is_finite()).ok_or_else(|| {
+                broken(
+                    contact,
+                    "changes at an instant that what is varied moves beyond all bounds",
+                )
+            })?;
+            for &other in &others {
+                let together = moves(other).is_some_and(|of_other| {
+                    (of_other - by).abs() <= 1e-6 * (by.abs() + of_other.abs())
+                });
+                if !together {
+                    return Err(broken(
+                        other,
+                        "stops slipping at the same instant as another by chance",
+                    ));
+                }
+            }
+            shifts.push(by);
+        }
+        for (direction, by) in shifts.into_iter().enumerate() {
+            let part = (direction + 1) * self.n;
+            for i in 0..self.n {
+                state.v[part + i] += (a_before[i] - a_after[i]) * by;
+            }
+        }
+        Ok(())
+    }
+
+    /// What becomes 0 where a contact changes.
+    fn margin(
+        &self,
+        place: &mut Place<'_>,
+        (before, cause): (&Phase, PhaseCause),
+        contact: usize,
+        direction: usize,
+    ) -> Option<Number> {
+        match cause {
+            PhaseCause::Presses(_) => Some(place.gaps[contact]),
+            PhaseCause::Lifts(_) | PhaseCause::Breaks(_) => {
+                let [.., most] = place.coefficients(contact);
+                let reaction = place.reaction(before, direction).ok()?;
+                let [normal, tangential] = reaction.forces[contact];
+                let normal = match before.rolls[contact] {
+                    true => reaction.forces[contact - 1][0],
+                    false => normal,
+                };
+                match cause {
+                    PhaseCause::Lifts(_) => Some(normal),
+                    _ => {
+                        let sign = Dual::constant(tangential.value.signum());
+                        Some(most * normal - sign * tangential)
+                    }
+                }
+            }
+            _ => Some(place.rates[2 * contact + 1]),
+        }
+    }
+
+    /// Layers that are unloaded from now on were pressed to where they are at the instant of the change, in each direction.
+    fn load_layers(&self, after: &mut Phase, places: &[Vec<Number>]) {
+        let is_layer = |k: &usize| after.compliances[*k] == Some(Compliance::Layer);
+        let layers: Vec<usize> = (0..after.modes.len()).filter(is_layer).collect();
+        for k in layers {
+            for (direction, there) in places.iter().enumerate() {
+                let depth = self.place(there.clone(), direction, after, |place| {
+                    Some(place.depth(k))
+                });
+                let layer = &mut after.layers[k];
+                if let Some(depth) = depth
+                    && depth.value >= layer.depth[direction].value
+                    && !layer.is_loaded
+                {
+                    layer.depth[direction] = depth;
+                }
+            }
+        }
+    }
+}
+
+fn zero() -> Number {
+    Dual::constant(0.0)
+}
+
+/// Whether a derivative is beyond the rounding of a direction of this size.
+fn off(x: Number, size: f64) -> bool {
+    x.derivative.abs() > ROUNDING * size
+}
+
+#[cfg(test)]
+mod tests;
