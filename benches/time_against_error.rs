@@ -31,6 +31,9 @@ mod in_series {
         machine ElasticPendulum extends "../machines/elastic_pendulum.machine" { methods { taylor } }
     }
     lagrangian::machine! {
+        machine ChainOf8 extends "../machines/chain.machine" { methods { taylor } }
+    }
+    lagrangian::machine! {
         machine FourBar extends "../machines/four_bar.machine" { methods { taylor } }
     }
     lagrangian::machine! {
@@ -255,6 +258,7 @@ fn main() {
     call.race("elastic_pendulum", &elastic);
     let stiff = in_series::ElasticPendulum { k: 4e6, ..elastic };
     call.race("stiff_spring_pendulum", &stiff);
+    call.race("chain_8", &in_series::ChainOf8::default());
     call.race("four_bar", &in_series::FourBar::default());
     call.race("closed_pendulum", &in_series::ClosedPendulum::default());
     call.race("andrews_squeezer", &AndrewsSqueezer::default());

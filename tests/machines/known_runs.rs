@@ -87,6 +87,7 @@ fn andrews_squeezer_ends_where_the_test_set_says() {
 fn runs_of_the_library_end_at_the_references() {
     for name in [
         "andrews_squeezer",
+        "chain_8",
         "closed_pendulum",
         "crusher",
         "double_pendulum_regular",

@@ -81,62 +81,58 @@ def double_pendulum(over, _t, q, v):
     )
 
 
-def crusher(stiffer):
+def crusher(over, t, q, v):
     """Newton's law for each body: Jacobians and the accelerations that stay where those of coordinates vanish."""
-
-    def equations(over, t, q, v):
-        m, J, m0, e, x0, y0, w = map(over.number, (450.0, 60.0, 25.0, 0.04, 0.10, -0.25, 100.0))
-        m1, J1, m2, J2 = map(over.number, (120.0, 2.4, 60.0, 0.5))
-        cx, cy, xc, yc = map(over.number, (2e5 * stiffer, 1.6e5 * stiffer, 0.35, -0.05))
-        bx, by, xb, yb = map(over.number, (400.0, 350.0, 0.35, 0.04))
-        k1, d1, r1, k2, d2, r2 = map(over.number, (5e4, 60.0, 0.15, 2e4, 30.0, 0.10))
-        (st, ct), (n1, c1), (n2, c2), (sw, cw) = map(over.sin_cos, (q[2], q[4], q[7], w * t))
-        px, py = x0 * ct - y0 * st, x0 * st + y0 * ct
-        s1, s2 = q[3], q[6]
-        spin = v[2] * v[2]
-        zeros = lambda: [0] * 9
-        row = lambda entries: [entries.get(i, 0) for i in range(9)]
-        mortar = (
-            row({0: 1, 3: c1, 4: -1 * (s1 * n1)}),
-            row({1: 1, 3: n1, 4: s1 * c1}),
-            -1 * ((s1 * (v[4] * v[4])) * c1) - 2 * ((v[3] * v[4]) * n1),
-            -1 * ((s1 * (v[4] * v[4])) * n1) + 2 * ((v[3] * v[4]) * c1),
-        )
-        relative = (
-            -1 * ((s2 * (v[7] * v[7])) * c2) - 2 * ((v[6] * v[7]) * n2),
-            -1 * ((s2 * (v[7] * v[7])) * n2) + 2 * ((v[6] * v[7]) * c2),
-        )
-        pestle = (
-            [*mortar[0][:6], c2, -1 * (s2 * n2), 0],
-            [*mortar[1][:6], n2, s2 * c2, 0],
-            mortar[2] + relative[0],
-            mortar[3] + relative[1],
-        )
-        debalance = (
-            row({0: 1, 2: -1 * py}),
-            row({1: 1, 2: px}),
-            -1 * (px * spin) - (e * w * w) * cw,
-            -1 * (py * spin) - (e * w * w) * sw,
-        )
-        matrix, force = [zeros() for _ in range(9)], zeros()
-        matrix[0][0] = matrix[1][1] = m
-        for mass, (jx, jy, ax, ay) in ((m0, debalance), (m1, mortar), (m2, pestle)):
-            for i in range(9):
-                force[i] = force[i] - mass * (jx[i] * ax + jy[i] * ay)
-                for j in range(9):
-                    matrix[i][j] = matrix[i][j] + mass * (jx[i] * jx[j] + jy[i] * jy[j])
-        for i, inertia in ((2, J), (5, J1), (8, J2)):
-            matrix[i][i] = matrix[i][i] + inertia
-        along_x, along_y = cx * (q[0] - yc * q[2]), cy * (q[1] + xc * q[2])
-        damp_x, damp_y = bx * (v[0] - yb * v[2]), by * (v[1] + xb * v[2])
-        force[0] = force[0] - along_x - damp_x
-        force[1] = force[1] - along_y - damp_y
-        force[2] = force[2] + yc * along_x - xc * along_y + yb * damp_x - xb * damp_y
-        force[3] = force[3] - k1 * (s1 - r1) - d1 * v[3]
-        force[6] = force[6] - k2 * (s2 - r2) - d2 * v[6]
-        return matrix, force
-
-    return equations
+    m, J, m0, e, x0, y0, w = map(over.number, (450.0, 60.0, 25.0, 0.04, 0.10, -0.25, 100.0))
+    m1, J1, m2, J2 = map(over.number, (120.0, 2.4, 60.0, 0.5))
+    cx, cy, xc, yc = map(over.number, (2e5, 1.6e5, 0.35, -0.05))
+    bx, by, xb, yb = map(over.number, (400.0, 350.0, 0.35, 0.04))
+    k1, d1, r1, k2, d2, r2 = map(over.number, (5e4, 60.0, 0.15, 2e4, 30.0, 0.10))
+    (st, ct), (n1, c1), (n2, c2), (sw, cw) = map(over.sin_cos, (q[2], q[4], q[7], w * t))
+    px, py = x0 * ct - y0 * st, x0 * st + y0 * ct
+    s1, s2 = q[3], q[6]
+    spin = v[2] * v[2]
+    zeros = lambda: [0] * 9
+    row = lambda entries: [entries.get(i, 0) for i in range(9)]
+    mortar = (
+        row({0: 1, 3: c1, 4: -1 * (s1 * n1)}),
+        row({1: 1, 3: n1, 4: s1 * c1}),
+        -1 * ((s1 * (v[4] * v[4])) * c1) - 2 * ((v[3] * v[4]) * n1),
+        -1 * ((s1 * (v[4] * v[4])) * n1) + 2 * ((v[3] * v[4]) * c1),
+    )
+    relative = (
+        -1 * ((s2 * (v[7] * v[7])) * c2) - 2 * ((v[6] * v[7]) * n2),
+        -1 * ((s2 * (v[7] * v[7])) * n2) + 2 * ((v[6] * v[7]) * c2),
+    )
+    pestle = (
+        [*mortar[0][:6], c2, -1 * (s2 * n2), 0],
+        [*mortar[1][:6], n2, s2 * c2, 0],
+        mortar[2] + relative[0],
+        mortar[3] + relative[1],
+    )
+    debalance = (
+        row({0: 1, 2: -1 * py}),
+        row({1: 1, 2: px}),
+        -1 * (px * spin) - (e * w * w) * cw,
+        -1 * (py * spin) - (e * w * w) * sw,
+    )
+    matrix, force = [zeros() for _ in range(9)], zeros()
+    matrix[0][0] = matrix[1][1] = m
+    for mass, (jx, jy, ax, ay) in ((m0, debalance), (m1, mortar), (m2, pestle)):
+        for i in range(9):
+            force[i] = force[i] - mass * (jx[i] * ax + jy[i] * ay)
+            for j in range(9):
+                matrix[i][j] = matrix[i][j] + mass * (jx[i] * jx[j] + jy[i] * jy[j])
+    for i, inertia in ((2, J), (5, J1), (8, J2)):
+        matrix[i][i] = matrix[i][i] + inertia
+    along_x, along_y = cx * (q[0] - yc * q[2]), cy * (q[1] + xc * q[2])
+    damp_x, damp_y = bx * (v[0] - yb * v[2]), by * (v[1] + xb * v[2])
+    force[0] = force[0] - along_x - damp_x
+    force[1] = force[1] - along_y - damp_y
+    force[2] = force[2] + yc * along_x - xc * along_y + yb * damp_x - xb * damp_y
+    force[3] = force[3] - k1 * (s1 - r1) - d1 * v[3]
+    force[6] = force[6] - k2 * (s2 - r2) - d2 * v[6]
+    return matrix, force
 
 
 def heavy_top(over, _t, q, v):
@@ -197,71 +193,6 @@ def chain(n):
         return matrix, force
 
     return equations
-
-
-def cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
-def dot(a, b):
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def plus(*vectors):
-    return [sum(parts) for parts in zip(*vectors)]
-
-
-def times(rows, vector):
-    return [dot(row, vector) for row in rows]
-
-
-def six_joint_arm(over, _t, q, v):
-    """The principle of virtual power in the ground frame, motors at rest."""
-    h, a, b, c, g, friction = map(over.number, (0.35, 0.40, 0.42, 0.10, 9.81, 0.4))
-    number = lambda *all: [over.number(x) for x in all]
-    links = [
-        # axis, shift before it, mass, centre in the frame, inertia xx yy zz xy xz yz
-        ("z", [0, 0, 0], 12.0, [over.number(0), over.number(-0.01), h / 2], (0.25, 0.25, 0.06, 0, 0, 0)),
-        ("y", [0, 0, h], 9.0, [over.number(0), over.number(0.03), a / 2], (0.13, 0.13, 0.02, 0, 0, 0)),
-        ("y", [0, 0, a], 6.0, [over.number(0.01), over.number(0), b / 2], (0.09, 0.09, 0.01, 0, 0, 0.002)),
-        ("z", [0, 0, b], 1.5, number(0, 0, 0), (0.003, 0.003, 0.002, 0, 0, 0)),
-        ("y", [0, 0, 0], 1.0, [over.number(0), over.number(0), c / 2], (0.002, 0.002, 0.001, 0, 0, 0)),
-        ("z", [0, 0, c], 5.2, number(0.03, 0, 0.08), (0.02, 0.02, 0.01, 0.001, 0, 0)),
-    ]
-    rotation = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
-    origin, omega, alpha, acceleration = ([0, 0, 0] for _ in range(4))
-    matrix, force = [[0] * 6 for _ in range(6)], [-friction * rate for rate in v]
-    axes, origins = [], []
-    for i, (axis, shift, mass, centre, (xx, yy, zz, xy, xz, yz)) in enumerate(links):
-        arm = times(rotation, shift)
-        acceleration = plus(acceleration, cross(alpha, arm), cross(omega, cross(omega, arm)))
-        origin = plus(origin, arm)
-        unit = times(rotation, [int(axis == "x"), int(axis == "y"), int(axis == "z")])
-        s, c = over.sin_cos(q[i])
-        turn = [[c, 0, s], [0, 1, 0], [-1 * s, 0, c]] if axis == "y" else [[c, -1 * s, 0], [s, c, 0], [0, 0, 1]]
-        rotation = [[sum(row[k] * turn[k][j] for k in range(3)) for j in range(3)] for row in rotation]
-        alpha = plus(alpha, cross(omega, [part * v[i] for part in unit]))
-        omega = plus(omega, [part * v[i] for part in unit])
-        axes.append(unit)
-        origins.append(origin)
-        m = over.number(mass)
-        to_centre = times(rotation, centre)
-        at = plus(origin, to_centre)
-        free = plus(acceleration, cross(alpha, to_centre), cross(omega, cross(omega, to_centre)), [0, 0, g])
-        local = [number(xx, xy, xz), number(xy, yy, yz), number(xz, yz, zz)]
-        half = [times(local, row) for row in rotation]
-        tensor = [[dot(row, other) for other in rotation] for row in half]
-        moment = plus(times(tensor, alpha), cross(omega, times(tensor, omega)))
-        columns = [cross(axes[k], plus(at, [-1 * x for x in origins[k]])) for k in range(i + 1)]
-        for k in range(i + 1):
-            force[k] = force[k] - m * dot(columns[k], free) - dot(axes[k], moment)
-            spun = times(tensor, axes[k])
-            for j in range(k + 1):
-                entry = m * dot(columns[k], columns[j]) + dot(axes[j], spun)
-                matrix[k][j] = matrix[k][j] + entry
-                if j != k:
-                    matrix[j][k] = matrix[j][k] + entry
-    return matrix, force
 
 
 def four_bar(over, _t, q, v):
@@ -364,11 +295,12 @@ CRUSHER_SCALES = [0.02, 0.02, 0.1, 0.03, math.pi, math.pi, 0.02, math.pi, math.p
 PROBLEMS = {
     "double_pendulum_regular": ("double_pendulum", "", double_pendulum, [0.3, 0.5, 0.0, 0.0], 100.0, None),
     "double_pendulum_chaotic": ("double_pendulum", "", double_pendulum, [2.0, 2.5, 0.0, 0.0], 10.0, None),
-    "crusher": ("crusher9", "", crusher(1), CRUSHER_START, 5.0, CRUSHER_SCALES),
+    "crusher": ("crusher9", "", crusher, CRUSHER_START, 5.0, CRUSHER_SCALES),
     "heavy_top": ("heavy_top", "", heavy_top, [math.pi, 1.2, 0.0, 0.5, 0.3, 150.0], 2.0, None),
     "spherical_pendulum": ("spherical_pendulum", "", spherical_pendulum, [0.0, math.pi / 3, 3.0, 0.0], 50.0, None),
     "elastic_pendulum": ("elastic_pendulum", "", elastic_pendulum(39.24), [1.2, 0.1, 0.0, 0.0], 50.0, None),
     "stiff_spring_pendulum": ("elastic_pendulum", "k=4e6", elastic_pendulum(4e6), [0.751, 1.0, 0.0, 0.0], 1.0, None),
+    "chain_8": ("chain", "", chain(8), [0.3] * 8 + [0.0] * 8, 1.0, None),
     "four_bar": ("four_bar", "", four_bar, None, 10.0, None),
     "andrews_squeezer": ("andrews_squeezer", "", andrews, None, 0.03, None),
     "closed_pendulum": ("closed_pendulum", "", closed_pendulum, None, 2.0, None),

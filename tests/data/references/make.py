@@ -22,9 +22,8 @@ from pathlib import Path
 
 import gmpy2
 import mpmath
-from gmpy2 import mpfr
-
 from equations import ANDREWS, PROBLEMS, andrews_loops
+from gmpy2 import mpfr
 
 FOLDER = Path(__file__).resolve().parent
 # Coefficients, bits, and the size of the last terms of a step.
