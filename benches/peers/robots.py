@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Real robots from their files of URDF: our accelerations beside Pinocchio's, and the time of our code beside its generated code.
 
-    target/peers/python/bin/python benches/peers/robots.py target/release/lagrangian [--only xarm7,g1] [--ball zyx|quaternion]
+    target/peers/python/bin/python benches/peers/robots.py target/release/lagrangian [--only xarm7,g1] [--ball zyx]
         [--states 20] [--no-times]
 
 README.md says what is measured, and names the robots with their licences.
@@ -219,7 +219,7 @@ def times(name, machine, command, ball, work):
     ours = work / f"{name}_ours.bin"
     write_task(ours, parameters, [[q[n] for n in names] + [v[n] for n in names] + [0.0] for q, v, _, _ in states])
     library = work / f"lib{name}.so"
-    shell([command, "library", machine, "--out", library])
+    shell([command, "library", machine, "--lanes", "4,8", "--out", library])
     derive = seconds_of([command, "derive", machine, "--as", "rust", "--out", work / f"{name}.rs"])
     timing = work / "timing"
     shell(["gcc", "-O2", "-o", timing, HERE / "timing.c", "-ldl", "-lm"])
@@ -250,7 +250,7 @@ def main():
     words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     words.add_argument("command", help="the command `lagrangian`")
     words.add_argument("--only", default=",".join(ROBOTS))
-    words.add_argument("--ball", default="zyx", choices=["zyx", "quaternion"])
+    words.add_argument("--ball", default="zyx", choices=["zyx"])
     words.add_argument("--states", type=int, default=20)
     words.add_argument("--no-times", action="store_true")
     call = words.parse_args()
