@@ -208,7 +208,7 @@ fn newtons_pendulum_is_resisted_as_he_found() {
         .collect();
     let mut call = vec![spec.path(), "--fit", "a,b,c", "--sigma", "swing=0.1"];
     for data in &data {
-        call.extend(["--data", data]);
+        call.extend(["--data", data.as_str()]);
     }
     let [(a, _), (b, _), (c, _)] = estimates(&fit(&call))[..] else {
         panic!("three are fitted");

@@ -148,27 +148,18 @@ impl<'d> Chapter<'_, 'd> {
         vec![Block::Paragraph(words), Block::Formula(rows)]
     }
 
-    /// What acts where things touch, of which the equations without it know nothing.
+    /// What acts beside all that the equations without it know of. Of unilateral contacts it is said where they are told that all
+    /// else is said of the machine while they are open.
     fn touching(&self) -> Option<&'static str> {
-        let equations = &self.compiled.equations;
-        if !equations.unilateral.is_empty() {
-            return Some("contact");
-        }
-        let rubs = equations.sliding.iter().any(|one| !one.friction.is_zero());
+        let mut sliding = self.compiled.equations.sliding.iter();
+        let rubs = sliding.any(|one| !one.friction.is_zero());
         rubs.then_some("friction in the guides")
     }
 
     /// Whether that acts on a coordinate.
     fn is_touched(&self, coordinate: usize) -> bool {
-        let equations = &self.compiled.equations;
-        let directions = equations.unilateral.iter().flat_map(|one| &one.directions);
-        let rows = directions.map(|direction| &direction.row);
-        let rubbing = equations
-            .sliding
-            .iter()
-            .filter(|one| !one.friction.is_zero());
-        let rows = rows.chain(rubbing.map(|one| &one.row));
-        rows.into_iter().any(|row| !row[coordinate].is_zero())
+        let mut sliding = self.compiled.equations.sliding.iter();
+        sliding.any(|one| !one.friction.is_zero() && !one.row[coordinate].is_zero())
     }
 
     /// `Σ Mᵢⱼ vⱼ`, and what is driven.
