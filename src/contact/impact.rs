@@ -427,6 +427,22 @@ impl Touching {
         (0..here.gaps.len()).map(rests).collect()
     }
 
+    /// Whether the slip of a contact is rounding, if that has two directions.
+    pub fn is_slow<S: System>(
+        &self,
+        system: &S,
+        (t, q, v): (f64, &S::Vector, &S::Vector),
+        contact: usize,
+    ) -> bool {
+        if !self.has_two_tangents(contact) {
+            return true;
+        }
+        let here = Here::of(system, t, q, v);
+        let [slip, rounding] = self.slip(&here, contact);
+        let least = rounding[0].hypot(rounding[1]).max(1e-12 * self.speed);
+        slip[0].hypot(slip[1]) <= STOPPED * least
+    }
+
     /// Whether a contact that skids has come to rest where its slip is at right angles to what it was when the step began: then it
     /// is what the step has left of it, and not a turn.
     pub fn has_stopped<S: System>(
@@ -440,11 +456,11 @@ impl Touching {
         };
         let (t, q, v, _) = at;
         let here = Here::of(system, t, q, v);
-        let [slip, rounding] = self.slip(&here, contact);
-        let speed = slip[0].hypot(slip[1]);
-        if speed <= STOPPED * rounding[0].hypot(rounding[1]).max(1e-12 * self.speed) {
+        if self.is_slow(system, (t, q, v), contact) {
             return Ok(true);
         }
+        let [slip, _] = self.slip(&here, contact);
+        let speed = slip[0].hypot(slip[1]);
         // It has stopped if it does so before time goes on.
         let a = self.reaction(system, at)?.a;
         let braked = [1, 3].map(|part| here.acceleration(2 * self.first(contact) + part, &a)[0]);

@@ -940,10 +940,11 @@ impl Touching {
                         let slips = [1, 3].map(&after);
                         let size = used[0].hypot(used[1]);
                         let speeds_up = slips[0].0.hypot(slips[1].0);
-                        let is_held = size < most * (1.0 - SATURATED) && !breaks[place];
                         let is_still = speeds_up <= slips[0].1.hypot(slips[1].1);
-                        // Friction is against the slip that begins; where there is none of it, what pulls says where to.
-                        if is_held || (size == 0.0 && is_still) {
+                        // What does not begin to slip sticks, also where others could hold it: contacts that share a load may
+                        // share it so that the friction of one is used up.
+                        let is_held = size < most * (1.0 - SATURATED) || is_still;
+                        if is_held && !breaks[place] || (size == 0.0 && is_still) {
                             Mode::Sticks
                         } else {
                             if kinetic != at_rest && !breaks[place] {

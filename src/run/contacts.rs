@@ -29,6 +29,11 @@ const CORRECTIONS: usize = 8;
 /// behind the place where it is seen, as a part of the step.
 const BEYOND: f64 = 1e-9;
 
+/// A slip in space that comes to rest, or turns by a right angle, is followed in a step of its own from this part of the way on; and
+/// no further where that part of the step is less than the second.
+const APPROACH: f64 = 0.9;
+const LEAST_APPROACH: f64 = 1e-9;
+
 /// A change that waits for the stepper to come to its instant.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Meeting {
@@ -525,7 +530,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     let mut found =
                         event::last_positive([theta_before, theta], roundoff, &mut &margin)?;
                     let is_shared = !is_only && (kind == 1 || !touching.yields(k));
-                    let cause = match (is_shared, touching.modes()[k], kind) {
+                    let mut cause = match (is_shared, touching.modes()[k], kind) {
                         (true, ..) => Cause::Asked,
                         (_, _, 0) => Cause::Lifts(k),
                         (_, _, 2) => Cause::Turns(k),
@@ -534,6 +539,13 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     };
                     if is_shared {
                         found = (found + BEYOND).min(theta);
+                    }
+                    if cause == Cause::Stops(k) && found > LEAST_APPROACH {
+                        let (t, q, v) = event::state_at(system, stepper, interpolant, found)?;
+                        if !touching.is_slow(system, (t, &q, &v), k) {
+                            // It has turned, or stops where the step is too long to tell: up to shortly before.
+                            (found, cause) = (APPROACH * found, Cause::Asked);
+                        }
                     }
                     if earliest.is_none_or(|(known, ..)| found < known) {
                         earliest = Some((found, cause, None));
