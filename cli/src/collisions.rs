@@ -119,6 +119,11 @@ pub fn is_of_contact(run: &Run, event: &Event<Named>) -> bool {
 
 /// Lines of the summary.
 pub fn lines(run: &Run) -> Vec<String> {
+    // Walls that do not move do no work but by rounding.
+    let turned_over = run
+        .energy_balance()
+        .map_or(0.0, |balance| balance.turned_over);
+    let rounding = 1e-12 * turned_over;
     let line = |account: Account| {
         let Account {
             name,
@@ -146,7 +151,7 @@ pub fn lines(run: &Run) -> Vec<String> {
         if has_balance && yields && !is_layer {
             line.push_str(&format!("; damping took {:.6e} J", energies.damping_loss));
         }
-        if energies.work != 0.0 {
+        if energies.work.abs() > rounding {
             line.push_str(&format!("; what moves did {:.6e} J", energies.work));
         }
         if rolls {

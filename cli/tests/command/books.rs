@@ -63,7 +63,6 @@ fn friction_takes_what_a_ball_loses_until_it_rolls() {
         "1e-12",
         "--out",
         out.path(),
-        "--force",
     ]);
     assert!(made.status.success(), "{made:?}");
     let table = std::fs::read_to_string(out.path()).expect("a table");
