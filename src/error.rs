@@ -4,7 +4,7 @@
 mod of_specs;
 
 #[cfg(feature = "interpreter")]
-pub use of_specs::{Diagnostic, MissingParameters, NoMachineCode, Note};
+pub use of_specs::{Diagnostic, MissingParameters, NoMachineCode, NoNumbers, Note};
 
 use core::fmt::{self, Display};
 use std::string::{String, ToString};

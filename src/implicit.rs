@@ -146,6 +146,11 @@ impl Implicit {
         }
     }
 
+    /// The fastest rate of the motion, in 1/s, as the derivatives have it that are kept.
+    pub fn fastest_rate(&self) -> f64 {
+        self.jacobian.fastest_rate()
+    }
+
     /// Forgets what was: the accelerations have jumped.
     pub fn forget(&mut self) {
         self.age = Age::None;

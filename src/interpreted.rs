@@ -18,7 +18,10 @@ use lagrangian_scalar::{Dual, Interval, Kernel, Scalar};
 use lagrangian_spec::model::{self, Variable};
 use lagrangian_spec::token::normalized;
 
+mod enclosure;
 mod engine;
+mod in_numbers;
+mod in_series;
 mod reading;
 mod recording;
 mod signals;
@@ -26,9 +29,12 @@ mod table_file;
 
 use crate::shared_workspace::SharedWorkspace;
 
-pub use crate::error::{Diagnostic, MissingParameters, NoMachineCode, Note};
+pub use crate::error::{Diagnostic, MissingParameters, NoMachineCode, NoNumbers, Note};
 pub use crate::names::UnknownName;
+pub use enclosure::{Enclosure, NotEnclosed};
 pub use engine::Engine;
+pub use in_numbers::InterpretedSystemIn;
+pub use in_series::SeriesStepper;
 pub use reading::Reading;
 pub use recording::{Column, Kind, Recording};
 pub use signals::{Signal, SignalError, SignalFunction, Signals};

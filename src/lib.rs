@@ -189,7 +189,7 @@ pub use settings::Progress;
 #[cfg(feature = "std")]
 pub use simulation::Simulation;
 #[cfg(feature = "std")]
-pub use solution::{Ending, Handover, Solution, Statistics};
+pub use solution::{Ending, Handover, MethodChoice, MethodReason, Solution, Statistics};
 #[cfg(feature = "std")]
 pub use table::{Between, Beyond, Table, TableError, TableInputs};
 

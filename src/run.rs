@@ -1,5 +1,6 @@
 //! The making of a run: step after step, with everything that the simulation was told to look at.
 
+mod choosing;
 pub(crate) mod contacts;
 mod explained;
 mod handing_over;
@@ -19,14 +20,16 @@ use crate::event::{self, Crossing, Event, Terminal, Triple, made, state};
 use crate::friction::{Change, Contacts, Motion};
 use crate::inputs::{Held, InputLaw};
 use crate::interpolant::Interpolant;
-use crate::methods::Kind;
+use crate::methods::{Kind, Method};
 use crate::names::rate_name;
 use crate::observation::{Known, Sight};
 use crate::phases::Kept;
 use crate::piece::Piece;
 use crate::roots;
 use crate::settings::{Callbacks, Of, Progress, Settings, Task};
-use crate::solution::{Ending, Handover, Solution, Statistics, Steps, handover, is_beyond};
+use crate::solution::{
+    Ending, Handover, MethodReason, Solution, Statistics, Steps, handover, is_beyond,
+};
 use crate::stages::Point;
 use crate::step_error::StepError;
 use crate::stepper::{Stepper, Whose};
@@ -35,6 +38,7 @@ use crate::{
     Coordinates, Error, Inputs, Machine, Pivot, Singular, State, StepMotion, System, Vector,
     Warning,
 };
+use choosing::{CANDIDATES, Choosing};
 use explained::Explained;
 use handing_over::Pace;
 
@@ -50,7 +54,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
     let Task {
         of,
         law,
-        settings,
+        mut settings,
         mut callbacks,
         resumed,
     } = task;
@@ -86,6 +90,12 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
     }
     let ended = resumed.filter(|resumed| resumed.t == start.t);
     let ended = ended.and_then(|resumed| resumed.event);
+    let inputs_stay = law.is_constant() && callbacks.sampled.is_none();
+    let mut chosen =
+        (settings.automatic).then(|| choosing::first(&system, &tolerance, inputs_stay));
+    if let Some((method, _)) = chosen {
+        settings.method = method;
+    }
     let sampling = callbacks.sampled.as_ref().map(|of| of.begin(&system));
     let held = sampling.is_some().then(|| system.default_inputs());
     let forward = until >= start.t;
@@ -110,17 +120,24 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
             t: start.t,
         });
     }
-    let at_start = (start.t, q.clone(), v.clone());
-    let mut stepper = Stepper::begun(
-        Whose::Borrowed(&system),
-        model.sight.law.clone(),
-        quadratures,
-        settings.method,
-        tolerance,
-        at_start,
-        until,
-    )
-    .map_err(|error| model.explain(error, &q, &v))?;
+    let begun = |method| {
+        Stepper::begun(
+            Whose::Borrowed(&system),
+            model.sight.law.clone(),
+            quadratures.clone(),
+            method,
+            tolerance.clone(),
+            (start.t, q.clone(), v.clone()),
+            until,
+        )
+    };
+    let mut begun_by = begun(settings.method);
+    if begun_by.is_err() && chosen.is_some() && settings.method.kind == Kind::Series {
+        chosen = Some((Method::DOP853, MethodReason::NoSeries));
+        settings.method = Method::DOP853;
+        begun_by = begun(settings.method);
+    }
+    let mut stepper = begun_by.map_err(|error| model.explain(error, &q, &v))?;
     if !goes_on {
         check_equations(&system, (start.t, &q, &v, stepper.inputs()))?;
     }
@@ -136,6 +153,18 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         stream.begin(&start);
     }
 
+    let pace = Pace::new(
+        settings.hands_over && settings.method.kind == Kind::RungeKutta,
+        system.unilateral_contacts().len(),
+    );
+    let choosing = match chosen {
+        Some(choice) => {
+            let may_change = system.unilateral_contacts().len() == 0;
+            Choosing::begun(start.t, choice, may_change)
+        }
+        None => Choosing::none(),
+    };
+    let others: &[_] = if settings.automatic { &CANDIDATES } else { &[] };
     let mut run = Run {
         model,
         stepper,
@@ -146,14 +175,12 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         stop: until,
         sampling,
         next_step: None,
-        pace: Pace::new(
-            settings.hands_over && settings.method.kind == Kind::RungeKutta,
-            system.unilateral_contacts().len(),
-        ),
+        pace,
+        choosing,
         record: Record {
             held: held.map(|held| (start.t, held)).into_iter().collect(),
             pieces: (piece != Piece::ALL).then_some(piece).into_iter().collect(),
-            steps: settings.keep_steps.then(|| Steps::new(settings.method)),
+            steps: (settings.keep_steps).then(|| Steps::new(settings.method, others)),
             samples: settings.every.map(|_| start.clone()).into_iter().collect(),
             events: Vec::new(),
             energies: Vec::new(),
@@ -176,6 +203,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
     if <M::System as System>::MAY_COLLIDE {
         run.meet_at_start()?;
     }
+    run.begin_choosing()?;
     let (ending, error) = match run.go_to_end() {
         Ok(ending) => (ending, None),
         Err(error) => (Ending::Error, Some(error)),
@@ -186,6 +214,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         record,
         next_step,
         callbacks,
+        choosing,
         ..
     } = run;
     let Record {
@@ -252,6 +281,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         contacts,
         unilateral,
         handovers,
+        choices: choosing.choices,
         held,
         pieces,
         start,
@@ -288,6 +318,8 @@ struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
     next_step: Option<f64>,
     /// How often contacts meet.
     pace: Pace,
+    /// Which method it takes, if that is left to it.
+    choosing: Choosing,
     record: Record<M>,
 }
 
@@ -337,7 +369,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     /// Steps to where it is to stop, or to what ends the run before.
     fn go(&mut self) -> Result<Ending, Error> {
         // What will have ended the run, once the end of the stepper is reached.
-        let mut ending = Ok(Ending::End);
+        let mut ending: Result<Ending, Error> = Ok(Ending::End);
         // The state of a contact that ends where the stepper is to stop, and the step to go on with.
         let mut pending = None;
         // When contacts have changed last, and how often then.
@@ -356,6 +388,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 // Where an assumption ends there may be nothing to go on with: then that is the
                 // cause.
                 ending?;
+                if self.leave_series(&error) {
+                    ending = Ok(Ending::End);
+                    continue;
+                }
                 return Err(self
                     .model
                     .explain(error, self.stepper.q(), self.stepper.v()));
@@ -410,6 +446,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             }
             if <M::System as System>::MAY_COLLIDE && self.is_stepped() {
                 self.go_on_after_step()?;
+            }
+            if pending.is_none() && meeting.is_none() && ending.is_ok() {
+                self.choose_again()?;
             }
             if <M::System as System>::MAY_SLIDE && self.stepper.is_done() {
                 self.change(&mut pending, &mut last_change)?;
@@ -677,7 +716,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 fraction: (t - self.start) / (self.until - self.start),
                 steps: self.stepper.work().steps,
                 step: (t - self.stepper.t_before()).abs(),
-                stiff_since: self.stepper.stiff_since(),
+                stiff_since: (self.stepper.stiff_since()).filter(|_| !self.choosing.is_free()),
             });
         }
         Ok(())

@@ -69,6 +69,8 @@ pub(crate) struct Settings {
     pub one_tolerance: bool,
     /// Whether contacts that meet too often go on by time stepping.
     pub hands_over: bool,
+    /// Whether the run chooses its methods.
+    pub automatic: bool,
 }
 
 /// What a simulation was told, in functions.

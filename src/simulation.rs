@@ -73,6 +73,7 @@ impl<'a, M: Machine> Simulation<'a, M> {
                 keep_energies: true,
                 one_tolerance: true,
                 hands_over: false,
+                automatic: false,
             },
             callbacks: Callbacks::default(),
         }
@@ -260,7 +261,39 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     /// The method of integration, one of [`METHODS`](crate::METHODS).
     pub fn method(mut self, method: &'static Method) -> Self {
         self.settings.method = method;
+        self.settings.automatic = false;
         self
+    }
+
+    /// Chooses the method by machine, tolerance and motion, and may go on by another during the run: [`Solution::choices`] says by which, when
+    /// and why.
+    ///
+    /// It begins by [`TAYLOR`](crate::TAYLOR) where the machine has a series whose steps cost less than those of
+    /// [`Method::DOP853`] that cover as much time at this tolerance ([`System::series_cost`](crate::System::series_cost)), else by
+    /// `dop853`. Where steps are held short by stability and not by accuracy it goes on by a method of Radau, of order 5, 9 or 13 by the
+    /// tolerance, and back where the steps of this have taken more evaluations than explicit ones would. A machine
+    /// with unilateral contacts [hands over](Self::hand_over) to time stepping and back, and is not looked at for stiffness.
+    /// All of it follows from counts, never from a clock: the same call gives the same bits.
+    ///
+    /// ```
+    /// # mod by_hand { include!("../tests/by_hand/toy.rs"); }
+    /// # use by_hand::Toy;
+    /// use lagrangian::{Method, MethodReason, Simulation};
+    ///
+    /// // A mass of 1 kg that a stiff damped spring of 1e8 N/m holds to a slow motion: x'' = -1e8 (x - sin t) - 1e6 (v - cos t).
+    /// let held = Toy::new(([0.0], [1.0]), |t, q, v, _, _| {
+    ///     [-1e8 * (q[0] - t.sin()) - 1e6 * (v[0] - t.cos())]
+    /// });
+    /// let run = Simulation::new(&held).automatic().until(10.0).run(held.start())?;
+    /// let choices = run.choices();
+    /// assert_eq!(choices[0].method.tableau.name, "dop853");
+    /// assert!(matches!(choices[1].reason, MethodReason::Stiff { .. }) && choices[1].t < 0.01);
+    /// assert!((run.end().q[0] - 10_f64.sin()).abs() < 1e-6 && run.statistics().steps < 1000);
+    /// # Ok::<(), lagrangian::Error>(())
+    /// ```
+    pub fn automatic(mut self) -> Self {
+        self.settings.automatic = true;
+        self.hand_over()
     }
 
     /// Goes on by [time stepping](Method::MOREAU) where unilateral contacts meet too often for each instant to be found, and finds

@@ -1,8 +1,10 @@
 //! What comes out of a run.
 
+mod choice;
 pub(crate) mod handover;
 mod steps;
 
+pub use choice::{MethodChoice, MethodReason};
 pub use handover::Handover;
 pub(crate) use steps::Steps;
 
@@ -61,6 +63,8 @@ pub struct Solution<M: Machine, L = DefaultInputs> {
     pub(crate) unilateral: Kept<Coordinates<M>, VectorOf<M>>,
     /// When the run went on by time stepping, and back.
     pub(crate) handovers: Vec<Handover>,
+    /// Which methods were chosen.
+    pub(crate) choices: Vec<MethodChoice>,
 }
 
 impl<M: Machine<System: Clone>, L: Clone> Clone for Solution<M, L> {
@@ -87,6 +91,7 @@ impl<M: Machine<System: Clone>, L: Clone> Clone for Solution<M, L> {
             pieces: self.pieces.clone(),
             unilateral: self.unilateral.clone(),
             handovers: self.handovers.clone(),
+            choices: self.choices.clone(),
         }
     }
 }
@@ -369,6 +374,12 @@ impl<M: Machine, L> Solution<M, L> {
         &self.handovers
     }
 
+    /// By which methods the run went, since when and why, in turn; none where
+    /// [`automatic`](crate::Simulation::automatic) was not asked for.
+    pub fn choices(&self) -> &[MethodChoice] {
+        &self.choices
+    }
+
     /// For each unilateral contact the energy that its impacts took, in J.
     pub fn impact_losses(&self) -> &[f64] {
         &self.unilateral.losses
@@ -528,10 +539,10 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
             ..*before
         };
         // In parts, where the motion within a step is of a higher degree.
-        let parts = if run.method.kind == Kind::Series {
-            4
-        } else {
-            1
+        let is_series = |of: &Steps<_>| of.method(*index).kind == Kind::Series;
+        let parts = match run.steps.as_ref().is_some_and(is_series) {
+            true => 4,
+            false => 1,
         };
         let half = 0.5 * (t - before.t) / f64::from(parts);
         let nodes = (0..parts).flat_map(|part| GAUSS.map(|(x, weight)| (part, x, weight)));
@@ -583,7 +594,7 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
                 let accelerations =
                     |t, q: &_, v: &_, a: &mut _| self.run.accelerations(t, q, v, a).map(|_| ());
                 let interpolant = steps
-                    .interpolant(index, self.run.method, accelerations)
+                    .interpolant(index, accelerations)
                     .map_err(|error| Error::of_step(error, system))?;
                 (index, interpolant)
             }

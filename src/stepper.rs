@@ -4,6 +4,8 @@
 #[cfg(feature = "std")]
 mod along_dense_output;
 #[cfg(feature = "std")]
+mod changing;
+#[cfg(feature = "std")]
 mod handing_over;
 #[cfg(feature = "std")]
 mod implicitly;
@@ -89,6 +91,8 @@ pub struct Stepper<'s, S: System, L = DefaultInputs, A = NoBalance> {
     /// How many steps one [`advance_to`](Self::advance_to) may take.
     max_steps: usize,
     stiffness: Stiffness,
+    /// How many steps lie between two tests of it.
+    between_tests: usize,
     /// Whether the acceleration now has to be found again, since what it depends on has changed.
     changed: bool,
     /// None in explicit methods.
@@ -220,6 +224,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             control: Control::new(),
             max_steps: MAX_STEPS,
             stiffness: Stiffness::default(),
+            between_tests: STEPS_BETWEEN_STIFFNESS_TESTS,
             changed: false,
             #[cfg(feature = "std")]
             implicit,
@@ -887,7 +892,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         self.quadratures.advance(h, self.method.tableau.a[stages]);
         if let Some(stability) = self.method.tableau.stability {
             let steps = self.control.work.steps;
-            let due = steps.is_multiple_of(STEPS_BETWEEN_STIFFNESS_TESTS);
+            let due = steps.is_multiple_of(self.between_tests);
             if due || self.stiffness.signs > 0 {
                 let stiff = self.stiffness_of_step(h) > stability;
                 self.stiffness.take(stiff, self.before.t);

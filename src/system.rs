@@ -553,6 +553,15 @@ pub trait System {
         Ok(())
     }
 
+    /// What a step by [`series`](Self::series) costs beside an evaluation of the accelerations within a step of `dop853`: how many
+    /// of these take as long, with 12 and with 20 coefficients of the accelerations. It is an estimate from counts of operations, by which
+    /// [`Simulation::automatic`](https://docs.rs/lagrangian/latest/lagrangian/struct.Simulation.html#method.automatic) chooses; none
+    /// where nothing is known of it, and then no series is chosen.
+    #[inline(always)]
+    fn series_cost(&self) -> Option<[f64; 2]> {
+        None
+    }
+
     /// Hands `length` numbers to `work`, whatever they are: the workspace in which a state is projected
     /// onto the constraints, `None` if there is none.
     ///

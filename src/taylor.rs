@@ -20,7 +20,7 @@ const ORDERS: [usize; 2] = [12, 20];
 
 /// Below this tolerance the higher order takes less time: products of series grow with the square of the order, the rest of a step
 /// with the order itself, and steps of fine tolerances are longer by more than that.
-const FINE: f64 = 1e-5;
+pub(crate) const FINE: f64 = 1e-5;
 
 /// How many coefficients of a coordinate are asked for by the sum of relative and least absolute tolerance.
 pub(crate) fn rows(tolerance: f64) -> usize {

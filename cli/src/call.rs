@@ -357,6 +357,15 @@ pub enum Engine {
     Jit,
 }
 
+/// The numbers that a run is made in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Precision {
+    /// Of 53 bits.
+    F64,
+    /// Sums of two of them, some 106 bits: 32 digits.
+    Dd,
+}
+
 /// Which numbers of a start stay as they are.
 #[derive(Debug, Args)]
 pub struct Keep {
@@ -681,10 +690,20 @@ pub struct Simulate {
     /// Integrate to this time, in s; before 0 backward in time.
     #[arg(long, value_name = "SECONDS", value_parser = number, allow_hyphen_values = true)]
     pub until: f64,
-    /// Relative and absolute tolerance of each step.
-    #[arg(long, default_value_t = 1e-9, value_parser = tolerance, allow_hyphen_values = true)]
-    pub tolerance: f64,
-    /// The integration method: auto, which is dop853, and moreau where contacts meet too often for each instant to be found; dop853, dopri5,
+    /// Relative and absolute tolerance of each step; 1e-9 if left out, and in double-double what its digits allow.
+    #[arg(long, value_parser = wide_tolerance, allow_hyphen_values = true)]
+    pub tolerance: Option<f64>,
+    /// The numbers to run in; in double-double the end is printed in 30 digits, of machines without constraints and contacts.
+    #[arg(long, value_enum, value_name = "NUMBERS", default_value_t = Precision::F64)]
+    pub precision: Precision,
+    /// Enclose the motion: print bounds that are proved to contain it, of machines with a Taylor series and without constraints and contacts.
+    #[arg(long, conflicts_with = "precision")]
+    pub validated: bool,
+    /// Estimate how exact the end of the run is, by a run in double-double where the machine has one, else by a finer one.
+    #[arg(long)]
+    pub global_error: bool,
+    /// The integration method: auto, which begins by dop853, goes on by radau5, radau9 or radau13 where the machine is stiff, and by moreau
+    /// where contacts meet too often for each instant to be found; dop853, dopri5,
     /// bs32, radau5, radau9 and radau13 for stiff machines, taylor for smooth ones; with steps of --longest-step moreau for many contacts that
     /// open and close, rk4, semi-implicit-euler, gauss4, gauss6, gauss8, rattle or generalized-alpha.
     #[arg(long, value_name = "NAME", default_value = "auto")]
@@ -1254,6 +1273,20 @@ fn tolerance(text: &str) -> Result<f64, String> {
         _ => Ok(tolerance),
     }
 }
+
+/// Reads a tolerance of numbers that may have more digits than `f64`.
+fn wide_tolerance(text: &str) -> Result<f64, String> {
+    match number(text)? {
+        least if least > 0.0 && least < LEAST_WIDE_TOLERANCE => Err(format!(
+            "numbers in double-double have no more digits than a tolerance of {LEAST_WIDE_TOLERANCE:.1e} asks for"
+        )),
+        wide if wide > 0.0 && wide < LEAST_RELATIVE_TOLERANCE => Ok(wide),
+        _ => tolerance(text),
+    }
+}
+
+/// Ten roundings of a sum of double-doubles.
+const LEAST_WIDE_TOLERANCE: f64 = 10.0 * f64::EPSILON * f64::EPSILON;
 
 /// Reads the time from one record to the next.
 fn interval(text: &str) -> Result<f64, String> {

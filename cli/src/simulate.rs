@@ -2,9 +2,12 @@
 
 use std::iter;
 
-use lagrangian::interpreted::InterpretedMachine;
+use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::methods::{Method, TAYLOR};
-use lagrangian::{Ending, Error, Machine, Simulation, System, Warning};
+use lagrangian::{
+    Ending, Error, LEAST_RELATIVE_TOLERANCE, Machine, MethodChoice, Simulation, State, System,
+    Warning,
+};
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_spec::diagnostic::nearest;
 use lagrangian_sweep::signals::{self, Written};
@@ -18,10 +21,12 @@ use crate::collisions;
 use crate::contacts::{self, Contacts, Found};
 use crate::evaluate::set_start;
 use crate::failure::Failure;
+use crate::global_error;
 use crate::inputs;
 use crate::interrupt::Interrupt;
 use crate::numbers::{by_name, shortest, states};
 use crate::output::{self, Destination, PAGE, SVG, TABLE, keep_apart};
+use crate::precise;
 use crate::progress;
 use crate::reading::{self, Reading};
 use crate::recording::{Recording, Run};
@@ -35,7 +40,10 @@ const SAMPLES: f64 = 1000.0;
 const MOST_SAMPLES: f64 = 5e6;
 
 /// The method that is chosen by the machine: the default one, and time stepping where contacts meet too often.
-const AUTO: &str = "auto";
+pub const AUTO: &str = "auto";
+
+/// The tolerance where a call says nothing.
+const TOLERANCE: f64 = 1e-9;
 
 /// The files that a call asks for.
 struct Files {
@@ -100,6 +108,20 @@ impl Trouble<'_> {
 /// # Errors
 /// If the spec, the run or the call is at fault. What there is of a run that ends early is written and summarized first.
 pub fn run(call: &call::Simulate) -> Result<(), Failure> {
+    if call.precision == call::Precision::Dd {
+        return precise::in_double_doubles(call);
+    }
+    if call.validated {
+        return precise::validated(call);
+    }
+    let tolerance = call.tolerance.unwrap_or(TOLERANCE);
+    if tolerance < LEAST_RELATIVE_TOLERANCE {
+        return Err(Failure::Call(format!(
+            "--tolerance {}: numbers have no more digits than a tolerance of {LEAST_RELATIVE_TOLERANCE:.1e} asks for; \
+             --precision dd has",
+            shortest(tolerance)
+        )));
+    }
     let is_auto = call.method == AUTO;
     let mut method = match is_auto {
         true => <&Method>::default(),
@@ -170,7 +192,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     let mut is_said = false;
     let mut simulation = signals
         .drive(Simulation::new(&machine), &machine)
-        .tolerance(call.tolerance)
+        .tolerance(tolerance)
         .method(method)
         .until(call.until)
         .longest_step(call.longest_step.unwrap_or(f64::INFINITY))
@@ -201,7 +223,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     }
     simulation = reading::keep(simulation, &call.keep);
     if is_auto {
-        simulation = simulation.hand_over();
+        simulation = simulation.automatic();
     }
     let simulation = contacts.watch(simulation, !signals.is_empty());
     let (run, error) = simulation.run_as_far_as_possible(start).map_err(cause)?;
@@ -211,6 +233,46 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         other: verdict::objection(&run).into_iter().collect(),
     };
     let contacts = contacts.found(&run);
+    let global = match call.global_error && *run.ending() == Ending::End {
+        false => None,
+        true => {
+            progress::now("estimating the error");
+            let again = |tolerance: f64, start: State<Named>| {
+                let simulation = signals.drive(Simulation::new(&machine), &machine);
+                let simulation = simulation
+                    .tolerance(tolerance)
+                    .method(method)
+                    .until(call.until)
+                    .longest_step(call.longest_step.unwrap_or(f64::INFINITY))
+                    .max_steps(call.max_steps)
+                    .forget_steps()
+                    .stop_if(|_| interrupt.came());
+                let simulation = reading::keep(simulation, &call.keep);
+                let simulation = match is_auto {
+                    true => simulation.automatic(),
+                    false => simulation,
+                };
+                let again = simulation.run(start).ok()?;
+                (*again.ending() == Ending::End).then(|| again.end().clone())
+            };
+            let is_driven = !signals.is_empty();
+            let wide = (!is_driven).then(|| ProvedSeries::derive(&compiled.model));
+            let asked = global_error::Asked {
+                machine: &machine,
+                series: wide,
+                tolerance,
+                has_fixed_steps: method.has_fixed_steps(),
+                max_steps: call.max_steps,
+            };
+            match global_error::estimate(asked, (run.start(), run.end()), again) {
+                Ok(estimate) => Some(estimate),
+                Err(why) => {
+                    trouble.other.push(why);
+                    None
+                }
+            }
+        }
+    };
 
     if recorded {
         progress::now("writing");
@@ -219,7 +281,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         trouble.other.extend(written);
         if let Some(file) = &files.report {
             let report = Report {
-                asked: &asked(call),
+                asked: &asked(call, tolerance),
                 compiled: &compiled,
                 contacts: &contacts,
                 machine: &machine,
@@ -233,7 +295,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
             let redundant = warnings.find(|it| matches!(it, Warning::RedundantConstraint { .. }));
             let page = match call.live {
                 true => report.page_that_runs(&Live {
-                    tolerance: call.tolerance,
+                    tolerance,
                     most_steps: call.max_steps,
                 }),
                 false => report.page(),
@@ -251,10 +313,18 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     }
     let interruption = trouble.interruption(&run, call.until);
     if call.spec.json {
-        let document = document(call, &run, &contacts, &interruption, &trouble.errors());
+        let mut document = document(call, &run, &contacts, &interruption, &trouble.errors());
+        if let (Some(global), Value::Object(fields)) = (&global, &mut document) {
+            fields.insert("global_error".into(), global.json(run.end()));
+        }
         output::line(format_args!("{document:#}"));
     } else {
         print_summary(call, &machine, method, &run, &contacts);
+        if let Some(global) = &global {
+            for line in global.lines(run.end()) {
+                output::line(format_args!("  {line}"));
+            }
+        }
         if let Some(interruption) = &interruption {
             output::line(format_args!("  {interruption}"));
         }
@@ -271,12 +341,12 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
 }
 
 /// What the page of a run says about the call.
-fn asked(call: &call::Simulate) -> Asked {
+fn asked(call: &call::Simulate, tolerance: f64) -> Asked {
     let file = call.spec.path.file_name();
     let inputs = call.inputs.iter();
     Asked {
         file: file.map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
-        tolerance: shortest(call.tolerance),
+        tolerance: shortest(tolerance),
         constants: call
             .spec
             .constants
@@ -402,6 +472,17 @@ fn document(
             let contacts = contacts.iter().map(Found::json);
             fields.insert("contacts".into(), contacts.collect());
         }
+        if !run.choices().is_empty() {
+            let choice = |choice: &MethodChoice| {
+                json!({
+                    "t": choice.t,
+                    "method": choice.method.tableau.name,
+                    "reason": choice.reason.to_string(),
+                })
+            };
+            let methods = run.choices().iter().map(choice);
+            fields.insert("methods".into(), methods.collect());
+        }
         for (name, value) in collisions::fields(run) {
             fields.insert(name.into(), value);
         }
@@ -435,6 +516,17 @@ fn print_summary(
         "  {} steps, {} rejected, {} evaluations, {:.3} s",
         statistics.steps, statistics.rejected, statistics.evaluations, statistics.seconds
     ));
+    // What is plain needs no words: that nothing was found to be stiff.
+    if run.choices().len() > 1 {
+        for choice in run.choices() {
+            output::line(format_args!(
+                "  {} from t = {} s: {}",
+                choice.method.tableau.name,
+                shortest(choice.t),
+                choice.reason
+            ));
+        }
+    }
     if !call.inputs.is_empty() {
         output::line(format_args!("  inputs"));
     }

@@ -500,6 +500,10 @@ macro_rules! implement_method {
             ::core::result::Result::Ok(())
         }
 
+        fn series_cost(&self) -> ::core::option::Option<[::core::primitive::f64; 2]> {
+            ::core::option::Option::Some($crate::emitted::series::cost($n))
+        }
+
         fn $method(
             &self,
             $t: [::core::primitive::f64; 2],

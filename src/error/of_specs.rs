@@ -68,6 +68,22 @@ impl Display for NoMachineCode {
 
 impl core::error::Error for NoMachineCode {}
 
+/// A machine cannot be run in the numbers, or with the bounds, that were asked for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct NoNumbers {
+    /// Why not, as the end of a sentence that begins with the machine: `it has constraints`.
+    pub why: String,
+}
+
+impl Display for NoNumbers {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.why)
+    }
+}
+
+impl core::error::Error for NoNumbers {}
+
 /// `chain.machine:6:27: error: there is no function `sine` [unknown-function]`; then the help and other places, indented.
 impl Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

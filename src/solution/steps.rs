@@ -20,6 +20,8 @@ pub(crate) struct Steps<V> {
     vectors: Vec<V>,
     /// The stages whose accelerations are kept; the first is the beginning.
     kept: Vec<usize>,
+    /// The methods of the steps, each with the number of the first step that it took.
+    methods: Vec<(usize, &'static Method)>,
     /// Of steps by series and by impulses their coefficients, so many for each.
     coefficients: Vec<V>,
     of_step: usize,
@@ -28,21 +30,30 @@ pub(crate) struct Steps<V> {
 }
 
 impl<V: Vector> Steps<V> {
-    pub fn new(method: &Method) -> Self {
-        let scheme = &method.scheme;
-        let stages = method.tableau.stages;
-        let extra = scheme.rows[..scheme.length].iter().skip(stages + 1);
-        let rows: Vec<_> = extra.chain(&scheme.dense[..scheme.dense_length]).collect();
-        let kept =
-            (0..stages).filter(|&stage| stage == 0 || rows.iter().any(|row| row.uses(stage)));
+    /// Room for the steps of a run that begins by `method` and may go on by `others`.
+    pub fn new(method: &'static Method, others: &[&'static Method]) -> Self {
+        let methods = || others.iter().copied().chain([method]);
+        let is_kept = |stage: &usize| *stage == 0 || methods().any(|method| keeps(method, *stage));
         Self {
             times: Vec::new(),
             vectors: Vec::new(),
-            kept: kept.collect(),
+            kept: (0..MAX_STAGES).filter(is_kept).collect(),
+            methods: [(0, method)].into(),
             coefficients: Vec::new(),
             of_step: 0,
             series: Vec::new(),
         }
+    }
+
+    /// Notes that the next step is one of another method.
+    pub fn go_on_by(&mut self, method: &'static Method) {
+        self.methods.push((self.times.len(), method));
+    }
+
+    /// The method of a step.
+    pub(super) fn method(&self, step: usize) -> &'static Method {
+        let after = self.methods.partition_point(|(first, _)| *first <= step);
+        self.methods[after.saturating_sub(1)].1
     }
 
     /// Adds the last step.
@@ -131,7 +142,6 @@ impl<V: Vector> Steps<V> {
     pub(super) fn interpolant(
         &self,
         step: usize,
-        method: &Method,
         accelerations: impl FnMut(f64, &V, &V, &mut V) -> Result<(), StepError>,
     ) -> Result<Interpolant<V>, StepError> {
         let (start, h) = self.times[step];
@@ -139,6 +149,7 @@ impl<V: Vector> Steps<V> {
             let coefficients = &self.coefficients[*from..][..self.of_step];
             return Ok(Interpolant::of_series(start, h, coefficients));
         }
+        let method = self.method(step);
         let stride = self.stride();
         let [q0, v0, stages @ ..] = &self.vectors[step * stride..][..stride] else {
             unreachable!("a step has at least three vectors");
@@ -162,4 +173,12 @@ impl<V: Vector> Steps<V> {
         }
         Interpolant::new(method, &ends, &mut k, accelerations)
     }
+}
+
+/// Whether dense output of a method needs the acceleration of a stage.
+fn keeps(method: &Method, stage: usize) -> bool {
+    let (scheme, stages) = (&method.scheme, method.tableau.stages);
+    let extra = scheme.rows[..scheme.length].iter().skip(stages + 1);
+    let mut rows = extra.chain(&scheme.dense[..scheme.dense_length]);
+    stage < stages && rows.any(|row| row.uses(stage))
 }

@@ -566,7 +566,8 @@ fn a_run_that_is_stiff_says_so_at_once() {
         "--tolerance",
         "1e-6",
     ];
-    let output = lagrangian(&arguments);
+    let by = |method: &str| lagrangian(&[&arguments[..], &["--method", method]].concat());
+    let output = by("dop853");
     let said = err(&output);
     assert_eq!(status(&output), 0, "{said}");
     assert!(
@@ -576,7 +577,7 @@ fn a_run_that_is_stiff_says_so_at_once() {
     // Once, and among the warnings of the summary too.
     assert_eq!(said.matches("--method radau5").count(), 1, "{said}");
     assert!(out(&output).contains("warning: the machine is stiff"));
-    let implicit = lagrangian(&[&arguments[..], &["--method", "radau5"]].concat());
+    let implicit = by("radau5");
     assert_eq!(err(&implicit), "");
 }
 

@@ -3,6 +3,7 @@
 mod books;
 mod brachistochrone;
 mod browser;
+mod choosing;
 mod collisions;
 mod command_line;
 mod compliance;
@@ -22,6 +23,7 @@ mod map;
 mod modes;
 mod orbit;
 mod parts;
+mod precise;
 mod report;
 mod rolling;
 mod runs;

@@ -1,0 +1,453 @@
+//! `lagrangian simulate --precision dd` and `--validated`: runs in more digits, and bounds that are proved.
+
+use lagrangian::interpreted::{Enclosure, InterpretedMachine, SeriesStepper};
+use lagrangian::methods::{Method, TAYLOR};
+use lagrangian::scalar::{DoubleDouble, Interval, Scalar};
+use lagrangian::{ExplicitStepper, Machine, State, Work};
+use lagrangian_mechanics::series::ProvedSeries;
+use lagrangian_symbolic::Dag;
+use lagrangian_units::state_of;
+use num_bigint::{BigInt, Sign};
+use serde_json::{Map, Value, json};
+
+use crate::call;
+use crate::evaluate::set_start;
+use crate::failure::Failure;
+use crate::numbers::shortest;
+use crate::output;
+use crate::progress;
+use crate::reading::{self, Reading};
+use crate::simulate::{AUTO, method};
+
+/// Digits that are printed.
+const DIGITS: usize = 30;
+
+/// The tolerance of a step where a call says nothing: ten times the finest.
+const TOLERANCE: f64 = 5e-30;
+
+/// The tolerance of explicit methods there, whose steps would be too many at a finer one.
+const EXPLICIT_TOLERANCE: f64 = 1e-24;
+
+/// The run beside it has a tolerance coarser by this.
+const COARSER: f64 = 100.0;
+
+/// The end of a run in double-doubles.
+pub struct End {
+    q: Vec<DoubleDouble>,
+    v: Vec<DoubleDouble>,
+    work: Work,
+}
+
+/// A machine with its series, as far as it has one, at the start of a call.
+struct Ready {
+    machine: InterpretedMachine,
+    start: State<lagrangian::interpreted::Named>,
+}
+
+/// Reads the machine of a call that asks for nothing but the end of its run.
+fn ready(call: &call::Simulate, option: &str) -> Result<Ready, Failure> {
+    let files = [
+        ("--out", call.out.is_some()),
+        ("--plot", call.plot.is_some()),
+        ("--report", call.report.is_some()),
+        ("--every", call.every.is_some()),
+        ("--longest-step", call.longest_step.is_some()),
+        ("--global-error", call.global_error),
+        ("--keep", !call.keep.names.is_empty()),
+    ];
+    if let Some((other, _)) = files.iter().find(|(_, is_there)| *is_there) {
+        return Err(Failure::Call(format!(
+            "{option} tells the end of a run and has no part for {other}"
+        )));
+    }
+    if !call.inputs.is_empty() {
+        return Err(Failure::Call(format!(
+            "{option}: inputs keep their values, which --set gives; there is no --input"
+        )));
+    }
+    let dag = Dag::new();
+    let compiled = Reading::open(&call.spec)?.compile(&dag)?;
+    let machine = reading::machine(&compiled, &call.start)?;
+    machine.check_parameters().map_err(|missing| {
+        Failure::Run(format!(
+            "{missing}; set them with --set {}=…",
+            missing.names.join("=… --set ")
+        ))
+    })?;
+    let mut start = machine.start();
+    set_start(&mut start, &call.start)?;
+    progress::now("deriving the series");
+    let machine = machine.with_series(ProvedSeries::derive(&compiled.model));
+    Ok(Ready { machine, start })
+}
+
+/// Runs a machine in double-doubles, by series or by an explicit method.
+///
+/// # Errors
+/// If it has no such run.
+pub fn run_to(
+    machine: &InterpretedMachine,
+    (start, until): (&State<lagrangian::interpreted::Named>, f64),
+    method: &'static Method,
+    (tolerance, max_steps): (f64, usize),
+) -> Result<End, Failure> {
+    let until = DoubleDouble::from_f64(until);
+    let (q, v) = (&start.q.values, &start.v.values);
+    if std::ptr::eq(method, &TAYLOR) {
+        let stepper = SeriesStepper::from_state(machine, tolerance, (start.t, q, v));
+        let mut stepper = stepper.map_err(Failure::run)?;
+        stepper.set_max_steps(max_steps);
+        stepper.advance_to(until).map_err(Failure::run)?;
+        return Ok(End {
+            q: stepper.q().to_vec(),
+            v: stepper.v().to_vec(),
+            work: stepper.work(),
+        });
+    }
+    let system = machine.prepare_in::<DoubleDouble>().map_err(Failure::run)?;
+    let numbers =
+        |values: &[f64]| -> Vec<_> { values.iter().map(|x| DoubleDouble::from_f64(*x)).collect() };
+    let start = State {
+        t: start.t,
+        q: numbers(q),
+        v: numbers(v),
+    };
+    let builder = ExplicitStepper::builder(system).method(method);
+    let builder = builder.tolerance(tolerance).max_steps(max_steps);
+    let stepper = builder.start(start).map_err(|error| said(machine, error));
+    let mut stepper = stepper?;
+    let advanced = stepper.advance_to(until);
+    advanced.map_err(|error| said(machine, error))?;
+    Ok(End {
+        q: stepper.q().clone(),
+        v: stepper.v().clone(),
+        work: stepper.work(),
+    })
+}
+
+fn said(machine: &InterpretedMachine, error: lagrangian::StepError) -> Failure {
+    Failure::run(lagrangian::Error::of_step(error, &machine.prepare()))
+}
+
+/// `--precision dd`.
+///
+/// # Errors
+/// If the spec, the run or the call is at fault.
+pub fn in_double_doubles(call: &call::Simulate) -> Result<(), Failure> {
+    let asked = match call.method.as_str() {
+        AUTO => None,
+        name => Some(method(name)?),
+    };
+    if let Some(method) = asked
+        && !std::ptr::eq(method, &TAYLOR)
+        && (method.tableau.spectrum.is_some() || method.has_fixed_steps())
+    {
+        return Err(Failure::Call(format!(
+            "--precision dd: no steps of `{}` in it; there are taylor, dop853, dopri5 and bs32",
+            method.tableau.name
+        )));
+    }
+    let Ready { machine, start } = ready(call, "--precision dd")?;
+    machine.prepare_in::<DoubleDouble>().map_err(|none| {
+        Failure::Run(format!(
+            "--precision dd: of machines without constraints and contacts; {none}"
+        ))
+    })?;
+    let has_series = SeriesStepper::<DoubleDouble>::new(&machine, TOLERANCE);
+    let method = match (asked, has_series) {
+        (None, Ok(_)) => &TAYLOR,
+        (None, Err(_)) => <&Method>::default(),
+        (Some(method), Err(none)) if std::ptr::eq(method, &TAYLOR) => {
+            return Err(Failure::Run(format!("--method taylor: no series: {none}")));
+        }
+        (Some(method), _) => method,
+    };
+    let least = match std::ptr::eq(method, &TAYLOR) {
+        true => TOLERANCE,
+        false => EXPLICIT_TOLERANCE,
+    };
+    let tolerance = call.tolerance.unwrap_or(least);
+    progress::now("running in double-double");
+    let to = (&start, call.until);
+    let end = run_to(&machine, to, method, (tolerance, call.max_steps))?;
+    let beside = (COARSER * tolerance, call.max_steps);
+    let coarser = run_to(&machine, to, method, beside)?;
+    let differences = end.differences(&coarser);
+    let (_, greatest) = worst(&differences);
+    let names: Vec<&str> = start.q.iter().map(|(name, _)| name).collect();
+    if call.spec.json {
+        let of = |numbers: &[DoubleDouble]| -> Value {
+            let named = names.iter().zip(numbers);
+            let named = named.map(|(name, x)| ((*name).to_owned(), decimal(*x, DIGITS).into()));
+            Value::Object(named.collect::<Map<_, _>>())
+        };
+        let document = json!({
+            "t": call.until,
+            "q": of(&end.q),
+            "v": of(&end.v),
+            "method": method.tableau.name,
+            "precision": "dd",
+            "tolerance": tolerance,
+            "steps": end.work.steps,
+            "rejected": end.work.rejected,
+            "evaluations": end.work.evaluations,
+            "difference": greatest,
+        });
+        output::line(format_args!("{document:#}"));
+        return Ok(());
+    }
+    output::line(format_args!(
+        "{}: t = {} s to {} s, {} in double-double, tolerance {}",
+        machine.name(),
+        shortest(start.t),
+        shortest(call.until),
+        method.tableau.title,
+        shortest(tolerance)
+    ));
+    let Work {
+        steps,
+        rejected,
+        evaluations,
+        ..
+    } = end.work;
+    output::line(format_args!(
+        "  {steps} steps, {rejected} rejected, {evaluations} evaluations"
+    ));
+    output::line(format_args!("  at the end"));
+    for (name, title, at) in told(&names) {
+        let x = match at {
+            (0, i) => end.q[i],
+            (_, i) => end.v[i],
+        };
+        let pad = " ".repeat(title.saturating_sub(name.chars().count()));
+        output::line(format_args!("    {name}{pad} = {}", decimal(x, DIGITS)));
+    }
+    output::line(format_args!(
+        "  a run at a tolerance of {:.1e} ends within {greatest:.1e} (1 + |y|) of it",
+        COARSER * tolerance
+    ));
+    Ok(())
+}
+
+impl End {
+    /// How far another end is from this, relative to 1 + |y|: coordinates, then rates.
+    fn differences(&self, other: &End) -> Vec<f64> {
+        let of = |one: &[DoubleDouble], other: &[DoubleDouble]| -> Vec<f64> {
+            let pairs = one.iter().zip(other);
+            let difference = |(a, b): (&DoubleDouble, &DoubleDouble)| relative(*a, *b);
+            pairs.map(difference).collect()
+        };
+        [of(&self.q, &other.q), of(&self.v, &other.v)].concat()
+    }
+
+    /// How far the end of a run in `f64` is from this: coordinates, then rates, in their units.
+    pub fn errors(&self, end: &State<lagrangian::interpreted::Named>) -> Vec<f64> {
+        let exact = self.q.iter().chain(&self.v);
+        let found = end.q.values.iter().chain(&end.v.values);
+        exact
+            .zip(found)
+            .map(|(exact, found)| (*exact - DoubleDouble::from_f64(*found)).abs().to_f64())
+            .collect()
+    }
+}
+
+fn relative(exact: DoubleDouble, other: DoubleDouble) -> f64 {
+    ((exact - other).abs() / (DoubleDouble::ONE + exact.abs())).to_f64()
+}
+
+/// The greatest of some numbers, and its place; what is no number is greater than all.
+pub fn worst(numbers: &[f64]) -> (usize, f64) {
+    let start = (0, 0.0);
+    let numbers = numbers.iter().enumerate();
+    numbers.fold(start, |(at, most), (i, x)| match *x <= most {
+        true => (at, most),
+        false => (i, *x),
+    })
+}
+
+/// What is printed of a state: names of coordinates and of their rates, each with the width of all, and where its number stands. Integrals of
+/// states of first order are not, and their rates are the states.
+fn told(names: &[&str]) -> Vec<(String, usize, (usize, usize))> {
+    let mut told: Vec<(String, (usize, usize))> = Vec::new();
+    for (i, name) in names.iter().enumerate() {
+        match state_of(name) {
+            Some(state) => told.push((state.to_owned(), (1, i))),
+            None => {
+                told.push(((*name).to_owned(), (0, i)));
+                told.push((format!("der({name})"), (1, i)));
+            }
+        }
+    }
+    let width = told.iter().map(|(name, _)| name.chars().count()).max();
+    let width = width.unwrap_or(0);
+    told.into_iter()
+        .map(|(name, at)| (name, width, at))
+        .collect()
+}
+
+/// `--validated`.
+///
+/// # Errors
+/// If the spec or the call is at fault, the machine has no enclosure, or none as far as was asked; how far it came is told first.
+pub fn validated(call: &call::Simulate) -> Result<(), Failure> {
+    if call.method != AUTO && call.method != TAYLOR.tableau.name {
+        return Err(Failure::Call(format!(
+            "--validated takes steps by Taylor series, not by `{}`",
+            call.method
+        )));
+    }
+    if call.tolerance.is_some() {
+        return Err(Failure::Call(
+            "--validated has no --tolerance: its bounds are as narrow as they can be shown to be"
+                .into(),
+        ));
+    }
+    let Ready { machine, start } = ready(call, "--validated")?;
+    let exactly =
+        |values: &[f64]| -> Vec<_> { values.iter().map(|x| Interval::from(*x)).collect() };
+    let (q, v) = (exactly(&start.q.values), exactly(&start.v.values));
+    let enclosure = Enclosure::from_states(&machine, start.t, [&q, &v]);
+    let mut enclosure = enclosure.map_err(|none| {
+        Failure::Run(format!(
+            "--validated: of machines with a Taylor series and without constraints and contacts; {none}"
+        ))
+    })?;
+    enclosure.set_max_steps(call.max_steps);
+    progress::now("enclosing the motion");
+    let ended = enclosure.advance_to(call.until);
+    let names: Vec<&str> = start.q.iter().map(|(name, _)| name).collect();
+    let bounds = |y: &Interval| [shortest(y.lo().next_down()), shortest(y.hi().next_up())];
+    if call.spec.json {
+        let of = |numbers: &[Interval]| -> Value {
+            let named = names.iter().zip(numbers);
+            let outward = |y: &Interval| json!([y.lo().next_down(), y.hi().next_up()]);
+            let named = named.map(|(name, y)| ((*name).to_owned(), outward(y)));
+            Value::Object(named.collect::<Map<_, _>>())
+        };
+        let mut document = json!({
+            "t": enclosure.t(),
+            "q": of(enclosure.q()),
+            "v": of(enclosure.v()),
+            "steps": enclosure.steps(),
+        });
+        if let (Err(error), Value::Object(fields)) = (&ended, &mut document) {
+            fields.insert("error".into(), error.to_string().into());
+        }
+        output::line(format_args!("{document:#}"));
+    } else {
+        output::line(format_args!(
+            "{}: t = {} s to {} s, enclosed in {} steps by Taylor series over intervals",
+            machine.name(),
+            shortest(start.t),
+            shortest(enclosure.t()),
+            enclosure.steps()
+        ));
+        output::line(format_args!("  proved to contain the end of the motion"));
+        for (name, title, at) in told(&names) {
+            let y = match at {
+                (0, i) => &enclosure.q()[i],
+                (_, i) => &enclosure.v()[i],
+            };
+            let [lo, hi] = bounds(y);
+            let pad = " ".repeat(title.saturating_sub(name.chars().count()));
+            output::line(format_args!(
+                "    {name}{pad} in [{lo}, {hi}], {:.1e} wide",
+                y.width()
+            ));
+        }
+    }
+    match ended {
+        Ok(()) => Ok(()),
+        Err(error) => {
+            output::complain(format_args!("error: {error}"));
+            Err(Failure::Said)
+        }
+    }
+}
+
+/// A number in so many significant digits, rounded to the nearest.
+fn decimal(x: DoubleDouble, digits: usize) -> String {
+    if !x.is_finite() {
+        return "not a number".into();
+    }
+    // x = n 2^e, exactly.
+    let parts = [x.hi(), x.lo()].map(mantissa);
+    let least = parts.iter().filter(|(m, _)| *m != 0).map(|(_, e)| *e).min();
+    let Some(exponent) = least else {
+        return "0".into();
+    };
+    let of = |(m, e): (i64, i32)| match m {
+        0 => BigInt::ZERO,
+        _ => BigInt::from(m) << (e - exponent),
+    };
+    let [high, low] = parts.map(of);
+    let number = high + low;
+    let is_negative = number.sign() == Sign::Minus;
+    let number = BigInt::from(number.magnitude().clone());
+    let ten = BigInt::from(10);
+    let mut place = x.hi().abs().log10().floor() as i32;
+    let text = loop {
+        // x 10^(digits − 1 − place), rounded.
+        let power = digits as i32 - 1 - place;
+        let (mut above, mut below) = (number.clone(), BigInt::from(1));
+        match exponent >= 0 {
+            true => above <<= exponent,
+            false => below <<= -exponent,
+        }
+        match power >= 0 {
+            true => above *= ten.pow(power.unsigned_abs()),
+            false => below *= ten.pow(power.unsigned_abs()),
+        }
+        let rounded: BigInt = (BigInt::from(2) * above + &below) / (BigInt::from(2) * below);
+        let text = rounded.to_string();
+        match text.len() {
+            more if more > digits => place += 1,
+            less if less < digits => place -= 1,
+            _ => break text,
+        }
+    };
+    let sign = if is_negative { "-" } else { "" };
+    match place {
+        0.. if (place as usize) < digits - 1 => {
+            let (whole, part) = text.split_at(place as usize + 1);
+            format!("{sign}{whole}.{part}")
+        }
+        -5..0 => format!("{sign}0.{}{text}", "0".repeat((-place - 1) as usize)),
+        _ => format!("{sign}{}.{}e{place}", &text[..1], &text[1..]),
+    }
+}
+
+/// An integer and a power of two that make a finite number.
+fn mantissa(x: f64) -> (i64, i32) {
+    let bits = x.to_bits();
+    let exponent = ((bits >> 52) & 0x7ff) as i32;
+    let fraction = (bits & ((1 << 52) - 1)) as i64;
+    let (m, e) = match exponent {
+        0 => (fraction, -1074),
+        _ => (fraction | (1 << 52), exponent - 1075),
+    };
+    (if x.is_sign_negative() { -m } else { m }, e)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_are_those_of_the_number() {
+        let third = DoubleDouble::from_ratio(1, 3);
+        assert_eq!(decimal(third, 30), "0.333333333333333333333333333333");
+        let two_thirds = DoubleDouble::from_ratio(-2, 3);
+        assert_eq!(decimal(two_thirds, 30), "-0.666666666666666666666666666667");
+        // Of the exact value of the nearest f64: 0.1000000000000000055511151231257827…
+        let tenth = DoubleDouble::from_f64(0.1);
+        assert_eq!(decimal(tenth, 30), "0.100000000000000005551115123126");
+        assert_eq!(
+            decimal(DoubleDouble::pi(), 30),
+            "3.14159265358979323846264338328"
+        );
+        assert_eq!(decimal(DoubleDouble::from_f64(1e23), 4), "1.000e23");
+        assert_eq!(decimal(DoubleDouble::from_f64(9.9996), 4), "10.00");
+        assert_eq!(decimal(DoubleDouble::from_f64(-0.0), 30), "0");
+    }
+}

@@ -1,0 +1,269 @@
+//! Steps by Taylor series of an interpreted machine, in numbers of any kind.
+
+use std::string::String;
+use std::vec;
+use std::vec::Vec;
+
+use lagrangian_program::series::Expander;
+
+use super::{InterpretedMachine, InterpretedSystem, where_it_stopped};
+use crate::control::{MAX_STEPS, Work, check_count, least};
+use crate::error::NoNumbers;
+use crate::math::rough_log2;
+use crate::step_error::StepError;
+use crate::taylor::{bound, length, state, worse};
+use crate::{Error, Machine, Real, System};
+
+/// The orders of steps, whatever the tolerance.
+const ORDERS: [f64; 2] = [12.0, 40.0];
+
+/// Coefficients for each factor of e in the tolerance. With more of them steps are longer and cost more: products of series grow with the
+/// square of the order.
+const FOR_EACH_FACTOR: f64 = 0.55;
+
+/// Where within a step the assumptions of the description are looked at.
+const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+
+/// Advances an interpreted machine by Taylor series, in numbers of any kind: in double-doubles to some 30 digits.
+///
+/// Of machines that have a series ([`InterpretedMachine::with_series`]) and no constraints, with inputs that keep their values. Parameters,
+/// inputs and the start are the `f64` of the machine, so that the motion is that which runs in `f64` approximate.
+///
+/// ```
+/// use lagrangian::interpreted::{InterpretedMachine, SeriesStepper};
+/// use lagrangian::scalar::{DoubleDouble, Scalar};
+/// use lagrangian_mechanics::{Compiled, series::ProvedSeries};
+/// use lagrangian_spec::{diagnostic::Report, source::{InMemory, Sources}};
+///
+/// let text = "machine Oscillator in plane {
+///     parameters { m: kg = 2, k: N/m = 8 }
+///     coordinates { x: m = 1 }
+///     bodies { block { mass: m, at: (x, 0) } }
+///     springs { spring { stiffness: k, stretch: x } }
+/// }";
+/// let (dag, mut sources, mut report) = (Default::default(), Sources::new(), Report::new());
+/// let files = &mut InMemory::new();
+/// let model = lagrangian_spec::model(&dag, "oscillator", text, &[], files, &mut sources, &mut report);
+/// let Some(compiled) = model.and_then(|model| Compiled::new(model, &mut report)) else {
+///     panic!("{}", report.render_short(&sources));
+/// };
+/// let machine = InterpretedMachine::new(compiled.program.clone())
+///     .with_series(ProvedSeries::derive(&compiled.model));
+/// let mut stepper = SeriesStepper::<DoubleDouble>::new(&machine, 1e-28)?;
+/// stepper.advance_to(DoubleDouble::ONE)?;
+/// // x = cos √(k/m) t
+/// let exact = DoubleDouble::from_f64(2.0).cos();
+/// assert!((stepper.q()[0] - exact).abs().to_f64() < 1e-28);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct SeriesStepper<N: Real> {
+    expander: Expander<N>,
+    /// In `f64`, for names and for what the description assumes.
+    system: InterpretedSystem,
+    tolerance: f64,
+    inputs: Vec<N>,
+    t: N,
+    q: Vec<N>,
+    v: Vec<N>,
+    /// Coefficients of all coordinates, order by order.
+    coefficients: Vec<Vec<N>>,
+    work: Work,
+    max_steps: usize,
+}
+
+impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
+    /// At the start of the machine, at `t = 0`. Each step keeps its error in a number `y` below `tolerance · (1 + |y|)`; no
+    /// tolerance is finer than ten roundings of the numbers.
+    ///
+    /// # Errors
+    /// Why the machine has no such steps.
+    pub fn new(machine: &InterpretedMachine, tolerance: f64) -> Result<Self, NoNumbers> {
+        let start = machine.start();
+        Self::from_state(machine, tolerance, (0.0, &start.q.values, &start.v.values))
+    }
+
+    /// At a state: time in s, coordinates and rates.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    ///
+    /// # Panics
+    /// If there are not as many coordinates and rates as the machine has.
+    pub fn from_state(
+        machine: &InterpretedMachine,
+        tolerance: f64,
+        (t, q, v): (f64, &[f64], &[f64]),
+    ) -> Result<Self, NoNumbers> {
+        let n = machine.program.dimension();
+        assert_eq!([q.len(), v.len()], [n, n], "one number for each coordinate");
+        machine.check_numbers()?;
+        let series = machine.series.as_ref();
+        let series = series.map_err(|why| NoNumbers { why: why.clone() })?;
+        let numbers = |values: &[f64]| values.iter().map(|x| N::from_f64(*x)).collect();
+        let tolerance = tolerance.max(10.0 * N::EPSILON);
+        let factors = -rough_log2(tolerance) * core::f64::consts::LN_2;
+        let order = (factors * FOR_EACH_FACTOR).round();
+        let order = order.clamp(ORDERS[0], ORDERS[1]) as usize;
+        let parameters: Vec<N> = numbers(&machine.parameters);
+        Ok(Self {
+            expander: Expander::new(series.clone(), &parameters, order),
+            system: machine.prepare(),
+            tolerance,
+            inputs: numbers(&machine.inputs),
+            t: N::from_f64(t),
+            q: numbers(q),
+            v: numbers(v),
+            coefficients: vec![vec![N::ZERO; n]; order + 2],
+            work: Work::default(),
+            max_steps: MAX_STEPS,
+        })
+    }
+
+    /// How many steps [`advance_to`](Self::advance_to) may take; ten million if nobody says.
+    pub fn set_max_steps(&mut self, steps: usize) {
+        self.max_steps = steps;
+    }
+
+    /// Time, in s.
+    pub fn t(&self) -> N {
+        self.t
+    }
+
+    /// Coordinates, in the order of the description.
+    pub fn q(&self) -> &[N] {
+        &self.q
+    }
+
+    /// Their rates.
+    pub fn v(&self) -> &[N] {
+        &self.v
+    }
+
+    /// The work done so far. An expansion of the series counts as one evaluation.
+    pub fn work(&self) -> Work {
+        self.work
+    }
+
+    /// How many coefficients of the accelerations a step has.
+    pub fn order(&self) -> usize {
+        self.expander.order()
+    }
+
+    /// The tolerance of a step: what was asked for, but no less than ten roundings.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// Steps to time `t`, in s, later or earlier than now, and stands there.
+    ///
+    /// # Errors
+    /// If a step cannot be taken; now is then where the last one ended. If `t` is not a finite number; then nothing happens.
+    pub fn advance_to(&mut self, t: N) -> Result<(), Error> {
+        if !lagrangian_scalar::Scalar::is_finite(t) {
+            return Err(self.said(StepError::NoTime { t: t.to_f64() }));
+        }
+        let mut taken = 0;
+        while self.t != t {
+            check_count(taken, self.max_steps, self.t.to_f64())
+                .map_err(|error| self.said(error))?;
+            self.step(t)?;
+            taken += 1;
+        }
+        Ok(())
+    }
+
+    /// Takes one step, which ends at `end` or short of it.
+    ///
+    /// # Errors
+    /// As for [`advance_to`](Self::advance_to).
+    pub fn step(&mut self, end: N) -> Result<(), Error> {
+        let (h, is_last) = self.choose(end).map_err(|error| self.said(error))?;
+        let t = self.t.to_f64();
+        for theta in LOOKS {
+            let tau = N::from_f64(theta) * h;
+            let (q, v) = state(&self.coefficients, tau);
+            let mut numbers = q.iter().zip(&v);
+            let is_finite = |x: &N| lagrangian_scalar::Scalar::is_finite(*x);
+            if let Some(coordinate) = numbers.position(|(q, v)| !is_finite(q) || !is_finite(v)) {
+                return Err(self.said(StepError::NotFinite { coordinate, t }));
+            }
+            let t = (self.t + tau).to_f64();
+            if let Some(assumption) = self.ended_assumption(t, [&q, &v]) {
+                return Err(Error::AssumptionEnded { assumption, t });
+            }
+            if theta == 1.0 {
+                (self.q, self.v) = (q, v);
+            }
+        }
+        self.t = if is_last { end } else { self.t + h };
+        self.work.steps += 1;
+        Ok(())
+    }
+
+    /// The first assumption of the description that does not hold at a state.
+    fn ended_assumption(&self, t: f64, state: [&[N]; 2]) -> Option<String> {
+        let [q, v] = state.map(|of| of.iter().map(|x| x.to_f64()).collect());
+        let inputs = self.system.default_inputs();
+        let mut assumptions = self.system.assumptions(t, &q, &v, &inputs);
+        let ended = assumptions.find(|assumption| !assumption.holds())?;
+        Some(ended.text.into())
+    }
+
+    fn said(&self, error: StepError) -> Error {
+        Error::of_step(error, &self.system)
+    }
+
+    /// Expands the motion through now, and says how long the step is and whether it is the last.
+    fn choose(&mut self, end: N) -> Result<(N, bool), StepError> {
+        let at = self.t.to_f64();
+        self.work.evaluations += 1;
+        let expanded =
+            (self.expander).expand::<N>([self.t, N::ZERO], &self.q, &self.v, &self.inputs);
+        expanded.map_err(|singular| StepError::Singular {
+            singular: where_it_stopped(&self.system.program, singular),
+            t: at,
+        })?;
+        for i in 0..self.q.len() {
+            let of_coordinate = self.expander.of_coordinate(i);
+            for (row, c) in self.coefficients.iter_mut().zip(of_coordinate) {
+                row[i] = *c;
+            }
+        }
+        let left = (end - self.t).to_f64();
+        let length = self.tolerable_length()?;
+        let is_last = 1.01 * length >= left.abs();
+        let h = match is_last {
+            true => end - self.t,
+            false => N::from_f64(length.copysign(left)),
+        };
+        if h.to_f64().abs() <= least::<N>(at).min(0.9 * left.abs()) {
+            return Err(StepError::StepTooSmall {
+                coordinate: 0,
+                t: at,
+                step: length,
+            });
+        }
+        Ok((h, is_last))
+    }
+
+    /// The length of a step whose last two terms are tolerable.
+    fn tolerable_length(&self) -> Result<f64, StepError> {
+        let last = self.coefficients.len() - 1;
+        let powers = [last - 1, last];
+        let mut worst = [0.0_f64; 2];
+        for i in 0..self.q.len() {
+            let size = self.q[i].to_f64().abs().max(self.v[i].to_f64().abs());
+            let over = 1.0 / bound(size, self.tolerance, self.tolerance);
+            for (worst, j) in worst.iter_mut().zip(powers) {
+                let c = self.coefficients[j][i].to_f64();
+                if c.is_nan() {
+                    let t = self.t.to_f64();
+                    return Err(StepError::NotFinite { coordinate: i, t });
+                }
+                *worst = worse(*worst, c, j as f64, over);
+            }
+        }
+        Ok(length(worst, powers))
+    }
+}

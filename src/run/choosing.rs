@@ -1,0 +1,268 @@
+//! Which method a run takes that is free to choose, and when it goes on by another.
+//!
+//! All of it follows from counts and from the state: of operations, of steps and of evaluations, never from a clock. So the same call
+//! gives the same bits.
+//!
+//! * At the start by costs: a step by Taylor series against as many of `dop853` as cover it.
+//! * Where explicit steps are held short by stability, by a method of Radau. That they are is seen by the test of DOP853, and in series
+//!   by the fastest rate of the machine.
+//! * From a method of Radau back to `dop853` where its steps have taken more evaluations than explicit ones would that are stable.
+
+use super::Run;
+use crate::balance::Quadratures;
+use crate::control::Work;
+use crate::inputs::InputLaw;
+use crate::methods::{Method, RADAU_OF_HIGH_ORDER};
+use crate::solution::{MethodChoice, MethodReason};
+use crate::taylor;
+use crate::tolerance::Tolerance;
+use crate::{Error, Machine, StepError, System, Vector};
+use std::vec::Vec;
+
+/// Every method that a run may go on by, beside that by series.
+pub(super) const CANDIDATES: [&Method; 4] = [
+    Method::DOP853,
+    Method::RADAU5,
+    &RADAU_OF_HIGH_ORDER[0],
+    &RADAU_OF_HIGH_ORDER[1],
+];
+
+/// Evaluations of a step of `dop853`.
+const EVALUATIONS: f64 = 12.0;
+
+/// Explicit steps are tested after every so many: early enough that what a stiff machine takes until it is known is a small part of what an
+/// implicit method takes for all of it.
+const STEPS_BETWEEN_TESTS: usize = 100;
+
+/// After so many steps by series the fastest rate is looked at, which takes some two evaluations for each coordinate.
+const STEPS_BETWEEN_LOOKS: usize = 64;
+
+/// A step by series is held short by stability if it is longer than this, in units of the inverse of the fastest rate: 0.86 of where the
+/// regions of stability of the series of orders 12 and 20 end on the negative real axis, 5.82 and 8.82. A harmonic motion of size 1 is followed
+/// to the same tolerances in steps of 2.5 and 4.2 at the most.
+const REACH_OF_SERIES: [f64; 2] = [5.0, 7.6];
+
+/// Where the region of stability of `dop853` ends, in the same units.
+const REACH: f64 = 6.1;
+
+/// Implicit steps that are looked at together.
+const WINDOW: usize = 8;
+
+/// In so many windows one after the other explicit steps have to take less; twice as many after each time that this did not last.
+const WINDOWS: usize = 2;
+
+/// What a run that is free to choose knows of its steps.
+#[derive(Debug)]
+pub(super) struct Choosing {
+    is_free: bool,
+    pub choices: Vec<MethodChoice>,
+    /// Time and work at the beginning of the window.
+    since: (f64, Work),
+    /// In how many windows explicit steps would have taken less, and how many are asked for.
+    paying: usize,
+    needed: usize,
+}
+
+impl Choosing {
+    /// Of a run that is not.
+    pub fn none() -> Self {
+        Self {
+            is_free: false,
+            choices: Vec::new(),
+            since: (0.0, Work::default()),
+            paying: 0,
+            needed: WINDOWS,
+        }
+    }
+
+    /// Whether the run may go on by another method.
+    pub fn is_free(&self) -> bool {
+        self.is_free
+    }
+
+    /// Of a run that begins by a method.
+    pub fn begun(
+        t: f64,
+        (method, reason): (&'static Method, MethodReason),
+        may_change: bool,
+    ) -> Self {
+        Self {
+            is_free: may_change,
+            choices: [MethodChoice { t, method, reason }].into(),
+            ..Self::none()
+        }
+    }
+}
+
+/// The tolerance of a coordinate of size 1 that is asked for most sharply.
+fn sharpest<V: Vector>(tolerance: &Tolerance<V>) -> f64 {
+    let absolute = tolerance.absolute.as_slice().iter();
+    tolerance.relative + absolute.fold(f64::INFINITY, |least, x| least.min(*x))
+}
+
+/// How many steps of `dop853` cover a step by series, both of them as long as this tolerance allows.
+///
+/// Steps of order p are as τ^(1/(p + 1)), so the quotient is a power of the tolerance; its size at one tolerance is that of the double
+/// pendulum, of which the crusher has 0.9 to 1.1 (`docs/benchmarks.md`). Series of coarse tolerances are asked for a tenth.
+fn steps_for_one(tolerance: f64) -> f64 {
+    let (size, at, power) = match tolerance {
+        coarse if coarse > taylor::FINE => (0.63, 2e-4, 1.0 / 9.0 - 1.0 / 13.0),
+        middle if middle > 1e-8 => (1.39, 2e-6, 1.0 / 9.0 - 1.0 / 21.0),
+        _ => (2.09, 2e-8, 1.0 / 9.0 - 1.0 / 21.0),
+    };
+    size * crate::math::power(at / tolerance, power)
+}
+
+/// The method to begin with, and why.
+pub(super) fn first<S: System>(
+    system: &S,
+    tolerance: &Tolerance<S::Vector>,
+    inputs_stay: bool,
+) -> (&'static Method, MethodReason) {
+    let explicit = (Method::DOP853, MethodReason::Explicit);
+    let is_possible = inputs_stay && system.check_series().is_ok();
+    let costs = is_possible.then(|| system.series_cost()).flatten();
+    let Some(costs) = costs else {
+        return explicit;
+    };
+    let tolerance = sharpest(tolerance);
+    let cost = costs[usize::from(tolerance <= taylor::FINE)];
+    let saved = EVALUATIONS * steps_for_one(tolerance);
+    match cost < saved {
+        true => (Method::TAYLOR, MethodReason::SeriesPays { cost, saved }),
+        false => (Method::DOP853, MethodReason::SeriesCosts { cost, saved }),
+    }
+}
+
+/// The method of Radau whose order a tolerance asks for.
+fn implicit(tolerance: f64) -> &'static Method {
+    match tolerance {
+        coarse if coarse > 2e-7 => Method::RADAU5,
+        middle if middle > 2e-10 => &RADAU_OF_HIGH_ORDER[0],
+        _ => &RADAU_OF_HIGH_ORDER[1],
+    }
+}
+
+impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
+    /// Begins to look whether another method takes less. One by series that is held short by stability from its start on is left at
+    /// once.
+    pub(super) fn begin_choosing(&mut self) -> Result<(), Error> {
+        if !self.choosing.is_free {
+            return Ok(());
+        }
+        self.stepper.test_stiffness_every(STEPS_BETWEEN_TESTS);
+        match self.rate_beyond_series() {
+            Some(rate) => self.go_on_by(Method::DOP853, MethodReason::Stiff { rate }),
+            None => Ok(()),
+        }
+    }
+
+    /// Goes on by another method, where that takes less. To be asked after a step that is kept, when no instant within the next one is
+    /// to be met.
+    pub(super) fn choose_again(&mut self) -> Result<(), Error> {
+        if !self.choosing.is_free || self.stepper.is_done() {
+            return Ok(());
+        }
+        if self.stepper.is_implicit() {
+            return self.leave_implicit();
+        }
+        if self.stepper.coefficients().is_some() {
+            let steps = self.stepper.work().steps;
+            let is_due = steps.is_multiple_of(STEPS_BETWEEN_LOOKS);
+            let rate = is_due.then(|| self.rate_beyond_series()).flatten();
+            return match rate {
+                Some(rate) => self.go_on_implicitly(rate),
+                None => Ok(()),
+            };
+        }
+        match self.stepper.stiff_since() {
+            Some(_) => {
+                let rate = self.stepper.fastest_rate().unwrap_or(0.0);
+                self.go_on_implicitly(rate)
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Goes on by an explicit method where a step by series has no value, or none that is long enough; says whether it does.
+    pub(super) fn leave_series(&mut self, error: &StepError) -> bool {
+        let is_of_series = matches!(
+            error,
+            StepError::Singular { .. }
+                | StepError::NotFinite { .. }
+                | StepError::StepTooSmall { .. }
+        );
+        self.choosing.is_free
+            && is_of_series
+            && self.stepper.coefficients().is_some()
+            && self
+                .go_on_by(Method::DOP853, MethodReason::NoSeries)
+                .is_ok()
+    }
+
+    /// The fastest rate, if steps by series reach beyond what is stable with it.
+    fn rate_beyond_series(&mut self) -> Option<f64> {
+        let length = self.stepper.length_in_series()?;
+        let is_fine = sharpest(self.stepper.tolerance()) <= taylor::FINE;
+        let rate = self.stepper.fastest_rate()?;
+        let is_beyond = length * rate > REACH_OF_SERIES[usize::from(is_fine)];
+        (is_beyond && length.is_finite()).then_some(rate)
+    }
+
+    fn go_on_implicitly(&mut self, rate: f64) -> Result<(), Error> {
+        let method = implicit(sharpest(self.stepper.tolerance()));
+        self.begin_window();
+        self.choosing.paying = 0;
+        self.go_on_by(method, MethodReason::Stiff { rate })
+    }
+
+    fn begin_window(&mut self) {
+        self.choosing.since = (self.stepper.t(), self.stepper.work());
+    }
+
+    /// Goes back to an explicit method where that would have taken fewer evaluations, in steps that are stable and no longer than those
+    /// of the implicit one.
+    fn leave_implicit(&mut self) -> Result<(), Error> {
+        let (since, before) = self.choosing.since;
+        let work = self.stepper.work();
+        let steps = work.steps - before.steps;
+        if steps < WINDOW {
+            return Ok(());
+        }
+        let Some(rate) = self.stepper.fastest_rate() else {
+            return Ok(());
+        };
+        let stable = rate * (self.stepper.t() - since).abs() / REACH;
+        let explicit = EVALUATIONS * stable.max(steps as f64);
+        let evaluations = (work.evaluations - before.evaluations) as f64;
+        self.choosing.paying = match explicit < evaluations {
+            true => self.choosing.paying + 1,
+            false => 0,
+        };
+        self.begin_window();
+        if self.choosing.paying < self.choosing.needed {
+            return Ok(());
+        }
+        self.choosing.needed *= 2;
+        self.go_on_by(Method::DOP853, MethodReason::NotStiff { rate })
+    }
+
+    fn go_on_by(&mut self, method: &'static Method, reason: MethodReason) -> Result<(), Error> {
+        if let Err(error) = self.stepper.go_on_with_method(method) {
+            let (q, v) = (self.stepper.q(), self.stepper.v());
+            return Err(self.model.explain(error, q, v));
+        }
+        if let Some(steps) = &mut self.record.steps {
+            steps.go_on_by(method);
+        }
+        let t = self.stepper.t();
+        // What was chosen at the start and left before the first step was never taken.
+        if (self.choosing.choices.last()).is_some_and(|last| last.t == t) {
+            self.choosing.choices.pop();
+        }
+        self.choosing
+            .choices
+            .push(MethodChoice { t, method, reason });
+        Ok(())
+    }
+}

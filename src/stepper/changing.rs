@@ -1,0 +1,68 @@
+//! A run goes on by another method whose steps a tolerance chooses, and what decides whether it should.
+
+use super::{Stepper, Stiffness};
+use crate::balance::Quadratures;
+use crate::implicit::Implicit;
+use crate::implicit::jacobian::Jacobian;
+use crate::inputs::InputLaw;
+use crate::methods::{Kind, Method};
+use crate::taylor::Taylor;
+use crate::tolerance::Tolerance;
+use crate::{StepError, System, Vector};
+use std::boxed::Box;
+
+impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
+    /// Goes on from now by `method`, of Runge and Kutta or by series. The step that was next is tried next.
+    pub(crate) fn go_on_with_method(&mut self, method: &'static Method) -> Result<(), StepError> {
+        let spectrum = method.tableau.spectrum;
+        let system = self.model.system.get();
+        self.implicit = spectrum.map(|spectrum| Box::new(Implicit::new(system, spectrum)));
+        self.taylor = None;
+        self.stiffness = Stiffness::default();
+        if method.kind == Kind::Series {
+            self.taylor = Some(Box::new(Taylor::new(&self.tolerance)));
+            self.expand()?;
+        }
+        self.go_on_by(method, self.longest)
+    }
+
+    /// Tests whether steps are held short by stability after every so many of them.
+    pub(crate) fn test_stiffness_every(&mut self, steps: usize) {
+        self.between_tests = steps;
+    }
+
+    /// How exact steps are.
+    pub(crate) fn tolerance(&self) -> &Tolerance<S::Vector> {
+        &self.tolerance
+    }
+
+    /// The length of a step by series from now, in s, if steps are by series.
+    pub(crate) fn length_in_series(&mut self) -> Option<f64> {
+        let taylor = self.taylor.as_mut()?;
+        Some(taylor.length(&self.tolerance))
+    }
+
+    /// The fastest rate of the motion near now, in 1/s: the spectral radius of the derivatives of `(q', v')` by `(q, v)`. Of an
+    /// implicit method it is of the derivatives that it keeps; else they are found by one evaluation and two for each coordinate.
+    pub(crate) fn fastest_rate(&mut self) -> Option<f64> {
+        if let Some(implicit) = &self.implicit {
+            return Some(implicit.fastest_rate());
+        }
+        let Self {
+            model,
+            now,
+            control,
+            ..
+        } = self;
+        let mut jacobian = Jacobian::new(model.system.get());
+        let (mut q, mut v) = (now.q.clone(), now.v.clone());
+        let (mut here, mut there) = (q.zeros_like(), q.zeros_like());
+        let state = [&mut q, &mut v, &mut here, &mut there];
+        let at = (now.t, control.last_step);
+        let found = jacobian.find(at, state, &mut |t, q, v, a| {
+            model.accelerations(t, q, v, a, &mut control.work)
+        });
+        model.set_inputs(now.t, &now.q, &now.v);
+        found.ok().map(|()| jacobian.fastest_rate())
+    }
+}
