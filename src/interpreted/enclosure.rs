@@ -275,7 +275,7 @@ impl Enclosure {
             return Ok(());
         }
         let no_box = NotEnclosed::NoBox { t };
-        let is_wide = |y: &Interval| !(y.width() < WIDEST);
+        let is_wide = |y: &Interval| y.width().is_nan() || y.width() >= WIDEST;
         if self.states.iter().any(is_wide) {
             return Err(NotEnclosed::TooWide { t });
         }

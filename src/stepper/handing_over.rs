@@ -114,7 +114,11 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     }
 
     /// Goes on from now by another method.
-    pub(super) fn go_on_by(&mut self, method: &'static Method, longest: f64) -> Result<(), StepError> {
+    pub(super) fn go_on_by(
+        &mut self,
+        method: &'static Method,
+        longest: f64,
+    ) -> Result<(), StepError> {
         self.method = method;
         self.longest = longest;
         // No step of the method has been taken yet that could be taken back.

@@ -57,8 +57,8 @@ pub(super) fn velocity<'d>(
         (&[x, y, z], &[r, s, t]) => cross(&[x, y, z], &[r, s, t]).to_vec(),
         _ => vec![model.dag.zero(); arm.len()],
     };
-    let mut component = |k: usize| rate.of(at[k]) - rate.of(origin[k]) - carried[k];
-    (0..at.len()).map(|k| component(k)).collect()
+    let component = |k: usize| rate.of(at[k]) - rate.of(origin[k]) - carried[k];
+    (0..at.len()).map(component).collect()
 }
 
 /// A point of what a body slides on, and the angular velocity of that: one number in the plane, three in ground axes in
