@@ -551,7 +551,8 @@ impl<V: Vector> Constraints<V> {
     /// They are sums of what forces would give and of what constraints take away again, so the residual
     /// is measured by the forces as well: in balance nothing else is there. And they come out of one
     /// elimination that mixes all coordinates, so those that the constraints keep at 0 are as inexact as
-    /// the others are, by inertia: `|Gₖ| |a|`, as for rates in [`scale`].
+    /// the others are, and as what forces would give these, by inertia: `|Gₖ| (|a| + |M⁻¹f|)`, as for rates
+    /// in [`scale`].
     pub fn check_accelerations<S: System<Vector = V>>(
         &self,
         system: &S,
@@ -566,16 +567,14 @@ impl<V: Vector> Constraints<V> {
             system.forces(t, q, v, u, &mut f);
             let inertias = workspace.metric.as_slice().iter().step_by(workspace.n + 1);
             let reciprocal = |inertia: f64| if inertia > 0.0 { 1.0 / inertia } else { 0.0 };
-            for ((free, inertia), f) in workspace
-                .column
-                .iter_mut()
-                .zip(inertias.clone())
-                .zip(f.as_slice())
-            {
+            let mut squares = [0.0_f64; 2];
+            let numbers = f.as_slice().iter().zip(a.as_slice()).zip(inertias.clone());
+            for (free, ((f, a), inertia)) in workspace.column.iter_mut().zip(numbers) {
                 *free = reciprocal(*inertia) * f.abs();
+                squares[0] += *free * f.abs();
+                squares[1] += a * a * inertia.max(0.0);
             }
-            let squares = a.as_slice().iter().zip(inertias.clone());
-            let size = sqrt(squares.map(|(a, inertia)| a * a * inertia.max(0.0)).sum());
+            let size = squares.map(sqrt).iter().sum::<f64>();
             for (k, row) in workspace.matrix.chunks_exact(workspace.n).enumerate() {
                 let squares = row.iter().zip(inertias.clone());
                 let length = sqrt(

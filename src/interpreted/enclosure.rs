@@ -45,6 +45,9 @@ const WIDENINGS: usize = 6;
 /// By so much of its width a box is widened on both sides before it is tried.
 const WIDENED: f64 = 0.1;
 
+/// What a step leaves out may be this part of the width of the set.
+const SHARE: f64 = 1e-3;
+
 /// A set whose widest number is wider than this encloses nothing that is of use, and a step from it may take forever.
 const WIDEST: f64 = 1e3;
 
@@ -346,6 +349,20 @@ impl Enclosure {
         length(worst, powers)
     }
 
+    /// Whether what a step leaves out, for all states of the box that holds it, is small beside what the set is wide, or beside roundings.
+    /// Such a box is as wide as the motion is long, so its coefficients say less than those of the set: a step may have to be shorter.
+    fn is_negligible(&self, step: Interval, rest: &[Vec<Interval>]) -> bool {
+        let n = rest.len();
+        let most = |y: Interval| y.lo().abs().max(y.hi().abs());
+        let h = most(step);
+        (0..n).all(|i| {
+            let size = 1.0 + self.middle[i].abs().max(self.middle[n + i].abs());
+            let allowed = |at: usize| f64::EPSILON * size + SHARE * self.states[at].width();
+            let last = most(rest[i][ORDER + 1]) * h.powi(ORDER as i32);
+            last * h <= allowed(i) && last * (ORDER + 1) as f64 <= allowed(n + i)
+        })
+    }
+
     /// A box around the whole motion in a step from all states of the set.
     fn enclose_step(&mut self, step: Interval) -> Option<Vec<Interval>> {
         let span = hull(Interval::ZERO, step);
@@ -404,6 +421,9 @@ impl Enclosure {
         let m = 2 * n;
         let t = Interval::from(self.t);
         let rest = self.expand(t + hull(Interval::ZERO, step), within)?;
+        if !self.is_negligible(step, &rest) {
+            return None;
+        }
         // Where the motion from the middle ends.
         let mut ends = vec![Interval::ZERO; m];
         for i in 0..n {

@@ -62,12 +62,16 @@ fn assert_same<S: Batched<W> + 'static, const W: usize>(
     }
 }
 
-/// The seed of this run: another one each time.
+/// The seed of this run: another one each time, or `SEED`.
 fn seed() -> u64 {
-    let seed = std::time::SystemTime::now()
+    let clock = std::time::SystemTime::now()
         .duration_since(std::time::UNIX_EPOCH)
         .map_or(0, |since| since.as_nanos() as u64);
-    println!("seed {seed}");
+    let seed = std::env::var("SEED")
+        .ok()
+        .and_then(|seed| seed.parse().ok());
+    let seed = seed.unwrap_or(clock);
+    println!("SEED={seed}");
     seed
 }
 

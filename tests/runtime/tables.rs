@@ -37,9 +37,13 @@ fn noise(seed: u64) -> impl FnMut() -> f64 {
 }
 
 fn seed() -> u64 {
-    let seed = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
-    let seed = seed.map_or(1, |since| since.as_nanos() as u64);
-    println!("seed {seed}");
+    let clock = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
+    let clock = clock.map_or(1, |since| since.as_nanos() as u64);
+    let seed = std::env::var("SEED")
+        .ok()
+        .and_then(|seed| seed.parse().ok());
+    let seed = seed.unwrap_or(clock);
+    println!("SEED={seed}");
     seed
 }
 

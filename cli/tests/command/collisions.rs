@@ -551,11 +551,14 @@ fn a_start_inside_of_something_is_an_error() {
 /// no disc goes through another.
 #[test]
 fn random_discs_in_a_box_keep_their_energy() {
-    let seed = std::time::SystemTime::now()
+    let clock = std::time::SystemTime::now()
         .duration_since(std::time::UNIX_EPOCH)
-        .map_or(1, |since| since.subsec_nanos() as u64 | 1);
-    println!("seed {seed}");
-    let mut state = seed;
+        .map_or(1, |since| since.subsec_nanos() as u64);
+    let seed = std::env::var("SEED")
+        .ok()
+        .and_then(|seed| seed.parse().ok());
+    let mut state: u64 = seed.unwrap_or(clock) | 1;
+    println!("SEED={state}");
     let mut drawn = || {
         state ^= state << 13;
         state ^= state >> 7;

@@ -170,7 +170,9 @@ impl Known {
             let found = found.as_f64().expect("a number");
             // The nearest f64 is near enough: errors of rounding are not asked for.
             let exact: f64 = exact.parse().expect("a number");
-            (found - exact).abs() / (1.0 + exact.abs())
+            // Relative to the end of the run, as the command says it: where the error is as large as the numbers, that is not the same as to
+            // the known one.
+            (found - exact).abs() / (1.0 + found.abs())
         };
         self.each(answer).map(error).fold(0.0, f64::max)
     }

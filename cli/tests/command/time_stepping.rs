@@ -300,6 +300,8 @@ fn a_run_that_finds_every_event_stays_as_it_is() {
         assert_eq!(one["handovers"], Value::Null);
         for run in [&mut one, &mut other] {
             run["seconds"] = Value::Null;
+            // Only a run that is free to choose says what it chose.
+            run["methods"] = Value::Null;
         }
         assert_eq!(one, other);
     }

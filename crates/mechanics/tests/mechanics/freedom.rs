@@ -256,11 +256,14 @@ fn what_can_be_met_contradicts_nothing() {
 /// Rows at random through a point at random, the last a combination of the others, with and without something added.
 #[test]
 fn dependent_rows_contradict_where_something_is_added() {
-    let mut state = std::time::SystemTime::now()
+    let clock = std::time::SystemTime::now()
         .duration_since(std::time::UNIX_EPOCH)
-        .map_or(1, |now| now.as_nanos() as u64)
-        | 1;
-    println!("seed {state}");
+        .map_or(1, |now| now.as_nanos() as u64);
+    let seed = std::env::var("SEED")
+        .ok()
+        .and_then(|seed| seed.parse().ok());
+    let mut state: u64 = seed.unwrap_or(clock) | 1;
+    println!("SEED={state}");
     let mut random = move || {
         state ^= state << 13;
         state ^= state >> 7;
