@@ -161,7 +161,7 @@ impl Call {
             let trajectories: [_; LANES] = std::array::from_fn(|_| trajectory());
             let mut ended = None;
             let run = || {
-                ensemble.run(trajectories.into_iter(), |_, arrived| ended = arrived.ok());
+                ensemble.run(trajectories, |_, arrived| ended = arrived.ok());
             };
             let seconds = timing::seconds(run).0 / LANES as f64;
             let arrival = ended?;

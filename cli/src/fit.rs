@@ -25,10 +25,10 @@ use crate::evaluate::set_start;
 use crate::failure::Failure;
 use crate::inputs;
 use crate::interrupt;
+use crate::methods;
 use crate::output::{self, Destination, MACHINE, SVG, TABLE, keep_apart};
 use crate::progress;
 use crate::reading::{self, Reading, places};
-use crate::simulate;
 use crate::table;
 use data::{Class, Given};
 
@@ -91,7 +91,7 @@ struct Fitted<'a, 'f> {
 /// # Errors
 /// If the spec, the data or the call is at fault, or the search finds no minimum.
 pub fn run(call: &call::Fit) -> Result<(), Failure> {
-    let method = simulate::method(&call.method)?;
+    let method = methods::named(&call.method)?;
     if std::ptr::eq(method, &lagrangian::methods::TAYLOR) {
         return Err(Failure::Call(
             "--method taylor: a fit runs the motion with its derivatives, which have no series; take dop853".into(),

@@ -28,6 +28,7 @@ mod interrupt;
 mod library;
 mod linearize;
 mod map;
+mod methods;
 mod modes;
 mod numbers;
 mod orbit;

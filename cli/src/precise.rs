@@ -13,11 +13,11 @@ use serde_json::{Map, Value, json};
 use crate::call;
 use crate::evaluate::set_start;
 use crate::failure::Failure;
+use crate::methods::{self, AUTO};
 use crate::numbers::shortest;
 use crate::output;
 use crate::progress;
 use crate::reading::{self, Reading};
-use crate::simulate::{AUTO, method};
 
 /// Digits that are printed.
 const DIGITS: usize = 30;
@@ -136,7 +136,7 @@ fn said(machine: &InterpretedMachine, error: lagrangian::StepError) -> Failure {
 pub fn in_double_doubles(call: &call::Simulate) -> Result<(), Failure> {
     let asked = match call.method.as_str() {
         AUTO => None,
-        name => Some(method(name)?),
+        name => Some(methods::named(name)?),
     };
     if let Some(method) = asked
         && !std::ptr::eq(method, &TAYLOR)

@@ -20,7 +20,7 @@ use crate::failure::Failure;
 use crate::output::{self, Destination, MACHINE, TABLE, ending_is_one_of, keep_apart};
 use crate::reading::{self, Reading};
 use crate::recording::{Kind, Recording, Run};
-use crate::{inputs, simulate};
+use crate::{inputs, methods, simulate};
 
 /// How often a run is recorded where the call does not say.
 const SAMPLES: f64 = 1000.0;
@@ -325,7 +325,7 @@ pub fn spec(
     files: &[&Destination],
 ) -> Result<Columns, Failure> {
     let runs = options.runs;
-    let method = simulate::method(options.method.unwrap_or(<&Method>::default().tableau.name))?;
+    let method = methods::named(options.method.unwrap_or(<&Method>::default().tableau.name))?;
     if std::ptr::eq(method, &TAYLOR) {
         return Err(Failure::Call(
             "--method taylor: `simulate --out` writes a table of such a run, which is taken here"

@@ -24,7 +24,7 @@ use crate::orbit::differentiate;
 use crate::output::{self, Destination, SVG, TABLE, keep_apart};
 use crate::reading::{self, Reading, places};
 use crate::runs::{header, warn};
-use crate::{progress, simulate, table};
+use crate::{methods, progress, table};
 
 /// How often a run is recorded where the call does not say.
 const SAMPLES: f64 = 1000.0;
@@ -390,7 +390,7 @@ fn made(
     variations: &[Variation],
     observed: &[Observed],
 ) -> Result<(Vec<f64>, Vec<Column>), Failure> {
-    let method = simulate::method(&call.method)?;
+    let method = methods::named(&call.method)?;
     if std::ptr::eq(method, &TAYLOR) {
         return Err(Failure::Call(
             "--method taylor: derivatives of a motion have no series".into(),

@@ -9,7 +9,6 @@ use lagrangian::{
     Warning,
 };
 use lagrangian_mechanics::series::ProvedSeries;
-use lagrangian_spec::diagnostic::nearest;
 use lagrangian_sweep::signals::{self, Written};
 use lagrangian_sweep::verdict;
 use lagrangian_symbolic::Dag;
@@ -24,6 +23,7 @@ use crate::failure::Failure;
 use crate::global_error;
 use crate::inputs;
 use crate::interrupt::Interrupt;
+use crate::methods::{self, AUTO};
 use crate::numbers::{by_name, shortest, states};
 use crate::output::{self, Destination, PAGE, SVG, TABLE, keep_apart};
 use crate::precise;
@@ -38,9 +38,6 @@ const SAMPLES: f64 = 1000.0;
 
 /// More rows than this are a slip of the hand: at nine coordinates they fill a gigabyte.
 const MOST_SAMPLES: f64 = 5e6;
-
-/// The method that is chosen by the machine: the default one, and time stepping where contacts meet too often.
-pub const AUTO: &str = "auto";
 
 /// The tolerance where a call says nothing.
 const TOLERANCE: f64 = 1e-9;
@@ -125,7 +122,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     let is_auto = call.method == AUTO;
     let mut method = match is_auto {
         true => <&Method>::default(),
-        false => method_or(&call.method, &[AUTO])?,
+        false => methods::named_or(&call.method, &[AUTO])?,
     };
     let written = inputs::written(&call.inputs)?;
     let files = Files::new(call, &written)?;
@@ -357,23 +354,6 @@ fn asked(call: &call::Simulate, tolerance: f64) -> Asked {
             .map(|input| (input.name.clone(), input.value.clone()))
             .collect(),
     }
-}
-
-pub fn method(name: &str) -> Result<&'static Method, Failure> {
-    method_or(name, &[])
-}
-
-/// The method of a name, where the call may name `others` too.
-fn method_or(name: &str, others: &[&'static str]) -> Result<&'static Method, Failure> {
-    Method::named(name).ok_or_else(|| {
-        let methods = || Method::all().map(|method| method.tableau.name);
-        let names = || others.iter().copied().chain(methods());
-        let help = match nearest(name, names()) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("there are: {}", names().collect::<Vec<_>>().join(", ")),
-        };
-        Failure::Call(format!("no method named `{name}`; {help}"))
-    })
 }
 
 /// Settings are the fault of the call, everything else that of the machine or the run.

@@ -25,10 +25,10 @@ use crate::diagnostics;
 use crate::failure::Failure;
 use crate::inputs;
 use crate::interrupt;
+use crate::methods;
 use crate::output::{self, Destination, TABLE, ending_is_one_of, keep_apart};
 use crate::progress;
 use crate::reading;
-use crate::simulate;
 use crate::table;
 use spoken::Spoken;
 
@@ -372,7 +372,7 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
             "how long does each run last? --until SECONDS".into(),
         ));
     };
-    simulate::method(&call.method)?;
+    methods::named(&call.method)?;
     let path = call.spec.path.to_string_lossy();
     let (_, text) = Disk
         .read(&path, None)

@@ -557,8 +557,9 @@ fn random_discs_in_a_box_keep_their_energy() {
     let seed = std::env::var("SEED")
         .ok()
         .and_then(|seed| seed.parse().ok());
-    let mut state: u64 = seed.unwrap_or(clock) | 1;
-    println!("SEED={state}");
+    let seed = seed.unwrap_or(clock) | 1;
+    println!("SEED={seed}");
+    let mut state: u64 = seed;
     let mut drawn = || {
         state ^= state << 13;
         state ^= state >> 7;

@@ -793,7 +793,7 @@ impl Search<'_> {
                 let [here, there] = [t, t + period].map(|t| self.walls(t, &state));
                 let size = here.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
                 let differs = |(here, there): (&f64, &f64)| (here - there).abs() > 1e-6 * size;
-                if let Some(k) = here.iter().zip(&there).position(|pair| differs(pair)) {
+                if let Some(k) = here.iter().zip(&there).position(differs) {
                     let contacts = here.len() / 3;
                     let contact = if k < contacts { k } else { (k - contacts) / 2 };
                     let mut names = system.unilateral_contacts();

@@ -52,7 +52,7 @@ fn contacts_that_are_not_derived_yet_are_named() {
         "machine Bead in space {
             coordinates { x: m, y: m, z: m }
             bodies { bead { mass: 1, at: (x, y, z) } }
-            contacts { stop { gap: z, slip: der(x), restitution: 0.5, friction: 0.1 } }
+            contacts { stop { gap: z, slip: (der(x), der(y)), restitution: 0.5, friction: 0.1, law: stronge } }
         }",
     );
     assert_eq!(in_space.len(), 1);

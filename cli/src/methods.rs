@@ -1,0 +1,28 @@
+//! Methods of integration by their names.
+
+use lagrangian::methods::Method;
+use lagrangian_spec::diagnostic::nearest;
+
+use crate::failure::Failure;
+
+/// The method that is chosen by the machine: the default one, implicit ones where it is stiff, and time stepping where
+/// contacts meet too often.
+pub const AUTO: &str = "auto";
+
+/// The method of a name.
+pub fn named(name: &str) -> Result<&'static Method, Failure> {
+    named_or(name, &[])
+}
+
+/// The method of a name, where the call may name `others` too.
+pub fn named_or(name: &str, others: &[&'static str]) -> Result<&'static Method, Failure> {
+    Method::named(name).ok_or_else(|| {
+        let methods = || Method::all().map(|method| method.tableau.name);
+        let names = || others.iter().copied().chain(methods());
+        let help = match nearest(name, names()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("there are: {}", names().collect::<Vec<_>>().join(", ")),
+        };
+        Failure::Call(format!("no method named `{name}`; {help}"))
+    })
+}
