@@ -79,9 +79,17 @@ pub(crate) fn length(x: &[f64]) -> f64 {
     sqrt(dot(x, x))
 }
 
+/// Numbers that are smaller than this have fewer digits than others: what becomes of them is no matter of rounding alone. Rates of
+/// what comes to rest fall that low.
+const UNDERFLOW: f64 = f64::MIN_POSITIVE / f64::EPSILON;
+
 /// `x` relative to a scale that may be 0.
 pub(super) fn share(x: f64, scale: f64) -> f64 {
-    if x == 0.0 { 0.0 } else { x.abs() / scale }
+    if x == 0.0 {
+        0.0
+    } else {
+        x.abs() / (scale + UNDERFLOW)
+    }
 }
 
 /// The number of rows of a square matrix of so many numbers.
