@@ -182,7 +182,7 @@ impl Parts<'_> {
     }
 
     /// In space the size of a friction force `f = μ |N|` goes with the length of a vector. What sticks follows linearly from
-    /// what slides, so `N = A + B f`, and what is left is one equation `f = μ |A + B f|` for each contact that slides.
+    /// what slides, so `N = A + B f`, and there remains one equation `f = μ |A + B f|` for each contact that slides.
     fn by_sizes(&self, mode: &Mode, look: &mut dyn FnMut(Each)) -> bool {
         let count = self.layout.k;
         let mut sliding = [(0, 0.0); MOST_CONTACTS];

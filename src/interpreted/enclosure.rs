@@ -5,7 +5,7 @@
 //!
 //! 1. the whole motion in it, by a box `Z` with `Y + [0, h] f(Z) ⊆ Z`, where `Y` holds the set and `f` is the right-hand side: then the
 //!    theorem of Picard and Lindelöf has the motion exist and stay in `Z`;
-//! 2. the end of the motion from `c`: `φ(c) = Σ cⱼ hʲ` up to order p, and what is left out, `h^(p+1) c₍p+1₎(Z)`, the coefficient that the
+//! 2. the end of the motion from `c`: `φ(c) = Σ cⱼ hʲ` up to order p, and the remainder `h^(p+1) c₍p+1₎(Z)`, with the coefficient that the
 //!    recurrences make of all states in `Z` (R. E. Moore, *Interval Analysis*, 1966, chapter 11);
 //! 3. the others by the mean value theorem, `φ(c) + Dφ(Y) (B s)`, with the derivatives of the same recurrences over dual numbers;
 //! 4. their set in new axes, `B'` the orthogonal factor of the middle of `Dφ(Y) B`, so that boxes that turn do not grow
@@ -33,7 +33,7 @@ use crate::taylor::{bound, length, worse};
 /// Coefficients of the accelerations in a step.
 const ORDER: usize = 24;
 
-/// What the last terms of a step are at the most: what is left out counts for all states of a box, which are worse than one.
+/// The greatest size of the last terms of a step. The remainder is bounded for all states of a box, so it is greater than these.
 const LAST_TERMS: f64 = 1e-19;
 
 /// How often a step is halved whose motion no box is found for.
@@ -45,7 +45,7 @@ const WIDENINGS: usize = 6;
 /// By so much of its width a box is widened on both sides before it is tried.
 const WIDENED: f64 = 0.1;
 
-/// What a step leaves out may be this part of the width of the set.
+/// The remainder of a step may be this part of the width of the set.
 const SHARE: f64 = 1e-3;
 
 /// A set whose widest number is wider than this encloses nothing that is of use, and a step from it may take forever.
@@ -349,8 +349,9 @@ impl Enclosure {
         length(worst, powers)
     }
 
-    /// Whether what a step leaves out, for all states of the box that holds it, is small beside what the set is wide, or beside roundings.
-    /// Such a box is as wide as the motion is long, so its coefficients say less than those of the set: a step may have to be shorter.
+    /// Whether the remainder of a step, for all states of the box that encloses the motion in it, is small beside the width of the set, or
+    /// beside rounding. That box is as wide as the motion in the step is long, so its coefficients are wider than those of the set: the step
+    /// may have to be shorter than the last terms of the series ask for.
     fn is_negligible(&self, step: Interval, rest: &[Vec<Interval>]) -> bool {
         let n = rest.len();
         let most = |y: Interval| y.lo().abs().max(y.hi().abs());
