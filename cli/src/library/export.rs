@@ -66,6 +66,13 @@ numbers! { Lanes<8>: Eight, [f64; 8], plain::Plain<8>; }
 #[cfg(not(target_feature = "avx512vl"))]
 numbers! { Lanes<8>: TwiceFour, [f64; 8], plain::Plain<8>; }
 
+/// How many of eight states a long program takes at a time: as many as a register holds. A pair of registers that stands for
+/// one number lies in memory, where the time of the compiler grows with the square of the program.
+#[cfg(target_feature = "avx512vl")]
+const IN_A_REGISTER: usize = 8;
+#[cfg(not(target_feature = "avx512vl"))]
+const IN_A_REGISTER: usize = 4;
+
 /// The mass matrix cannot be inverted, or constraints depend on each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Singular;
@@ -162,9 +169,9 @@ pub unsafe extern "C" fn eval(y: *const f64, t: f64, p: *const f64, qdd: *mut f6
     }
 }
 
-/// The functions for several states at once: `library.rs` says which.
+/// The functions for several states at once, and how many of these are evaluated at a time: `library.rs` says which.
 macro_rules! several {
-    ($($name:ident: $lanes:literal;)*) => {
+    ($($name:ident: $lanes:literal by $width:expr;)*) => {
         /// # Safety
         /// Nobody else runs.
         unsafe fn set_up_lanes(prepared: &Prepared) {
@@ -176,20 +183,40 @@ macro_rules! several {
             mod $name {
                 use super::*;
 
-                pub static SLOT: Slot<Prepared<Lanes<$lanes>>> = Slot(UnsafeCell::new(None));
+                const WIDTH: usize = $width;
+
+                pub static SLOT: Slot<Prepared<Lanes<WIDTH>>> = Slot(UnsafeCell::new(None));
 
                 /// # Safety
                 /// As of `eval`; `t` points to a time for each state.
                 #[unsafe(no_mangle)]
                 pub unsafe extern "C" fn $name(y: *const f64, t: *const f64, p: *const f64, qdd: *mut f64) {
-                    // SAFETY: as of `eval`; lanes are aligned as numbers.
+                    // SAFETY: as of `eval`; lanes are aligned as numbers, and every place lies among those of the states.
                     unsafe {
-                        let [q, v] = &*y.cast::<[[Lanes<$lanes>; N]; 2]>();
-                        let a = &mut *qdd.cast::<[Lanes<$lanes>; N]>();
-                        let at = *t.cast::<Lanes<$lanes>>();
                         let prepared = (*SLOT.0.get()).as_ref();
-                        let evaluate = |prepared| machine::evaluate(prepared, at, q, v, &given(p).map(Lanes::splat), a);
-                        if !prepared.is_some_and(evaluate) {
+                        let inputs = given(p).map(Lanes::splat);
+                        let all = prepared.is_some_and(|prepared| {
+                            if WIDTH == $lanes {
+                                let [q, v] = &*y.cast::<[[Lanes<WIDTH>; N]; 2]>();
+                                let a = &mut *qdd.cast::<[Lanes<WIDTH>; N]>();
+                                return machine::evaluate(prepared, *t.cast::<Lanes<WIDTH>>(), q, v, &inputs, a);
+                            }
+                            let mut a = [Lanes::splat(0.0); N];
+                            let mut state = [[Lanes::splat(0.0); N]; 2];
+                            (0..$lanes).step_by(WIDTH).all(|first| {
+                                for (i, numbers) in state.as_flattened_mut().iter_mut().enumerate() {
+                                    *numbers = y.add($lanes * i + first).cast::<Lanes<WIDTH>>().read();
+                                }
+                                let [q, v] = &state;
+                                let at = t.add(first).cast::<Lanes<WIDTH>>().read();
+                                let is_regular = machine::evaluate(prepared, at, q, v, &inputs, &mut a);
+                                for (i, numbers) in a.iter().enumerate() {
+                                    qdd.add($lanes * i + first).cast::<Lanes<WIDTH>>().write(*numbers);
+                                }
+                                is_regular
+                            })
+                        });
+                        if !all {
                             one_by_one(y, t, p, qdd);
                         }
                     }
