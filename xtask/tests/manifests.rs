@@ -91,3 +91,76 @@ fn a_manifest_that_lacks_something_is_seen() {
         .collect();
     assert_eq!(versions.len(), 1, "{lacks:?}");
 }
+
+/// The packages that the compiler depends on, and the crates of the compiler: `lagrangian-emit` and all below it, without what
+/// tests alone need.
+fn packages_of_the_compiler() -> Vec<String> {
+    let read = |path: PathBuf| fs::read_to_string(path).expect("a file of the project");
+    let lock = read(root().join("Cargo.lock"));
+    let own = |name: &str| match name.strip_prefix("lagrangian-") {
+        Some("spec") => Some(root().join("model-spec")),
+        Some(crate_name) => Some(root().join("crates").join(crate_name)),
+        None => None,
+    };
+    let below = |name: &str| -> Vec<String> {
+        if let Some(folder) = own(name) {
+            let manifest = read(folder.join("Cargo.toml"));
+            return lines(&manifest)
+                .into_iter()
+                .filter(|(section, line)| *section == "dependencies" && line.contains('='))
+                .filter(|(_, line)| !line.starts_with('#') && !line.contains("optional = true"))
+                .filter_map(|(_, line)| line.split(['.', ' ', '=']).next())
+                .map(str::to_owned)
+                .collect();
+        }
+        let start = format!("name = \"{name}\"\n");
+        let entry = lock
+            .split("[[package]]\n")
+            .find(|entry| entry.starts_with(&start));
+        let list = entry.and_then(|entry| entry.split_once("dependencies = [\n"));
+        list.map_or_else(Vec::new, |(_, list)| {
+            list.lines()
+                .take_while(|line| line.starts_with(" \""))
+                .filter_map(|line| line.split('"').nth(1)?.split(' ').next())
+                .map(str::to_owned)
+                .collect()
+        })
+    };
+    let mut packages = vec!["lagrangian-emit".to_owned()];
+    let mut next = 0;
+    while let Some(name) = packages.get(next) {
+        for dependency in below(name) {
+            if !packages.contains(&dependency) {
+                packages.push(dependency);
+            }
+        }
+        next += 1;
+    }
+    packages
+}
+
+/// A macro and what it depends on are compiled without optimization unless they are named. One package that is not named is
+/// two packages, and all of the compiler above it is compiled twice: once for the macro, once for the command.
+#[test]
+fn the_compiler_is_compiled_once_in_every_profile() {
+    // Build scripts alone need it.
+    let apart = ["autocfg"];
+    let manifest = fs::read_to_string(root().join("Cargo.toml")).expect("a manifest");
+    let packages = packages_of_the_compiler();
+    assert!(packages.len() > 10, "{packages:?}");
+    for profile in ["profile.dev.package", "profile.release.package"] {
+        let named: Vec<&str> = lines(&manifest)
+            .into_iter()
+            .filter(|(section, _)| *section == profile)
+            .filter_map(|(_, line)| line.split_once(".opt-level"))
+            .map(|(name, _)| name)
+            .collect();
+        let missing: Vec<&String> = packages
+            .iter()
+            .filter(|package| {
+                !apart.contains(&package.as_str()) && !named.contains(&package.as_str())
+            })
+            .collect();
+        assert!(missing.is_empty(), "[{profile}] does not name {missing:?}");
+    }
+}
