@@ -483,6 +483,16 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
+    /// Reports a unit that stands behind a declared name instead of a number: the second of `9.81*m/s^2` where `m` is a mass.
+    fn unit_behind_name(&mut self, name: &'a Ident, declared: &str) {
+        let message = format!("nothing is named `{}`", name.text);
+        let diagnostic = Diagnostic::new(Code::UnknownName, name.span, message);
+        self.push(diagnostic.help(format!(
+            "`{}` is a unit behind a number and other units only, and `{declared}` is declared here, so that it is no unit: write the number alone, in SI units",
+            name.text
+        )));
+    }
+
     fn product(&mut self, factors: &'a [Factor], span: Span, scope: Scope<'a>) -> Value<'d> {
         let mut product = Product {
             number: Some(1.0),
@@ -491,11 +501,27 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let mut complete = true;
         // Whether there are only numbers so far, and units: then a unit may follow.
         let mut measured = true;
+        // The name that ended them, where a unit is called so too.
+        let mut hides = None;
         for (place, factor) in factors.iter().enumerate() {
             let measure = match measured && place > 0 {
                 true => self.unit_factor(&factor.value, scope),
                 false => None,
             };
+            if let (Some(declared), Some(name)) = (hides, first_name(&factor.value))
+                && measure.is_none()
+                && self.unit_factor(&factor.value, scope).is_some()
+            {
+                if complete {
+                    self.unit_behind_name(name, declared);
+                }
+                complete = false;
+                continue;
+            }
+            if measured && place > 0 && measure.is_none() {
+                let name = first_name(&factor.value).map(|name| name.text.as_str());
+                hides = name.filter(|name| Measure::named(name).is_some());
+            }
             let value = match &measure {
                 Some(measure) => Value::Scalar(Scalar {
                     expr: measure.in_si(self.dag),
@@ -1041,6 +1067,16 @@ impl Value<'_> {
             Value::Vector(vector) => vector.unit,
             _ => None,
         }
+    }
+}
+
+/// The first name of what may be a unit: `s` of `s^2`.
+fn first_name(factor: &Expression) -> Option<&Ident> {
+    match &factor.kind {
+        ExpressionKind::Name(reference) if reference.index.is_none() => Some(&reference.base),
+        ExpressionKind::Power(base, _) => first_name(base),
+        ExpressionKind::Product(factors) => first_name(&factors.first()?.value),
+        _ => None,
     }
 }
 
