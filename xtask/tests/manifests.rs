@@ -164,3 +164,21 @@ fn the_compiler_is_compiled_once_in_every_profile() {
         assert!(missing.is_empty(), "[{profile}] does not name {missing:?}");
     }
 }
+
+/// The Python package is apart from the workspace, and shares its folder of builds: where the profiles are the same, so is what
+/// both depend on.
+#[test]
+fn the_python_package_is_built_in_the_profile_of_the_workspace() {
+    let profile = |path: &str| -> Vec<(String, String)> {
+        let text = fs::read_to_string(root().join(path)).expect("a manifest");
+        lines(&text)
+            .into_iter()
+            .filter(|(section, line)| section.starts_with("profile.dev") && line.contains('='))
+            .filter(|(_, line)| !line.starts_with('#'))
+            .map(|(section, line)| (section.to_owned(), line.to_owned()))
+            .collect()
+    };
+    let of_workspace = profile("Cargo.toml");
+    assert!(of_workspace.len() > 10, "{of_workspace:?}");
+    assert_eq!(of_workspace, profile("python/Cargo.toml"));
+}
