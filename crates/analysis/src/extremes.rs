@@ -13,28 +13,48 @@ pub struct Extreme {
     pub is_maximum: bool,
 }
 
-/// All maxima and minima within a curve, in order of time: where the cubic between rows that has their rates turns, or the parabola
-/// through a row and its neighbours where there are no rates. Extremes that differ from the one before by no more than
-/// `least` are ripples, and are left out together with it.
+/// All maxima and minima within a curve, in order of time: where the cubic between rows turns that has their rates, or the parabola
+/// through a row and its neighbours where there are no rates.
+///
+/// Ripples are left out: from a maximum the curve falls by more than `least` to both sides before it comes to a greater value, a gap
+/// or its end, and from a minimum it rises so.
 pub fn extremes(curve: &Curve<'_>, rates: Option<&[f64]>, least: f64) -> Vec<Extreme> {
-    let found = match (curve.between(), rates) {
-        (Between::Hermite, Some(rates)) => by_rates(curve, rates),
-        _ => by_values(curve),
-    };
-    without_ripples(found, least)
+    let rates = rates.filter(|_| curve.between() == Between::Hermite);
+    let (times, values) = (curve.times(), curve.values());
+    let is_known =
+        |row: usize| values[row].is_finite() && rates.is_none_or(|rates| rates[row].is_finite());
+    let mut found = Vec::new();
+    let mut row = 0;
+    while row < values.len() {
+        let first = row;
+        while row < values.len() && is_known(row) {
+            row += 1;
+        }
+        if first < row {
+            let rows = first..row;
+            let (times, values) = (&times[rows.clone()], &values[rows.clone()]);
+            let turns = match rates {
+                Some(rates) => by_rates(times, values, &rates[rows]),
+                None => by_values(times, values),
+            };
+            without_ripples(
+                &turns,
+                [values[0], values[values.len() - 1]],
+                least,
+                &mut found,
+            );
+        }
+        row += 1;
+    }
+    found
 }
 
 /// Where rates change sign between two rows, the extreme of the cubic that has them.
-fn by_rates(curve: &Curve<'_>, rates: &[f64]) -> Vec<Extreme> {
-    let (times, values) = (curve.times(), curve.values());
+fn by_rates(times: &[f64], values: &[f64], rates: &[f64]) -> Vec<Extreme> {
     let mut found = Vec::new();
     // The last row at which the curve was not at rest.
     let mut before: Option<(usize, f64)> = None;
     for (row, rate) in rates.iter().enumerate() {
-        if !rate.is_finite() || !values[row].is_finite() {
-            before = None;
-            continue;
-        }
         if *rate == 0.0 {
             continue;
         }
@@ -79,8 +99,7 @@ fn turning([x0, x1]: [f64; 2], [d0, d1]: [f64; 2]) -> f64 {
 }
 
 /// Rows that are greater or less than their neighbours, moved to the top of the parabola through the three.
-fn by_values(curve: &Curve<'_>) -> Vec<Extreme> {
-    let (times, values) = (curve.times(), curve.values());
+fn by_values(times: &[f64], values: &[f64]) -> Vec<Extreme> {
     let mut found = Vec::new();
     let mut row = 1;
     while row + 1 < values.len() {
@@ -119,18 +138,39 @@ fn parabola([(t0, x0), (t1, x1), (t2, x2)]: [(f64, f64); 3]) -> (f64, f64) {
     (t1 + step, x1 + 0.5 * slope * step)
 }
 
-/// Without pairs of neighbours that differ by no more than `least`.
-fn without_ripples(mut found: Vec<Extreme>, least: f64) -> Vec<Extreme> {
-    loop {
-        let gaps = found.windows(2).enumerate();
-        let gaps = gaps.map(|(k, pair)| (k, (pair[1].value - pair[0].value).abs()));
-        let smallest = gaps.min_by(|a, b| a.1.total_cmp(&b.1));
-        match smallest {
-            Some((k, gap)) if gap <= least => {
-                found.drain(k..k + 2);
-            }
-            _ => return found,
+/// Adds those turns of a curve, with the values at its ends, that are no ripples.
+///
+/// The curve is followed from its start. When it has fallen by more than `least` from the greatest value since the last minimum that
+/// was found, that value is a maximum; and the other way round. The first that is found so is left out, since before it the curve has
+/// not moved by more than `least`: otherwise it would not be the first.
+fn without_ripples(
+    turns: &[Extreme],
+    [start, end]: [f64; 2],
+    least: f64,
+    found: &mut Vec<Extreme>,
+) {
+    // The greatest and the least value since the turn before, and where they are unless at an end.
+    let (mut greatest, mut smallest) = ((start, None), (start, None));
+    // Whether the curve goes up, once that is known: the next turn is a maximum then.
+    let mut rises: Option<bool> = None;
+    let turns = turns.iter().map(|turn| (turn.value, Some(*turn)));
+    for point in turns.chain([(end, None)]) {
+        if point.0 > greatest.0 {
+            greatest = point;
         }
+        if point.0 < smallest.0 {
+            smallest = point;
+        }
+        let (turned, goes_up) = match rises {
+            Some(true) | None if greatest.0 - point.0 > least => (greatest.1, false),
+            Some(false) | None if point.0 - smallest.0 > least => (smallest.1, true),
+            _ => continue,
+        };
+        if rises.is_some() {
+            found.extend(turned);
+        }
+        rises = Some(goes_up);
+        (greatest, smallest) = (point, point);
     }
 }
 
@@ -178,6 +218,80 @@ mod tests {
         let curve = Curve::new(&times[..5], &flat, None, Between::Cubic);
         let found = extremes(&curve, None, 0.0);
         assert_eq!(found.len(), 2);
+        // Up to the end the curve rises by 0.53 only.
+        assert_eq!(extremes(&curve, None, 0.6), found[..1]);
         assert!((found[0].t - 0.075).abs() < 1e-15 && found[0].value == 1.0);
+    }
+
+    /// Turns by their values, maxima and minima in turn.
+    fn turns(values: &[f64]) -> Vec<Extreme> {
+        let pairs = values.windows(3).enumerate();
+        let pairs = pairs.filter(|(_, x)| (x[1] - x[0]) * (x[1] - x[2]) > 0.0);
+        let turns = pairs.map(|(k, x)| Extreme {
+            t: (k + 1) as f64,
+            value: x[1],
+            is_maximum: x[1] > x[0],
+        });
+        turns.collect()
+    }
+
+    #[test]
+    fn noise_on_a_monotone_curve_is_no_extreme() {
+        let times: Vec<f64> = (0..200).map(|k| f64::from(k) * 0.05).collect();
+        for phase in 0..60 {
+            // Both ends lie anywhere on the ripple, so that its turns are even and odd in number.
+            let ripple = |t: f64| 1e-3 * (40.0 * t + 0.1 * f64::from(phase)).sin();
+            let values: Vec<f64> = times.iter().map(|t| (-t).exp() + ripple(*t)).collect();
+            let slopes = |t: &f64| -(-t).exp() + 0.04 * (40.0 * t + 0.1 * f64::from(phase)).cos();
+            let rates: Vec<f64> = times.iter().map(slopes).collect();
+            for rates in [None, Some(rates.as_slice())] {
+                let curve = Curve::new(&times, &values, rates, Between::Hermite);
+                assert!(extremes(&curve, rates, 0.0).len() > 20);
+                assert_eq!(extremes(&curve, rates, 3e-3), []);
+            }
+        }
+    }
+
+    /// What the words say, turn by turn: the way to both sides until the curve passes the turn, or ends.
+    #[test]
+    fn extremes_are_those_with_slopes_to_both_sides() {
+        let mut state = 1_u64;
+        let mut random = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) as f64 / f64::from(1_u32 << 31)
+        };
+        for _ in 0..2000 {
+            let count = 2 + (random() * 12.0) as usize;
+            let values: Vec<f64> = (0..count).map(|_| random()).collect();
+            let least = 0.8 * random();
+            let slope = |beside: &mut dyn Iterator<Item = &f64>, top: f64, sign: f64| {
+                let side = beside.map(|x| sign * (top - x));
+                side.take_while(|below| *below >= 0.0).fold(0.0, f64::max)
+            };
+            let is_one = |turn: &Extreme| {
+                let (k, sign) = (turn.t as usize, if turn.is_maximum { 1.0 } else { -1.0 });
+                let before = slope(&mut values[..k].iter().rev(), turn.value, sign);
+                before.min(slope(&mut values[k + 1..].iter(), turn.value, sign)) > least
+            };
+            let turns = turns(&values);
+            let expected: Vec<Extreme> = turns.iter().copied().filter(is_one).collect();
+            let mut found = Vec::new();
+            without_ripples(&turns, [values[0], values[count - 1]], least, &mut found);
+            assert_eq!(found, expected, "{values:?} {least}");
+        }
+    }
+
+    #[test]
+    fn a_gap_is_an_end() {
+        let times: Vec<f64> = (0..9).map(f64::from).collect();
+        let values = [0.0, 2.0, 1.5, f64::NAN, 0.0, 3.0, 0.0, 0.2, 0.1];
+        let curve = Curve::new(&times, &values, None, Between::Cubic);
+        let found = extremes(&curve, None, 1.0);
+        assert!(
+            found.len() == 1 && (found[0].t - 5.0).abs() < 0.5,
+            "{found:?}"
+        );
     }
 }
