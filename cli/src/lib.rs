@@ -16,6 +16,7 @@ mod derive;
 mod diagnostics;
 mod drawing;
 mod evaluate;
+mod exactness;
 mod exit;
 mod failure;
 mod fit;

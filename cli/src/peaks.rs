@@ -20,6 +20,10 @@ const SHOWN: usize = 10;
 struct Found<'a> {
     quantity: &'a Quantity,
     extremes: Vec<Extreme>,
+    /// What is no more than this is a ripple, in the unit of the quantity.
+    ripple: f64,
+    /// How many maxima and minima are left out as ripples.
+    left_out: usize,
 }
 
 impl Found<'_> {
@@ -71,22 +75,31 @@ pub fn run(call: &call::Peaks) -> Result<(), Failure> {
     let file = Destination::of("--out", call.out.as_ref(), TABLE)?;
     output::keep_document_apart(&file, call.part.runs.json)?;
     let all: Vec<&Destination> = file.iter().collect();
-    let columns = runs::one(&call.part, &all)?;
+    let (columns, exactness) = runs::one_with_run(&call.part, &all)?;
     let chosen = columns.chosen(&call.part.of, &call.part.run)?;
+    let errors = match (&exactness, call.ripple) {
+        (Some(exactness), None) => {
+            exactness.of_columns(chosen.iter().map(|quantity| quantity.name.as_str()))
+        }
+        _ => vec![0.0; chosen.len()],
+    };
+    let chosen = chosen.into_iter().zip(errors);
     let found: Vec<Found> = chosen
-        .into_iter()
-        .map(|quantity| {
+        .map(|(quantity, error)| {
             let rates = columns.rates(&quantity.name);
             let curve = columns.curve(quantity, rates.as_deref(), call::Interpolation::Cubic);
-            // Extremes that differ by less than rounding are none.
-            let largest = quantity
-                .values
-                .iter()
-                .fold(0.0_f64, |most, x| most.max(x.abs()));
-            let ripple = call.ripple.unwrap_or(64.0 * f64::EPSILON * largest);
+            let finite = quantity.values.iter().filter(|value| value.is_finite());
+            let largest = finite.fold(0.0_f64, |most, x| most.max(x.abs()));
+            // What differs by less than the errors of both, or than rounding, does not differ.
+            let least = (2.0 * error).max(64.0 * f64::EPSILON * largest);
+            let ripple = call.ripple.unwrap_or(least);
+            let all = extremes(&curve, rates.as_deref(), 0.0).len();
+            let extremes = extremes(&curve, rates.as_deref(), ripple);
             Found {
-                extremes: extremes(&curve, rates.as_deref(), ripple),
                 quantity,
+                left_out: all - extremes.len(),
+                extremes,
+                ripple,
             }
         })
         .collect();
@@ -152,6 +165,13 @@ fn text(found: &[Found]) -> String {
                 ", logarithmic decrement {decrement}, damping ratio {damping}"
             );
         }
+        if one.left_out > 0 {
+            let (left_out, ripple) = (one.left_out, number(one.ripple));
+            let _ = write!(
+                text,
+                "; {left_out} ripples of no more than {ripple}{unit} left out"
+            );
+        }
         text.push('\n');
         for extreme in one.extremes.iter().take(SHOWN) {
             let what = if extreme.is_maximum {
@@ -188,6 +208,8 @@ fn as_json(one: &Found) -> Value {
         "period": one.period(),
         "decrement": one.decrement(),
         "damping": one.damping(),
+        "ripple": one.ripple,
+        "left_out": one.left_out,
         "extremes": extremes.collect::<Vec<Value>>(),
     })
 }

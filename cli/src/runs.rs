@@ -16,10 +16,11 @@ use lagrangian_symbolic::Dag;
 
 use crate::call::{self, Assignment};
 use crate::evaluate::set_start;
+use crate::exactness::Exactness;
 use crate::failure::Failure;
 use crate::output::{self, Destination, MACHINE, TABLE, ending_is_one_of, keep_apart};
 use crate::reading::{self, Reading};
-use crate::recording::{Kind, Recording, Run};
+use crate::recording::{Kind, ROUNDING, Recording, Run};
 use crate::{inputs, methods, simulate};
 
 /// How often a run is recorded where the call does not say.
@@ -324,6 +325,15 @@ pub fn spec(
     looks: &Looks<'_>,
     files: &[&Destination],
 ) -> Result<Columns, Failure> {
+    made(options, looks, files).map(|(_, recording)| Columns::of(recording))
+}
+
+/// Runs a spec, for the run and what is recorded of it.
+fn made(
+    options: &Options<'_>,
+    looks: &Looks<'_>,
+    files: &[&Destination],
+) -> Result<(Run, Recording), Failure> {
     let runs = options.runs;
     let method = methods::named(options.method.unwrap_or(<&Method>::default().tableau.name))?;
     if std::ptr::eq(method, &TAYLOR) {
@@ -447,7 +457,7 @@ pub fn spec(
             at(times.collect())?
         }
     };
-    Ok(Columns::of(recording))
+    Ok((ran, recording))
 }
 
 /// Prints what a run warns of: facts that did not hold, energy that is missing.
@@ -495,17 +505,35 @@ pub fn period_of(
 /// # Errors
 /// If the spec, the table, the call or the run is at fault.
 pub fn one(part: &call::Part, files: &[&Destination]) -> Result<Columns, Failure> {
+    one_with_run(part, files).map(|(columns, _)| columns)
+}
+
+/// One run of a call, a table or a spec; and how exact the quantities of a spec are, for those who ask.
+///
+/// # Errors
+/// If the spec, the table, the call or the run is at fault.
+pub fn one_with_run(
+    part: &call::Part,
+    files: &[&Destination],
+) -> Result<(Columns, Option<Exactness>), Failure> {
     keep_apart(files.iter().copied(), &[(part.run.as_path(), "the run")])?;
-    let columns = match is_spec(&part.run)? {
+    let (columns, exactness) = match is_spec(&part.run)? {
         false => {
             refuse_without_spec(&part.runs)?;
-            table(&part.run)?
+            (table(&part.run)?, None)
         }
-        true => spec(
-            &Options::of(&part.run, &part.runs, None)?,
-            &Looks::Even,
-            files,
-        )?,
+        true => {
+            let options = Options::of(&part.run, &part.runs, None)?;
+            let (run, recording) = made(&options, &Looks::Even, files)?;
+            let method =
+                methods::named(options.method.unwrap_or(<&Method>::default().tableau.name))?;
+            let tolerance = match method.has_fixed_steps() {
+                true => ROUNDING,
+                false => options.tolerance.unwrap_or(TOLERANCE),
+            };
+            let exactness = Exactness { run, tolerance };
+            (Columns::of(recording), Some(exactness))
+        }
     };
-    Ok(columns.after(part.after))
+    Ok((columns.after(part.after), exactness))
 }

@@ -151,7 +151,8 @@ pub enum Windows {
 pub struct Peaks {
     #[command(flatten)]
     pub part: Part,
-    /// Leave out ripples: a maximum and a minimum beside it that differ by no more than this, in the unit of the quantity.
+    /// Leave out ripples: maxima and minima from which the curve goes to one side by no more than this, in the unit of the quantity;
+    /// where left out, what the run is exact to.
     #[arg(long, value_name = "NUMBER", value_parser = positive)]
     pub ripple: Option<f64>,
     /// Write all maxima and minima to a table, `.csv` or `.parquet`.

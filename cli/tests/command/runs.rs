@@ -260,6 +260,46 @@ fn a_damped_oscillation_has_its_period_and_decrement() {
     }
 }
 
+/// Where the quantity of this name has its maxima and minima, by `peaks`.
+fn turns(spec: &Scratch, name: &str, more: &[&str]) -> Vec<f64> {
+    let found = answer(&[&["peaks", spec.path(), "--of", name], more].concat());
+    let quantity = quantity(&found, name);
+    assert!(number(&quantity["ripple"]) > 0.0, "{quantity:#}");
+    let extremes = quantity["extremes"].as_array().expect("a list");
+    extremes.iter().map(|one| number(&one["t"])).collect()
+}
+
+#[test]
+fn what_a_run_is_not_exact_enough_for_is_no_extreme() {
+    // By the theorem of addition the first is 0, of which only the rounding of its terms is left. The second is as small as that and
+    // no rounding.
+    let spec = OSCILLATOR.replace(
+        "outputs {",
+        "outputs {
+            zero: 1 = sin(x/(1*m) + 1) - sin(x/(1*m))*cos(1) - cos(x/(1*m))*sin(1),
+            tiny: m = 1e-15*x,",
+    );
+    let spec = Scratch::new("oscillator.machine", &spec);
+    assert!(turns(&spec, "zero", &["--until", "8"]).is_empty());
+    let shown = turns(&spec, "zero", &["--until", "8", "--ripple", "1e-300"]);
+    assert!(shown.len() > 100, "{shown:?}");
+    let half = PI / (STIFFNESS - 0.01_f64).sqrt();
+    let tiny = turns(&spec, "tiny", &["--until", "8"]);
+    assert_eq!(tiny.len(), (8.0 / half) as usize);
+    for (k, t) in tiny.iter().enumerate() {
+        assert!((t - half * (k + 1) as f64).abs() < 1e-4, "{t}");
+    }
+    // With so much damping the oscillator creeps back, and x falls all the time: at the end by less than steps are exact to.
+    for until in ["20", "40", "60"] {
+        let creeping = ["--set", "d=20", "--until", until];
+        assert!(turns(&spec, "x", &creeping).is_empty());
+    }
+    let output = lagrangian(&["peaks", spec.path(), "--set", "d=20", "--until", "40"]);
+    let text = String::from_utf8(output.stdout).expect("text");
+    assert!(text.contains("x: 0 maxima, 0 minima; "), "{text}");
+    assert!(text.contains(" ripples of no more than "), "{text}");
+}
+
 #[test]
 fn sections_are_where_the_closed_form_has_them() {
     let spec = Scratch::new("oscillator.machine", OSCILLATOR);
