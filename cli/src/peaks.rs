@@ -167,9 +167,10 @@ fn text(found: &[Found]) -> String {
         }
         if one.left_out > 0 {
             let (left_out, ripple) = (one.left_out, number(one.ripple));
+            let plural = if left_out == 1 { "" } else { "s" };
             let _ = write!(
                 text,
-                "; {left_out} ripples of no more than {ripple}{unit} left out"
+                "; {left_out} ripple{plural} of no more than {ripple}{unit} left out"
             );
         }
         text.push('\n');
