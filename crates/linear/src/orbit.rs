@@ -421,7 +421,8 @@ impl Search<'_> {
         let mut contacts = system.unilateral_contacts().zip(&gaps);
         match contacts.find(|(_, gap)| **gap <= 0.0) {
             Some((contact, _)) => Err(NoOrbit::Refused(format!(
-                "the contact `{}` is closed at the start; start where nothing touches",
+                "the contact `{}` is closed where the period begins, at the start or where the search has led: give a start of the \
+                 orbit's at which no contact is closed",
                 contact.name
             ))),
             None => Ok(()),
