@@ -152,7 +152,7 @@ pub struct Peaks {
     #[command(flatten)]
     pub part: Part,
     /// Leave out ripples: maxima and minima from which the curve goes to one side by no more than this, in the unit of the quantity;
-    /// where left out, what the run is exact to.
+    /// where left out, an estimate of the error of one step.
     #[arg(long, value_name = "NUMBER", value_parser = positive)]
     pub ripple: Option<f64>,
     /// Write all maxima and minima to a table, `.csv` or `.parquet`.
