@@ -110,7 +110,7 @@ const EXPORT: &str = include_str!("library/export.rs");
 
 /// Up to so many operations, eight states are two registers for each number where a register holds four: while one waits for
 /// the result before, the other works, which saves up to a quarter of the time of programs that mostly wait. Longer ones gain
-/// a tenth, and take rustc ever longer (a chain of 32 links 15 s instead of 4, one of 128 links 4 minutes instead of 14 s).
+/// a tenth, and take rustc ever longer (a chain of 32 links 14 s instead of 3, one of 128 links more than four minutes instead of 10 s).
 const LONGEST_IN_PAIRS: usize = 1000;
 
 /// The whole library as one file of Rust.

@@ -3,42 +3,27 @@
 //! It stands here and not beside the lexer, whose crate the macro needs: a dependency of tests there would ask for another
 //! `proc-macro2` in tests than in builds, and everything above it would be compiled twice.
 
+use std::fs;
+use std::path::Path;
+
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::SourceId;
 use lagrangian_spec::token::lex;
 
-/// The examples of the language's reference, as printed there.
-const EXAMPLES: &[(&str, &str)] = &[
-    (
-        "crusher",
-        include_str!("../../model-spec/tests/language/syntax/vibrating_crusher.machine"),
-    ),
-    (
-        "chain",
-        include_str!("../../model-spec/tests/language/syntax/chain.machine"),
-    ),
-    (
-        "crushing",
-        include_str!("../../model-spec/tests/language/syntax/crushing_crusher.machine"),
-    ),
-    (
-        "prisms",
-        include_str!("../../model-spec/tests/language/syntax/prisms.machine"),
-    ),
-    (
-        "everything",
-        include_str!("../../model-spec/tests/language/syntax/everything.machine"),
-    ),
-];
-
 #[test]
 fn our_tokens_are_those_that_a_macro_sees() {
-    for (name, text) in EXAMPLES {
+    // The examples of the language's reference, as printed there.
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../model-spec/tests/language/syntax");
+    let mut examples = 0;
+    for entry in fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        let text = fs::read_to_string(&path).expect("a spec");
+        examples += 1;
         let stream: proc_macro2::TokenStream = text.parse().expect("the examples are Rust tokens");
         let mut theirs = Vec::new();
         flatten(stream, &mut theirs);
         let mut report = Report::new();
-        let ours: Vec<(usize, usize, bool)> = lex(SourceId(0), text, &mut report)
+        let ours: Vec<(usize, usize, bool)> = lex(SourceId(0), &text, &mut report)
             .iter()
             .map(|token| {
                 (
@@ -58,8 +43,9 @@ fn our_tokens_are_those_that_a_macro_sees() {
                 _ => apart.push(token),
             }
         }
-        assert_eq!(ours, apart, "{name}");
+        assert_eq!(ours, apart, "{}", path.display());
     }
+    assert!(examples >= 5, "{examples}");
 }
 
 /// Place in bytes, and whether punctuation follows at once.

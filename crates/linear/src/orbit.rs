@@ -421,8 +421,8 @@ impl Search<'_> {
         let mut contacts = system.unilateral_contacts().zip(&gaps);
         match contacts.find(|(_, gap)| **gap <= 0.0) {
             Some((contact, _)) => Err(NoOrbit::Refused(format!(
-                "the contact `{}` is closed where the period begins, at the start or where the search has led: give a start of the \
-                 orbit's at which no contact is closed",
+                "the contact `{}` is closed where the period begins, at the start or where the search has led: start from a state of \
+                 the orbit at which no contact is closed",
                 contact.name
             ))),
             None => Ok(()),
