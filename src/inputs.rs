@@ -54,6 +54,12 @@ pub trait InputLaw<S: System> {
     fn is_partial(&self) -> bool {
         false
     }
+
+    /// Whether it sets nothing at all, and so need not be called. False by default.
+    #[doc(hidden)]
+    fn sets_nothing(&self) -> bool {
+        false
+    }
 }
 
 /// Everything but `set`, as another law has it.
@@ -87,6 +93,10 @@ macro_rules! as_of {
         fn is_partial(&$self) -> bool {
             $law.is_partial()
         }
+
+        fn sets_nothing(&$self) -> bool {
+            $law.sets_nothing()
+        }
     };
 }
 
@@ -119,6 +129,10 @@ impl<S: System> InputLaw<S> for DefaultInputs {
     }
 
     fn is_partial(&self) -> bool {
+        true
+    }
+
+    fn sets_nothing(&self) -> bool {
         true
     }
 }
@@ -221,6 +235,66 @@ impl<S: System> InputLaw<S> for AnyInputs<'_, S> {
     }
 
     as_of!(self, self.0);
+}
+
+/// The law of a simulation, whatever its type: a run is compiled once for a machine, and not again for each law that drives it. Of
+/// inputs that keep their defaults it knows so, and makes no call.
+#[cfg(feature = "std")]
+pub(crate) struct Law<'r, S: System>(Option<&'r dyn InputLaw<S>>);
+
+#[cfg(feature = "std")]
+impl<'r, S: System> Law<'r, S> {
+    pub fn of(law: &'r impl InputLaw<S>) -> Self {
+        Self((!law.sets_nothing()).then_some(law as &dyn InputLaw<S>))
+    }
+}
+
+#[cfg(feature = "std")]
+impl<S: System> InputLaw<S> for Law<'_, S> {
+    #[inline(always)]
+    fn set(&self, system: &S, t: f64, q: &S::Vector, v: &S::Vector, inputs: &mut S::Inputs) {
+        if let Some(law) = self.0 {
+            law.set(system, t, q, v, inputs);
+        }
+    }
+
+    fn is_constant(&self) -> bool {
+        self.0.is_none_or(InputLaw::is_constant)
+    }
+
+    fn piece(&self, t: f64, forward: bool, order: u32) -> Result<Piece, NoPiece<'_>> {
+        match self.0 {
+            Some(law) => law.piece(t, forward, order),
+            None => Ok(Piece::ALL),
+        }
+    }
+
+    #[inline(always)]
+    fn set_in(
+        &self,
+        piece: Piece,
+        system: &S,
+        t: f64,
+        q: &S::Vector,
+        v: &S::Vector,
+        inputs: &mut S::Inputs,
+    ) {
+        if let Some(law) = self.0 {
+            law.set_in(piece, system, t, q, v, inputs);
+        }
+    }
+
+    fn is_constant_in_pieces(&self) -> bool {
+        self.0.is_none_or(InputLaw::is_constant_in_pieces)
+    }
+
+    fn is_partial(&self) -> bool {
+        self.0.is_none_or(InputLaw::is_partial)
+    }
+
+    fn sets_nothing(&self) -> bool {
+        self.0.is_none()
+    }
 }
 
 /// The law of a simulation within a piece of time, and what a sampled controller holds.

@@ -24,6 +24,7 @@ mod in_numbers;
 mod in_series;
 mod reading;
 mod recording;
+mod runs;
 mod signals;
 mod table_file;
 

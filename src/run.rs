@@ -12,13 +12,13 @@ use std::string::String;
 use std::time::Instant;
 use std::vec::Vec;
 
-use crate::balance::{Energies, EnergyBalance, Quadratures};
+use crate::balance::{Energies, EnergyBalance, EnergyIntegrals, Quadratures};
 use crate::constraints::{Constraints, Miss, closest};
 use crate::equations::check_equations;
 use crate::error::{KeptContradiction, constraint_name};
 use crate::event::{self, Crossing, Event, Terminal, Triple, made, state};
 use crate::friction::{Change, Contacts, Motion};
-use crate::inputs::{Held, InputLaw};
+use crate::inputs::{Held, InputLaw, Law};
 use crate::interpolant::Interpolant;
 use crate::methods::{Kind, Method};
 use crate::names::rate_name;
@@ -28,7 +28,7 @@ use crate::piece::Piece;
 use crate::roots;
 use crate::settings::{Callbacks, Of, Progress, Settings, Task};
 use crate::solution::{
-    Ending, Handover, MethodReason, Solution, Statistics, Steps, handover, is_beyond,
+    Ending, Handover, Made, MethodReason, Solution, Statistics, Steps, handover, is_beyond,
 };
 use crate::stages::Point;
 use crate::step_error::StepError;
@@ -45,11 +45,12 @@ use handing_over::Pace;
 /// Makes the run of a simulation; with an error if something ended it early.
 ///
 /// An error instead of a solution means that the run could not begin.
-pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>(
-    task: Task<'_, M, L>,
+///
+/// It knows neither the type of the law nor whether a balance is kept: a run is compiled once for a machine.
+pub(crate) fn run<M: Machine>(
+    task: Task<'_, M, Law<'_, M::System>>,
     start: State<Coordinates<M>>,
-    quadratures: A,
-) -> Result<(Solution<M, L>, Option<Error>), Error> {
+) -> Made<M> {
     let clock = Instant::now();
     let Task {
         of,
@@ -58,6 +59,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         mut callbacks,
         resumed,
     } = task;
+    let quadratures = settings.energy_balance.then(EnergyIntegrals::default);
     let until = settings.check()?;
     stepping::check_length(settings.method.has_fixed_steps(), settings.longest_step)?;
     let system = match of {
@@ -146,7 +148,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         stepper.set_first_step(step);
     }
     for watch in &mut callbacks.watches {
-        let observe = || model.sight.observe::<M, A>(&stepper, &start);
+        let observe = || model.sight.observe::<M, _>(&stepper, &start);
         watch.begin(&start, ended.as_ref() == Some(&watch.name), &observe)?;
     }
     for stream in &mut callbacks.streams {
@@ -292,7 +294,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         energies,
         ending,
         settings,
-        law,
+        law: (),
         system,
     };
     Ok((solution, error))

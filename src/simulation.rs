@@ -3,15 +3,14 @@
 use std::boxed::Box;
 use std::vec::Vec;
 
-use crate::balance::EnergyIntegrals;
 use crate::callbacks::{Observe, Shared, Watched};
 use crate::event::{Crossing, Watch};
-use crate::inputs::{AnyInputs, DefaultInputs, InputFunction, InputLaw};
+use crate::inputs::{AnyInputs, DefaultInputs, InputFunction, InputLaw, Law};
 use crate::methods::Method;
 use crate::observation::Observation;
 use crate::run;
 use crate::settings::{Callbacks, Of, Progress, Resumed, Sampled, Settings, Stream, Task};
-use crate::solution::{Ending, Solution};
+use crate::solution::{Ending, Made, Solution};
 use crate::table::{Table, TableInputs};
 use crate::{Coordinates, Error, Inputs, Machine, State, StepMotion};
 
@@ -631,15 +630,24 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self,
         start: State<Coordinates<M>>,
     ) -> Result<(Solution<M, L>, Option<Error>), Error> {
+        self.run_by(start, run::run)
+    }
+
+    /// The run as `make` makes it.
+    pub(crate) fn run_by(
+        self,
+        start: State<Coordinates<M>>,
+        make: impl FnOnce(Task<'a, M, Law<'_, M::System>>, State<Coordinates<M>>) -> Made<M>,
+    ) -> Result<(Solution<M, L>, Option<Error>), Error> {
         let task = Task {
             of: self.of,
-            law: self.law,
+            law: Law::of(&self.law),
             settings: self.settings,
             callbacks: self.callbacks,
             resumed: self.resumed,
         };
-        let quadratures = task.settings.energy_balance.then(EnergyIntegrals::default);
-        run::run(task, start, quadratures)
+        let (solution, error) = make(task, start)?;
+        Ok((solution.with_law(self.law), error))
     }
 }
 

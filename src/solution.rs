@@ -132,6 +132,63 @@ pub struct Statistics {
     pub seconds: f64,
 }
 
+/// A run without its law, and the error that ended it early; an error instead if it could not begin.
+pub(crate) type Made<M> = Result<(Solution<M, ()>, Option<Error>), Error>;
+
+impl<M: Machine> Solution<M, ()> {
+    /// The run with the law that drove it.
+    pub(crate) fn with_law<L>(self, law: L) -> Solution<M, L> {
+        let Self {
+            system,
+            method,
+            start,
+            end,
+            steps,
+            samples,
+            events,
+            energies,
+            balance,
+            statistics,
+            warnings,
+            ending,
+            settings,
+            next_step,
+            constraints,
+            contacts,
+            held,
+            pieces,
+            unilateral,
+            handovers,
+            choices,
+            law: (),
+        } = self;
+        Solution {
+            system,
+            method,
+            start,
+            end,
+            steps,
+            samples,
+            events,
+            energies,
+            balance,
+            statistics,
+            warnings,
+            ending,
+            settings,
+            next_step,
+            constraints,
+            contacts,
+            held,
+            pieces,
+            unilateral,
+            handovers,
+            choices,
+            law,
+        }
+    }
+}
+
 impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
     /// The state at time `t`, from the beginning of the run to its end.
     ///

@@ -129,7 +129,7 @@ fn at(
     }
     // A run without length does no more than to project its start onto the constraints.
     let simulation = Simulation::new(&machine).until(state.t);
-    let run = reading::keep(simulation, &call.keep).run(state);
+    let run = reading::keep(simulation, &call.keep).run_interpreted(state);
     let state = run.map_err(|error| error.to_string())?.start().clone();
     let mut result = numbers(&machine.prepare(), &state)?;
     for (name, values) in [("q", &state.q), ("v", &state.v)] {

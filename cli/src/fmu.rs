@@ -308,7 +308,7 @@ fn check_constraints(
     set_start(&mut start, given)?;
     let simulation = Simulation::new(machine).until(start.t);
     // What else is wrong at the start the unit says itself, when it is initialized.
-    let Ok(run) = simulation.run(start) else {
+    let Ok(run) = simulation.run_interpreted(start) else {
         return Ok(());
     };
     let mut redundant = run.warnings().iter().filter_map(|warning| match warning {

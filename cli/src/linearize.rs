@@ -97,7 +97,7 @@ fn about_start(
     if machine.prepare().constraints().len() > 0 {
         // A run without length does no more than to project its start onto the constraints.
         let simulation = Simulation::new(machine).until(start.t);
-        let run = reading::keep(simulation, &search.keep).run(start);
+        let run = reading::keep(simulation, &search.keep).run_interpreted(start);
         start = run.map_err(Failure::run)?.start().clone();
     }
     let model = model::about(

@@ -133,7 +133,7 @@ fn on_constraints(
         return Ok(start.q.values);
     }
     let simulation = Simulation::new(machine).until(start.t);
-    let run = reading::keep(simulation, keep).run(start);
+    let run = reading::keep(simulation, keep).run_interpreted(start);
     Ok(run.map_err(Failure::run)?.start().q.values.clone())
 }
 

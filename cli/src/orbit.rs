@@ -228,7 +228,7 @@ fn settled(machine: &InterpretedMachine, sought: &mut Sought, time: f64) -> Resu
         .tolerance(sought.tolerance.max(1e-10))
         .until(t + time)
         .forget_steps()
-        .run(start)
+        .run_interpreted(start)
         .map_err(Failure::run)?;
     sought.start = State {
         t,
@@ -251,7 +251,7 @@ fn motion(machine: &InterpretedMachine, orbit: &Orbit, call: &call::Orbit) -> Re
         .longest_step(orbit.period / STEPS)
         .energy_balance(true)
         .forget_steps()
-        .run(start);
+        .run_interpreted(start);
     run.map_err(Failure::run)
 }
 

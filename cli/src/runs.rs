@@ -432,7 +432,7 @@ fn made(
         _ => None,
     };
     let ran = simulation
-        .run(start)
+        .run_interpreted(start)
         .map_err(|error| Failure::Run(verdict::said(&error)))?;
     if let Some(objection) = verdict::objection(&ran) {
         return Err(Failure::Run(objection));

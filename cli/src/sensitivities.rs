@@ -488,7 +488,7 @@ fn made(
         simulation = simulation.every(interval);
     }
     let run = simulation
-        .run(from)
+        .run_interpreted(from)
         .map_err(|error| Failure::Run(verdict::said(&error)))?;
     warn(&run);
     if is_held {
@@ -662,7 +662,7 @@ fn start_on_constraints(
     start: State<Named>,
 ) -> Result<State<Named>, Failure> {
     let simulation = Simulation::new(machine).until(start.t);
-    let run = reading::keep(simulation, &call.keep).run(start);
+    let run = reading::keep(simulation, &call.keep).run_interpreted(start);
     Ok(run.map_err(Failure::run)?.start().clone())
 }
 

@@ -223,7 +223,9 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         simulation = simulation.automatic();
     }
     let simulation = contacts.watch(simulation, !signals.is_empty());
-    let (run, error) = simulation.run_as_far_as_possible(start).map_err(cause)?;
+    let (run, error) = simulation
+        .run_interpreted_as_far_as_possible(start)
+        .map_err(cause)?;
     let mut trouble = Trouble {
         error: error.as_ref(),
         is_interrupted: matches!(run.ending(), Ending::Stopped),
@@ -249,7 +251,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
                     true => simulation.automatic(),
                     false => simulation,
                 };
-                let again = simulation.run(start).ok()?;
+                let again = simulation.run_interpreted(start).ok()?;
                 (*again.ending() == Ending::End).then(|| again.end().clone())
             };
             let is_driven = !signals.is_empty();

@@ -73,7 +73,7 @@ fn on_constraints(
     start.t = t;
     start.q.values = q;
     start.v.values = v;
-    let run = Simulation::new(machine).until(t).run(start);
+    let run = Simulation::new(machine).until(t).run_interpreted(start);
     let run = run.map_err(|error| error.to_string())?;
     let start = run.start();
     Ok((start.q.values.clone(), start.v.values.clone()))

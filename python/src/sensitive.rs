@@ -104,7 +104,7 @@ pub fn sensitivities<'py>(
                 }
             })
             .stop_if(|_| stop.load(std::sync::atomic::Ordering::Relaxed))
-            .run(from)?;
+            .run_interpreted(from)?;
         match stop.load(std::sync::atomic::Ordering::Relaxed) {
             true => Ok(Vec::new()),
             false => {
@@ -178,7 +178,7 @@ fn brought(
             simulation = simulation.keep(name);
         }
     }
-    let run = simulation.run(start).map_err(|error| error.to_string())?;
+    let run = simulation.run_interpreted(start).map_err(|error| error.to_string())?;
     Ok(run.start().clone())
 }
 

@@ -390,7 +390,7 @@ impl Task {
                 Some(n) => simulation.until_nth_event(*n, name, *crossing, function),
             };
         }
-        let (solution, error) = simulation.run_as_far_as_possible(self.start.clone())?;
+        let (solution, error) = simulation.run_interpreted_as_far_as_possible(self.start.clone())?;
         samples.end(solution.start(), solution.end());
         Ok((solution, samples.states, error))
     }

@@ -47,7 +47,7 @@ pub fn arrival(
         .tolerance(TOLERANCE)
         .inputs(|t, _: &Named, _: &Named, u: &mut Named| u.values.clone_from(&forces.at(t)))
         .until(motion.time())
-        .run(state)
+        .run_interpreted(state)
         .map_err(|error| format!("the machine does not arrive: {error}"))?;
     let pairs = run.end().q.values.iter().zip(to);
     let far = pairs.map(|(q, to)| (q - to).abs()).fold(0.0, f64::max);

@@ -80,7 +80,7 @@ fn left_to_itself(
         .until(until)
         .every(until / f64::from(INSTANTS))
         .forget_steps()
-        .run_as_far_as_possible(start);
+        .run_interpreted_as_far_as_possible(start);
     let broken =
         |error| format!("without control forces it cannot be followed to the end: {error}");
     match run {

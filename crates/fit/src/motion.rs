@@ -401,7 +401,7 @@ impl Fit<'_> {
                 }
                 Ok(())
             })
-            .run(start);
+            .run_interpreted(start);
         run.map_err(|error| self.trouble(own, error))?;
         self.whole(own, rows)
     }
@@ -441,7 +441,7 @@ impl Fit<'_> {
         let machine = self.machine(experiment, x)?;
         let start = self.start(experiment, x)?;
         let simulation = self.keep(Simulation::new(&machine).until(start.t));
-        let run = simulation.run(start);
+        let run = simulation.run_interpreted(start);
         let run = run.map_err(|error| self.trouble(&self.experiments[experiment], error))?;
         Ok(run.start().clone())
     }
@@ -627,21 +627,20 @@ impl Fit<'_> {
         let mut rows: Vec<Row> = Vec::with_capacity(own.times.len());
         let seen = &mut rows;
         let (system, at) = (&system, &at);
-        let run = simulation
-            .each_step(move |step| {
-                while let Some(t) = due(&own.times, seen.len(), step.span()) {
-                    let State { q, v, .. } = step.state(t)?;
-                    let mut a = vec![0.0; q.len()];
-                    let mut u = system.default_inputs();
-                    if own.reads_more() {
-                        u = step.inputs(t, &q, &v);
-                        step.accelerations((t, &q, &v), &u, &mut a)?;
-                    }
-                    seen.push(at(system, (t, &q, &v), (&a, &u)));
+        let simulation = simulation.each_step(move |step| {
+            while let Some(t) = due(&own.times, seen.len(), step.span()) {
+                let State { q, v, .. } = step.state(t)?;
+                let mut a = vec![0.0; q.len()];
+                let mut u = system.default_inputs();
+                if own.reads_more() {
+                    u = step.inputs(t, &q, &v);
+                    step.accelerations((t, &q, &v), &u, &mut a)?;
                 }
-                Ok(())
-            })
-            .run(start);
+                seen.push(at(system, (t, &q, &v), (&a, &u)));
+            }
+            Ok(())
+        });
+        let run = VariedLaw::run(simulation, start);
         let run = run.map_err(|error| self.trouble(own, error))?;
         let off = match is_held {
             true => self.off_constraints(experiment, x, run.end(), &here),

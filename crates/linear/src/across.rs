@@ -207,7 +207,7 @@ pub fn run<'m>(wanted: &Wanted<'m>, start: &State<Vec<f64>>) -> Result<Across<'m
         .method(wanted.method)
         .until(wanted.until)
         .max_steps(wanted.most_steps)
-        .run(own)
+        .run_interpreted(own)
         .map_err(NoDerivatives::Run)?;
     let passing = Passing {
         wanted,
@@ -351,13 +351,13 @@ impl<'m> Passing<'_, 'm> {
             phase: Some(Arc::new(phase.clone())),
         };
         let from = start.t;
-        let run = Simulation::new(&varied)
+        let simulation = Simulation::new(&varied)
             .law(VariedLaw(signals))
             .tolerance(self.wanted.tolerance)
             .method(self.wanted.method)
             .until(until)
-            .max_steps(self.wanted.most_steps)
-            .run(start);
+            .max_steps(self.wanted.most_steps);
+        let run = VariedLaw::run(simulation, start);
         let run = run.map_err(NoDerivatives::Run)?;
         Ok(Part {
             from,

@@ -453,7 +453,7 @@ impl Search<'_> {
                 }
             }
         }
-        let run = run.run(start.clone());
+        let run = run.run_interpreted(start.clone());
         let run = run.map_err(|error| NoOrbit::Start(error.to_string()))?;
         Ok(all(run.start()))
     }
@@ -516,7 +516,7 @@ impl Search<'_> {
             .tolerance(tolerance)
             .until(start.t + period)
             .forget_steps()
-            .run(start);
+            .run_interpreted(start);
         let run = run.map_err(|error| NoOrbit::Run(error.to_string()))?;
         let end = run.end();
         let all = end.q.values.iter().chain(&end.v.values).copied();
@@ -559,7 +559,7 @@ impl Search<'_> {
             .tolerance(tolerance)
             .until(t)
             .forget_steps()
-            .run(start)
+            .run_interpreted(start)
             .map_err(failed)?;
         let (q, v) = (&run.end().q, &run.end().v);
         let there = q.value.values.iter().chain(&v.value.values).copied();
@@ -731,7 +731,7 @@ impl Search<'_> {
             .until(t + 1e9)
             .forget_steps()
             .until_nth_event(RETURNS, "return", Crossing::Rising, distance)
-            .run_as_far_as_possible(start)
+            .run_interpreted_as_far_as_possible(start)
             .map_err(|error| NoOrbit::Run(error.to_string()))?;
         let gaps: Vec<(f64, f64)> = run
             .events()

@@ -14,7 +14,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named, Signal, Signals};
 use lagrangian::{
-    Assumption, InputLaw, Machine, NoPiece, Piece, Quantity, Singular, State, System,
+    Assumption, Error, InputLaw, Machine, NoPiece, Piece, Quantity, Simulation, Singular, Solution,
+    State, System,
 };
 use lagrangian_program::{Arguments, Interpreter, Role};
 use lagrangian_scalar::Dual;
@@ -352,6 +353,20 @@ impl System for VariedSystem {
 /// The signals of a machine, as those of the machine with its derivatives.
 #[derive(Clone, Debug)]
 pub struct VariedLaw<'m>(pub &'m Signals);
+
+impl<'m> VariedLaw<'m> {
+    /// A run under this law. It is no generic function, so that runs of varied machines are compiled here, and not again where they
+    /// are made.
+    ///
+    /// # Errors
+    /// As of [`Simulation::run`].
+    pub fn run<'a>(
+        simulation: Simulation<'a, Varied<'m>, VariedLaw<'m>>,
+        start: State<Vec<f64>>,
+    ) -> Result<Solution<Varied<'m>, VariedLaw<'m>>, Error> {
+        simulation.run(start)
+    }
+}
 
 impl InputLaw<VariedSystem> for VariedLaw<'_> {
     fn set(

@@ -531,7 +531,7 @@ impl Sweep {
             simulation = simulation.each_step(|step| started.take(plan, run, &system, step));
         }
         let simulation = simulation.stop_if(|_| stop.load(Ordering::Relaxed));
-        let (solution, error) = match simulation.run_as_far_as_possible(start) {
+        let (solution, error) = match simulation.run_interpreted_as_far_as_possible(start) {
             Ok(made) => made,
             Err(error) => {
                 outcome.error = Some(verdict::said(&error));

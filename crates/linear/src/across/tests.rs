@@ -95,7 +95,7 @@ fn ends(machine: &InterpretedMachine, by: By<'_>, change: f64, until: f64) -> St
     let run = Simulation::new(&machine)
         .tolerance(1e-13)
         .until(until)
-        .run(start)
+        .run_interpreted(start)
         .expect("a run");
     let end = run.end();
     State {
@@ -257,7 +257,7 @@ fn an_impact_oscillator_has_the_saltation_matrix_of_nordmark() {
     let first = Simulation::new(&machine)
         .tolerance(1e-13)
         .until(3.0)
-        .run(start)
+        .run_interpreted(start)
         .expect("a run");
     let impact = &first.contact_events()[0];
     let t = impact.state.t;
