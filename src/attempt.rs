@@ -61,10 +61,7 @@ pub(crate) fn errors<N: StepNumber, V: Vector<N>>(
         None => N::each(|_| 0.0),
     };
     let numbers = 2 * N::PARTS * ends[0].q.as_slice().len();
-    N::each(|lane| {
-        let [fine, coarse] = [&fine, &coarse].map(|sums| sums.as_ref()[lane]);
-        control::combined(fine, coarse, numbers)
-    })
+    N::each(|lane| control::combined(fine.as_ref()[lane], coarse.as_ref()[lane], numbers))
 }
 
 /// The coordinate with the greatest error in a step of one trajectory.
@@ -111,12 +108,12 @@ pub(crate) fn first_step<N: StepNumber, V: Vector<N>>(
         let mut sum = 0.0;
         for (i, absolute) in absolute.iter().enumerate() {
             let sizes = [now.q.as_slice()[i], now.v.as_slice()[i]];
-            let squares = [0, 1].map(|level| {
+            let square = |level: usize| {
                 let size = [sizes[level]; 2];
                 let square = of(i)[level].squared_error(size, *absolute, relative);
                 square.as_ref()[0]
-            });
-            sum += squares[0] + squares[1];
+            };
+            sum += square(0) + square(1);
         }
         math::sqrt(sum)
     };

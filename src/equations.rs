@@ -112,7 +112,7 @@ fn worst<S: System>(
     let mut mass = S::Matrix::zeros(n * n);
     system.mass_matrix(t, q, &mut mass);
     let mass = mass.as_slice();
-    let [mut forces, mut applied, mut bias] = [0; 3].map(|_| q.zeros_like());
+    let [mut forces, mut applied, mut bias] = q.several_zeros_like();
     system.forces(t, q, v, u, &mut forces);
     system.applied(t, q, v, u, &mut applied);
     system.bias(t, q, v, &mut bias);
@@ -123,7 +123,7 @@ fn worst<S: System>(
     system.slip_matrix(t, q, &mut slips);
 
     // Forces and the sizes of their terms.
-    let sizes = [&applied, &bias].map(|part| part.as_slice());
+    let sizes = [applied.as_slice(), bias.as_slice()];
     let mut right: Vec<f64> = forces.as_slice().to_vec();
     let mut size: Vec<f64> = (0..n)
         .map(|i| right[i].abs() + sizes[0][i].abs() + sizes[1][i].abs())

@@ -177,28 +177,29 @@ impl<M: Machine> Watch<'_, M> {
         let n = q.as_slice().len();
         let (mut smooth, mut jumps) = (0.0, 0.0);
         for number in 0..=2 * n {
-            let mut by = [1.0, 16.0].map(|times: f64| {
-                let moved = [times, -times].map(|times| {
-                    let (mut t, mut q, mut v) = (t, q.clone(), v.clone());
-                    match number {
-                        0 => t += times * ROUNDING * t.abs(),
-                        i if i <= n => {
-                            let rate = v.as_slice()[i - 1].abs();
-                            let q = &mut q.as_mut_slice()[i - 1];
-                            *q += times * (ROUNDING * q.abs() + rate * tick);
-                        }
-                        i => {
-                            let rate = a.as_slice()[i - n - 1].abs();
-                            let v = &mut v.as_mut_slice()[i - n - 1];
-                            *v += times * (ROUNDING * v.abs() + rate * tick);
-                        }
+            let mut moved = |times: f64| {
+                let (mut t, mut q, mut v) = (t, q.clone(), v.clone());
+                match number {
+                    0 => t += times * ROUNDING * t.abs(),
+                    i if i <= n => {
+                        let rate = v.as_slice()[i - 1].abs();
+                        let q = &mut q.as_mut_slice()[i - 1];
+                        *q += times * (ROUNDING * q.abs() + rate * tick);
                     }
-                    (value_of(&state(system, (t, q, v))).unwrap_or(f64::NAN) - value).abs()
-                });
+                    i => {
+                        let rate = a.as_slice()[i - n - 1].abs();
+                        let v = &mut v.as_mut_slice()[i - n - 1];
+                        *v += times * (ROUNDING * v.abs() + rate * tick);
+                    }
+                }
+                (value_of(&state(system, (t, q, v))).unwrap_or(f64::NAN) - value).abs()
+            };
+            let mut by = [0.0; 2];
+            for (by, times) in by.iter_mut().zip([1.0, 16.0]) {
+                let most = moved(times).max(moved(-times));
                 // What is not a number there says nothing.
-                moved[0].max(moved[1])
-            });
-            by = by.map(|by| if by.is_finite() { by } else { 0.0 });
+                *by = if most.is_finite() { most } else { 0.0 };
+            }
             match by[1] < 4.0 * by[0] {
                 true => jumps += by[0],
                 false => smooth += by[0],

@@ -109,7 +109,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
             end: t,
             before: now.clone(),
             now,
-            k: core::array::from_fn(|_| zeros.clone()),
+            k: zeros.several_zeros_like(),
             stage: (zeros.clone(), zeros),
             h: N::NOTHING,
             lanes: N::each(|_| Lane {

@@ -166,8 +166,12 @@ where
 {
     #[inline]
     fn set(&self, system: &S, t: N, q: &S::Vector, v: &S::Vector, inputs: &mut S::Inputs) {
-        let [q, v] = [q, v].map(|vector| system.to_coordinates(vector));
-        (self.0)(t, &q, &v, inputs);
+        (self.0)(
+            t,
+            &system.to_coordinates(q),
+            &system.to_coordinates(v),
+            inputs,
+        );
     }
 }
 

@@ -76,8 +76,8 @@ impl<N: StepNumber, V: Vector<N>> Interpolant<V, N> {
         let zeros = q0.zeros_like();
         let mut interpolant = Stages {
             length: 4 + scheme.dense_length,
-            q: core::array::from_fn(|_| zeros.clone()),
-            v: core::array::from_fn(|_| zeros.clone()),
+            q: zeros.several_zeros_like(),
+            v: zeros.several_zeros_like(),
         };
 
         for stage in tableau.stages + 1..scheme.length {
@@ -123,8 +123,8 @@ impl<V: Vector> Interpolant<V> {
         let zeros = q0.zeros_like();
         let mut curve = Stages {
             length: 6,
-            q: core::array::from_fn(|_| zeros.clone()),
-            v: core::array::from_fn(|_| zeros.clone()),
+            q: zeros.several_zeros_like(),
+            v: zeros.several_zeros_like(),
         };
         for i in 0..zeros.as_slice().len() {
             let at = |vector: &V| vector.as_slice()[i];
@@ -229,7 +229,7 @@ pub(crate) fn hermite<N: Real, V: Vector<N>>(
     [a0, a1]: [&V; 2],
     theta: N,
 ) -> (V, V) {
-    let [half, two, three] = [0.5, 2.0, 3.0].map(N::from_f64);
+    let (half, two, three) = (N::from_f64(0.5), N::from_f64(2.0), N::from_f64(3.0));
     let (mut q, mut v) = (q0.zeros_like(), v0.zeros_like());
     for i in 0..q0.as_slice().len() {
         let at = |vector: &V| vector.as_slice()[i];

@@ -173,7 +173,7 @@ impl<S: Batched<N>, const N: usize> Batch<S, N> {
         for (lane, system) in self.systems.iter().enumerate() {
             let (q, v) = (q.lane(lane), v.lane(lane));
             let u = S::inputs_of_lane(u, lane);
-            let mut own: [S::Vector; SERIES_ROWS] = core::array::from_fn(|_| q.zeros_like());
+            let mut own: [S::Vector; SERIES_ROWS] = q.several_zeros_like();
             let count = coefficients.len().min(SERIES_ROWS);
             let t = t.map(|t| t[lane]);
             singular[lane] = match self.singular {

@@ -456,7 +456,7 @@ impl<M: Machine, L> Solution<M, L> {
             return Vec::new();
         }
         let system = &self.system;
-        let [q, v] = [&self.end.q, &self.end.v].map(|of| system.to_vector(of));
+        let (q, v) = (system.to_vector(&self.end.q), system.to_vector(&self.end.v));
         (phase.touching).crushing_works(system, (self.end.t, &q, &v))
     }
 

@@ -216,7 +216,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             quadratures,
             end,
             longest: f64::INFINITY,
-            k: core::array::from_fn(|_| zeros.clone()),
+            k: zeros.several_zeros_like(),
             newest: 0,
             stage: (zeros.clone(), zeros),
             before: start.clone(),

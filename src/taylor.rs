@@ -138,7 +138,7 @@ impl<V: Vector> Taylor<V> {
         let last = coefficients.len() - 1;
         let powers = [last - 1, last];
         let mut worst = [0.0_f64; 2];
-        let [q, v] = [0, 1].map(|k| coefficients[k].as_slice());
+        let (q, v) = (coefficients[0].as_slice(), coefficients[1].as_slice());
         let rows = powers.map(|j| coefficients[j].as_slice());
         for (i, absolute) in tolerance.absolute.as_slice().iter().enumerate() {
             let size = q[i].abs().max(v[i].abs());

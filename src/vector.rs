@@ -23,6 +23,12 @@ pub trait Vector<N = f64>: Clone + Debug + PartialEq {
     fn zeros_like(&self) -> Self {
         Self::zeros(self.as_slice().len())
     }
+
+    /// Several vectors of zeros, each with as many as there are numbers in `self`.
+    #[doc(hidden)]
+    fn several_zeros_like<const K: usize>(&self) -> [Self; K] {
+        core::array::from_fn(|_| self.zeros_like())
+    }
 }
 
 impl<N: StepNumber, const D: usize> Vector<N> for [N; D] {

@@ -125,7 +125,7 @@ impl<V: Vector> Constraints<V> {
         a: &mut V,
     ) -> Result<(), StepError> {
         let mut times = [0.0; 4];
-        let mut beside = [(); 4].map(|()| a.zeros_like());
+        let mut beside: [V; 4] = a.several_zeros_like();
         for (pair, direction) in [1.0, -1.0].into_iter().enumerate() {
             let mut far = PASSED_OVER;
             for k in [2 * pair, 2 * pair + 1] {

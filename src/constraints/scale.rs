@@ -56,7 +56,6 @@ impl<V: Vector> Scales<V> {
     /// other of its unit.
     pub fn new<S: System<Vector = V>>(system: &S, q: &V, v: &V) -> Self {
         let zeros = q.zeros_like();
-        let many = || core::array::from_fn(|_| zeros.clone());
         let mut sizes = [zeros.clone(), zeros.clone()];
         let mut angles = zeros.clone();
         for (j, coordinate) in system.coordinates().enumerate() {
@@ -74,8 +73,8 @@ impl<V: Vector> Scales<V> {
         Self {
             sizes,
             angles,
-            terms: [many(), many()],
-            bends: many(),
+            terms: [zeros.several_zeros_like(), zeros.several_zeros_like()],
+            bends: zeros.several_zeros_like(),
             inertia: zeros.clone(),
             grain: [0.0; 2],
         }
@@ -92,7 +91,7 @@ impl<V: Vector> Scales<V> {
 
     /// Takes note of the terms of a row at a state, `by_time` being `|∂gₖ/∂t|`.
     pub fn note_terms(&mut self, k: usize, row: &[f64], by_time: f64) {
-        let [sizes_q, sizes_v] = self.sizes.each_ref().map(V::as_slice);
+        let (sizes_q, sizes_v) = (self.sizes[0].as_slice(), self.sizes[1].as_slice());
         let sum = |sizes: &[f64]| row.iter().zip(sizes).map(|(g, y)| g.abs() * y).sum::<f64>();
         let terms = [sum(sizes_q), sum(sizes_v) + by_time];
         for (greatest, now) in self.terms.iter_mut().zip(terms) {

@@ -305,7 +305,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             told.push((contact, kind, directions, None));
         }
         for &(contact, is_loaded) in &happened.turned {
-            let [before, after] = [&happened.before, &happened.after].map(|of| of[contact]);
+            let (before, after) = (happened.before[contact], happened.after[contact]);
             if before != Mode::Open && after != Mode::Open {
                 let kind = match is_loaded {
                     true => ContactEventKind::Crushes,

@@ -55,7 +55,7 @@ impl Explained {
             }
             tolerable
         };
-        let [of_q, of_v] = [q, v].map(tolerable);
+        let (of_q, of_v) = (tolerable(q), tolerable(v));
         let length = |of: &S::Vector| {
             let each = self.inertia.iter().zip(of.as_slice());
             each.map(|(d, x)| d * x.abs()).sum::<f64>()

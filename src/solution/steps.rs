@@ -157,7 +157,7 @@ impl<V: Vector> Steps<V> {
         let [q1, v1, a1] = &self.vectors[(step + 1) * stride..][..3] else {
             unreachable!("every step is followed by its end");
         };
-        let mut k: [V; MAX_STAGES] = core::array::from_fn(|_| q0.zeros_like());
+        let mut k: [V; MAX_STAGES] = q0.several_zeros_like();
         for (&stage, a) in self.kept.iter().zip(stages) {
             k[stage].clone_from(a);
         }

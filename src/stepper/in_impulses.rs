@@ -142,7 +142,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         }
         now.v_low.as_mut_slice().fill(0.0);
         for i in 0..q.as_slice().len() {
-            let [from, to] = [&before.v, &now.v].map(|v| v.as_slice()[i]);
+            let (from, to) = (before.v.as_slice()[i], now.v.as_slice()[i]);
             let by = before.q_low.as_slice()[i] + half * (from + to);
             let (sum, low) = two_sum(before.q.as_slice()[i], by);
             now.q.as_mut_slice()[i] = sum;
@@ -184,7 +184,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         };
         place.clone_from(&before.q);
         for i in 0..bend.as_slice().len() {
-            let [from, to] = [&before.q, &now.q].map(|q| q.as_slice()[i]);
+            let (from, to) = (before.q.as_slice()[i], now.q.as_slice()[i]);
             let change = (now.v.as_slice()[i] - before.v.as_slice()[i]) / h;
             bend.as_mut_slice()[i] = 0.5 * change;
             // So that it ends where the step does.

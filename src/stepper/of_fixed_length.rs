@@ -157,8 +157,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             return Ok(());
         }
         for i in 0..q.as_slice().len() {
-            let [from, to] =
-                [&*before, &*now].map(|end| (end.q.as_slice()[i], end.v.as_slice()[i]));
+            let at = |end: &Point<S::Vector>| (end.q.as_slice()[i], end.v.as_slice()[i]);
+            let (from, to) = (at(before), at(now));
             q.as_mut_slice()[i] = 0.5 * (from.0 + to.0) + 0.125 * h * (from.1 - to.1);
             v.as_mut_slice()[i] = 0.5 * (from.1 + to.1);
         }
