@@ -602,7 +602,8 @@ pub struct Import {
     /// Whether the link that hangs on no other stands on the ground, or moves with six coordinates.
     #[arg(long, value_enum, default_value_t = Base::Fixed)]
     pub base: Base,
-    /// The angles of spherical and floating joints, by the axes about which they turn; xyz and zyx where left out.
+    /// The angles of spherical and floating joints, by the axes about which they turn, or a quaternion, which is singular nowhere; xyz
+    /// and zyx where left out.
     #[arg(long, value_enum)]
     pub ball: Option<Ball>,
     /// What becomes of Coulomb friction, which is refused where left out: `none` leaves it out, `smooth=1e-3` makes it smooth
@@ -632,7 +633,7 @@ pub enum Base {
     Floating,
 }
 
-/// Three angles, by the axes about which they turn.
+/// What turns: three angles, by the axes about which they turn, or four numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Ball {
     /// About x, y and z: Cardan angles.
@@ -641,6 +642,8 @@ pub enum Ball {
     Zyx,
     /// Precession, nutation and spin: Euler's angles.
     Zxz,
+    /// A quaternion, which is singular nowhere.
+    Quaternion,
 }
 
 /// What becomes of Coulomb friction.

@@ -138,7 +138,11 @@ fn summarize(compiled: &Compiled, freedom: Freedom, warnings: usize) {
 /// Constraints and degrees of freedom, where there are constraints.
 fn constrained(freedom: Freedom) -> String {
     if freedom.constraints == 0 {
-        return String::new();
+        // Four numbers that turn a frame are three freedoms.
+        return match freedom.degrees().filter(|_| freedom.lengths > 0) {
+            Some(degrees) => counted(degrees, "degree", "degrees") + " of freedom, ",
+            None => String::new(),
+        };
     }
     let mut text = counted(freedom.constraints, "constraint", "constraints");
     if let (Some(Independent { generic, at_start }), Some(degrees)) =

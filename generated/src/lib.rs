@@ -95,6 +95,8 @@ pub mod two_body_orbit;
 pub mod two_debalance_crusher;
 /// The machine of [`TwoJointArm`].
 pub mod two_joint_arm;
+/// The machine of [`UprightTop`].
+pub mod upright_top;
 /// The machine of [`VibratingCrusher`].
 pub mod vibrating_crusher;
 /// The machine of [`WedgeAndBlock`].
@@ -145,5 +147,6 @@ pub use stick_slip::StickSlip;
 pub use two_body_orbit::TwoBodyOrbit;
 pub use two_debalance_crusher::TwoDebalanceCrusher;
 pub use two_joint_arm::TwoJointArm;
+pub use upright_top::UprightTop;
 pub use vibrating_crusher::VibratingCrusher;
 pub use wedge_and_block::WedgeAndBlock;

@@ -486,6 +486,7 @@ fn free_top_and_gyroscope_are_the_program_to_the_last_bit() {
     agrees_in_f64::<machines::AsymmetricTop>("asymmetric_top", |_| Default::default());
     let gyroscope = "gyroscope_in_gimbals";
     agrees_in_f64::<machines::GyroscopeInGimbals>(gyroscope, |_| Default::default());
+    agrees_in_f64::<machines::UprightTop>("upright_top", |_| Default::default());
     agrees_over_every_number!(AsymmetricTop, "asymmetric_top", |p, _t, q, v| {
         machines::asymmetric_top::accelerations(p, q, v)
     });

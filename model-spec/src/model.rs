@@ -22,12 +22,14 @@ pub mod bounds;
 pub mod circles;
 pub mod element;
 mod published;
+pub mod quaternion;
 pub mod spheres;
 
 pub use published::*;
 
 use bounds::Bound;
 use element::Element;
+use quaternion::Quaternion;
 
 /// When a value becomes known: the order in which work can be done once and kept.
 pub mod stage {
@@ -79,6 +81,8 @@ pub struct Model<'d> {
     pub assumptions: Vec<Assumption<'d>>,
     /// Every pose that a frame or body is built from, parents first.
     pub poses: Vec<Pose<'d>>,
+    /// The fours of coordinates by which frames are turned, each once; no coordinate is in two of them.
+    pub quaternions: Vec<Quaternion<'d>>,
     /// Named frames of reference.
     pub frames: Vec<Frame>,
     /// Rigid bodies and particles, and behind them what `rotors` says: bodies without mass that turn by an angle.
@@ -321,6 +325,8 @@ pub enum Step<'d> {
         /// The angle.
         angle: Expr<'d>,
     },
+    /// A turn by four coordinates, in space: see [`quaternion`].
+    Quaternion([Expr<'d>; 4]),
 }
 
 /// A named frame of reference.

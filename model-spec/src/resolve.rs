@@ -73,7 +73,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::diagnostic::{Code, Diagnostic, Report, nearest};
 use crate::model::bounds::Bound;
-use crate::model::{Assumption, Body, Model, Pose, PoseId, Space, Variable, stage};
+use crate::model::{Assumption, Body, Model, Pose, PoseId, Space, Variable, quaternion, stage};
 use crate::source::{Files, Sources, Span};
 use crate::syntax::{self, Item, Quantity, SectionKind, Spec};
 
@@ -185,6 +185,8 @@ pub(crate) struct Resolver<'a, 'd, 'r> {
     outlines: Vec<Outline<'d>>,
     poses: Vec<Pose<'d>>,
     pose_of: FxHashMap<PoseKey, PoseId>,
+    /// The fours of coordinates that turn frames, and where they do so first.
+    quaternions: Vec<([Expr<'d>; 4], Span)>,
     /// The guides that are relaxed.
     guides: Vec<Guide<'d>>,
     /// The symbols that are to be used again, by name.
@@ -245,6 +247,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             outlines: Vec::new(),
             poses: Vec::new(),
             pose_of: FxHashMap::default(),
+            quaternions: Vec::new(),
             guides: Vec::new(),
             symbols: FxHashMap::default(),
             rotors: Vec::new(),
@@ -310,12 +313,13 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         assumptions.append(&mut self.further_facts);
 
         let bounds = self.check_bounds(&assumptions, &parameters);
+        let quaternions = self.all_quaternions(&coordinates);
         self.check_not_empty(machine);
         if self.report.has_errors() {
             return None;
         }
         self.notice_unused(layers);
-        let model = Model {
+        let mut model = Model {
             dag: self.dag,
             name: machine.name.text.clone(),
             docs: machine.docs.clone(),
@@ -332,6 +336,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             inputs,
             assumptions,
             poses: std::mem::take(&mut self.poses),
+            quaternions,
             frames,
             bodies,
             elements,
@@ -352,6 +357,10 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             bounds,
             sections: self.sections_of(layers),
         };
+        for k in 0..model.quaternions.len() {
+            let e = model.quaternions[k].e;
+            model.quaternions[k].inertia = quaternion::inertia(&model, &e);
+        }
         self.notice_weight(&model, layers);
         Some(model)
     }

@@ -68,7 +68,7 @@ def from_urdf(
     """The machine of a robot in a file of URDF, whose spec ``machine.text`` is: what ``lagrangian import`` writes.
 
     The keywords are its options: ``base`` is ``"fixed"`` or ``"floating"``; ``ball``, the axes of angles of spherical and floating
-    joints, ``"xyz"``, ``"zyx"`` or ``"zxz"``; ``friction`` ``"none"`` or ``"smooth=1e-3"``; ``limits`` ``"none"``, ``"assume"`` or
+    joints, ``"xyz"``, ``"zyx"`` or ``"zxz"``, or ``"quaternion"``; ``friction`` ``"none"`` or ``"smooth=1e-3"``; ``limits`` ``"none"``, ``"assume"`` or
     ``"stop"``; ``drop_massless`` leaves out joints that move no mass; ``ignore`` names elements and
     attributes that are left out.
 

@@ -11,7 +11,7 @@ use lagrangian_spec::source::{Disk, Sources};
 use lagrangian_symbolic::{Dag, Rational};
 
 /// The file names of all machines without constraints.
-pub const MACHINES: [&str; 25] = [
+pub const MACHINES: [&str; 26] = [
     "asymmetric_top",
     "cart_pole",
     "chain",
@@ -36,6 +36,7 @@ pub const MACHINES: [&str; 25] = [
     "two_body_orbit",
     "two_debalance_crusher",
     "two_joint_arm",
+    "upright_top",
     "vibrating_crusher",
 ];
 
@@ -98,6 +99,7 @@ macro_rules! for_each_machine {
         $do!(TwoBodyOrbit, "two_body_orbit");
         $do!(TwoDebalanceCrusher, "two_debalance_crusher");
         $do!(TwoJointArm, "two_joint_arm");
+        $do!(UprightTop, "upright_top");
         $do!(VibratingCrusher, "vibrating_crusher");
     };
 }

@@ -97,6 +97,15 @@ fn stretched(program: &Program, state: &State, random: &mut SplitMix) -> State {
         stretched.v[i] *= by;
         stretched.a[i] *= by;
     }
+    // Four numbers that turn a frame stay as long as a run keeps them.
+    for &four in &program.quaternions {
+        let length = four
+            .map(|i| stretched.q[i].powi(2))
+            .iter()
+            .sum::<f64>()
+            .sqrt();
+        four.iter().for_each(|&i| stretched.q[i] /= length);
+    }
     stretched
 }
 

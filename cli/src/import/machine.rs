@@ -283,13 +283,13 @@ impl<'a> Writer<'a> {
         comment: String,
         kind: &str,
         list: &[(&str, &str)],
-        starts: Option<[String; 3]>,
+        starts: Option<&[String]>,
     ) -> Vec<String> {
         let mut taken = Vec::new();
         let mut entries = Vec::new();
         for (place, (suffix, unit)) in list.iter().enumerate() {
             let coordinate = self.values.take(&format!("{name}_{suffix}"), kind);
-            let start = match &starts {
+            let start = match starts {
                 Some(starts) if starts[place] != "0" => format!(" = {}", starts[place]),
                 _ => String::new(),
             };
@@ -309,15 +309,20 @@ impl<'a> Writer<'a> {
     ) -> Vec<String> {
         let place = [("x", "m"), ("y", "m"), ("z", "m")];
         let from = start.map(|start| start.xyz.each_ref().map(Number::to_string));
+        let from = from.as_ref().map(|from| &from[..]);
         let q = self.several(name, comment, kind, &place, from);
         let mut steps = vec![format!(".shift({}, {}, {})", q[0], q[1], q[2])];
-        let angles = format!("The angles of {kind} {}.", quoted(name));
         let ball = self.call.ball.unwrap_or(Ball::Zyx);
+        let what = match ball {
+            Ball::Quaternion => "quaternion",
+            Ball::Xyz | Ball::Zyx | Ball::Zxz => "angles",
+        };
+        let angles = format!("The {what} of {kind} {}.", quoted(name));
         steps.extend(self.ball(name, angles, ball, start));
         steps
     }
 
-    /// Three angles about axes of which the second and third are turned by those before.
+    /// Three angles about axes of which the second and third are turned by those before, or a quaternion.
     fn ball(
         &mut self,
         name: &str,
@@ -329,28 +334,41 @@ impl<'a> Writer<'a> {
             Ball::Xyz => [("about_x", "x"), ("about_y", "y"), ("about_z", "z")],
             Ball::Zyx => [("yaw", "z"), ("pitch", "y"), ("roll", "x")],
             Ball::Zxz => [("precession", "z"), ("nutation", "x"), ("spin", "z")],
+            Ball::Quaternion => return self.quaternion(name, comment, start),
         };
         let angles = list.map(|(suffix, _)| (suffix, "rad"));
         let from = start.map(|start| {
             let angles = match ball {
                 Ball::Xyz => steps::angles(&start.axes, [0, 1, 2]),
                 Ball::Zyx => steps::angles(&start.axes, [2, 1, 0]),
-                Ball::Zxz => steps::angles(&start.axes, [2, 0, 2]),
+                Ball::Zxz | Ball::Quaternion => steps::angles(&start.axes, [2, 0, 2]),
             };
             angles.map(|angle| angle.to_string())
         });
+        let from = from.as_ref().map(|from| &from[..]);
         let q = self.several(name, comment, "joint", &angles, from);
         self.warnings.push(match ball {
             Ball::Xyz | Ball::Zyx => {
                 format!("`{}` is singular at 90° to either side; --ball chooses other angles", q[1])
             }
-            Ball::Zxz => format!(
+            Ball::Zxz | Ball::Quaternion => format!(
                 "`{}` is singular at 0, where it starts, and at 180°: give it a start, or --ball other angles",
                 q[1]
             ),
         });
         let step = |((_, axis), q): (&(&str, &str), &String)| format!(".turn({axis}, {q})");
         list.iter().zip(&q).map(step).collect()
+    }
+
+    /// Four numbers, which are singular nowhere.
+    fn quaternion(&mut self, name: &str, comment: String, start: Option<&Start>) -> Vec<String> {
+        let list = [("e0", "1"), ("e1", "1"), ("e2", "1"), ("e3", "1")];
+        let unturned = ["1", "0", "0", "0"].map(str::to_owned);
+        let from = start.map_or(unturned, |start| {
+            steps::quaternion(&start.axes).map(|x| Number::computed(x).to_string())
+        });
+        let e = self.several(name, comment, "joint", &list, Some(&from));
+        vec![format!(".turn({})", e.join(", "))]
     }
 
     /// Two shifts in the plane across the axis, and the turn about it.

@@ -193,6 +193,126 @@ fn real_robots_move_as_pinocchio_moves_them() {
     }
 }
 
+/// The base's four numbers and their rates for yaw, pitch and roll and theirs, and the angular acceleration along its axes of these accelerations.
+fn base_by_quaternion(
+    angles: &[f64],
+    rates: &[f64],
+    second: &[f64],
+) -> ([f64; 4], [f64; 4], [f64; 3]) {
+    let half = |k: usize| (angles[k] / 2.0).sin_cos();
+    let ((sy, cy), (sp, cp), (sr, cr)) = (half(0), half(1), half(2));
+    // The product of the turns about z, y and x.
+    let e = [
+        cy * cp * cr + sy * sp * sr,
+        cy * cp * sr - sy * sp * cr,
+        cy * sp * cr + sy * cp * sr,
+        sy * cp * cr - cy * sp * sr,
+    ];
+    let ((sp, cp), (sr, cr)) = (angles[1].sin_cos(), angles[2].sin_cos());
+    let [[y, p, r], [dy, dp, dr]] = [rates, second].map(|x| [x[0], x[1], x[2]]);
+    let spin = [r - sp * y, cr * p + sr * cp * y, cr * cp * y - sr * p];
+    let faster = [
+        dr - sp * dy - cp * p * y,
+        cr * dp + sr * cp * dy - sr * r * p + (cr * r * cp - sr * sp * p) * y,
+        cr * cp * dy - sr * dp - (sr * r * cp + cr * sp * p) * y - cr * r * p,
+    ];
+    let [a, b, c] = spin.map(|w| w / 2.0);
+    let rate = [
+        -e[1] * a - e[2] * b - e[3] * c,
+        e[0] * a + e[2] * c - e[3] * b,
+        e[0] * b + e[3] * a - e[1] * c,
+        e[0] * c + e[1] * b - e[2] * a,
+    ];
+    (e, rate, faster)
+}
+
+/// With a base that is turned by four numbers the same robots accelerate in the same way: their joints, the place of the base, and its turn,
+/// whose angular acceleration is twice the vector of `ē∘ë` where the length is 1 and stays so.
+#[test]
+fn real_robots_on_quaternions_move_as_pinocchio_moves_them() {
+    let folder = "cli/tests/command/import/real";
+    let path = root().join(folder).join("pinocchio.json");
+    let stored = std::fs::read_to_string(path).expect("a file");
+    let stored: Value = serde_json::from_str(&stored).expect("JSON");
+    for (name, _, options, count) in REAL.into_iter().filter(|(_, floats, ..)| *floats) {
+        let shared = [
+            "--friction",
+            "none",
+            "--drop-massless",
+            "--base",
+            "floating",
+        ];
+        let options = [&shared, &["--ball", "quaternion"], options].concat();
+        let machine = imported(&format!("{folder}/{name}.urdf"), &options);
+        let text = std::fs::read_to_string(&machine.0).expect("a file");
+        let coordinates = names_under("coordinates", &text);
+        assert_eq!(coordinates.len(), count + 1, "{name}");
+        let theirs = stored[name]["coordinates"].as_array().expect("names");
+        let place = |of: &str| theirs.iter().position(|name| *name == of);
+        let base = coordinates
+            .iter()
+            .find_map(|name| name.strip_suffix("_e0"))
+            .expect("a base");
+        let turn = ["yaw", "pitch", "roll"]
+            .map(|word| place(&format!("{base}_{word}")).expect("an angle"));
+        let states = stored[name]["states"].as_array().expect("states");
+        let of_state = |state: &Value| {
+            let [q, v, a] = ["q", "v", "accelerations"].map(|key| numbers(&state[key]));
+            let angles = [&q, &v, &a].map(|x| turn.map(|k| x[k]));
+            let (e, rate, faster) = base_by_quaternion(&angles[0], &angles[1], &angles[2]);
+            let whole = |old: &[f64], four: &[f64; 4]| -> Vec<f64> {
+                let mut four = four.iter();
+                let one = |name: &String| match place(name) {
+                    Some(k) => old[k],
+                    None => *four.next().expect("one of four"),
+                };
+                coordinates.iter().map(one).collect()
+            };
+            (whole(&q, &e), whole(&v, &rate), a, e, faster)
+        };
+        let points: Vec<Value> = states
+            .iter()
+            .map(|state| {
+                let (q, v, ..) = of_state(state);
+                json!({ "q": q, "v": v })
+            })
+            .collect();
+        let found = evaluated(&machine, &json!(points));
+        for (found, state) in found.iter().zip(states) {
+            let (_, _, truth, e, faster) = of_state(state);
+            let found = numbers(&found["accelerations"]);
+            let scale = largest(&truth).max(largest(&faster));
+            let mut second = Vec::new();
+            for (a, coordinate) in found.iter().zip(&coordinates) {
+                match place(coordinate) {
+                    Some(k) => {
+                        let off = (a - truth[k]).abs() / scale;
+                        assert!(
+                            off <= CLOSE_TO_PINOCCHIO,
+                            "{coordinate} of {name}: off by {off:.1e}"
+                        );
+                    }
+                    None => second.push(*a),
+                }
+            }
+            let [dw, dx, dy, dz] = [0, 1, 2, 3].map(|k| 2.0 * second[k]);
+            let [w, x, y, z] = e;
+            let turned = [
+                w * dx - x * dw + z * dy - y * dz,
+                w * dy - y * dw + x * dz - z * dx,
+                w * dz - z * dw + y * dx - x * dy,
+            ];
+            for (a, b) in turned.iter().zip(faster) {
+                let off = (a - b).abs() / scale;
+                assert!(
+                    off <= CLOSE_TO_PINOCCHIO,
+                    "the base of {name}: {a:?}, not {b:?}, off by {off:.1e}"
+                );
+            }
+        }
+    }
+}
+
 /// What MuJoCo and we may differ by, as a share of the largest acceleration: it finds principal axes to 1e-12 (`mju_eig3`).
 const CLOSE_TO_MUJOCO: f64 = 1e-12;
 

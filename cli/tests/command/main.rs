@@ -24,6 +24,7 @@ mod modes;
 mod orbit;
 mod parts;
 mod precise;
+mod quaternions;
 mod report;
 mod rolling;
 mod runs;

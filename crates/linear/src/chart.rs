@@ -37,7 +37,7 @@ impl Chart {
             .coordinates()
             .map(|of| state_of(of.name).is_some())
             .collect();
-        if system.constraints().len() == 0 {
+        if system.constraints().len() == 0 && machine.program().quaternions.is_empty() {
             let places = (0..n).filter(|j| !is_integral[*j]);
             return Ok(Chart {
                 n,

@@ -346,7 +346,6 @@ impl At<'_> {
 /// A request, and the names of what is in it.
 struct Asked<'a> {
     request: &'a Request,
-    system: &'a InterpretedSystem,
     coordinates: Vec<Label>,
     inputs: Vec<Label>,
     outputs: Vec<Label>,
@@ -377,7 +376,7 @@ fn rate(of: &Label, order: u8) -> Label {
 impl<'a> Asked<'a> {
     fn new(
         machine: &InterpretedMachine,
-        system: &'a InterpretedSystem,
+        system: &InterpretedSystem,
         request: &'a Request,
         choice: &Choice,
     ) -> Result<Asked<'a>, NoModel> {
@@ -401,7 +400,9 @@ impl<'a> Asked<'a> {
                 Observed::Coordinate(j) => coordinates[j].clone(),
                 Observed::Rate(j) => rate(&coordinates[j], 1),
                 Observed::Acceleration(j) => rate(&coordinates[j], 2),
-                Observed::Multiplier(k) if choice.rows.len() < constraints.len() => {
+                Observed::Multiplier(k)
+                    if choice.rows.len() < constraints.len() + program.quaternions.len() =>
+                {
                     return Err(NoModel::Multiplier(k));
                 }
                 Observed::Multiplier(k) => Label {
@@ -414,7 +415,6 @@ impl<'a> Asked<'a> {
         let inputs = request.inputs.iter();
         let is_multiplier = |o: &Observed| matches!(o, Observed::Multiplier(_));
         Ok(Asked {
-            system,
             inputs: inputs.map(|k| slot(&program.inputs[*k])).collect(),
             coordinates,
             outputs,
@@ -539,7 +539,7 @@ fn respond(
         });
         let solved = solve(matrix.collect(), left.collect());
         let solved = solved.map_err(|_| Fault::Singular(dependent[0]))?;
-        multipliers = vec![Number::ZERO; choice.rows.len()];
+        multipliers = vec![Number::ZERO; reduced.constraints()];
         for (k, row) in choice.rows.iter().zip(solved) {
             multipliers[*k] = row[0];
         }
@@ -768,6 +768,7 @@ fn smooth(reduced: &mut Reduced<'_>, asked: &Asked<'_>, at: &At<'_>) -> Result<(
     let state = [&q[..], &here.rates, &u, &here.all].concat();
     // A direction in which nothing is alone; then one number after the other, to name it.
     let weight = |k: usize| 0.5 + (k * 29 % 97) as f64 / 97.0;
+    let m = reduced.constraints();
     let mut jump = |only: Option<usize>| -> Option<usize> {
         let mut numbers = |by: f64| -> Vec<Number> {
             let moved = state.iter().enumerate().map(|(k, x)| {
@@ -825,7 +826,7 @@ fn smooth(reduced: &mut Reduced<'_>, asked: &Asked<'_>, at: &At<'_>) -> Result<(
     let is_output = |pair: &(&Observed, &Label)| matches!(pair.0, Observed::Output(_));
     let outputs = asked.request.outputs.iter().zip(&asked.outputs);
     let mut outputs = outputs.filter(is_output).map(|(_, label)| label);
-    let equations = numbers_of_equations(n, asked.system);
+    let equations = numbers_of_equations(n, m);
     if let Some(label) = index
         .checked_sub(equations)
         .and_then(|index| outputs.nth(index))
@@ -841,7 +842,6 @@ fn smooth(reduced: &mut Reduced<'_>, asked: &Asked<'_>, at: &At<'_>) -> Result<(
 }
 
 /// How many numbers the equations are made of, before the outputs.
-fn numbers_of_equations(n: usize, system: &InterpretedSystem) -> usize {
-    let m = system.constraints().len();
+fn numbers_of_equations(n: usize, m: usize) -> usize {
     n * (n + 1) / 2 + n + m * n + 3 * m
 }

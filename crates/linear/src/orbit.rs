@@ -303,6 +303,13 @@ pub fn find(machine: &InterpretedMachine, sought: &Sought) -> Result<Orbit, NoOr
             "the machine has friction that sticks, which has no variational equations".into(),
         ));
     }
+    if let Some([first, ..]) = machine.program().quaternions.first() {
+        let name = &machine.program().coordinates[*first].name;
+        return Err(NoOrbit::Refused(format!(
+            "a frame is turned by four numbers, `{name}` the first of them, and turns that come back may leave them with the other sign: \
+             turn it by angles"
+        )));
+    }
     let n = sought.start.q.values.len();
     if n == 0 {
         return Err(NoOrbit::Rest);

@@ -200,6 +200,9 @@ pub struct Reduced<'a> {
     time: f64,
     /// Which constraints hold positions.
     holonomic: Vec<bool>,
+    /// The fours of coordinates that turn frames. Their lengths are no part of the motion: here they are held at 1 by constraints
+    /// `(e·e − 1)/2 = 0`, behind those of the machine, along which nothing that the machine does has a component.
+    fours: Vec<[usize; 4]>,
     /// Coordinates on which nothing depends.
     idle: Vec<bool>,
 }
@@ -220,8 +223,11 @@ impl<'a> Reduced<'a> {
             inputs: constants(inputs),
             time: 0.0,
             holonomic: system.constraints().map(|c| c.holonomic).collect(),
+            fours: machine.program().quaternions.clone(),
             idle: Vec::new(),
         };
+        let of_lengths = reduced.fours.iter().map(|_| true);
+        reduced.holonomic.extend(of_lengths);
         let n = system.coordinates().len();
         reduced.idle = (0..n)
             .map(|j| states.iter().all(|(q, v)| reduced.is_idle(j, q, v)))
@@ -253,6 +259,11 @@ impl<'a> Reduced<'a> {
     /// Sets the time at which everything is evaluated from now on, in s.
     pub(crate) fn set_time(&mut self, time: f64) {
         self.time = time;
+    }
+
+    /// How many constraints there are, those of lengths of four numbers among them.
+    pub(crate) fn constraints(&self) -> usize {
+        self.holonomic.len()
     }
 
     /// The rows of the constraints, one after the other.
@@ -298,8 +309,27 @@ impl<'a> Reduced<'a> {
             u: &self.inputs,
             a: &[],
         };
+        // What there is of lengths stands behind what there is of the machine's own constraints.
+        let of_each = match role {
+            Role::ConstraintMatrix => q.len(),
+            Role::ConstraintRates | Role::ConstraintDrift | Role::ConstraintPositions => 1,
+            _ => 0,
+        };
+        let (own, of_lengths) = results.split_at_mut(count - of_each * self.fours.len());
         // None of these functions inverts anything; what there is no function for is 0.
-        let _ = self.interpreter.call(role, arguments, &mut results);
+        let _ = self.interpreter.call(role, arguments, own);
+        let dot = |four: &[usize; 4], a: &[Number], b: &[Number]| {
+            let terms = four.iter().map(|&i| a[i] * b[i]);
+            terms.fold(Number::ZERO, |sum, term| sum + term)
+        };
+        for (four, held) in self.fours.iter().zip(of_lengths.chunks_mut(of_each.max(1))) {
+            match role {
+                Role::ConstraintMatrix => four.iter().for_each(|&i| held[i] = q[i]),
+                Role::ConstraintRates => held[0] = dot(four, q, v),
+                Role::ConstraintDrift => held[0] = -dot(four, v, v),
+                _ => held[0] = (dot(four, q, q) - Number::ONE) * Number::from_f64(0.5),
+            }
+        }
         results
     }
 
@@ -358,7 +388,11 @@ impl<'a> Reduced<'a> {
     fn rows(&self, q: &[f64]) -> DMatrix<f64> {
         let (n, m) = (q.len(), self.holonomic.len());
         let mut rows = vec![0.0; m * n];
-        self.system.constraint_matrix(0.0, &q.to_vec(), &mut rows);
+        let (own, of_lengths) = rows.split_at_mut((m - self.fours.len()) * n);
+        self.system.constraint_matrix(0.0, &q.to_vec(), own);
+        for (four, row) in self.fours.iter().zip(of_lengths.chunks_mut(n.max(1))) {
+            four.iter().for_each(|&i| row[i] = q[i]);
+        }
         DMatrix::from_row_slice(m, n, &rows)
     }
 

@@ -28,6 +28,7 @@ mod guide;
 pub mod integrals;
 mod kinematics;
 mod lagrange;
+mod lengths;
 pub(crate) mod literal;
 
 mod power;
@@ -192,6 +193,7 @@ impl<'d> Equations<'d> {
             || refusal::refuse_unturned(model, report)
             || refusal::refuse_many_coordinates(model, report)
             || refusal::refuse_many_constraints(model, report)
+            || lengths::refuse(model, report)
         {
             return None;
         }
@@ -318,7 +320,15 @@ impl<'d> Equations<'d> {
         let rows = model.coordinates.iter().zip(forces);
         let rows = rows.filter(|(coordinate, _)| coordinate.rate.is_none());
         let power = rows.map(|(coordinate, left)| -(coordinate.v * left));
-        self.work_rate = dag.sum(std::iter::once(self.work_rate).chain(power));
+        // What is left of the lengths of four numbers is no power.
+        let mut total = Variables::of(model).total(model);
+        let lengths = model.quaternions.iter().map(|four| {
+            let rate = total.of(four.size());
+            let load = four.load(&four.e.map(|e| total.of(e)));
+            -(rate * (four.inertia * total.of(rate) - load))
+        });
+        let all = std::iter::once(self.work_rate).chain(power).chain(lengths);
+        self.work_rate = dag.sum(all);
     }
 
     /// Takes coordinates and time out of equations that do not depend on them, eqs. (E21) and

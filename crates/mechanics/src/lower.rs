@@ -278,6 +278,9 @@ fn build<'d>(
         docs: model.docs.clone(),
         parameters,
         coordinates,
+        quaternions: (model.quaternions.iter())
+            .map(|four| four.coordinates(model))
+            .collect(),
         inputs,
         outputs,
         assumptions: facts(model),

@@ -752,7 +752,8 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         self.compare(Role::DissipationRate, 0, found, lost)?;
         let power = self.call(Role::WorkRate, at, 1)?[0];
         let with_constraints = Sum::of([power, -literal.energy_rate, -lost]);
-        let mut without = with_constraints;
+        // How long four numbers are is no business of the balance.
+        let mut without = with_constraints.plus(-literal.of_lengths);
         // The row of a state is no balance of forces.
         for i in (0..n).filter(|&i| model.coordinates[i].rate.is_none()) {
             without = without.plus(-(at.v[i] * computed.forces[i]));

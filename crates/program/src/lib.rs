@@ -79,6 +79,9 @@ pub struct Program {
     pub parameters: Vec<Slot>,
     /// Generalized coordinates; [`Source::Coordinate`], `Velocity` and `Acceleration` count them.
     pub coordinates: Vec<Slot>,
+    /// The fours of coordinates by which frames are turned, by their indices: only their ratios mean anything, and their length comes
+    /// back to 1 by itself.
+    pub quaternions: Vec<[usize; 4]>,
     /// Values that the user sets while the machine runs; [`Source::Input`] counts them.
     pub inputs: Vec<Slot>,
     /// Quantities to observe; [`Role::Output`] counts them.

@@ -57,6 +57,7 @@ impl Program {
             docs: String::new(),
             parameters: self.parameters.clone(),
             coordinates: self.coordinates.clone(),
+            quaternions: self.quaternions.clone(),
             inputs: self.inputs.clone(),
             outputs: self.outputs.clone(),
             assumptions: self.assumptions.clone(),

@@ -127,6 +127,7 @@ impl Program {
     /// The arguments of this machine, and nothing that is computed.
     fn without_functions(&self) -> Program {
         Program {
+            quaternions: Vec::new(),
             assumptions: Vec::new(),
             contacts: Vec::new(),
             reaction_axes: 1,

@@ -5,7 +5,7 @@
 use lagrangian_symbolic::{Expr, Tangent};
 
 use super::circles::{difference, distance, placed};
-use super::{Circle, Model, Place, PoseId, Rotation, Step, Surface};
+use super::{Circle, Model, Place, PoseId, Rotation, Surface};
 
 /// How a sphere stands to what it touches.
 pub struct Contact<'d> {
@@ -43,8 +43,7 @@ fn turning<'d>(model: &Model<'d>, place: Place, rate: &mut Tangent<'d>) -> Vec<E
     };
     while at != PoseId::GROUND {
         let pose = &model.poses[at.index()];
-        if let Step::Turn { axis, angle } = pose.step {
-            let speed = rate.of(angle);
+        for (axis, speed) in pose.step.turning(|x| Some(rate.of(x))).unwrap_or_default() {
             for (terms, &along) in terms.iter_mut().zip(&pose.axes[axis]) {
                 terms.push(speed * along);
             }

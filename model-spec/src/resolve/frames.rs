@@ -11,7 +11,8 @@ use super::text;
 use super::value::{MemberId, Scope, Value, Vector, limits};
 use super::work::{Need, State};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::model::{Pose, PoseId, Space, Step, stage};
+use crate::model::quaternion::{self, Quaternion};
+use crate::model::{Coordinate, Pose, PoseId, Space, Step, stage};
 use crate::source::Span;
 use crate::syntax::{Chain, Expression, ExpressionKind, Link, Reference, SectionKind};
 use crate::unit::Unit;
@@ -130,6 +131,23 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 origin: from.origin.clone(),
                 axes,
                 angle: total,
+            }
+        })
+    }
+
+    /// The frame that is turned by four numbers.
+    fn turned_by_four(&mut self, parent: PoseId, e: [Expr<'d>; 4]) -> PoseId {
+        // Behind the three axes.
+        let key = (parent, Some(3), e.map(|e| e.id()).to_vec());
+        self.add_pose(key, |resolver| {
+            let from = resolver.pose(parent);
+            let axes = quaternion::axes(&e);
+            Pose {
+                parent,
+                step: Step::Quaternion(e),
+                origin: from.origin.clone(),
+                axes: (axes.iter().map(|axis| resolver.vector_of(parent, axis))).collect(),
+                angle: from.angle,
             }
         })
     }
@@ -347,9 +365,17 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 Some(by) => Value::Frame(self.shifted(frame, by.components)),
                 None => Value::Unknown,
             },
-            "turn" => match self.turn(link, Self::placing(scope)) {
-                Some((axis, angle)) => Value::Frame(self.turned(frame, axis, angle)),
-                None => Value::Unknown,
+            "turn" => match link.arguments.as_deref() {
+                Some(four) if four.len() == 4 => {
+                    match self.four_numbers(link, four, Self::placing(scope)) {
+                        Some(e) => Value::Frame(self.turned_by_four(frame, e)),
+                        None => Value::Unknown,
+                    }
+                }
+                _ => match self.turn(link, Self::placing(scope)) {
+                    Some((axis, angle)) => Value::Frame(self.turned(frame, axis, angle)),
+                    None => Value::Unknown,
+                },
             },
             "with_origin" => match self.point_of_link(link, Self::placing(scope)) {
                 Some(point) => {
@@ -459,7 +485,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             (space, arguments) => {
                 let takes = match space {
                     Space::Plane => "an angle",
-                    Space::Space => "an axis and an angle",
+                    Space::Space => "an axis and an angle, or four coordinates",
                 };
                 let count = arguments.len();
                 let message = format!("`.turn` takes {takes}, found {count} arguments");
@@ -471,6 +497,94 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let why = "a frame turns by an angle in rad";
         let angle = self.scalar_in(angle, Unit::RADIAN, why, scope)?;
         Some((axis, angle.expr))
+    }
+
+    /// The four arguments of a `turn` by a quaternion: coordinates of their own.
+    ///
+    /// Formulas of coordinates are refused. The length of the four has an equation of motion of its own, and what else the
+    /// machine makes of them would not be told from it.
+    fn four_numbers(
+        &mut self,
+        link: &'a Link,
+        arguments: &'a [Expression],
+        scope: Scope<'a>,
+    ) -> Option<[Expr<'d>; 4]> {
+        if self.space == Space::Plane {
+            let message = "in the plane a frame turns about the normal alone";
+            let diagnostic = Diagnostic::new(Code::WrongSpace, link.span, message);
+            self.push(diagnostic.help("write `turn(angle)`"));
+            return None;
+        }
+        let why = "a frame turns by four pure numbers, or about an axis by an angle";
+        let all: Vec<_> = arguments
+            .iter()
+            .map(|argument| self.scalar_in(argument, Unit::ONE, why, scope))
+            .collect();
+        let mut e = Vec::with_capacity(4);
+        for (scalar, argument) in all.into_iter().zip(arguments) {
+            let scalar = scalar?;
+            let is_coordinate =
+                scalar.expr.as_symbol().is_some() && scalar.expr.stage() == stage::POSITION;
+            let message = match is_coordinate {
+                false => "the four numbers that turn a frame are coordinates, here is none",
+                true if e.contains(&scalar.expr) => {
+                    "the four numbers that turn a frame are four different coordinates"
+                }
+                true => {
+                    e.push(scalar.expr);
+                    continue;
+                }
+            };
+            let diagnostic = Diagnostic::new(Code::WrongArguments, argument.span, message);
+            self.push(diagnostic.help("declare `coordinates { e[0]: 1 = 1, e[1..3]: 1 }`, and write `.turn(e[0], e[1], e[2], e[3])`"));
+            return None;
+        }
+        let e: [Expr<'d>; 4] = e.try_into().ok()?;
+        let before = self
+            .quaternions
+            .iter()
+            .find(|(other, _)| other.iter().any(|x| e.contains(x)));
+        match before {
+            None => self.quaternions.push((e, link.span)),
+            Some((other, _)) if *other == e => {}
+            Some(&(_, span)) => {
+                let message =
+                    "one of these four coordinates turns a frame elsewhere, beside other ones";
+                let diagnostic = Diagnostic::new(Code::WrongArguments, link.span, message);
+                let help = "give each turn four coordinates of its own, or the same four in the same order";
+                self.push(diagnostic.note(span, "that is here").help(help));
+                return None;
+            }
+        }
+        Some(e)
+    }
+
+    /// The fours of coordinates that turn frames. The numbers that they start with are not all 0, for these turn nothing.
+    pub(super) fn all_quaternions(
+        &mut self,
+        coordinates: &[Coordinate<'d>],
+    ) -> Vec<Quaternion<'d>> {
+        let all = std::mem::take(&mut self.quaternions);
+        for (e, span) in &all {
+            let four = e.map(|e| coordinates.iter().find(|c| c.q == e));
+            if !four.iter().all(|c| c.is_some_and(|c| c.start.is_zero())) {
+                continue;
+            }
+            let Some(first) = four[0] else { continue };
+            let name = &first.name;
+            let message =
+                "the four numbers that turn this frame all start at 0, and turn nothing there";
+            let diagnostic = Diagnostic::new(Code::DivisionByZero, *span, message);
+            let diagnostic = diagnostic.note(first.span, "the first of them");
+            self.push(diagnostic.help(format!("`{name}: 1 = 1` starts it unturned")));
+        }
+        let zero = self.dag.zero();
+        let four = |(e, span)| Quaternion {
+            e,
+            inertia: zero,
+            span,
+        };
+        all.into_iter().map(four).collect()
     }
 
     /// `x`, `y` or `z`: an axis of a frame, by its number.

@@ -7,7 +7,7 @@ use super::Resolver;
 use super::value::{MemberId, Scalar, Scope, Value, Vector};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::circles::terms;
-use crate::model::{PoseId, Rotation, Space, Step};
+use crate::model::{PoseId, Rotation, Space};
 use crate::source::Span;
 use crate::syntax::Link;
 use crate::unit::Unit;
@@ -93,12 +93,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let mut at = frame;
         while at != PoseId::GROUND {
             let pose = self.pose(at);
-            let parent = pose.parent;
-            if let Step::Turn { axis, angle } = &pose.step {
-                // A turn leaves its own axis where it is.
-                let axis = pose.axes[*axis].clone();
-                let rate = self.rate(*angle, span)?;
-                for (terms, along) in turning.iter_mut().zip(axis) {
+            let (parent, step, axes) = (pose.parent, pose.step.clone(), pose.axes.clone());
+            // A turn leaves its own axis where it is.
+            for (axis, rate) in step.turning(|x| self.rate(x, span))? {
+                for (terms, &along) in turning.iter_mut().zip(&axes[axis]) {
                     terms.push(rate * along);
                 }
             }

@@ -89,6 +89,7 @@ fn standstill(spec: &Spec) -> Program {
         docs: "The description of this machine has errors.".into(),
         parameters: slots(&spec.parameters),
         coordinates,
+        quaternions: Vec::new(),
         inputs: slots(&spec.inputs),
         outputs,
         assumptions: Vec::new(),

@@ -64,6 +64,8 @@ pub enum Unmet {
     },
     /// The machine has constraints: its coordinates are not free.
     Constrained,
+    /// Four numbers turn a frame, and their length is none of the motion.
+    Turned,
     /// There are no coordinates.
     Empty,
 }
@@ -82,6 +84,10 @@ impl fmt::Display for Unmet {
                     "the machine has constraints, so that its coordinates are not free"
                 )
             }
+            Self::Turned => write!(
+                f,
+                "a frame is turned by four numbers, whose length is no part of the motion: turn it by angles"
+            ),
             Self::Empty => write!(f, "the machine has no coordinates"),
         }
     }
@@ -116,6 +122,9 @@ impl<'d> Brachistochronic<'d> {
         }
         if !equations.constraints.is_empty() || !model.contacts.is_empty() {
             unmet.push(Unmet::Constrained);
+        }
+        if !model.quaternions.is_empty() {
+            unmet.push(Unmet::Turned);
         }
         let name = |i: usize| model.coordinates[i].name.to_string();
         let mass = (0..n).map(|i| {

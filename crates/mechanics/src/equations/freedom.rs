@@ -42,6 +42,8 @@ const MET: f64 = 1e-26;
 pub struct Freedom {
     /// The generalized coordinates.
     pub coordinates: usize,
+    /// The fours of coordinates that turn frames, the length of each of which is no freedom.
+    pub lengths: usize,
     /// The constraints, two for each rolling contact.
     pub constraints: usize,
     /// How many of them are independent; none where no place was found that meets them.
@@ -58,11 +60,12 @@ pub struct Independent {
 }
 
 impl Freedom {
-    /// The degrees of freedom: coordinates less independent constraints.
+    /// The degrees of freedom: coordinates less independent constraints, and less the lengths of fours.
     pub fn degrees(&self) -> Option<usize> {
+        let coordinates = self.coordinates - self.lengths;
         match (self.constraints, self.independent) {
-            (0, _) => Some(self.coordinates),
-            (_, independent) => self.coordinates.checked_sub(independent?.generic),
+            (0, _) => Some(coordinates),
+            (_, independent) => coordinates.checked_sub(independent?.generic),
         }
     }
 }
@@ -78,6 +81,7 @@ pub fn freedom<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Freedom {
     };
     Freedom {
         coordinates,
+        lengths: model.quaternions.len(),
         constraints: constraints.len(),
         independent,
     }

@@ -3,7 +3,7 @@
 use lagrangian_spec::identity;
 use lagrangian_spec::model::circles::planar_turn;
 use lagrangian_spec::model::element::Sliding;
-use lagrangian_spec::model::{Model, Place, PoseId, Rotation, Space, Step};
+use lagrangian_spec::model::{Model, Place, PoseId, Rotation, Space};
 use lagrangian_symbolic::{Expr, Tangent};
 
 use super::kinematics::cross;
@@ -89,9 +89,8 @@ fn turning<'d>(model: &Model<'d>, mut pose: PoseId, rate: &mut Tangent<'d>) -> V
     let mut terms = vec![Vec::new(); 3];
     while pose != PoseId::GROUND {
         let here = &model.poses[pose.index()];
-        if let &Step::Turn { axis, angle } = &here.step {
-            let rate = rate.of(angle);
-            // A turn leaves its own axis where it is.
+        // A turn leaves its own axis where it is.
+        for (axis, rate) in here.step.turning(|x| Some(rate.of(x))).unwrap_or_default() {
             for (terms, &along) in terms.iter_mut().zip(&here.axes[axis]) {
                 terms.push(rate * along);
             }

@@ -3,7 +3,9 @@
 use lagrangian_symbolic::{Dag, Expr, Symbol, Tangent};
 
 use lagrangian_spec::model::circles::planar_angle;
-use lagrangian_spec::model::{Body, Inertia, Model, Pose, PoseId, Rotation, Space, Step};
+use lagrangian_spec::model::{
+    Body, Inertia, Model, Pose, PoseId, Rotation, Space, Step, quaternion,
+};
 
 /// The independent variables: `t`, and `q`, `v` (with `a`) in the order of the coordinates.
 pub(super) struct Variables<'d> {
@@ -265,6 +267,8 @@ impl Chains {
     /// turn:   ω' = Rᵀω + e φ̇    u' = Rᵀu
     /// ```
     ///
+    /// and where four numbers turn it, (E73), their angular velocity in the place of e φ̇.
+    ///
     /// The result has one entry for each pose; those that were not asked for are at rest.
     pub fn velocities<'d>(&self, model: &Model<'d>, rate: &mut Tangent<'d>) -> Vec<Twist<'d>> {
         let zero = [model.dag.zero(); 3];
@@ -288,7 +292,15 @@ impl Chains {
                     twist.angular = turned(&twist.angular, axis, angle);
                     twist.angular[axis] = twist.angular[axis] + rate.of(angle);
                 }
-                Step::Ground | Step::Shift(_) | Step::Turn { .. } => {}
+                Step::Quaternion(e) if self.needed[index] => {
+                    let axes = quaternion::axes(e);
+                    if self.needed_origin[index] {
+                        twist.linear = along(&axes, &twist.linear);
+                    }
+                    let own = quaternion::turning(e, &e.map(|e| rate.of(e)));
+                    twist.angular = add(&[&along(&axes, &twist.angular), &own]);
+                }
+                Step::Ground | Step::Shift(_) | Step::Turn { .. } | Step::Quaternion(_) => {}
             }
             twists.push(twist);
         }
@@ -340,7 +352,18 @@ impl Chains {
                     here.angular[next] = here.angular[next] + angle_rate * omega[last];
                     here.angular[last] = here.angular[last] - angle_rate * omega[next];
                 }
-                Step::Ground | Step::Shift(_) | Step::Turn { .. } => {}
+                Step::Quaternion(e) if self.needed[index] => {
+                    let axes = quaternion::axes(e);
+                    if self.needed_origin[index] {
+                        here.linear = along(&axes, &here.linear);
+                    }
+                    let rates = e.map(|e| rate.of(e));
+                    let own = quaternion::turning(e, &rates);
+                    let faster = quaternion::turning_faster(e, &rates, &e.map(|e| rate.twice(e)));
+                    let carried = cross(omega, &own);
+                    here.angular = add(&[&along(&axes, &here.angular), &faster, &carried]);
+                }
+                Step::Ground | Step::Shift(_) | Step::Turn { .. } | Step::Quaternion(_) => {}
             }
             accelerations.push(here);
         }
@@ -354,6 +377,7 @@ impl Chains {
             let parent = vectors.get(pose.parent.index()).copied().unwrap_or(ground);
             vectors.push(match pose.step {
                 Step::Turn { axis, angle } if self.needed[index] => turned(&parent, axis, angle),
+                Step::Quaternion(e) if self.needed[index] => along(&quaternion::axes(&e), &parent),
                 _ => parent,
             });
         }
@@ -370,8 +394,8 @@ pub(super) fn along_axes<'d>(model: &Model<'d>, pose: PoseId, ground: &[Expr<'d>
     let mut here = pose;
     while here != PoseId::GROUND && turns.len() <= FAR {
         let Pose { parent, step, .. } = &model.poses[here.index()];
-        turns.extend(match *step {
-            Step::Turn { axis, angle } => Some((axis, angle)),
+        turns.extend(match step {
+            Step::Turn { .. } | Step::Quaternion(_) => Some(step),
             Step::Ground | Step::Shift(_) => None,
         });
         here = *parent;
@@ -384,7 +408,11 @@ pub(super) fn along_axes<'d>(model: &Model<'d>, pose: PoseId, ground: &[Expr<'d>
                 .sum(axes[k].iter().zip(ground).map(|(&e, &g)| e * g))
         });
     }
-    let turn = |vector, (axis, angle)| turned(&vector, axis, angle);
+    let turn = |vector, step: &Step<'d>| match step {
+        &Step::Turn { axis, angle } => turned(&vector, axis, angle),
+        Step::Quaternion(e) => along(&quaternion::axes(e), &vector),
+        Step::Ground | Step::Shift(_) => vector,
+    };
     turns.into_iter().rev().fold(vector(ground), turn)
 }
 
@@ -514,6 +542,11 @@ fn turned<'d>(u: &Vector<'d>, axis: usize, angle: Expr<'d>) -> Vector<'d> {
     result[next] = cos * u[next] + sin * u[last];
     result[last] = cos * u[last] - sin * u[next];
     result
+}
+
+/// The components of a vector along axes that are given along those it has components along.
+fn along<'d>(axes: &[Vector<'d>; 3], u: &Vector<'d>) -> Vector<'d> {
+    axes.map(|axis| u[0].dag().sum((0..3).map(|k| axis[k] * u[k])))
 }
 
 /// Three components as an array.

@@ -100,9 +100,13 @@ impl<'d> Oracle<'d> {
         let potential_energy = approximations.energy(energy::potential_energy(model));
         let dissipation = approximations.energy(energy::dissipation(model, total));
         let applied = applied(model, &x, potential_energy, dissipation);
-        let momenta: Vec<Expr<'d>> = x.v.iter().map(|&v_i| kinetic_energy.diff(v_i)).collect();
+        // Lengths of four numbers resist as bodies do, eq. (E74), and what they have is no energy of the machine.
+        let lengths = model.quaternions.iter();
+        let lengths = lengths.map(|four| four.inertia * total.of(four.size()).square() / 2);
+        let resisting = dag.sum([kinetic_energy].into_iter().chain(lengths));
+        let momenta: Vec<Expr<'d>> = x.v.iter().map(|&v_i| resisting.diff(v_i)).collect();
         let inertia = |momentum_rate: &mut Tangent<'d>, i: usize| {
-            momentum_rate.of(momenta[i]) - kinetic_energy.diff(x.q[i])
+            momentum_rate.of(momenta[i]) - resisting.diff(x.q[i])
         };
         let coasting = &mut x.coasting(model);
         let along = |e: Expr<'d>| {
@@ -239,6 +243,11 @@ fn applied<'d>(
         let rate = &mut x.partial(model, i);
         let mut terms = vec![-potential_energy.diff(x.q[i]), -dissipation.diff(x.v[i])];
         terms.extend(model.coordinates[i].rate);
+        for four in &model.quaternions {
+            let place = |e: Expr<'d>| model.coordinates.iter().find(|c| c.q == e);
+            let rates = four.e.map(|e| place(e).map_or(model.dag.zero(), |c| c.v));
+            terms.push(four.load(&rates) * four.size().diff(x.q[i]));
+        }
         for load in model.loads() {
             match load {
                 Load::Point { at, force } => {

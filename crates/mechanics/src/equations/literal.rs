@@ -44,7 +44,7 @@ use frozen::Frozen;
 use lagrangian_spec::model::element::{Energy, Load, Sliding};
 use lagrangian_spec::model::{
     ApproximationKind, Body, Circle, Contact, ContactGeometry, Inertia, Model, Place, PoseId,
-    Rotation, Space, Surface, Touching,
+    Rotation, Space, Surface, Touching, quaternion,
 };
 
 /// Where a machine is, how it moves, and what acts on it.
@@ -77,6 +77,8 @@ pub(crate) struct Literal<R> {
     pub inertia: R,
     /// `w·Q`, eq. (E6).
     pub applied: R,
+    /// The part that lengths of four numbers have in `v·(M a − f)`, which is no power.
+    pub of_lengths: R,
     pub constraints: Vec<LiteralConstraint<R>>,
     pub sliding: Vec<LiteralSliding<R>>,
     pub unilateral: Vec<LiteralUnilateral<R>>,
@@ -272,6 +274,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
             [is_frozen, true] => self.approximated(at, w, is_frozen),
         };
         let force = self.virtual_work(&x);
+        let [of_length, on_length, of_lengths] = lengths(model, &x);
         let states = model.coordinates.iter().enumerate();
         let states = states.filter_map(|(i, c)| Some((i, c.rate?)));
         let stored = self.stored(at);
@@ -284,8 +287,9 @@ impl<'m, 'd> Lagrange<'m, 'd> {
             state_energy: stored.value,
             energy_rate: t.derivative.value + v.derivative.value + stored.derivative,
             lost: sum(model.losses().map(|power| x(power).value.value.value)),
-            inertia: sum(changing) + t.derivative.derivative,
-            applied: v.derivative.derivative - d.value.derivative + force + sum(rates),
+            inertia: sum(changing) + t.derivative.derivative + of_length,
+            applied: v.derivative.derivative - d.value.derivative + force + sum(rates) + on_length,
+            of_lengths,
             constraints: self.constraints(&x),
             sliding: model
                 .sliding()
@@ -780,6 +784,36 @@ fn kinetic<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
     roots
 }
 
+/// What the lengths of the numbers that turn frames add to the inertia, and to what is applied, along `w`: eqs. (E74) and (E75). It
+/// is no energy of the machine. The last is what the first is less the second along the velocity itself.
+fn lengths<'d, R: Scalar>(model: &Model<'d>, x: &impl Fn(Expr<'d>) -> Moving<R>) -> [R; 3] {
+    let half = Varied::<R>::from_ratio(1, 2);
+    let two = R::from_ratio(2, 1);
+    let mut all = [R::ZERO; 3];
+    for four in &model.quaternions {
+        let e = four.e.map(|e| x(e).value);
+        let e_rate = four.e.map(|e| x(e).derivative);
+        let square = sum(e.map(|e| e * e));
+        let growing = sum((0..4).map(|k| e[k] * e_rate[k])) / square;
+        let inertia = x(four.inertia).value;
+        let energy = half * inertia * growing * growing;
+        // How w moves half the logarithm of the square: q has −w before τε.
+        let s = square.value.value;
+        let moved = -(square.derivative.derivative / (two * s));
+        let rate = R::from_ratio(quaternion::RATE, 1);
+        let fast = sum(e_rate.map(|rate| rate * rate)).value.value / s;
+        let back = (rate * rate + fast) * (s - R::ONE) / (s + R::ONE);
+        let load = -(inertia.value.value * (two * rate * growing.value.value + back));
+        let left = inertia.value.value * growing.derivative.value - load;
+        all = [
+            all[0] + energy.derivative.derivative,
+            all[1] + load * moved,
+            all[2] + left * growing.value.value,
+        ];
+    }
+    all
+}
+
 /// What potential energy and dissipation are made from.
 fn energies<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
     let mut roots: Vec<Expr<'d>> = Vec::new();
@@ -832,6 +866,10 @@ fn geometry<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
                 place(*on, &mut roots);
             }
         }
+    }
+    for four in &model.quaternions {
+        roots.extend(four.e);
+        roots.push(four.inertia);
     }
     roots.extend(model.coordinates.iter().filter_map(|c| c.rate));
     roots.extend(model.losses());

@@ -38,6 +38,7 @@ use super::kinematics::{
 use super::symmetric::Symmetric;
 use lagrangian_spec::model::circles::{planar_angle, planar_turn};
 use lagrangian_spec::model::element::{Energy, Load};
+use lagrangian_spec::model::quaternion::Quaternion;
 use lagrangian_spec::model::{Body, Inertia, Model, Place, PoseId, Rotation, Space};
 
 /// What carries a machine's inertia, in the form that is cheapest to differentiate.
@@ -102,7 +103,8 @@ impl<'a, 'd> Projection<'a, 'd> {
         let moving = bodies
             .iter()
             .filter_map(|body| body.centre.map(|(_, pose, _)| pose));
-        let (inertial, composites) = gather(model, &bodies);
+        let (mut inertial, composites) = gather(model, &bodies);
+        inertial.extend(lengths(model));
         let carried_by_frames = composites.iter().map(|(pose, _)| *pose);
         let carried = composites.iter().filter(|(_, composite)| composite.moves());
         let moving = moving.chain(carried.map(|(pose, _)| *pose));
@@ -226,6 +228,16 @@ impl<'a, 'd> Projection<'a, 'd> {
         }
         self.add_forces(loads);
         self.add_state_rates(loads);
+        self.add_lengths(loads);
+    }
+
+    /// Adds what keeps the lengths of the numbers that turn frames, eq. (E75). It acts on them alone, and is no power.
+    fn add_lengths(&self, loads: &mut Loads<'d>) {
+        let rate = &mut self.x.coasting(self.model);
+        for four in &self.model.quaternions {
+            let load = four.load(&four.e.map(|e| rate.of(e)));
+            loads.on_positions.push((four.size(), load));
+        }
     }
 
     /// Adds the rates of states of first order, eq. (E57): that of a state stands in the row of the coordinate
@@ -688,6 +700,20 @@ fn carrier<'d>(model: &Model<'d>, body: &Body<'d>) -> Carrier<'d> {
         centre,
         tensor,
     }
+}
+
+/// The lengths of the numbers that turn frames, eq. (E74), which have an inertia of their own that is no body's.
+fn lengths<'d>(model: &Model<'d>) -> impl Iterator<Item = Carrier<'d>> {
+    let length = |four: &Quaternion<'d>| Carrier {
+        points: vec![Weighted {
+            position: four.size(),
+            weight: four.inertia,
+            gravity: None,
+        }],
+        centre: None,
+        tensor: None,
+    };
+    model.quaternions.iter().map(length)
 }
 
 /// What is fixed to frames, gathered, and what is not.

@@ -213,6 +213,9 @@ fn expressions<'m, 'd>(model: &'m mut Model<'d>) -> Vec<&'m mut Expr<'d>> {
             Step::Ground => {}
             Step::Shift(along) => all.extend(along),
             Step::Turn { angle, .. } => all.push(angle),
+            // No constraint settles one of four numbers whose length it does not know: what is 0 for every length is not
+            // linear in one of them.
+            Step::Quaternion(_) => {}
         }
     }
     for body in &mut model.bodies {

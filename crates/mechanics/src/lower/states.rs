@@ -11,7 +11,7 @@ const TRIES: usize = 8;
 
 /// States around the start, where all that the machine assumes holds: angles and other pure
 /// numbers all the way round, lengths by half of themselves and 2 cm, rates of 5 rad/s and
-/// 0.5 m/s, states of first order by half of 1 and of themselves, times in [0, 10) s; parameters and inputs at their defaults. A parameter that has
+/// 0.5 m/s, four numbers that turn a frame at the length 1, states of first order by half of 1 and of themselves, times in [0, 10) s; parameters and inputs at their defaults. A parameter that has
 /// none is between ½ and 2, in its unit.
 ///
 /// So many states are drawn, from a generator that starts with `seed`, or as many as obey the assumptions.
@@ -67,8 +67,11 @@ pub fn around_start(model: &Model<'_>, seed: u64, count: usize) -> States {
             };
             random.uniform(start - half, start + half)
         });
+        let mut q: Vec<f64> = q.collect();
+        let fours = model.quaternions.iter();
+        fours.for_each(|four| of_length_one(&mut q, four.coordinates(model)));
         let state = State {
-            q: q.collect(),
+            q,
             v,
             a,
             u: at_rest.u.clone(),
@@ -85,6 +88,14 @@ pub fn around_start(model: &Model<'_>, seed: u64, count: usize) -> States {
         }
     }
     States { parameters, states }
+}
+
+/// Makes four numbers that turn a frame as long as a run keeps them.
+pub(crate) fn of_length_one(q: &mut [f64], four: [usize; 4]) {
+    let length = four.iter().map(|&i| q[i] * q[i]).sum::<f64>().sqrt();
+    if length > 0.0 {
+        four.iter().for_each(|&i| q[i] /= length);
+    }
 }
 
 /// Which argument a symbol is.

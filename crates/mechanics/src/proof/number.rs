@@ -4,6 +4,7 @@ use lagrangian_scalar::{Ball, Residue, Scalar};
 use lagrangian_symbolic::{Expr, nearest};
 
 use crate::equations::literal::{Lagrange, State};
+use crate::lower::states::of_length_one;
 use lagrangian_program::rounding::SplitMix;
 
 /// What is seen of a number that ought to be 0.
@@ -146,7 +147,10 @@ impl Number for Ball {
             };
             start + width * random.uniform(-half, half)
         });
-        let q: Vec<f64> = q.collect();
+        let mut q: Vec<f64> = q.collect();
+        for four in &model.quaternions {
+            of_length_one(&mut q, four.coordinates(model));
+        }
         let mut rates = || -> Vec<Ball> {
             let one = |_| Ball::from_f64(random.uniform(-2.0, 2.0));
             (0..n).map(one).collect()

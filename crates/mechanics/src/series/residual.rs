@@ -79,6 +79,14 @@ pub(super) fn residual<'d>(model: &Model<'d>) -> Result<Residual<'d>, NoSeries> 
             Energy::Given(value) => on_rates.push((*value, dag.one())),
         }
     }
+    for four in &model.quaternions {
+        let size = four.size();
+        let e_rates = four.e.map(|e| rates.first(e));
+        on_positions.push((
+            size,
+            four.inertia * rates.second(size) - four.load(&e_rates),
+        ));
+    }
     let mut direct = vec![Vec::new(); model.coordinates.len()];
     for load in model.loads() {
         match load {

@@ -13,11 +13,23 @@ fn of(text: &str) -> Freedom {
 fn counts(text: &str) -> (usize, usize, Option<(usize, usize)>) {
     let Freedom {
         coordinates,
+        lengths: _,
         constraints,
         independent,
     } = of(text);
     let independent = independent.map(|Independent { generic, at_start }| (generic, at_start));
     (coordinates, constraints, independent)
+}
+
+/// A body that is turned by four numbers has six freedoms, and on a ball joint three.
+#[test]
+fn four_numbers_are_three_freedoms() {
+    let body = "machine Body in space { coordinates { x: m, y: m, z: m, e[0]: 1 = 1, e[1..3]: 1 }
+        frames { f = ground.shift(x, y, z).turn(e[0], e[1], e[2], e[3]) }
+        bodies { body { mass: 1, inertia: (1, 2, 3), frame: f, at: f.point(0, 0, 1) } } JOINT }";
+    let joint = "constraints { a: x = 0, b: y = 0, c: z = 0 }";
+    assert_eq!(of(&body.replace("JOINT", "")).degrees(), Some(6));
+    assert_eq!(of(&body.replace("JOINT", joint)).degrees(), Some(3));
 }
 
 #[test]

@@ -90,6 +90,9 @@ impl<'d> Chapter<'_, 'd> {
                     let axis = Math::letter(['x', 'y', 'z'][axis % 3]);
                     steps.push(words!["turned about ", axis, " by ", self.math(*angle)]);
                 }
+                Step::Quaternion(e) => {
+                    steps.push(words!["turned by the quaternion ", self.tuple(e)]);
+                }
             }
             here = pose.parent;
             let named = model.frames.iter().find(|other| other.pose == here);

@@ -1,0 +1,165 @@
+//! What may not depend on how long the four numbers are that turn a frame.
+//!
+//! Their length has an equation of motion of its own, (E74) and (E75), which is no business of the machine's: whatever carries inertia,
+//! acts or constrains has to be the same for every multiple of them. That is so of everything that is built on frames. Where a formula
+//! holds the numbers themselves it need not be, and the machine would do work on a length that no body has. So it is tried, in the
+//! prime field: the derivative along `δe = e` of what is a place, and along `δė = e` of what depends on rates, has to be 0. What only
+//! says how large a load is may read them: its power is on places.
+
+use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
+use lagrangian_spec::identity;
+use lagrangian_spec::model::element::{Contribution, Energy, Load};
+use lagrangian_spec::model::{ContactGeometry, Model, Rotation, Step, stage};
+use lagrangian_spec::source::Span;
+use lagrangian_spec::syntax::SectionKind;
+use lagrangian_symbolic::{Expr, Tangent};
+
+use super::kinematics::Variables;
+
+/// Refuses what depends on the lengths of four numbers, and approximations beside them. True if anything is refused.
+pub(super) fn refuse(model: &Model<'_>, report: &mut Report) -> bool {
+    let Some(first) = model.quaternions.first() else {
+        return false;
+    };
+    let mut refused = false;
+    if !model.approximations.is_empty() {
+        let span = model
+            .section(SectionKind::Approximations)
+            .unwrap_or(first.span);
+        let message =
+            "`approximations` of a machine with a turn by four numbers cannot be derived yet";
+        let help = "turn the frame by angles, which may be small, or leave `approximations` out";
+        report.push(Diagnostic::new(Code::NotSupported, span, message).help(help));
+        refused = true;
+    }
+    let x = Variables::of(model);
+    for four in &model.quaternions {
+        let places = four.coordinates(model);
+        let along = |symbols: &[lagrangian_symbolic::Symbol]| {
+            let pairs = places.iter().zip(four.e).map(|(&i, e)| (symbols[i], e));
+            Tangent::new(model.dag, &pairs.collect::<Vec<_>>())
+        };
+        let mut longer = Longer {
+            places: along(&x.q),
+            rates: along(&x.v),
+        };
+        let name = &model.coordinates[places[0]].name;
+        for (what, span) in longer.found(model, &places) {
+            let message =
+                format!("{what} depends on how long the four numbers from `{name}` on are");
+            let help = "they turn a frame, and only their ratios mean anything: say it by the frame, its `point`, `vector` or `spin`";
+            let diagnostic = Diagnostic::new(Code::ForbiddenDependence, span, message);
+            let note = "the frame is turned by them here";
+            report.push(diagnostic.note(four.span, note).help(help));
+            refused = true;
+        }
+    }
+    refused
+}
+
+/// How things change where four numbers become longer.
+struct Longer<'d> {
+    places: Tangent<'d>,
+    /// Where their rates become longer along them.
+    rates: Tangent<'d>,
+}
+
+impl<'d> Longer<'d> {
+    fn moves(&mut self, e: Expr<'d>) -> bool {
+        identity::is_zero(self.places.of(e)) == Some(false)
+    }
+
+    fn is_slowed(&mut self, e: Expr<'d>) -> bool {
+        identity::is_zero(self.rates.of(e)) == Some(false)
+    }
+
+    /// What depends on the length, and where the spec says it.
+    fn found(&mut self, model: &Model<'d>, four: &[usize; 4]) -> Vec<(String, Span)> {
+        let mut found = Vec::new();
+        for (index, pose) in model.poses.iter().enumerate() {
+            let moves = match &pose.step {
+                Step::Ground | Step::Quaternion(_) => false,
+                Step::Shift(by) => by.iter().any(|&x| self.moves(x)),
+                Step::Turn { angle, .. } => self.moves(*angle),
+            };
+            if !moves {
+                continue;
+            }
+            let mut frames = model.frames.iter();
+            let frame = frames.find(|frame| frame.pose.index() >= index);
+            found.push(match frame {
+                Some(frame) => (format!("the frame `{}`", frame.name), frame.span),
+                None => ("a frame".to_owned(), model.span),
+            });
+        }
+        if !found.is_empty() {
+            // What is built on such a frame is as well.
+            return found;
+        }
+        for body in &model.bodies {
+            let turns = match body.rotation {
+                Rotation::Angle(angle) => self.moves(angle),
+                Rotation::Frame(_) | Rotation::Unspecified => false,
+            };
+            if turns || body.at.iter().any(|&x| self.moves(x)) {
+                found.push((format!("where the body `{}` is", body.name), body.place));
+            }
+        }
+        for (element, contribution) in model.contributions() {
+            if self.is_of(contribution, four) {
+                let what = element.section.item;
+                found.push((format!("{what} `{}`", element.name), element.span));
+            }
+        }
+        for circle in &model.circles {
+            if circle.center.iter().any(|&x| self.moves(x)) {
+                found.push((format!("where `{}` is", circle.name), circle.span));
+            }
+        }
+        for contact in &model.contacts {
+            let moves = match &contact.geometry {
+                ContactGeometry::Circles(_) => false,
+                ContactGeometry::Point { point, .. } => point.center.iter().any(|&x| self.moves(x)),
+                ContactGeometry::Expressions { gap, slip, across } => {
+                    let slips = [Some(*slip), *across];
+                    self.moves(*gap) || slips.into_iter().flatten().any(|x| self.is_slowed(x))
+                }
+            };
+            if moves {
+                found.push((format!("the contact `{}`", contact.name), contact.span));
+            }
+        }
+        found
+    }
+
+    /// Whether a contribution would do work on the length.
+    fn is_of(&mut self, contribution: &Contribution<'d>, four: &[usize; 4]) -> bool {
+        match contribution {
+            Contribution::Stored(Energy::Quadratic(of)) => {
+                self.moves(of.measure) || self.moves(of.coefficient)
+            }
+            Contribution::Stored(Energy::Given(energy)) => self.moves(*energy),
+            Contribution::Dissipated(Energy::Quadratic(of)) => {
+                self.moves(of.measure) || self.is_slowed(of.coefficient)
+            }
+            Contribution::Dissipated(Energy::Given(power)) => self.is_slowed(*power),
+            Contribution::Load(Load::Point { at, .. }) => at.iter().any(|&x| self.moves(x)),
+            Contribution::Load(Load::Along { measure, .. }) => self.moves(*measure),
+            Contribution::Load(Load::Coordinate { coordinate, .. }) => four.contains(coordinate),
+            Contribution::Constraint(constraint) => {
+                let said = constraint.expression;
+                match said.stage() > stage::POSITION {
+                    true => self.is_slowed(said),
+                    false => self.moves(said),
+                }
+            }
+            // These act on frames and bodies, or are no part of the equations of motion.
+            Contribution::Load(Load::Torque { .. })
+            | Contribution::Gravity(_)
+            | Contribution::Rolling(_)
+            | Contribution::Sliding(_)
+            | Contribution::OfStates(_)
+            | Contribution::Lost(_) => false,
+        }
+    }
+}

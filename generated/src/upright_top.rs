@@ -1,0 +1,771 @@
+// @generated from machines/upright_top.machine by `cargo xtask generate`; edits are lost.
+
+//! A symmetrical top on a fixed point that stands upright, is pushed, and falls, for it spins too
+//! slowly to sleep; it rises again,
+//! and every time it passes through the upright. It is turned by a quaternion, four numbers of
+//! which only the ratios mean anything:
+//! any three angles fail somewhere, and the usual ones of a top just there.
+//!
+//! Conserved: energy, and angular momentum about the vertical and about the top's axis, which are
+//! the same here. Of these follows
+//! how far it leans at most (F. Klein, A. Sommerfeld, Über die Theorie des Kreisels, 1897, chapter
+//! IV). It would sleep beyond
+//! a spin of sqrt(4 (A + m l²) m g l)/C, 79.9 rad/s.
+//!
+//! 4 coordinates, 7 parameters, 3 outputs. Arithmetic of one call:
+//!
+//! | function | mul | add | div | sin cos | other | temporaries |
+//! | --- | --: | --: | --: | --: | --: | --: |
+//! | `prepare` | 21 | 7 | 0 | 0 | 0 | 28 |
+//! | `start` | 2 | 0 | 0 | 0 | 0 | 2 |
+//! | `mass_matrix` | 43 | 18 | 1 | 0 | 0 | 62 |
+//! | `bias` | 66 | 35 | 1 | 0 | 0 | 102 |
+//! | `applied` | 41 | 23 | 2 | 0 | 0 | 66 |
+//! | `forces` | 77 | 42 | 2 | 0 | 0 | 121 |
+//! | `accelerations` | 153 | 87 | 6 | 0 | 0 | 246 |
+//! | `kinetic_energy` | 26 | 15 | 1 | 0 | 0 | 42 |
+//! | `potential_energy` | 6 | 4 | 1 | 0 | 0 | 11 |
+//! | `output_vertical_momentum` | 52 | 32 | 1 | 0 | 0 | 85 |
+//! | `output_axial_momentum` | 50 | 31 | 1 | 0 | 0 | 82 |
+//! | `output_upright` | 5 | 4 | 1 | 0 | 0 | 10 |
+//!
+//! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
+//! function that is not here gives zeros.
+
+// A program uses some of it.
+#![allow(dead_code, unreachable_pub)]
+// Names and numbers are those of the description.
+#![allow(non_snake_case, non_camel_case_types)]
+#![allow(clippy::approx_constant, clippy::upper_case_acronyms)]
+// Formulas are written as derived.
+#![allow(clippy::let_and_return, clippy::too_many_arguments)]
+#![allow(clippy::just_underscores_and_digits, clippy::excessive_precision)]
+#![allow(clippy::pedantic, clippy::nursery)]
+// What the description says is no Markdown.
+#![allow(rustdoc::all)]
+
+/// A symmetrical top on a fixed point that stands upright, is pushed, and falls, for it spins too
+/// slowly to sleep; it rises again,
+/// and every time it passes through the upright. It is turned by a quaternion, four numbers of
+/// which only the ratios mean anything:
+/// any three angles fail somewhere, and the usual ones of a top just there.
+///
+/// Conserved: energy, and angular momentum about the vertical and about the top's axis, which are
+/// the same here. Of these follows
+/// how far it leans at most (F. Klein, A. Sommerfeld, Über die Theorie des Kreisels, 1897, chapter
+/// IV). It would sleep beyond
+/// a spin of sqrt(4 (A + m l²) m g l)/C, 79.9 rad/s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UprightTop<S = f64> {
+    /// `m`. Unit: `kg`. Default: 0.2.
+    pub m: S,
+    /// Distance of the mass centre from the fixed point. Unit: `m`. Default: 0.05.
+    pub l: S,
+    /// Inertia about the mass centre: across the axis of the top, and about it. Unit: `kg*m^2`.
+    /// Default: 0.00015.
+    pub A: S,
+    /// `C`. Unit: `kg*m^2`. Default: 0.0002.
+    pub C: S,
+    /// `g`. Unit: `m/s^2`. Default: 9.81.
+    pub g: S,
+    /// The spin with which it is let go, and how fast it is pushed over. Unit: `rad/s`. Default:
+    /// 60.
+    pub spin: S,
+    /// `push`. Unit: `rad/s`. Default: 1.
+    pub push: S,
+}
+
+impl<S: ::lagrangian::emitted::Scalar> UprightTop<S> {
+    /// Computes what depends on the parameters alone, once.
+    pub fn prepare(&self) -> Prepared<S> {
+        let t0 = self.l * self.m;
+        let t1 = self.l * t0;
+        let k6 = t0 * self.g;
+        let k2 = t1 * S::from_f64(2.0) + (self.C + self.A * S::from_f64(2.0));
+        let k0 = t1 + self.A;
+        let t2 = k2 - self.C * S::from_f64(3.0);
+        let t3 = S::from_ratio(4, 3);
+        let k1 = k0 - self.C;
+        let k3 = self.A * S::from_f64(4.0);
+        let k4 = self.C * S::from_f64(4.0);
+        let k5 = t1 * S::from_f64(4.0);
+        let k7 = k0 * S::from_f64(4.0);
+        let k8 = S::from_f64(4.0) * (self.C - k0);
+        let k9 = S::from_f64(2.0) * k6;
+        let k10 = t3 * t2;
+        let k11 = self.C * S::from_f64(8.0);
+        let k12 = k2 * S::from_ratio(2, 3);
+        let k13 = S::from_f64(4.0) * k6;
+        let k14 = k2 * t3;
+        let k15 = t3 * (k2 - k0 * S::from_f64(3.0));
+        let k16 = t2 * (t2 * S::from_ratio(16, 9));
+        Prepared {
+            C: self.C,
+            k0,
+            k1,
+            k2,
+            k3,
+            k4,
+            k5,
+            k6,
+            k7,
+            k8,
+            k9,
+            k10,
+            k11,
+            k12,
+            k13,
+            k14,
+            k15,
+            k16,
+        }
+    }
+
+    /// The start values of the description, at `t = 0`.
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
+        let one = S::ONE;
+        let zero = S::ZERO;
+        let e_1_rate = S::from_f64(0.5) * self.push;
+        let e_3_rate = S::from_f64(0.5) * self.spin;
+        let q = [one, zero, zero, zero];
+        let v = [zero, e_1_rate, zero, e_3_rate];
+        ::lagrangian::emitted::State {
+            t: 0.0,
+            q: Coordinates::from_array(q),
+            v: Coordinates::from_array(v),
+        }
+    }
+}
+
+/// The coordinates of [`UprightTop`], or their rates, by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinates<S = f64> {
+    /// The turn of the top: the cosine of half its angle, and the sine of that along its axis.
+    /// Unit: `1`. Members: `e[0]` to `e[3]`.
+    pub e: [S; 4],
+}
+
+/// What can be set while a [`UprightTop`] runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inputs {}
+
+/// What can be observed of a [`UprightTop`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outputs<S = f64> {
+    /// Angular momentum about the vertical: conserved. Unit: `J*s`.
+    pub vertical_momentum: S,
+    /// Angular momentum about the top's axis: conserved. Unit: `J*s`.
+    pub axial_momentum: S,
+    /// The cosine of its lean. Unit: `1`.
+    pub upright: S,
+}
+
+/// The parameters of a [`UprightTop`], with the work done that depends on them alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prepared<S = f64> {
+    /// `C`
+    C: S,
+    /// `A + m*l^2`
+    k0: S,
+    /// `A - C + m*l^2`
+    k1: S,
+    /// `C + 2*A + 2*m*l^2`
+    k2: S,
+    /// `4*A`
+    k3: S,
+    /// `4*C`
+    k4: S,
+    /// `4*m*l^2`
+    k5: S,
+    /// `m*l*g`
+    k6: S,
+    /// `4*(A + m*l^2)`
+    k7: S,
+    /// `4*(C - (A + m*l^2))`
+    k8: S,
+    /// `2*m*l*g`
+    k9: S,
+    /// `(4/3)*(C + 2*A + 2*m*l^2 - 3*C)`
+    k10: S,
+    /// `8*C`
+    k11: S,
+    /// `(2/3)*(C + 2*A + 2*m*l^2)`
+    k12: S,
+    /// `4*m*l*g`
+    k13: S,
+    /// `(4/3)*(C + 2*A + 2*m*l^2)`
+    k14: S,
+    /// `(4/3)*(C + 2*A + 2*m*l^2 - 3*(A + m*l^2))`
+    k15: S,
+    /// `(16/9)*(C + 2*A + 2*m*l^2 - 3*C)^2`
+    k16: S,
+}
+
+/// A pivot of an elimination that is not above this share of its diagonal element may be rounding
+/// errors alone.
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
+    coordinates: 4,
+    tolerance: 3.552713678800501e-15,
+};
+
+/// Mass matrix `M`.
+///
+/// ```text
+/// M[e[0], e[0]] = 4/3*(2*m*l^2 + 2*A + C)*e[0]^2/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+///     + 4*(m*l^2 + A)*e[1]^2/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+///     + 4*(m*l^2 + A)*e[2]^2/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+///     + 4*C*e[3]^2/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+/// M[e[1], e[0]] = 4/3*(C - m*l^2 - A)*e[0]*e[1]/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+///     - 4*(C - m*l^2 - A)*e[2]*e[3]/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+/// M[e[1], e[1]] = 4*(m*l^2 + A)*e[0]^2/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+///     + 4/3*(2*m*l^2 + 2*A + C)*e[1]^2/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+///     + 4*C*e[2]^2/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+///     + 4*(m*l^2 + A)*e[3]^2/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+/// M[e[2], e[0]] = 4/3*(C - m*l^2 - A)*e[0]*e[2]/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+///     + 4*(C - m*l^2 - A)*e[1]*e[3]/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+/// M[e[2], e[1]] = -8/3*(C - m*l^2 - A)*e[1]*e[2]/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+/// M[e[2], e[2]] = 4*(m*l^2 + A)*e[0]^2/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+///     + 4*C*e[1]^2/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+///     + 4/3*(2*m*l^2 + 2*A + C)*e[2]^2/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+///     + 4*(m*l^2 + A)*e[3]^2/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+/// M[e[3], e[0]] = -8/3*(C - m*l^2 - A)*e[0]*e[3]/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+/// M[e[3], e[1]] = 4*(C - m*l^2 - A)*e[0]*e[2]/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+///     + 4/3*(C - m*l^2 - A)*e[1]*e[3]/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+/// M[e[3], e[2]] = 4/3*(C - m*l^2 - A)*e[2]*e[3]/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+///     - 4*(C - m*l^2 - A)*e[0]*e[1]/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+/// M[e[3], e[3]] = 4*C*e[0]^2/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+///     + 4*(m*l^2 + A)*e[1]^2/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+///     + 4*(m*l^2 + A)*e[2]^2/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+///     + 4/3*(2*m*l^2 + 2*A + C)*e[3]^2/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+/// ```
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 4]) -> [[S; 4]; 4] {
+    let e_0 = q[0];
+    let e_1 = q[1];
+    let e_2 = q[2];
+    let e_3 = q[3];
+    let t0 = e_1 * e_1;
+    let t1 = e_0 * e_0;
+    let t2 = e_3 * e_3;
+    let t3 = e_2 * e_2;
+    let t4 = e_1 * e_0;
+    let t5 = e_3 * e_2;
+    let t6 = e_3 * e_1;
+    let t7 = e_2 * e_0;
+    let t8 = t0 + t1 + (t2 + t3);
+    let t9 = S::ONE / (t8 * t8);
+    let t10 = t9 * p.k7;
+    let t11 = t9 * p.k10;
+    let t12 = t0 * t10 + t3 * t10;
+    let t13 = t2 * t10 + t1 * t10;
+    let m11 = t12 + t9 * (t2 * p.k4 + t1 * p.k14);
+    let m21 = -(t9 * (t5 * p.k8 - t4 * p.k15));
+    let m22 = t13 + t9 * (t0 * p.k14 + t3 * p.k4);
+    let m31 = t9 * (p.k15 * t7 + p.k8 * t6);
+    let m32 = t11 * (e_2 * e_1);
+    let m33 = t13 + t9 * (t0 * p.k4 + t3 * p.k14);
+    let m41 = t11 * (e_3 * e_0);
+    let m42 = t9 * (p.k8 * t7 + p.k15 * t6);
+    let m43 = t9 * (p.k15 * t5 - t4 * p.k8);
+    let m44 = t12 + t9 * (t2 * p.k14 + t1 * p.k4);
+    [
+        [m11, m21, m31, m41],
+        [m21, m22, m32, m42],
+        [m31, m32, m33, m43],
+        [m41, m42, m43, m44],
+    ]
+}
+
+/// Bias `h`: velocity products and explicit time in the inertia forces.
+///
+/// ```text
+/// h[e[0]] = …
+/// h[e[1]] = …
+/// h[e[2]] = …
+/// h[e[3]] = …
+/// ```
+pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 4], v: &[S; 4]) -> [S; 4] {
+    let e_0 = q[0];
+    let e_1 = q[1];
+    let e_2 = q[2];
+    let e_3 = q[3];
+    let e_0_dot = v[0];
+    let e_1_dot = v[1];
+    let e_2_dot = v[2];
+    let e_3_dot = v[3];
+    let t0 = e_1 * e_1_dot + e_0 * e_0_dot + (e_3 * e_3_dot + e_2 * e_2_dot);
+    let t1 = e_2 * e_1_dot + e_0 * e_3_dot - (e_1 * e_2_dot + e_3 * e_0_dot);
+    let t2 = S::ONE / (e_1 * e_1 + e_0 * e_0 + (e_3 * e_3 + e_2 * e_2));
+    let t3 = t0 * p.k7;
+    let t4 = e_1 * e_3_dot + e_0 * e_2_dot - (e_3 * e_1_dot + e_2 * e_0_dot);
+    let t5 = p.k8 * t1;
+    let t6 = e_3 * e_2_dot + e_0 * e_1_dot - (e_2 * e_3_dot + e_1 * e_0_dot);
+    let t7 = e_3_dot * e_3_dot + e_2_dot * e_2_dot;
+    let t8 = t2 * t2;
+    let t9 = S::from_f64(2.0) * (e_1_dot * e_1_dot + e_0_dot * e_0_dot + t7);
+    let t10 = t8 * (t3 * t6 - t5 * t4);
+    let t11 = t8 * (t5 * t6 + t4 * t3);
+    let t12 = (t9 - t2 * (t0 * (t0 * S::from_f64(4.0)))) * (t2 * p.k12);
+    let t13 = t8 * p.k11 * (t0 * t1);
+    let t14 = S::from_f64(2.0) * (e_0 * t10 - e_3 * t11) + e_2 * t13 - e_1 * t12;
+    let t15 = S::from_f64(2.0) * (e_1 * t11 - e_2 * t10) + e_0 * t13 - e_3 * t12;
+    let t16 = e_0 * t12 + (S::from_f64(2.0) * (e_1 * t10 + e_2 * t11) + e_3 * t13);
+    let t17 = e_2 * t12 + (e_1 * t13 - S::from_f64(2.0) * (e_3 * t10 + e_0 * t11));
+    let h_e_0 = t2 * t16;
+    let h_e_1 = -(t2 * t14);
+    let h_e_2 = t2 * t17;
+    let h_e_3 = -(t2 * t15);
+    [h_e_0, h_e_1, h_e_2, h_e_3]
+}
+
+/// Applied generalized forces `Q`.
+///
+/// ```text
+/// Q[e[0]] = 4*m*l*g*e[2]*(e[1]*e[3] - e[0]*e[2])/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2 -
+///     4/3*(2*m*l^2 + (2*A + C))*e[0]*(2*(e[0]*der(e[0]) + e[1]*der(e[1]) + e[2]*der(e[2]) +
+///     e[3]*der(e[3]))/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2) + ((e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2) -
+///     1)*((der(e[0])^2 + der(e[1])^2 + der(e[2])^2 + der(e[3])^2)/(e[0]^2 + e[1]^2 + e[2]^2 +
+///     e[3]^2) + 1)/((e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2) + 1))/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)
+///     - 4*m*l*g*e[1]*(e[0]*e[1] + e[2]*e[3])/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+/// Q[e[1]] = 4*m*l*g*e[0]*(e[0]*e[1] + e[2]*e[3])/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2 -
+///     4/3*(2*m*l^2 + (2*A + C))*e[1]*(2*(e[0]*der(e[0]) + e[1]*der(e[1]) + e[2]*der(e[2]) +
+///     e[3]*der(e[3]))/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2) + ((e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2) -
+///     1)*((der(e[0])^2 + der(e[1])^2 + der(e[2])^2 + der(e[3])^2)/(e[0]^2 + e[1]^2 + e[2]^2 +
+///     e[3]^2) + 1)/((e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2) + 1))/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)
+///     + 4*m*l*g*e[3]*(e[1]*e[3] - e[0]*e[2])/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+/// Q[e[2]] = 4*m*l*g*e[3]*(e[0]*e[1] + e[2]*e[3])/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2 -
+///     4/3*(2*m*l^2 + (2*A + C))*e[2]*(2*(e[0]*der(e[0]) + e[1]*der(e[1]) + e[2]*der(e[2]) +
+///     e[3]*der(e[3]))/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2) + ((e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2) -
+///     1)*((der(e[0])^2 + der(e[1])^2 + der(e[2])^2 + der(e[3])^2)/(e[0]^2 + e[1]^2 + e[2]^2 +
+///     e[3]^2) + 1)/((e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2) + 1))/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)
+///     - 4*m*l*g*e[0]*(e[1]*e[3] - e[0]*e[2])/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+/// Q[e[3]] = -4/3*(2*m*l^2 + (2*A + C))*e[3]*(2*(e[0]*der(e[0]) + e[1]*der(e[1]) + e[2]*der(e[2]) +
+///     e[3]*der(e[3]))/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2) + ((e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2) -
+///     1)*((der(e[0])^2 + der(e[1])^2 + der(e[2])^2 + der(e[3])^2)/(e[0]^2 + e[1]^2 + e[2]^2 +
+///     e[3]^2) + 1)/((e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2) + 1))/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)
+///     - 4*m*l*g*e[1]*(e[1]*e[3] - e[0]*e[2])/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+///     - 4*m*l*g*e[2]*(e[0]*e[1] + e[2]*e[3])/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2
+/// ```
+pub fn applied<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 4],
+    v: &[S; 4],
+) -> [S; 4] {
+    let e_0 = q[0];
+    let e_1 = q[1];
+    let e_2 = q[2];
+    let e_3 = q[3];
+    let e_0_dot = v[0];
+    let e_1_dot = v[1];
+    let e_2_dot = v[2];
+    let e_3_dot = v[3];
+    let t0 = e_1 * e_1 + e_0 * e_0 + (e_3 * e_3 + e_2 * e_2);
+    let t1 = e_3_dot * e_3_dot + e_2_dot * e_2_dot;
+    let t2 = S::ONE / t0;
+    let t3 = e_1 * e_1_dot + e_0 * e_0_dot + (e_3 * e_3_dot + e_2 * e_2_dot);
+    let t4 = t2 * t2;
+    let t5 = S::ONE + t2 * (e_1_dot * e_1_dot + e_0_dot * e_0_dot + t1);
+    let t6 = t4 * (e_3 * e_1 - e_2 * e_0);
+    let t7 = t4 * (e_1 * e_0 + e_3 * e_2);
+    let t8 = (S::ONE - t0) * t5 / (t0 + S::ONE) - t2 * (t3 * S::from_f64(2.0));
+    let t9 = t2 * p.k14 * t8;
+    let q_e_0 = p.k13 * (e_2 * t6 - e_1 * t7) + e_0 * t9;
+    let q_e_1 = p.k13 * (e_0 * t7 + e_3 * t6) + e_1 * t9;
+    let q_e_2 = e_2 * t9 - p.k13 * (e_0 * t6 - e_3 * t7);
+    let q_e_3 = e_3 * t9 - p.k13 * (e_2 * t7 + e_1 * t6);
+    [q_e_0, q_e_1, q_e_2, q_e_3]
+}
+
+/// Right-hand side `f = Q - h` of `M a = f`.
+pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 4], v: &[S; 4]) -> [S; 4] {
+    let e_0 = q[0];
+    let e_1 = q[1];
+    let e_2 = q[2];
+    let e_3 = q[3];
+    let e_0_dot = v[0];
+    let e_1_dot = v[1];
+    let e_2_dot = v[2];
+    let e_3_dot = v[3];
+    let t0 = e_1 * e_1 + e_0 * e_0 + (e_3 * e_3 + e_2 * e_2);
+    let t1 = e_1 * e_1_dot + e_0 * e_0_dot + (e_3 * e_3_dot + e_2 * e_2_dot);
+    let t2 = e_2 * e_1_dot + e_0 * e_3_dot - (e_1 * e_2_dot + e_3 * e_0_dot);
+    let t3 = S::ONE / t0;
+    let t4 = e_3_dot * e_3_dot + e_2_dot * e_2_dot;
+    let t5 = e_1_dot * e_1_dot + e_0_dot * e_0_dot + t4;
+    let t6 = p.k7 * t1;
+    let t7 = p.k8 * t2;
+    let t8 = e_1 * e_3_dot + e_0 * e_2_dot - (e_3 * e_1_dot + e_2 * e_0_dot);
+    let t9 = e_3 * e_2_dot + e_0 * e_1_dot - (e_2 * e_3_dot + e_1 * e_0_dot);
+    let t10 = t3 * t1;
+    let t11 = t3 * (p.k9 * (e_1 * e_0 + e_3 * e_2) + t3 * (t6 * t9 - t7 * t8));
+    let t12 = t3 * (t3 * (t7 * t9 + t8 * t6) - p.k9 * (e_3 * e_1 - e_2 * e_0));
+    let t13 = t10 * (t2 * (t3 * p.k11));
+    let t14 = (S::ONE - t0) * (S::ONE + t3 * t5) / (t0 + S::ONE);
+    let t15 = (S::from_f64(2.0) * t5 - t10 * (t1 * S::from_f64(4.0))) * (t3 * p.k12);
+    let t16 = p.k14 * (t14 - S::from_f64(2.0) * t10) - t15;
+    let t17 = e_0 * t16 - (S::from_f64(2.0) * (e_1 * t11 + e_2 * t12) + e_3 * t13);
+    let t18 = S::from_f64(2.0) * (e_0 * t11 - e_3 * t12) + e_2 * t13 + e_1 * t16;
+    let t19 = e_2 * t16 - (e_1 * t13 - S::from_f64(2.0) * (e_3 * t11 + e_0 * t12));
+    let t20 = S::from_f64(2.0) * (e_1 * t12 - e_2 * t11) + e_0 * t13 + e_3 * t16;
+    let f_e_0 = t3 * t17;
+    let f_e_1 = t3 * t18;
+    let f_e_2 = t3 * t19;
+    let f_e_3 = t3 * t20;
+    [f_e_0, f_e_1, f_e_2, f_e_3]
+}
+
+/// Accelerations `a`, the solution of `M a = f` eliminated along the machine, pivots ahead.
+///
+/// A pivot that vanishes is an error.
+pub fn accelerations<S: ::lagrangian::emitted::Number>(
+    p: &Prepared<S>,
+    q: &[S; 4],
+    v: &[S; 4],
+) -> Result<[S; 4], ::lagrangian::emitted::Singular> {
+    S::run(Accelerations { p, q, v })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 4],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 4],
+}
+
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 4], ::lagrangian::emitted::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v } = self;
+        let n = N::load;
+        let e_0 = n(q[0]);
+        let e_1 = n(q[1]);
+        let e_2 = n(q[2]);
+        let e_3 = n(q[3]);
+        let e_0_dot = n(v[0]);
+        let e_1_dot = n(v[1]);
+        let e_2_dot = n(v[2]);
+        let e_3_dot = n(v[3]);
+        let t0 = e_0 * e_0;
+        let t1 = e_2 * e_2;
+        let t2 = e_1 * e_1;
+        let t3 = e_3 * e_3;
+        let t4 = e_0 * e_1;
+        let t5 = e_3 * e_2;
+        let t6 = t2 + t0 + (t3 + t1);
+        let t7 = t5.mul_sub(n(p.k8), t4 * n(p.k15));
+        let t8 = t3.mul_add(n(p.k7), n(p.k7) * t0);
+        let t9 = e_3 * e_1;
+        let t10 = n(p.k7).mul_add(t2, t0 * n(p.k14));
+        let t11 = t10 + t3.mul_add(n(p.k4), t1 * n(p.k7));
+        let t12 = N::ONE / t6;
+        let t13 = e_0 * e_2;
+        let t14 = N::ONE / t11;
+        let t15 = e_3_dot.mul_add(e_3_dot, e_2_dot * e_2_dot);
+        let t16 = e_1_dot.mul_add(e_1_dot, e_0_dot * e_0_dot) + t15;
+        let t17 = e_3.mul_add(e_3_dot, e_2 * e_2_dot);
+        let t18 = e_1.mul_add(e_1_dot, e_0 * e_0_dot) + t17;
+        let t19 = n(p.k15).mul_add(t13, n(p.k8) * t9);
+        let t20 = t12 * t12;
+        let t21 = t14 * t7;
+        let t22 = t14 * t19;
+        let t23 = t20 * (t8 + n(p.k4).mul_add(t1, t2 * n(p.k14)));
+        let t24 = t20 * t18;
+        let t25 = e_1.mul_add(e_2_dot, e_3 * e_0_dot);
+        let t26 = e_2.mul_add(e_1_dot, e_0 * e_3_dot) - t25;
+        let t27 = t20 * t21;
+        let t28 = e_3.mul_add(e_1_dot, e_2 * e_0_dot);
+        let t29 = e_1.mul_add(e_3_dot, e_0 * e_2_dot) - t28;
+        let t30 = n(p.k7) * t24;
+        let t31 = t8 + t1.mul_add(n(p.k14), n(p.k4) * t2);
+        let t32 = e_2.mul_add(e_3_dot, e_1 * e_0_dot);
+        let t33 = e_3.mul_add(e_2_dot, e_0 * e_1_dot) - t32;
+        let t34 = t20 * n(p.k8) * t26;
+        let t35 = t12 * N::from_f64(2.0);
+        let t36 = t7 * t27;
+        let t37 = t27.mul_add(t19, t20 * (e_2 * (n(p.k10) * e_1)));
+        let t38 = t0 * t20;
+        let t39 = t1 * t20;
+        let t40 = t12 * n(p.k9);
+        let t41 = N::ONE / (t36 - t23);
+        let t42 = e_3 * (e_0 * n(p.k10));
+        let t43 = t3 * t20;
+        let t44 = t2 * t20;
+        let t45 = t24 * (t26 * n(p.k11));
+        let t46 = n(p.k7).mul_add(t44, n(p.k7) * t39);
+        let t47 = t40.neg_mul_add(t9 - t13, t34.mul_add(t33, t29 * t30));
+        let t48 = N::from_f64(2.0) * t47;
+        let t49 = (N::ONE - t6) * t12.mul_add(t16, N::ONE) / (N::ONE + t6);
+        let t50 = t24.neg_mul_add(t18 * N::from_f64(4.0), t35 * t16);
+        let t51 = t41 * t37;
+        let t52 = t20 * n(p.k8).mul_add(t13, n(p.k15) * t9);
+        let t53 = t42.mul_add(t27, t52);
+        let t54 = t42.neg_mul_add(t22, n(p.k15).mul_sub(t5, t4 * n(p.k8)));
+        let t55 = n(p.k14).mul_add(t43, n(p.k4) * t38) + t46;
+        let t56 = t40.mul_add(t4 + t5, t30.mul_sub(t33, t34 * t29));
+        let t57 = N::from_f64(2.0) * t56;
+        let t58 = t37.mul_add(t51, t20 * t19.neg_mul_add(t22, t31));
+        let t59 = N::from_ratio(2, 3) * t50;
+        let t60 = t18.neg_mul_add(t35, t49);
+        let t61 = t41 * t53;
+        let t62 = t51.mul_add(t53, t20 * t54);
+        let t63 = N::ONE / t58;
+        let t64 = N::from_ratio(4, 3).mul_sub(t60, t59) * n(p.k2);
+        let t65 = t38.neg_mul_add(t14 * (t3 * n(p.k16)), t55);
+        let t66 = t42 * t14;
+        let t67 = e_1.mul_add(t57, e_2.mul_add(t48, e_3 * t45));
+        let t68 = e_0.neg_mul_add(t64, t67);
+        let t69 = e_2.neg_mul_add(t57, e_1.mul_add(t48, e_0 * t45));
+        let t70 = e_0.neg_mul_add(t57, e_3.mul_sub(t48, e_2 * t45));
+        let t71 = e_3.mul_add(t57, e_0.mul_sub(t48, e_1 * t45));
+        let t72 = t21.mul_add(t68, e_1.neg_mul_add(t64, t70));
+        let t73 = n(p.k7).mul_add(t43, n(p.k7) * t38);
+        let t74 = t63 * t62;
+        let t75 = t66.mul_add(t68, e_3.mul_add(t64, t69));
+        let t76 = t22.mul_add(t68, e_2.mul_add(t64, t71));
+        let t77 = t51.neg_mul_add(t72, t76);
+        let t78 = t62.neg_mul_add(t74, t53.mul_add(t61, t65));
+        let t79 = t12 * t74.neg_mul_add(t77, t61.neg_mul_add(t72, t75));
+        let e_3_ddot = N::ONE / t78 * t79;
+        let e_2_ddot = t74.neg_mul_add(e_3_ddot, t77 * (t12 * t63));
+        let t80 = t61.mul_add(e_3_ddot, t72 * (t12 * t41));
+        let e_1_ddot = t51.mul_add(e_2_ddot, t80);
+        let t81 = t66.mul_add(e_3_ddot, t68 * (t14 * t6));
+        let e_0_ddot = t21.mul_sub(e_1_ddot, t22.mul_add(e_2_ddot, t81));
+        let t82 = t11 * t20;
+        let t83 = t46 + n(p.k4).mul_add(t43, n(p.k14) * t38);
+        let t84 = t23 - t36;
+        let t85 = t73 + n(p.k14).mul_add(t44, n(p.k4) * t39);
+        let t86 = t73 + n(p.k4).mul_add(t44, n(p.k14) * t39);
+        let sound = PIVOTS.hold(t82, t83)
+            & PIVOTS.hold(t84, t85)
+            & PIVOTS.hold(t58, t86)
+            & PIVOTS.hold(t78, t55)
+            & e_0_ddot.is_finite();
+        if !sound {
+            let pivots = [(0, t82, t83), (1, t84, t85), (2, t58, t86), (3, t78, t55)];
+            PIVOTS.check(pivots)?;
+        }
+        let accelerations = [
+            e_0_ddot.store(),
+            e_1_ddot.store(),
+            e_2_ddot.store(),
+            e_3_ddot.store(),
+        ];
+        Ok(accelerations)
+    }
+}
+
+/// Kinetic energy `T`, in J.
+///
+/// ```text
+/// T = 2*A*(e[0]*der(e[1]) - e[1]*der(e[0]) + e[3]*der(e[2]) - e[2]*der(e[3]))^2/(e[0]^2 + e[1]^2 +
+///     e[2]^2 + e[3]^2)^2 + 2*A*(e[0]*der(e[2]) - e[2]*der(e[0]) - e[3]*der(e[1]) +
+///     e[1]*der(e[3]))^2/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2 + 2*C*(e[2]*der(e[1]) -
+///     e[3]*der(e[0]) - e[1]*der(e[2]) + e[0]*der(e[3]))^2/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2 +
+///     1/2*m*(4*l^2*(e[0]*der(e[1]) - e[1]*der(e[0]) + e[3]*der(e[2]) - e[2]*der(e[3]))^2/(e[0]^2 +
+///     e[1]^2 + e[2]^2 + e[3]^2)^2 + 4*l^2*(e[0]*der(e[2]) - e[2]*der(e[0]) - e[3]*der(e[1]) +
+///     e[1]*der(e[3]))^2/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)^2)
+/// ```
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 4],
+    v: &[S; 4],
+) -> S {
+    let e_0 = q[0];
+    let e_1 = q[1];
+    let e_2 = q[2];
+    let e_3 = q[3];
+    let e_0_dot = v[0];
+    let e_1_dot = v[1];
+    let e_2_dot = v[2];
+    let e_3_dot = v[3];
+    let t0 = e_1 * e_1 + e_0 * e_0 + (e_3 * e_3 + e_2 * e_2);
+    let t1 = e_3 * e_2_dot + e_0 * e_1_dot - (e_2 * e_3_dot + e_1 * e_0_dot);
+    let t2 = e_2 * e_1_dot + e_0 * e_3_dot - (e_1 * e_2_dot + e_3 * e_0_dot);
+    let t3 = e_1 * e_3_dot + e_0 * e_2_dot - (e_3 * e_1_dot + e_2 * e_0_dot);
+    let t4 = S::ONE / (t0 * t0);
+    let t5 = t3 * t3 + t1 * t1;
+    let t6 = t4 * (p.k5 * t5) + t4 * (t5 * p.k3 + t2 * (t2 * p.k4));
+    S::from_f64(0.5) * t6
+}
+
+/// Potential energy `V`, in J.
+///
+/// ```text
+/// V = m*l*g*(1 - 2*(e[1]^2 + e[2]^2)/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2))
+/// ```
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 4]) -> S {
+    let e_0 = q[0];
+    let e_1 = q[1];
+    let e_2 = q[2];
+    let e_3 = q[3];
+    let t0 = e_2 * e_2 + e_1 * e_1;
+    p.k6 * (S::ONE - t0 * S::from_f64(2.0) / (t0 + (e_3 * e_3 + e_0 * e_0)))
+}
+
+/// Angular momentum about the vertical: conserved. Unit: `J*s`.
+///
+/// ```text
+/// vertical_momentum = …
+/// ```
+pub fn output_vertical_momentum<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 4],
+    v: &[S; 4],
+) -> S {
+    let e_0 = q[0];
+    let e_1 = q[1];
+    let e_2 = q[2];
+    let e_3 = q[3];
+    let e_0_dot = v[0];
+    let e_1_dot = v[1];
+    let e_2_dot = v[2];
+    let e_3_dot = v[3];
+    let t0 = e_2 * e_2;
+    let t1 = e_1 * e_1;
+    let t2 = e_3 * e_3;
+    let t3 = t0 + t1;
+    let t4 = e_3 * e_0;
+    let t5 = e_2 * e_1;
+    let t6 = e_2 * e_0;
+    let t7 = e_1 * e_3;
+    let t8 = e_2 * e_3;
+    let t9 = e_1 * e_0;
+    let t10 = e_3 * e_2_dot + e_0 * e_1_dot - (e_2 * e_3_dot + e_1 * e_0_dot);
+    let t11 = e_1 * e_3_dot + e_0 * e_2_dot - (e_3 * e_1_dot + e_2 * e_0_dot);
+    let t12 = S::ONE / (t3 + (t2 + e_0 * e_0));
+    let t13 = e_2 * e_1_dot + e_0 * e_3_dot - (e_1 * e_2_dot + e_3 * e_0_dot);
+    let t14 = t6 + t7;
+    let t15 = t8 - t9;
+    let t16 = t12 * S::from_f64(4.0);
+    let t17 = t12 * S::from_f64(2.0);
+    let t18 = S::ONE - t3 * t17;
+    let t19 = (S::ONE - t17 * (t0 + t2)) * (S::from_f64(2.0) * t10);
+    let t20 = t16 * (t11 * (t9 + t8) + t10 * (t7 - t6));
+    let t21 = (S::ONE - t17 * (t1 + t2)) * (S::from_f64(2.0) * t11);
+    let t22 = t12 * (t20 + t18 * (S::from_f64(2.0) * t13));
+    let t23 = (t16 * (t13 * t14 + t11 * (t5 - t4)) + t19) * (t12 * t14);
+    let t24 = t17 * ((t16 * (t15 * t13 + t10 * (t4 + t5)) + t21) * (t12 * t15) + t23);
+    t22 * p.k0 - (t24 + t18 * t22) * (t18 * p.k1)
+}
+
+/// Angular momentum about the top's axis: conserved. Unit: `J*s`.
+///
+/// ```text
+/// axial_momentum = …
+/// ```
+pub fn output_axial_momentum<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 4],
+    v: &[S; 4],
+) -> S {
+    let e_0 = q[0];
+    let e_1 = q[1];
+    let e_2 = q[2];
+    let e_3 = q[3];
+    let e_0_dot = v[0];
+    let e_1_dot = v[1];
+    let e_2_dot = v[2];
+    let e_3_dot = v[3];
+    let t0 = e_2 * e_2;
+    let t1 = e_1 * e_1;
+    let t2 = e_3 * e_3;
+    let t3 = t0 + t1;
+    let t4 = e_3 * e_0;
+    let t5 = e_2 * e_1;
+    let t6 = e_2 * e_0;
+    let t7 = e_1 * e_3;
+    let t8 = e_1 * e_3_dot + e_0 * e_2_dot - (e_3 * e_1_dot + e_2 * e_0_dot);
+    let t9 = e_2 * e_1_dot + e_0 * e_3_dot - (e_1 * e_2_dot + e_3 * e_0_dot);
+    let t10 = e_2 * e_3;
+    let t11 = S::ONE / (t3 + (t2 + e_0 * e_0));
+    let t12 = e_1 * e_0;
+    let t13 = e_3 * e_2_dot + e_0 * e_1_dot - (e_2 * e_3_dot + e_1 * e_0_dot);
+    let t14 = t6 + t7;
+    let t15 = t10 - t12;
+    let t16 = t11 * S::from_f64(4.0);
+    let t17 = t11 * S::from_f64(2.0);
+    let t18 = S::ONE - t3 * t17;
+    let t19 = (S::ONE - t17 * (t0 + t2)) * (S::from_f64(2.0) * t13);
+    let t20 = (S::ONE - t17 * (t1 + t2)) * (S::from_f64(2.0) * t8);
+    let t21 = t16 * (t8 * (t12 + t10) + t13 * (t7 - t6));
+    let t22 = (t16 * (t15 * t9 + t13 * (t4 + t5)) + t20) * (t11 * t15);
+    let t23 = t17 * (t22 + (t16 * (t9 * t14 + t8 * (t5 - t4)) + t19) * (t11 * t14));
+    (t23 + (t21 + t18 * (S::from_f64(2.0) * t9)) * (t11 * t18)) * p.C
+}
+
+/// The cosine of its lean. Unit: `1`.
+///
+/// ```text
+/// upright = 1 - 2*(e[1]^2 + e[2]^2)/(e[0]^2 + e[1]^2 + e[2]^2 + e[3]^2)
+/// ```
+pub fn output_upright<S: ::lagrangian::emitted::Scalar>(q: &[S; 4]) -> S {
+    let e_0 = q[0];
+    let e_1 = q[1];
+    let e_2 = q[2];
+    let e_3 = q[3];
+    let t0 = e_2 * e_2 + e_1 * e_1;
+    S::ONE - t0 * S::from_f64(2.0) / (t0 + (e_3 * e_3 + e_0 * e_0))
+}
+
+/// Everything that the description asks to observe.
+pub fn outputs<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 4],
+    v: &[S; 4],
+) -> Outputs<S> {
+    Outputs {
+        vertical_momentum: output_vertical_momentum(p, q, v),
+        axial_momentum: output_axial_momentum(p, q, v),
+        upright: output_upright(q),
+    }
+}
+
+::lagrangian::emitted::implement! {
+    machine UprightTop "UprightTop" over S, R;
+    parameters { m, l, A, C, g, spin, push } [
+        m: "m" "kg" = 0.2;
+        l: "l" "m" = 0.05;
+        A: "A" "kg*m^2" = 0.00015;
+        C: "C" "kg*m^2" = 0.0002;
+        g: "g" "m/s^2" = 9.81;
+        spin: "spin" "rad/s" = 60.0;
+        push: "push" "rad/s" = 1.0;
+    ]
+    coordinates 4 Coordinates { e: [e_0, e_1, e_2, e_3] } [
+        e_0: "e[0]" "1";
+        e_1: "e[1]" "1";
+        e_2: "e[2]" "1";
+        e_3: "e[3]" "1";
+    ]
+    inputs Inputs {} []
+    outputs Outputs { vertical_momentum, axial_momentum, upright } [
+        vertical_momentum: "vertical_momentum" "J*s";
+        axial_momentum: "axial_momentum" "J*s";
+        upright: "upright" "1";
+    ]
+    prepared Prepared {
+        C, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16,
+    }
+    accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
+    system {
+        matrix mass_matrix(p, t, q) = mass_matrix(p, q);
+        vector bias(p, t, q, v) = bias(p, q, v);
+        vector applied(p, t, q, v, u) = applied(p, q, v);
+        vector forces(p, t, q, v, u) = forces(p, q, v);
+        number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
+        number potential_energy(p, t, q, u) = potential_energy(p, q);
+        number dissipation(p, t, q, v, u);
+        number work_rate(p, t, q, v, a, u);
+        number dissipation_rate(p, t, q, v, u);
+        outputs outputs(p, t, q, v, a, u) = outputs(p, q, v);
+    }
+    absent [MAY_BE_CONSTRAINED MAY_SLIDE MAY_COLLIDE]
+    intervals []
+    lanes [N]
+    numbers [yes]
+}

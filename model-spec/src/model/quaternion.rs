@@ -1,0 +1,191 @@
+//! Turns by four numbers: a quaternion of any length.
+//!
+//! Three angles cannot name all turns without a place where they stop: there two of them turn about the same axis, and the mass
+//! matrix is singular. Four numbers `e = (e₀, e₁, e₂, e₃)` can. With `s = e·e` they turn a frame by
+//!
+//! ```text
+//! R = 1 + 2/s (e₀ [ε]× + [ε]×²),   ε = (e₁, e₂, e₃)
+//! ```
+//!
+//! which is the turn by φ about the axis n where `e = √s (cos φ/2, n sin φ/2)`: a proper rotation for every e but 0, the same for
+//! every multiple of e. (J. B. Kuipers, *Quaternions and Rotation Sequences*, 1999, ch. 5.)
+//!
+//! How long e is means nothing then, no body moves with it, and it would have no equation of motion. It is given one of its own, in
+//! which nothing else stands: with `u = ½ ln s`, `u̇ = e·ė/s` and two constants, an inertia κ and a rate ρ,
+//!
+//! ```text
+//! κ ü = −κ (2 ρ u̇ + (ρ² + ė·ė/s) (s − 1)/(s + 1))
+//! ```
+//!
+//! so that the length comes back to 1 wherever it starts and whatever errors of steps do to it: at rest as critically damped with
+//! ρ, and while the frame turns by a spring that is as fast as e itself, which is stiff to no method. Any κ gives the same motion.
+
+use lagrangian_symbolic::Expr;
+
+use super::{Inertia, Model, PoseId, Rotation, Step, stage};
+use crate::source::Span;
+
+/// How fast the length of four numbers comes back to 1 where nothing turns, in 1/s.
+pub const RATE: i64 = 1;
+
+/// Four coordinates by which a frame is turned.
+#[derive(Clone, Copy)]
+pub struct Quaternion<'d> {
+    /// Their symbols, `e₀` first.
+    pub e: [Expr<'d>; 4],
+    /// κ, the inertia of their length, in kg·m²; of parameters.
+    pub inertia: Expr<'d>,
+    /// Where the spec turns a frame by them.
+    pub span: Span,
+}
+
+impl<'d> Quaternion<'d> {
+    /// The indices of the coordinates in a model that has them.
+    pub fn coordinates(&self, model: &Model<'d>) -> [usize; 4] {
+        self.e.map(|e| {
+            let place = model.coordinates.iter().position(|c| c.q == e);
+            place.expect("a frame is turned by coordinates of its model")
+        })
+    }
+
+    /// `u`, half the logarithm of `s`.
+    pub fn size(&self) -> Expr<'d> {
+        square(&self.e).ln() / 2
+    }
+
+    /// The load on `u`, where the four numbers change at these rates.
+    pub fn load(&self, rates: &[Expr<'d>; 4]) -> Expr<'d> {
+        let dag = self.inertia.dag();
+        let s = square(&self.e);
+        let growing = along(&self.e, rates) / s;
+        let fast = dag.int(RATE * RATE) + square(rates) / s;
+        let off = (s - 1) / (s + 1);
+        -(self.inertia * (2 * RATE * growing + fast * off))
+    }
+}
+
+/// `s = e·e`.
+pub fn square<'d>(e: &[Expr<'d>; 4]) -> Expr<'d> {
+    e[0].dag().sum(e.map(|e| e.square()))
+}
+
+/// `e·ė`, which is `s u̇`.
+pub fn along<'d>(e: &[Expr<'d>; 4], rates: &[Expr<'d>; 4]) -> Expr<'d> {
+    e[0].dag().sum((0..4).map(|k| e[k] * rates[k]))
+}
+
+/// The vector of `ē∘ė`, which is half of `s ω`.
+pub fn vector<'d>(e: &[Expr<'d>; 4], rates: &[Expr<'d>; 4]) -> [Expr<'d>; 3] {
+    let [w, x, y, z] = *e;
+    let [dw, dx, dy, dz] = *rates;
+    let dag = w.dag();
+    [
+        dag.sum([w * dx, -(x * dw), z * dy, -(y * dz)]),
+        dag.sum([w * dy, -(y * dw), x * dz, -(z * dx)]),
+        dag.sum([w * dz, -(z * dw), y * dx, -(x * dy)]),
+    ]
+}
+
+/// The axes that a turn by four numbers leads to, along those that it starts from: the columns of R.
+pub fn axes<'d>(e: &[Expr<'d>; 4]) -> [[Expr<'d>; 3]; 3] {
+    let [w, x, y, z] = *e;
+    let p = 2 / square(e);
+    let one = w.dag().one();
+    [
+        [
+            one - p * (y.square() + z.square()),
+            p * (x * y + w * z),
+            p * (x * z - w * y),
+        ],
+        [
+            p * (x * y - w * z),
+            one - p * (x.square() + z.square()),
+            p * (y * z + w * x),
+        ],
+        [
+            p * (x * z + w * y),
+            p * (y * z - w * x),
+            one - p * (x.square() + y.square()),
+        ],
+    ]
+}
+
+/// The angular velocity of such a turn, along the axes that it leads to: `2/s` times the vector of `ē∘ė`. Of second derivatives in
+/// the place of rates it is the part of its derivative that they make.
+pub fn turning<'d>(e: &[Expr<'d>; 4], rates: &[Expr<'d>; 4]) -> [Expr<'d>; 3] {
+    let p = 2 / square(e);
+    vector(e, rates).map(|part| p * part)
+}
+
+/// The derivative of [`turning`] along a motion with these second derivatives.
+pub fn turning_faster<'d>(
+    e: &[Expr<'d>; 4],
+    rates: &[Expr<'d>; 4],
+    second: &[Expr<'d>; 4],
+) -> [Expr<'d>; 3] {
+    // d/dt (ē∘ė) has the vector of ē∘ë, and 1/s changes with −2 u̇/s.
+    let growing = along(e, rates) / square(e);
+    let (faster, now) = (turning(e, second), turning(e, rates));
+    [0, 1, 2].map(|k| faster[k] - 2 * growing * now[k])
+}
+
+impl<'d> Step<'d> {
+    /// The parts of the angular velocity that this step adds, each about an axis of the frame that it leads to; `rate` says how
+    /// what it is given changes. `None` where that is not known of something.
+    pub fn turning(
+        &self,
+        mut rate: impl FnMut(Expr<'d>) -> Option<Expr<'d>>,
+    ) -> Option<Vec<(usize, Expr<'d>)>> {
+        match self {
+            Step::Ground | Step::Shift(_) => Some(Vec::new()),
+            Step::Turn { axis, angle } => Some(vec![(*axis, rate(*angle)?)]),
+            Step::Quaternion(e) => {
+                let [a, b, c, d] = e.map(&mut rate);
+                let spin = turning(e, &[a?, b?, c?, d?]);
+                Some(spin.into_iter().enumerate().collect())
+            }
+        }
+    }
+}
+
+/// An inertia for the length of four numbers that is about as large as those of the turn itself, so that the mass matrix is as well
+/// conditioned as the machine: four thirds of the traces of all bodies that the frames turned by them carry. Where that is 0 the
+/// machine has no equations of motion, or offsets of mass centres hold it, which are lengths that parameters know.
+pub(crate) fn inertia<'d>(model: &Model<'d>, e: &[Expr<'d>; 4]) -> Expr<'d> {
+    let dag = model.dag;
+    // Whether each pose is built on one that is turned so, and how far constant shifts lead from there.
+    let mut carried: Vec<Option<Expr<'d>>> = Vec::with_capacity(model.poses.len());
+    let length = |shift: &[Expr<'d>]| {
+        let known = shift.iter().filter(|x| x.stage() <= stage::PARAMETER);
+        dag.sum(known.map(|x| x.square()))
+    };
+    for pose in &model.poses {
+        let parent = carried.get(pose.parent.index()).copied().flatten();
+        carried.push(match &pose.step {
+            Step::Quaternion(own) if own == e => Some(dag.zero()),
+            Step::Shift(by) => parent.map(|far| far + length(by)),
+            _ => parent,
+        });
+    }
+    let of = |pose: PoseId| carried[pose.index()];
+    let mut terms = Vec::new();
+    for body in &model.bodies {
+        if let (Inertia::Tensor([xx, yy, zz, ..]), Rotation::Frame(pose)) =
+            (&body.inertia, body.rotation)
+            && of(pose).is_some()
+        {
+            terms.push(dag.sum([*xx, *yy, *zz]));
+        }
+        if let Some(local) = &body.local
+            && let Some(far) = of(local.pose)
+        {
+            terms.push(2 * body.mass * (far + length(&local.point)));
+        }
+    }
+    let known = dag.sum(terms) * 4 / 3;
+    match known.is_zero() {
+        // Of particles whose places nobody says along frames: one that they have in a metre.
+        true => dag.sum(model.bodies.iter().map(|body| body.mass)) * dag.int(1),
+        false => known,
+    }
+}
