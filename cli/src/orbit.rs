@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use lagrangian::interpreted::InterpretedMachine;
+use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::{Machine, Simulation, State, System};
 use lagrangian_linear::DMatrix;
 use lagrangian_linear::orbit::{
@@ -23,7 +23,7 @@ use crate::linearize::{mat, npz};
 use crate::modes::{self, number};
 use crate::numbers::{self, by_name, shortest};
 use crate::output::{self, Destination, ORBIT, SVG, TABLE, keep_apart};
-use crate::reading::{self, Reading, places};
+use crate::reading::{self, Reading, name_error, places};
 use crate::recording::Run;
 use crate::runs::{self, header};
 use crate::{inputs, plot, progress, simulate, table};
@@ -62,7 +62,8 @@ pub fn run(call: &call::Orbit) -> Result<(), Failure> {
     if let Some(vary) = &call.along {
         return along(call, &ready, &sought, vary, &files);
     }
-    let orbit = orbit::find(&ready.machine, &sought).map_err(|none| said(&none, call))?;
+    let orbit = orbit::find(&ready.machine, &sought)
+        .map_err(|none| said(&none, call, &left_in(&ready.machine, &sought)))?;
     let motion = motion(&ready.machine, &orbit, call)?;
     runs::warn(&motion);
     if let Some(file) = &files[0] {
@@ -87,7 +88,7 @@ pub fn run(call: &call::Orbit) -> Result<(), Failure> {
 }
 
 /// Why there is none, with the options that help.
-fn said(none: &NoOrbit, call: &call::Orbit) -> Failure {
+fn said(none: &NoOrbit, call: &call::Orbit, left_in: &[String]) -> Failure {
     let help = match none {
         NoOrbit::Driven(_) if call.near.is_some() => {
             "; --near is for machines that nothing drives, --period gives one"
@@ -98,9 +99,30 @@ fn said(none: &NoOrbit, call: &call::Orbit) -> Failure {
         NoOrbit::Lost(..) => " (--start, --rate, --settle)",
         NoOrbit::Rest => " (--start, --keep)",
         NoOrbit::OtherPlace(_) => "; --advance is to be whole turns of what the machine depends on",
+        NoOrbit::Depends(_) => "; --advance gives it",
         _ => "",
     };
-    Failure::Run(format!("{none}{help}"))
+    let shift = match none {
+        NoOrbit::Lost(..) | NoOrbit::NoReturn | NoOrbit::Refused(_) if !left_in.is_empty() => {
+            format!(
+                "; nothing depends on `{}`: with --shift {} it need not come back",
+                left_in.join("`, `"),
+                left_in.join(",")
+            )
+        }
+        _ => String::new(),
+    };
+    Failure::Run(format!("{none}{help}{shift}"))
+}
+
+/// The coordinates on which nothing depends and that are to come back all the same.
+fn left_in(machine: &InterpretedMachine, sought: &Sought) -> Vec<String> {
+    let system = machine.prepare();
+    let free = orbit::shifting(machine);
+    let all = system.coordinates().zip(free.iter().zip(&sought.shifts));
+    all.filter(|(of, (free, shifts))| **free && !**shifts && state_of(of.name).is_none())
+        .map(|(of, _)| of.name.to_owned())
+        .collect()
 }
 
 /// The machine of a call, derived with the derivatives that variational equations take.
@@ -190,6 +212,7 @@ fn sought(call: &call::Orbit, ready: &Ready<'_>) -> Result<Sought, Failure> {
         let unit = advance.unit(&set.name).unwrap_or("1").to_owned();
         reading::assign(&mut advance, set, "--advance", &unit)?;
     }
+    let shifts = shifts(call, machine, &start.q)?;
     let mut kept = vec![false; 2 * n];
     for name in reading::kept_names(&call.keep).unwrap_or_default() {
         let rate = name
@@ -207,6 +230,7 @@ fn sought(call: &call::Orbit, ready: &Ready<'_>) -> Result<Sought, Failure> {
         period,
         kept,
         advance: advance.values,
+        shifts,
         tolerance: call.tolerance,
         ..Sought::near(start, period)
     };
@@ -218,6 +242,43 @@ fn sought(call: &call::Orbit, ready: &Ready<'_>) -> Result<Sought, Failure> {
         settled(machine, &mut sought, t)?;
     }
     Ok(sought)
+}
+
+/// Which coordinates go on as far as they do: those that `--shift` names, or, where the call says nothing of what goes on, all on which
+/// nothing depends.
+fn shifts(
+    call: &call::Orbit,
+    machine: &InterpretedMachine,
+    q: &Named,
+) -> Result<Vec<bool>, Failure> {
+    if call.shift.is_empty() && call.advance.is_empty() {
+        let system = machine.prepare();
+        let own = system
+            .coordinates()
+            .map(|of| state_of(of.name).is_none())
+            .collect::<Vec<_>>();
+        let free = orbit::shifting(machine);
+        return Ok(free
+            .iter()
+            .zip(own)
+            .map(|(free, own)| *free && own)
+            .collect());
+    }
+    let mut shifts = vec![false; q.values.len()];
+    for name in &call.shift {
+        if let Err(unknown) = q.clone().set(name, 0.0) {
+            return Err(name_error("coordinate", &unknown));
+        }
+        if call.advance.iter().any(|set| set.name == *name) {
+            return Err(Failure::Call(format!(
+                "--shift {name}: --advance says how far it goes on"
+            )));
+        }
+        for place in places(q, name) {
+            shifts[place] = true;
+        }
+    }
+    Ok(shifts)
 }
 
 /// Lets the start run for a time, and takes the end as start, at the time of the start: the same place of a period.
@@ -275,6 +336,7 @@ fn arrays(machine: &InterpretedMachine, orbit: &Orbit) -> Vec<Array> {
         vector("t", vec![orbit.start.t]),
         vector("q", orbit.start.q.values.clone()),
         vector("v", orbit.start.v.values.clone()),
+        vector("advance", orbit.advance.clone()),
         Array {
             name: "monodromy",
             content: Content::Matrix(orbit.monodromy.clone()),
@@ -306,6 +368,14 @@ fn multiplier_json(one: &Multiplier) -> Value {
     })
 }
 
+/// What goes on in a period, by name.
+fn advance(orbit: &Orbit) -> Value {
+    let all = orbit.start.q.iter().zip(&orbit.advance).zip(&orbit.shifts);
+    let going = all.filter(|((_, by), shifts)| **by != 0.0 || **shifts);
+    let named = going.map(|(((name, _), by), _)| (name.to_owned(), json!(by)));
+    Value::Object(named.collect())
+}
+
 fn as_json(machine: &InterpretedMachine, orbit: &Orbit) -> Value {
     let multipliers: Vec<Value> = orbit.multipliers.iter().map(multiplier_json).collect();
     let mut at = json!({
@@ -319,6 +389,7 @@ fn as_json(machine: &InterpretedMachine, orbit: &Orbit) -> Value {
     json!({
         "period": orbit.period,
         "at": at,
+        "advance": advance(orbit),
         "autonomous": orbit.is_autonomous,
         "states": states(machine, orbit),
         "monodromy": rows(&orbit.monodromy),
@@ -373,6 +444,17 @@ fn text(orbit: &Orbit) -> String {
             "  {name:width$} = {}{unit}, der({name}) = {}{unit}/s",
             shortest(q),
             shortest(*v)
+        );
+    }
+    for (k, (name, _)) in start.q.iter().enumerate().filter(|(k, _)| orbit.shifts[*k]) {
+        let unit = match start.q.unit(name) {
+            None | Some("1") => String::new(),
+            Some(unit) => format!(" {unit}"),
+        };
+        let _ = writeln!(
+            text,
+            "nothing depends on {name}, which goes on by {}{unit} in a period",
+            number(orbit.advance[k])
         );
     }
     let rounds = match orbit.rounds {
@@ -469,7 +551,7 @@ fn along(
     };
     let trace = orbit::follow(make, sought, &values).map_err(|stop| match stop {
         Stop::Said(failure) => failure,
-        Stop::None(none) => said(&none, call),
+        Stop::None(none) => said(&none, call, &left_in(&ready.machine, sought)),
     })?;
     let label = header(&vary.name, Some(&unit));
     if let Some(file) = &files[0] {

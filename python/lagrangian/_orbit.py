@@ -17,11 +17,13 @@ class Orbit:
     """In s."""
     start: State
     """A state of the orbit."""
+    advance: Mapping[str, float]
+    """By how much coordinates go on in a period: what was given, and of those on which nothing depends what was found."""
     monodromy: np.ndarray
     """How the state a period later changes with the state, (k, k): the numbers that ``states`` names."""
     states: Tuple[str, ...]
-    """The numbers of a state that constraints leave independent, all of them where there are none: coordinates, then rates
-    ``der(x)`` and states of first order."""
+    """The numbers of a state that constraints leave independent, all of them where there are none, but for coordinates on which nothing
+    depends and that go on: coordinates, then rates ``der(x)`` and states of first order."""
     multipliers: np.ndarray
     """Floquet's multipliers, complex (k,): that of the motion itself first, where there is one, then the greatest."""
     errors: np.ndarray
@@ -45,6 +47,7 @@ class Orbit:
         v = [at["v"][name] if state_of(name) is None else at["states"][state_of(name)] for name in names]
         self.period = float(document["period"])
         self.start = State(float(at["t"]), Named(q, names), rates(v, names))
+        self.advance = {name: float(by) for name, by in document["advance"].items()}
         self.monodromy = np.array(document["monodromy"], dtype=float)
         self.states = tuple(document["states"])
         self.multipliers = np.array([complex(one["re"], one["im"]) for one in found])
@@ -76,6 +79,7 @@ def orbit(
     rate: Any = None,
     keep: Iterable[str] = (),
     advance: Optional[Mapping[str, Union[float, str]]] = None,
+    shift: Iterable[str] = (),
     settle: Optional[float] = None,
     tolerance: float = 1e-11,
 ) -> Orbit:
@@ -84,7 +88,8 @@ def orbit(
     ``period`` in s, or a formula of parameters, ``"2*pi/omega"``, is that of what drives the machine or a multiple of it; of a machine
     that nothing drives it may be left out, or ``near`` says about how long it is. ``start`` and ``rate`` are mappings from
     coordinates to numbers or arrays (n,). ``keep`` names what of the start stays, ``"theta"`` or ``"der(theta)"``; ``advance`` by what
-    coordinates go on in a period; ``settle`` for how many seconds the motion runs before.
+    coordinates go on in a period; ``shift`` which go on as far as they do, since nothing depends on them: all of these where neither is
+    given; ``settle`` for how many seconds the motion runs before.
     """
     options: List[str] = [*settings(self), *_places(self, "--start", start), *_places(self, "--rate", rate)]
     if isinstance(start, State) and rate is None:
@@ -98,6 +103,9 @@ def orbit(
         options.append(f"--keep={','.join(kept)}")
     for name, value in (advance or {}).items():
         options.append(f"--advance={name}={value if isinstance(value, str) else repr(float(value))}")
+    shifts = [shift] if isinstance(shift, str) else list(shift)
+    if shifts:
+        options.append(f"--shift={','.join(shifts)}")
     if settle is not None:
         options.append(f"--settle={float(settle)!r}")
     options.append(f"--tolerance={float(tolerance)!r}")

@@ -34,6 +34,10 @@ pub struct Orbit {
     /// What a coordinate goes on by in a period, as in `--advance phi=2*pi`; nothing where left out.
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
     pub advance: Vec<Assignment>,
+    /// Coordinates on which nothing depends and that go on in a period as far as they do, as in `--shift y`; where neither this nor
+    /// `--advance` is given all of them.
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = super::observed)]
+    pub shift: Vec<String>,
     /// Let the motion run for this long first, in s, so that an orbit that attracts is near; with `--period` for as many whole periods
     /// as that takes.
     #[arg(long, value_name = "SECONDS", value_parser = positive)]

@@ -4,7 +4,6 @@
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Machine, System};
 use lagrangian_scalar::{DoubleDouble, Dual, Scalar};
-use lagrangian_units::state_of;
 use nalgebra::{DMatrix, DVector};
 
 use crate::reduced::{Choice, Fault, Number, Place, Reduced};
@@ -21,8 +20,8 @@ pub(crate) struct Chart {
 }
 
 impl Chart {
-    /// The numbers that tell states near `x`, among them those that are kept. The integral of a state of first order, on which nothing
-    /// depends, is none of them: the state itself is, as a rate.
+    /// The numbers that tell states near `x`, among them those that are kept. A coordinate that goes on, on which nothing depends, as the
+    /// integral of a state of first order, is none of them: its rate is.
     ///
     /// # Errors
     /// If there are none: kept ones depend on others, or constraints have no rows there.
@@ -30,15 +29,12 @@ impl Chart {
         machine: &InterpretedMachine,
         x: &DVector<f64>,
         kept: &[bool],
+        goes_on: &[bool],
     ) -> Result<Chart, Fault> {
         let n = x.len() / 2;
         let system = machine.prepare();
-        let is_integral: Vec<bool> = system
-            .coordinates()
-            .map(|of| state_of(of.name).is_some())
-            .collect();
         if system.constraints().len() == 0 && machine.program().quaternions.is_empty() {
-            let places = (0..n).filter(|j| !is_integral[*j]);
+            let places = (0..n).filter(|j| !goes_on[*j]);
             return Ok(Chart {
                 n,
                 picked: places.chain(n..2 * n).collect(),
@@ -51,7 +47,7 @@ impl Chart {
         let given: Vec<bool> = (0..n).map(|j| kept[j] || kept[n + j]).collect();
         let choice = reduced.choose(q, &given)?;
         let mut picked = choice.places();
-        picked.retain(|j| !is_integral[*j]);
+        picked.retain(|j| !goes_on[*j]);
         picked.sort_unstable();
         picked.extend(choice.independent.iter().map(|j| n + j));
         Ok(Chart {

@@ -20,14 +20,16 @@
 //! may be displaced at will and rates ([`crate::reduced`]), and (E55) is one of these numbers: M has a row and a column for
 //! each, and as many multipliers, which do not depend on the choice.
 //!
-//! A state of first order is the rate of a coordinate, its integral over time, which comes back after no period and on which nothing
-//! depends. So the integral is none of the numbers of (E55), and the state is one.
+//! A coordinate on which nothing depends need not come back: a toy that goes down its pole, a cart that rolls on. It shifts, by as much
+//! as its rate says over a period, is none of the numbers of (E55), and its rate is one. A state of first order is the rate of such a
+//! coordinate, its integral over time.
 
 use std::f64::consts::TAU;
 use std::fmt;
 
 use lagrangian::interpreted::{InterpretedMachine, Named, Signals};
-use lagrangian::{Crossing, Machine, Sensitive, Simulation, State, System};
+use lagrangian::{ContactMode, Crossing, Machine, Sensitive, Simulation, State, System};
+use lagrangian_program::{Op, Role, Source};
 use lagrangian_units::{rate_name, state_of};
 use nalgebra::{Complex, DMatrix, DVector};
 
@@ -60,6 +62,8 @@ pub struct Sought {
     pub kept: Vec<bool>,
     /// What coordinates go on by in a period.
     pub advance: Vec<f64>,
+    /// Which coordinates go on as far as they do; they are among those of [`shifting`].
+    pub shifts: Vec<bool>,
     /// Of the integration, relative and absolute.
     pub tolerance: f64,
 }
@@ -73,9 +77,38 @@ impl Sought {
             period,
             kept: vec![false; 2 * n],
             advance: vec![0.0; n],
+            shifts: vec![false; n],
             tolerance: 1e-11,
         }
     }
+}
+
+/// On which coordinates of a machine no equation of motion depends, as its program shows: it does not read them for forces, constraints or
+/// contacts. Energies and outputs may depend on them. Integrals of states of first order are such coordinates.
+pub fn shifting(machine: &InterpretedMachine) -> Vec<bool> {
+    let program = machine.program();
+    let mut shifts = vec![true; program.dimension()];
+    let observes = |role: Role| {
+        matches!(
+            role,
+            Role::KineticEnergy
+                | Role::PotentialEnergy
+                | Role::StateEnergy
+                | Role::Dissipation
+                | Role::WorkRate
+                | Role::DissipationRate
+                | Role::Output(_)
+                | Role::Gradient(_)
+        )
+    };
+    for function in program.functions.iter().filter(|of| !observes(of.role)) {
+        for op in &function.code {
+            if let Op::Read(Source::Coordinate(k)) = op {
+                shifts[*k as usize] = false;
+            }
+        }
+    }
+    shifts
 }
 
 /// What a period does to what is beside a motion.
@@ -137,7 +170,11 @@ pub struct Orbit {
     pub start: State<Named>,
     /// Its period, in s.
     pub period: f64,
-    /// The numbers of a state that are independent, all of them without constraints: coordinates, then rates.
+    /// By how much each coordinate goes on in a period: what was given, and of those that shift what was found.
+    pub advance: Vec<f64>,
+    /// Which coordinates go on as far as they do.
+    pub shifts: Vec<bool>,
+    /// The numbers of a state that are independent, all of them without constraints, but for what shifts: coordinates, then rates.
     pub states: Vec<usize>,
     /// M, of these numbers.
     pub monodromy: DMatrix<f64>,
@@ -183,6 +220,8 @@ pub enum NoOrbit {
     OtherPeriod(String, f64),
     /// They are not the same where coordinates have gone on by what they are to: this is another one there.
     OtherPlace(String),
+    /// They depend on a coordinate that is to go on as far as it does.
+    Depends(String),
     /// The period is not greater than 0 or not finite.
     NoPeriod(f64),
     /// The motion from the start does not come back near it.
@@ -223,6 +262,10 @@ impl fmt::Display for NoOrbit {
                 f,
                 "a machine that has gone on so far is another one: {what} differs there"
             ),
+            NoOrbit::Depends(name) => write!(
+                f,
+                "the equations depend on `{name}`, so how far it goes on in a period cannot be left open"
+            ),
             NoOrbit::NoPeriod(period) => {
                 write!(f, "{period} s is no period: it is to be greater than 0")
             }
@@ -230,8 +273,8 @@ impl fmt::Display for NoOrbit {
                 "the motion from the start does not come back near it; start nearer to the orbit, or give about how long its period is",
             ),
             NoOrbit::Rest => f.write_str(
-                "the search came to a state at rest, an equilibrium, which has no period of its own; start further away from it, or \
-                 keep a number of the start",
+                "the search came to a state at rest, an equilibrium, or to one that moves steadily, which has no period of its own; \
+                 start further away from it, or keep a number of the start",
             ),
             NoOrbit::Run(why) => f.write_str(why),
             NoOrbit::Lost(residual, rounds) => write!(
@@ -272,6 +315,9 @@ const STEPS_OF_RETURN: usize = 20_000;
 /// How often it may pass the start.
 const RETURNS: usize = 24;
 
+/// Steps of a run that is to come to where no contact is closed.
+const STEPS_TO_OPEN: usize = 4_000;
+
 /// What a period does to a state.
 struct Passage {
     /// The state behind it.
@@ -288,8 +334,10 @@ struct Search<'a> {
     n: usize,
     /// d, with nothing for rates.
     advance: DVector<f64>,
-    /// Which coordinates are integrals of states of first order, which do not come back.
+    /// Which coordinates are integrals of states of first order.
     is_integral: Vec<bool>,
+    /// Which coordinates do not come back: these integrals, and what shifts.
+    goes_on: Vec<bool>,
 }
 
 /// An orbit near a start.
@@ -318,15 +366,22 @@ pub fn find(machine: &InterpretedMachine, sought: &Sought) -> Result<Orbit, NoOr
     for (to, from) in advance.iter_mut().zip(&sought.advance) {
         *to = *from;
     }
-    let is_integral = system
+    let is_integral: Vec<bool> = system
         .coordinates()
         .map(|of| state_of(of.name).is_some())
         .collect();
+    let can_shift = shifting(machine);
+    let mut wrong = (0..n).filter(|k| sought.shifts[*k] && !can_shift[*k]);
+    if let Some(of) = wrong.next().and_then(|k| system.coordinates().nth(k)) {
+        return Err(NoOrbit::Depends(of.name.to_owned()));
+    }
+    let goes_on = is_integral.iter().zip(&sought.shifts);
     let search = Search {
         machine,
         sought,
         n,
         advance,
+        goes_on: goes_on.map(|(a, b)| *a || *b).collect(),
         is_integral,
     };
     search.run()
@@ -340,9 +395,35 @@ impl Search<'_> {
         });
         let is_autonomous = drive.is_ok();
         let x = self.state()?;
+        if let Err(closed) = self.check_open(&x) {
+            // Every state of the orbit is a start of it where the equations do not change with time.
+            if !is_autonomous || self.sought.kept.contains(&true) {
+                return Err(closed);
+            }
+            let sought = Sought {
+                start: self.opened(&x)?.ok_or(closed)?,
+                ..self.sought.clone()
+            };
+            let search = Search {
+                sought: &sought,
+                machine: self.machine,
+                n: self.n,
+                advance: self.advance.clone(),
+                is_integral: self.is_integral.clone(),
+                goes_on: self.goes_on.clone(),
+            };
+            let x = search.state()?;
+            search.check_open(&x)?;
+            return search.from_open(x, drive);
+        }
+        self.from_open(x, drive)
+    }
+
+    /// An orbit near a start at which no contact is closed.
+    fn from_open(&self, x: DVector<f64>, drive: Result<(), Vec<String>>) -> Result<Orbit, NoOrbit> {
+        let is_autonomous = drive.is_ok();
         // Whether there are numbers that tell its neighbours.
         self.chart(&x)?;
-        self.check_open(&x)?;
         let (mut period, is_free) = match (self.sought.period, drive) {
             (Period::Given(period), _) => (period, false),
             (Period::Near(period), Ok(())) => (period, true),
@@ -353,7 +434,12 @@ impl Search<'_> {
             return Err(NoOrbit::NoPeriod(period));
         }
         self.check_invariance(&x, period, is_autonomous)?;
-        let (x, rounds) = self.newton(x, &mut period, is_free, is_autonomous)?;
+        let (mut x, mut rounds) = self.newton(x, &mut period, is_free, is_autonomous)?;
+        if self.sought.period == Period::Sought && self.shorten(&x, &mut period)? {
+            let more;
+            (x, more) = self.newton(x, &mut period, is_free, is_autonomous)?;
+            rounds += more;
+        }
         let tolerance = self.sought.tolerance;
         let chart = &self.chart(&x)?;
         let passage = self.passage(chart, &x, period, tolerance)?;
@@ -369,7 +455,13 @@ impl Search<'_> {
             (&passage, &bounds),
             (is_autonomous, is_free),
         )?;
+        let mut advance = self.sought.advance.clone();
+        for k in (0..self.n).filter(|k| self.sought.shifts[*k]) {
+            advance[k] = passage.x[k] - x[k];
+        }
         Ok(Orbit {
+            advance,
+            shifts: self.sought.shifts.clone(),
             states: chart.picked().to_vec(),
             residual: self.share(&self.gap(&x, &passage.x), &x),
             start: self.named(&x),
@@ -436,6 +528,40 @@ impl Search<'_> {
         }
     }
 
+    /// A state that the motion from `x` comes to at which no contact is closed, at the time of the start: the middle of the longest such
+    /// time within a period, or, where that is not known, within so many steps. None where there is none.
+    fn opened(&self, x: &DVector<f64>) -> Result<Option<State<Named>>, NoOrbit> {
+        let failed = |error: lagrangian::Error| NoOrbit::Run(error.to_string());
+        let start = self.named(x);
+        let t = start.t;
+        let until = match self.sought.period {
+            Period::Given(period) | Period::Near(period) => t + period,
+            Period::Sought => t + 1e9,
+        };
+        let (run, _) = Simulation::new(self.machine)
+            .tolerance(self.sought.tolerance)
+            .max_steps(STEPS_TO_OPEN)
+            .until(until)
+            .run_as_far_as_possible(start)
+            .map_err(failed)?;
+        let phases: Vec<(f64, bool)> = run
+            .contact_phases()
+            .map(|phase| {
+                let is_open = phase.modes.iter().all(|mode| *mode == ContactMode::Open);
+                (phase.since, is_open)
+            })
+            .collect();
+        // The last one has no end.
+        let ended = phases.windows(2).filter(|pair| pair[0].1);
+        let spans = ended.map(|pair| (pair[0].0, pair[1].0));
+        let longest = spans.max_by(|a, b| (a.1 - a.0).total_cmp(&(b.1 - b.0)));
+        let Some((from, to)) = longest.filter(|(from, to)| to > from) else {
+            return Ok(None);
+        };
+        let state = run.at(0.5 * (from + to)).map_err(failed)?;
+        Ok(Some(State { t, ..state }))
+    }
+
     /// The start, on the constraints.
     fn state(&self) -> Result<DVector<f64>, NoOrbit> {
         let start = &self.sought.start;
@@ -467,7 +593,7 @@ impl Search<'_> {
 
     /// The numbers that tell states near `x`.
     fn chart(&self, x: &DVector<f64>) -> Result<Chart, NoOrbit> {
-        let chart = Chart::at(self.machine, x, &self.sought.kept);
+        let chart = Chart::at(self.machine, x, &self.sought.kept, &self.goes_on);
         let chart = chart.map_err(|_| NoOrbit::Constraints)?;
         match starts::dependent_constraint(self.machine, &self.named(x)) {
             Some(constraint) => Err(NoOrbit::Refused(format!(
@@ -484,11 +610,11 @@ impl Search<'_> {
         state
     }
 
-    /// `Φ(x) − x − d`, and nothing for integrals of states.
+    /// `Φ(x) − x − d`, and nothing for what does not come back.
     fn gap(&self, x: &DVector<f64>, there: &DVector<f64>) -> DVector<f64> {
         let mut gap = there - x - &self.advance;
-        for (gap, is_integral) in gap.iter_mut().zip(&self.is_integral) {
-            if *is_integral {
+        for (gap, goes_on) in gap.iter_mut().zip(&self.goes_on) {
+            if *goes_on {
                 *gap = 0.0;
             }
         }
@@ -760,6 +886,27 @@ impl Search<'_> {
         let near = (1.5 * least).max(1e-3 * around);
         let first = gaps.iter().find(|(gap, _)| *gap <= near);
         first.map(|(_, period)| *period).ok_or(NoOrbit::NoReturn)
+    }
+
+    /// Divides a period by how often the motion comes back within it: what alternates about an orbit comes nearer to its start the second
+    /// time than the first. Whether there was anything to divide by.
+    fn shorten(&self, x: &DVector<f64>, period: &mut f64) -> Result<bool, NoOrbit> {
+        let tolerance = self.sought.tolerance;
+        let whole = *period;
+        while self.advance.amax() == 0.0 {
+            let mut shorter = None;
+            for part in [2.0, 3.0, 5.0] {
+                let there = self.end(x, *period / part, tolerance)?;
+                if self.share(&self.gap(x, &there), x) <= CLOSED * tolerance {
+                    shorter = Some(*period / part);
+                }
+            }
+            match shorter {
+                Some(shorter) => *period = shorter,
+                None => break,
+            }
+        }
+        Ok(*period < whole)
     }
 
     /// Whether the equations are the same a period later, and where coordinates have gone on.
