@@ -273,16 +273,20 @@ impl Touching {
         self.held = held;
     }
 
-    /// How fast the motion of the contacts is, in s: how long the forces of now would take to stop the fastest rate at which any
-    /// gap closed so far. None where nothing closed, or no force closes a gap.
-    pub fn time_scale<S: System>(&self, system: &S, at: At<'_, S>) -> Option<f64> {
+    /// The fastest rate at which any gap closed so far, in m/s.
+    pub fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    /// By how much the forces of now speed up the closing of gaps at the most, were nothing closed, in m/s²; 0 where they close none.
+    pub fn pull<S: System>(&self, system: &S, at: At<'_, S>) -> f64 {
         let (t, q, v, _) = at;
-        let free = Self::free(system, at).ok()?;
+        let Ok(free) = Self::free(system, at) else {
+            return 0.0;
+        };
         let here = Here::of(system, t, q, v);
         let falls = (0..self.modes.len()).map(|k| -here.acceleration(2 * k, &free)[0]);
-        let fastest = falls.fold(0.0, f64::max);
-        let scale = self.speed / fastest;
-        (scale > 0.0 && scale.is_finite()).then_some(scale)
+        falls.fold(0.0, f64::max)
     }
 
     pub fn modes(&self) -> &[Mode] {

@@ -21,7 +21,7 @@ const WINDOW: usize = 128;
 /// Bounces of fewer contacts than these accumulate in geometric series, which end by themselves.
 const FEWEST: usize = 3;
 
-/// The length of a step is this part of the time in which the forces of now would stop the fastest rate at which a gap closed.
+/// The length of a step is this part of the time in which the greatest forces of late would stop the fastest rate at which a gap closed.
 const PART: f64 = 1.0 / 256.0;
 
 /// After so many steps in which no contact changed every event is looked for again; twice as many after each time that this did not
@@ -38,6 +38,9 @@ pub(super) struct Pace {
     is_free: bool,
     /// The last instants at which contacts changed.
     times: VecDeque<f64>,
+    /// What forces added to the rates at which gaps close at these instants, in m/s². At one of them that may be next to nothing: a spring
+    /// passes through rest just when it lets go.
+    pulls: VecDeque<f64>,
     /// How many there were, and for each contact its last.
     count: usize,
     last: Vec<usize>,
@@ -55,6 +58,7 @@ impl Pace {
         Self {
             is_free: is_free && contacts >= FEWEST,
             times: VecDeque::new(),
+            pulls: VecDeque::new(),
             count: 0,
             last: vec![0; contacts],
             quiet: 0,
@@ -93,6 +97,14 @@ impl Pace {
         };
     }
 
+    /// Takes note of what forces add to the rates at which gaps close.
+    fn take_pull(&mut self, pull: f64) {
+        if self.pulls.len() == WINDOW {
+            self.pulls.pop_front();
+        }
+        self.pulls.push_back(pull);
+    }
+
     /// How long the last instants took, if there were many, of several contacts.
     fn window(&self) -> Option<f64> {
         let (first, last) = (self.times.front()?, self.times.back()?);
@@ -106,10 +118,13 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     /// Goes on by time stepping if contacts have met oftener than it would take steps: so it takes less work, and where what
     /// accumulates has no end, less by any factor.
     pub(super) fn hand_over_if_crowded(&mut self) -> Result<(), Error> {
+        if !self.pace.is_free {
+            return Ok(());
+        }
+        let step = self.length_of_steps();
         let Some(took) = self.pace.window() else {
             return Ok(());
         };
-        let step = self.length_of_steps();
         if took <= WINDOW as f64 * step {
             self.hand_over(step, Some((WINDOW, took)))?;
         }
@@ -144,7 +159,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     /// How long steps of time stepping are to be.
     fn length_of_steps(&mut self) -> f64 {
         let t = self.stepper.t();
-        let scale = self.stepper.time_scale_of_contacts();
+        let [speed, pull] = self.stepper.closing();
+        self.pace.take_pull(pull);
+        let greatest = self.pace.pulls.iter().copied().fold(0.0, f64::max);
+        let scale = Some(speed / greatest).filter(|scale| *scale > 0.0 && scale.is_finite());
         // Without forces that close gaps nothing else is known than how long it took to come here.
         let scale = scale.unwrap_or(t - self.start).min(self.until - self.start);
         (PART * scale).min(self.settings.longest_step)
@@ -163,6 +181,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if !is_possible {
             self.pace.is_free = false;
             self.pace.times.clear();
+            self.pace.pulls.clear();
             return Ok(false);
         }
         self.record.unilateral.last = (touching.modes().iter())
@@ -174,6 +193,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
         let kinetic = self.kinetic_energy_now();
         self.pace.times.clear();
+        self.pace.pulls.clear();
         self.pace.quiet = 0;
         (self.pace.step, self.pace.kinetic) = (step, kinetic);
         self.keep_phase(Change::default());

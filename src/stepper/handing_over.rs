@@ -25,12 +25,16 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         self.impulses.is_some()
     }
 
-    /// How fast the motion of the contacts is, in s, if that is known: see [`Touching`](crate::contact::Touching).
-    pub(crate) fn time_scale_of_contacts(&mut self) -> Option<f64> {
+    /// The fastest rate at which any gap closed so far, in m/s, and what forces add to such a rate now, in m/s²: see
+    /// [`Touching`](crate::contact::Touching).
+    pub(crate) fn closing(&mut self) -> [f64; 2] {
         let Self { model, now, .. } = self;
         model.set_inputs(now.t, &now.q, &now.v);
-        let touching = model.touching.as_ref()?;
-        touching.time_scale(model.system.get(), (now.t, &now.q, &now.v, &model.inputs))
+        let Some(touching) = &model.touching else {
+            return [0.0; 2];
+        };
+        let at = (now.t, &now.q, &now.v, &model.inputs);
+        [touching.speed(), touching.pull(model.system.get(), at)]
     }
 
     /// Whether the forces in what was closed in the last step of time stepping would be the only ones, were it all constraints.
