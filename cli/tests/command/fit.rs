@@ -226,7 +226,7 @@ fn newtons_pendulum_is_resisted_as_he_found() {
 }
 
 /// The benchmark EMPS (A. Janot, M. Gautier, M. Brunot, *Data Set and Reference Models of EMPS*, 2019), by its closed loop in place of an inverse
-/// model; the spec and what the table is are in `docs/command-line.md`. The record is not ours to pass on, so the variable `EMPS` names it.
+/// model; the spec and what the table is are in `docs/command-line.md`. The record names no licence, so it is not here: the variable `EMPS` says where it is.
 #[test]
 #[ignore = "needs the record of the benchmark EMPS"]
 fn a_published_identification_is_found_again() {

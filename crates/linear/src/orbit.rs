@@ -414,13 +414,17 @@ impl Search<'_> {
             };
             let x = search.state()?;
             search.check_open(&x)?;
-            return search.from_open(x, drive);
+            return search.search_near(x, drive);
         }
-        self.from_open(x, drive)
+        self.search_near(x, drive)
     }
 
     /// An orbit near a start at which no contact is closed.
-    fn from_open(&self, x: DVector<f64>, drive: Result<(), Vec<String>>) -> Result<Orbit, NoOrbit> {
+    fn search_near(
+        &self,
+        x: DVector<f64>,
+        drive: Result<(), Vec<String>>,
+    ) -> Result<Orbit, NoOrbit> {
         let is_autonomous = drive.is_ok();
         // Whether there are numbers that tell its neighbours.
         self.chart(&x)?;
