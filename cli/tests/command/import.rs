@@ -242,7 +242,7 @@ fn real_robots_on_quaternions_move_as_pinocchio_moves_them() {
             "--base",
             "floating",
         ];
-        let options = [&shared, &["--ball", "quaternion"], options].concat();
+        let options = [&shared[..], &["--ball", "quaternion"], options].concat();
         let machine = imported(&format!("{folder}/{name}.urdf"), &options);
         let text = std::fs::read_to_string(&machine.0).expect("a file");
         let coordinates = names_under("coordinates", &text);

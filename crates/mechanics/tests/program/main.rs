@@ -11,6 +11,7 @@ mod held;
 mod lowering;
 mod machines;
 mod proved;
+mod quaternions;
 mod running;
 mod series;
 mod stages;

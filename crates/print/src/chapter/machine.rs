@@ -34,14 +34,25 @@ impl<'d> Chapter<'_, 'd> {
         let n = model.coordinates.len() - states;
         let mut freedom = freedom(model, &self.compiled.equations);
         freedom.coordinates -= states;
-        let text = match freedom.constraints {
-            0 => format!(
+        let text = match (freedom.constraints, freedom.lengths) {
+            (0, 1..) => format!(
+                "The machine moves {place}. It has {} of freedom and {}.",
+                counted(n - freedom.lengths, "degree"),
+                counted(n, "generalized coordinate"),
+            ),
+            (0, 0) => format!(
                 "The machine moves {place}. It has {} of freedom, as many as generalized coordinates.",
                 counted(n, "degree"),
             ),
             _ => format!("The machine moves {place}. {}", constrained(freedom)),
         };
         blocks.push(paragraph([words![text]]));
+        if freedom.lengths > 0 {
+            let text = "Of four numbers that turn a frame only the ratios mean anything. How long they are is no freedom: an equation of its \
+                        own, (E74) and (E75), brings that back to 1, whose inertia and load are in the mass matrix, the bias and the forces, \
+                        and in no energy.";
+            blocks.push(paragraph([words![text]]));
+        }
         blocks.push(self.table(
             &["", "coordinate", "unit", "start", ""],
             self.places().map(|c| Entry {
