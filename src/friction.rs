@@ -13,6 +13,19 @@
 //! `|F| = μ |N(F)|` is no linear equation: of one contact it is of the second degree, and of several it has
 //! one solution where it is a contraction. Where that cannot be shown the run ends and says so.
 //!
+//! On a surface the slip has two components, along two tangents, each of which stands as a contact, the second behind the first
+//! ([`System::second_tangents`]). Both together obey the same law, with the direction of the slip for its sign:
+//!
+//! ```text
+//! skids    F = −μ |N| w/|w|                   until w = 0
+//! sticks   dw/dt = 0,  |F| ≤ μ₀ |N|           until |F| = μ₀ |N|
+//! ```
+//!
+//! What slides off from rest goes in the direction `e` in which `dw/dt` with `F = −μ |N| e` is along `e`. A slip that stops is a
+//! minimum of its speed and no change of a sign. So the direction in which a step begins is followed through rest as if it went
+//! on backwards, which is smooth; where the slip comes to be at right angles to it, the step ends there if the slip is gone, and
+//! shortly before if it has turned.
+//!
 //! Which states the contacts are in is a question for all of them at once, and it is asked only where
 //! something comes to rest, breaks away, or changes the side on which it presses. Then every
 //! combination is looked at; that there is exactly one solution is found out and not presumed. (F.
@@ -24,7 +37,7 @@ mod law;
 
 #[cfg(feature = "std")]
 use law::ROUNDING;
-use law::{Each, Layout, Paradox, Parts, Question, solve};
+use law::{Each, Layout, Paradox, Parts, Question, length, solve};
 pub(crate) use law::{Mode, Motion};
 
 use crate::system::MOST_CONTACTS;
@@ -34,6 +47,9 @@ use crate::{Pivot, Singular, StepError, System, Vector};
 /// another contact comes to rest.
 #[cfg(feature = "std")]
 const AT_REST: f64 = 1e-10;
+
+/// A slip on a surface that is so small beside the greatest of the run has no direction but that in which it began.
+const NO_DIRECTION: f64 = 1e-14;
 
 /// How many numbers the work on constraints and contacts needs: what [`System::with_workspace`] is asked for.
 ///
@@ -57,6 +73,7 @@ const fn workspace(coordinates: usize, constraints: usize, contacts: usize, axes
         m: constraints,
         k: contacts,
         axes,
+        seconds: 0,
     }
     .len()
         + contacts * (coordinates + 1);
@@ -72,7 +89,8 @@ const fn workspace(coordinates: usize, constraints: usize, contacts: usize, axes
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactForce {
-    /// How fast it slides along its direction, in m/s.
+    /// How fast it slides along its direction, in m/s: on a surface along one of two tangents, each of which stands as a
+    /// contact.
     pub slip: f64,
     /// The normal reaction, in N. In the plane it is positive where it presses the body to the side of the normal; in space it
     /// is the length of the vector.
@@ -87,9 +105,15 @@ pub struct ContactForce {
 #[derive(Clone, Debug)]
 pub(crate) struct Contacts {
     count: usize,
+    /// Which contacts are the second tangents of surfaces.
+    seconds: usize,
+    /// What each does. Of what skids the direction is that at the beginning of the step: through rest it is followed as if it
+    /// went on backwards, which is smooth, and the step then ends there.
     pub mode: Mode,
     /// The greatest slips so far.
     sizes: Each,
+    /// Whether a direction is followed through rest.
+    follows: bool,
 }
 
 /// What ended the state of a contact.
@@ -135,6 +159,8 @@ pub(crate) enum Cause {
     BrokeAway,
     /// Its normal reaction went through zero.
     Turned,
+    /// On a surface its slip came to be at right angles to what it was: it goes on along its own.
+    Veered,
 }
 
 /// Accelerations and multipliers of a machine with contacts, and the forces in these, at a state.
@@ -156,7 +182,7 @@ pub fn contact_forces<S: System>(
 ) -> Result<(), Singular> {
     let slips = resting_slips(system, t, q, v);
     with_parts(system, t, q, v, u, |parts, _| {
-        let known = Question::from_slips(&slips);
+        let known = Question::from_slips(&slips, parts.layout);
         let (mode, friction_forces) = known.answer(parts).map_err(Paradox::singular)?;
         results(parts, &friction_forces, accelerations, multipliers);
         in_contacts(parts, &mode, &friction_forces, &slips, forces);
@@ -214,6 +240,7 @@ fn with_parts<S: System, R>(
         m: system.constraints().len(),
         k: system.contacts().len(),
         axes: system.reaction_axes(),
+        seconds: system.second_tangents(),
     };
     let length = workspace(layout.n, layout.m, layout.k, layout.axes);
     system.with_workspace(length, |workspace| {
@@ -293,13 +320,16 @@ impl Contacts {
         v: &S::Vector,
         u: &S::Inputs,
     ) -> Result<Contacts, StepError> {
-        let question = Question::from_slips(&resting_slips(system, t, q, v));
+        let slips = resting_slips(system, t, q, v);
         let mode = with_parts(system, t, q, v, u, |parts, _| {
+            let question = Question::from_slips(&slips, parts.layout);
             let (mode, _) = question.answer(parts).map_err(Paradox::singular)?;
             Ok(mode)
         });
         let mut contacts = Contacts {
             count: system.contacts().len(),
+            seconds: system.second_tangents(),
+            follows: true,
             mode: mode.map_err(|singular| StepError::Singular { singular, t })?,
             sizes: [0.0; MOST_CONTACTS],
         };
@@ -314,6 +344,80 @@ impl Contacts {
         }
     }
 
+    /// Takes note of the directions in which contacts skid where a step begins.
+    pub fn take_headings<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
+        if self.skids() {
+            let as_seen = Contacts {
+                follows: false,
+                ..self.clone()
+            };
+            self.mode = as_seen.mode_of(&slips(system, t, q, v));
+        }
+    }
+
+    /// As it is looked at after the run, at any time until something changes: by then a slip may have turned anywhere.
+    #[cfg(feature = "std")]
+    pub fn as_seen_later(&self) -> Contacts {
+        Contacts {
+            follows: false,
+            ..self.clone()
+        }
+    }
+
+    fn skids(&self) -> bool {
+        self.seconds != 0 && self.mode.motion[..self.count].contains(&Motion::Skids)
+    }
+
+    /// The first of the two tangents of each contact that is on a surface.
+    fn on_surfaces(&self) -> impl Iterator<Item = usize> + use<> {
+        let (count, seconds) = (self.count, self.seconds);
+        (0..count).filter(move |k| seconds >> (k + 1) & 1 != 0)
+    }
+
+    /// Whether a slip is rest, beside the greatest so far of the same contact.
+    #[cfg(feature = "std")]
+    fn is_slow(&self, contact: usize, slips: &Each) -> bool {
+        let [first, second] = [contact, contact + 1];
+        length([slips[first], slips[second]])
+            <= AT_REST * length([self.sizes[first], self.sizes[second]])
+    }
+
+    /// What each contact does with these slips: what skids goes along its slip, or has come through rest since the step began,
+    /// and is then taken to go backwards.
+    fn mode_of(&self, slips: &Each) -> Mode {
+        let mut mode = self.mode;
+        if !self.skids() {
+            return mode;
+        }
+        for k in self
+            .on_surfaces()
+            .filter(|k| self.mode.motion[*k] == Motion::Skids)
+        {
+            let speed = length([slips[k], slips[k + 1]]);
+            let greatest = length([self.sizes[k], self.sizes[k + 1]]);
+            if speed == 0.0 || speed <= NO_DIRECTION * greatest {
+                continue;
+            }
+            let heading = [mode.course[k], mode.course[k + 1]];
+            let ahead = heading[0] * slips[k] + heading[1] * slips[k + 1];
+            let way = if self.follows && ahead < 0.0 {
+                -speed
+            } else {
+                speed
+            };
+            (mode.course[k], mode.course[k + 1]) = (slips[k] / way, slips[k + 1] / way);
+        }
+        mode
+    }
+
+    /// [`mode_of`](Self::mode_of) a state.
+    fn mode_at<S: System>(&self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> Mode {
+        match self.skids() {
+            true => self.mode_of(&slips(system, t, q, v)),
+            false => self.mode,
+        }
+    }
+
     /// Accelerations in the states that the contacts are in; of what sticks, without any creep.
     pub fn accelerations<S: System>(
         &self,
@@ -321,8 +425,9 @@ impl Contacts {
         (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
         a: &mut S::Vector,
     ) -> Result<(), Singular> {
+        let mode = self.mode_at(system, t, q, v);
         with_parts(system, t, q, v, u, |parts, workspace| {
-            let friction_forces = self.friction_forces(parts)?;
+            let friction_forces = friction_forces(parts, &mode)?;
             results(parts, &friction_forces, a.as_mut_slice(), &mut []);
             if self.sticks() {
                 self.still(system, (t, q, v), a, workspace);
@@ -342,7 +447,7 @@ impl Contacts {
     ) -> Result<(), Singular> {
         let slips = slips(system, t, q, v);
         with_parts(system, t, q, v, u, |parts, _| {
-            let friction_forces = self.friction_forces(parts)?;
+            let friction_forces = friction_forces(parts, &self.mode_of(&slips))?;
             results(parts, &friction_forces, &mut [], multipliers);
             in_contacts(parts, &self.mode, &friction_forces, &slips, forces);
             Ok(())
@@ -358,7 +463,7 @@ impl Contacts {
     ) -> [f64; 2] {
         let slips = slips(system, t, q, v);
         let power = with_parts(system, t, q, v, u, |parts, workspace| {
-            let friction_forces = self.friction_forces(parts)?;
+            let friction_forces = friction_forces(parts, &self.mode_of(&slips))?;
             let n = parts.layout.n;
             let rows = &mut workspace[..self.count * n];
             system.slip_matrix(t, q, rows);
@@ -386,18 +491,28 @@ impl Contacts {
     ) -> Result<[[Margin; 2]; MOST_CONTACTS], StepError> {
         let slips = slips(system, t, q, v);
         let margins = with_parts(system, t, q, v, u, |parts, _| {
-            let friction_forces = self.friction_forces(parts)?;
+            let friction_forces = friction_forces(parts, &self.mode_of(&slips))?;
             let mut margins = [[Margin::ENDLESS; 2]; MOST_CONTACTS];
             for (k, margin) in margins[..self.count].iter_mut().enumerate() {
+                // What a contact does along both tangents is asked of the first.
+                if parts.layout.is_second(k) {
+                    continue;
+                }
                 let [normal, terms] = parts.reaction(k, &friction_forces);
                 *margin = match self.mode.motion[k] {
                     Motion::Sticks => {
                         let coefficient = parts.static_friction(k);
                         let reserve = Margin {
-                            value: coefficient * normal.abs() - friction_forces[k].abs(),
+                            value: coefficient * normal.abs() - parts.used(k, &friction_forces),
                             rounding: ROUNDING * coefficient * terms,
                         };
                         [reserve, Margin::ENDLESS]
+                    }
+                    Motion::Skids => {
+                        let heading = &self.mode.course;
+                        let value = heading[k] * slips[k] + heading[k + 1] * slips[k + 1];
+                        let rounding = 0.0;
+                        [Margin { value, rounding }, Margin::ENDLESS]
                     }
                     Motion::Slides(sign) => [
                         Margin {
@@ -434,7 +549,7 @@ impl Contacts {
                 }
                 let cause = match (self.mode.motion[k], kind) {
                     (Motion::Sticks, _) => Cause::BrokeAway,
-                    (Motion::Slides(_), 0) => Cause::Stopped,
+                    (Motion::Slides(_), 0) | (Motion::Skids, _) => Cause::Stopped,
                     (Motion::Slides(_), _) => Cause::Turned,
                 };
                 let contact = k;
@@ -452,8 +567,10 @@ impl Contacts {
         system: &S,
         (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
     ) -> Result<(), StepError> {
+        let mode = self.mode_at(system, t, q, v);
         let question = Question {
-            motion: self.mode.motion.map(Some),
+            motion: mode.motion.map(Some),
+            course: mode.course,
             excluded: None,
             turned: None,
         };
@@ -478,32 +595,65 @@ impl Contacts {
         is_at_once: bool,
     ) -> Result<(), StepError> {
         let now = slips(system, t, q, v[0]);
+        let k = change.contact;
+        let veers = match (self.mode.motion[k], change.cause) {
+            (Motion::Skids, Cause::Stopped) => !self.has_stopped(system, (t, q, v[0], u), k)?,
+            (_, cause) => cause == Cause::Veered,
+        };
+        if veers {
+            self.take_headings(system, t, q, v[0]);
+            return Ok(());
+        }
         let mut resting = [false; MOST_CONTACTS];
-        for k in 0..self.count {
-            resting[k] = match self.mode.motion[k] {
+        for (k, rests) in resting[..self.count].iter_mut().enumerate() {
+            *rests = match self.mode.motion[k] {
                 Motion::Sticks => true,
                 Motion::Slides(_) => now[k].abs() <= AT_REST * self.sizes[k],
+                Motion::Skids => false,
             };
         }
-        let k = change.contact;
+        let skidding = self
+            .on_surfaces()
+            .filter(|k| self.mode.motion[*k] == Motion::Skids);
+        for k in skidding {
+            let stops = change.cause == Cause::Stopped && change.contact == k;
+            let rests = stops || self.is_slow(k, &now);
+            (resting[k], resting[k + 1]) = (rests, rests);
+        }
         resting[k] |= change.cause == Cause::Stopped;
         let [v, v_low] = v;
         self.stop(system, (t, q, u), [&mut *v, v_low], &resting)?;
         let mut motion: [Option<Motion>; MOST_CONTACTS] =
             core::array::from_fn(|k| (!resting[k]).then_some(self.mode.motion[k]));
         let own = (k, self.mode.motion[k]);
+        let mut course = self.mode_of(&now).course;
         let at = |singular| StepError::Singular { singular, t };
-        if change.cause == Cause::BrokeAway {
-            let held = with_parts(system, t, q, v, u, |parts, _| self.friction_forces(parts));
+        if change.cause == Cause::BrokeAway && self.seconds >> (k + 1) & 1 != 0 {
+            // On a surface it is a question of friction which way it goes.
+            (motion[k], motion[k + 1]) = (Some(Motion::Skids), Some(Motion::Skids));
+            (course[k], course[k + 1]) = (0.0, 0.0);
+        } else if change.cause == Cause::BrokeAway {
+            let held = with_parts(system, t, q, v, u, |parts, _| {
+                friction_forces(parts, &self.mode)
+            });
             let held = held.map_err(at)?;
             // Against what held it. Just here its slip may not even grow: it is where the friction of
             // what sticks and of what slides are the same.
             motion[k] = Some(Motion::Slides(-held[k].signum()));
         }
+        // What has come to rest may go on in any direction.
+        for k in 0..self.count {
+            if motion[k].is_none() {
+                course[k] = 0.0;
+            }
+        }
         let question = Question {
             motion,
+            course,
             excluded: match change.cause {
-                Cause::BrokeAway => None,
+                Cause::BrokeAway | Cause::Veered => None,
+                // It may go on in another direction.
+                Cause::Stopped if own.1 == Motion::Skids => None,
                 Cause::Turned => Some((own.0, own.1, Some(self.mode.press[k]))),
                 // It did not even begin to slide so.
                 Cause::Stopped if is_at_once => Some((own.0, own.1, None)),
@@ -537,8 +687,41 @@ impl Contacts {
         self.mode.motion[..self.count].contains(&Motion::Sticks)
     }
 
-    fn friction_forces(&self, parts: &Parts<'_>) -> Result<Each, Singular> {
-        parts.friction_forces(&self.mode).map_err(Paradox::singular)
+    /// Whether a contact that skids has come to rest where its slip is at right angles to what it was when the step began: then it
+    /// is what the step has left of it, and not a turn.
+    #[cfg(feature = "std")]
+    fn has_stopped<S: System>(
+        &self,
+        system: &S,
+        (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+        contact: usize,
+    ) -> Result<bool, StepError> {
+        let slips = slips(system, t, q, v);
+        if self.is_slow(contact, &slips) {
+            return Ok(true);
+        }
+        // It has stopped if it does so before time goes on.
+        let braked = with_parts(system, t, q, v, u, |parts, _| {
+            let forces = friction_forces(parts, &self.mode_of(&slips))?;
+            Ok([contact, contact + 1].map(|k| parts.sum(parts.slip_rate(k), &forces)[0]))
+        });
+        let braked = braked.map_err(|singular| StepError::Singular { singular, t })?;
+        let speed = length([slips[contact], slips[contact + 1]]);
+        Ok(speed <= 64.0 * f64::EPSILON * t.abs() * length(braked))
+    }
+
+    /// Whether a contact that is said to have stopped has a slip still: then it turns, or it stops where the step is too long to
+    /// tell.
+    #[cfg(feature = "std")]
+    pub fn goes_on<S: System>(
+        &self,
+        system: &S,
+        (t, q, v): (f64, &S::Vector, &S::Vector),
+        change: Change,
+    ) -> bool {
+        change.cause == Cause::Stopped
+            && self.mode.motion[change.contact] == Motion::Skids
+            && !self.is_slow(change.contact, &slips(system, t, q, v))
     }
 
     /// Accelerations of what sticks that only rounding keeps from being what they must be: where one
@@ -622,6 +805,10 @@ impl Contacts {
         });
         stopped.map_err(|singular| StepError::Singular { singular, t })
     }
+}
+
+fn friction_forces(parts: &Parts<'_>, mode: &Mode) -> Result<Each, Singular> {
+    parts.friction_forces(mode).map_err(Paradox::singular)
 }
 
 /// The place of the only entry of a row that is not zero.

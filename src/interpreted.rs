@@ -644,6 +644,10 @@ impl System for InterpretedSystem {
         self.program.reaction_axes
     }
 
+    fn second_tangents(&self) -> usize {
+        self.program.second_tangents
+    }
+
     fn unilateral_contacts(&self) -> impl ExactSizeIterator<Item = UnilateralContact<'_>> {
         self.program
             .unilateral

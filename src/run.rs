@@ -17,7 +17,7 @@ use crate::constraints::{Constraints, Miss, closest};
 use crate::equations::check_equations;
 use crate::error::{KeptContradiction, constraint_name};
 use crate::event::{self, Crossing, Event, Terminal, Triple, made, state};
-use crate::friction::{Change, Contacts, Motion};
+use crate::friction::{Cause, Change, Contacts, Motion};
 use crate::inputs::{Held, InputLaw, Law};
 use crate::interpolant::Interpolant;
 use crate::methods::{Kind, Method};
@@ -194,7 +194,7 @@ pub(crate) fn run<M: Machine>(
             is_unexplained: false,
         },
     };
-    let contacts = run.stepper.contacts().iter().cloned();
+    let contacts = run.stepper.contacts().iter().map(Contacts::as_seen_later);
     run.record
         .contacts
         .extend(contacts.map(|known| (start.t, known)));
@@ -493,8 +493,16 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     continue;
                 }
                 let margin = |theta| exactly(theta).map(|margin| margin.value);
-                let found =
+                let mut found =
                     event::last_positive([theta_before, theta], theta_roundoff, &mut &margin)?;
+                let mut change = change;
+                if found > contacts::LEAST_APPROACH {
+                    let (t, q, v) = at(found)?;
+                    if contacts.goes_on(model.system, (t, &q, &v), change) {
+                        found *= contacts::APPROACH;
+                        change.cause = Cause::Veered;
+                    }
+                }
                 if earliest.is_none_or(|(known, ..)| found < known) {
                     earliest = Some((found, at(found)?.0, change));
                 }
@@ -556,7 +564,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             return;
         };
         let names = self.model.system.contacts().enumerate();
-        for (k, name) in names {
+        let seconds = self.model.system.second_tangents();
+        // What is done along both tangents of a surface is told of the first.
+        for (k, name) in names.filter(|(k, _)| seconds >> k & 1 == 0) {
             let Some(was) = before.as_ref().map(|before| before.mode) else {
                 continue;
             };
@@ -568,7 +578,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     _ => ("presses the other way", Crossing::Falling),
                 },
                 Motion::Sticks => ("sticks", Crossing::Falling),
-                Motion::Slides(_) => ("slides", Crossing::Rising),
+                Motion::Slides(_) | Motion::Skids => ("slides", Crossing::Rising),
             };
             let at = (t, self.stepper.q().clone(), self.stepper.v().clone());
             self.record.events.push(Event {
@@ -577,7 +587,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 state: state(self.model.system, at),
             });
         }
-        self.record.contacts.push((t, now.clone()));
+        self.record.contacts.push((t, now.as_seen_later()));
     }
 
     /// When an assumption of the description ended in the last step, and which. It may hold again

@@ -773,6 +773,12 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         self.k.swap(0, self.newest);
         self.newest = 0;
         self.before.copy_from(&self.now);
+        if S::MAY_SLIDE
+            && let Some(contacts) = &mut self.model.contacts
+        {
+            let (system, now) = (self.model.system.get(), &self.before);
+            contacts.take_headings(system, now.t, &now.q, &now.v);
+        }
         #[cfg(feature = "std")]
         if S::MAY_COLLIDE {
             self.model.begin_contacts(&self.before);

@@ -432,6 +432,14 @@ pub trait System {
         1
     }
 
+    /// Which of the guided contacts are the second tangents of surfaces: bit `k` says that contact `k` slides on the surface that
+    /// contact `k − 1` slides on, at right angles to it. It has the normal reaction and the coefficients of that contact; both
+    /// together obey Coulomb's law. None by default.
+    #[inline(always)]
+    fn second_tangents(&self) -> usize {
+        0
+    }
+
     /// How fast each contact slides along its direction, `w(q, v, t)`, in m/s.
     #[inline(always)]
     fn slips(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _slips: &mut [f64]) {}
@@ -462,7 +470,8 @@ pub trait System {
     /// without any, then what a unit of each adds to it. Each of these `1 + k` parts holds the
     /// accelerations, the multipliers of the constraints, `dw/dt` of each contact, and the
     /// [components](Self::reaction_axes) of the normal reaction `N` of each. Behind them stand the `k` coefficients `μ` of what slides and the `k` coefficients
-    /// `μ₀` of what sticks.
+    /// `μ₀` of what sticks. In space there follow `k` unit vectors: the tangent of a curve, along which no part of `N` presses, or
+    /// the normal of a surface, along which alone it does.
     ///
     /// An error only where the machine is singular without any friction.
     #[inline(always)]

@@ -9,9 +9,9 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 20 | 6 | 2 | 0 | 1 | 29 |
+//! | `prepare` | 20 | 8 | 2 | 0 | 1 | 31 |
 //! | `slips` | 1 | 0 | 0 | 0 | 0 | 1 |
-//! | `friction` | 8 | 4 | 0 | 1 | 0 | 14 |
+//! | `friction` | 10 | 4 | 0 | 1 | 0 | 16 |
 //! | `kinetic_energy` | 2 | 0 | 0 | 0 | 0 | 2 |
 //! | `potential_energy` | 1 | 0 | 0 | 0 | 0 | 1 |
 //!
@@ -54,23 +54,27 @@ impl<S: ::lagrangian::emitted::Scalar> BeadOnHelix<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.m * self.h;
-        let k5 = self.m * self.r;
+        let k6 = self.m * self.r;
         let t1 = self.r * self.r + self.h * self.h;
         let k1 = t0 * self.g;
         let k3 = t1.sqrt();
-        let k2 = self.r * k5 + self.h * t0;
+        let k2 = self.r * k6 + self.h * t0;
         let t2 = S::ONE / k2;
-        let k6 = k1 * t2;
+        let k7 = k1 * t2;
         let t3 = S::ONE / k3;
-        let k10 = k3 * t2;
+        let k11 = k3 * t2;
+        let k5 = self.r * t3;
+        let t4 = self.h * t3;
         let k0 = t1 * (self.m * S::from_f64(0.5));
         let k4 = -k1;
-        let k7 = k1 * k10;
-        let k8 = k5 * k6;
-        let k9 = self.m * self.g - t0 * k6;
-        let k11 = k3 * k10;
-        let k12 = self.r * t3 - k5 * k10;
-        let k13 = self.h * t3 - t0 * k10;
+        let k8 = k1 * k11;
+        let k9 = k6 * k7;
+        let k10 = self.m * self.g - t0 * k7;
+        let k12 = k3 * k11;
+        let k13 = k5 - k6 * k11;
+        let k14 = t4 - t0 * k11;
+        let k15 = -k5;
+        let k16 = -t4;
         let pivots = [(0, k2, k2)];
         Prepared {
             k0,
@@ -78,9 +82,9 @@ impl<S: ::lagrangian::emitted::Scalar> BeadOnHelix<S> {
             k2,
             k3,
             k4,
+            k5,
             mu: self.mu,
             mu0: self.mu0,
-            k5,
             k6,
             k7,
             k8,
@@ -89,6 +93,9 @@ impl<S: ::lagrangian::emitted::Scalar> BeadOnHelix<S> {
             k11,
             k12,
             k13,
+            k14,
+            k15,
+            k16,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -134,28 +141,34 @@ pub struct Prepared<S = f64> {
     k3: S,
     /// `-m*h*g`
     k4: S,
+    /// `r/sqrt(h^2 + r^2)`
+    k5: S,
     /// `mu`
     mu: S,
     /// `mu0`
     mu0: S,
     /// `m*r`
-    k5: S,
-    /// `m*h*g/(m*h^2 + m*r^2)`
     k6: S,
-    /// `m*h*g*sqrt(h^2 + r^2)/(m*h^2 + m*r^2)`
+    /// `m*h*g/(m*h^2 + m*r^2)`
     k7: S,
-    /// `m^2*r*h*g/(m*h^2 + m*r^2)`
+    /// `m*h*g*sqrt(h^2 + r^2)/(m*h^2 + m*r^2)`
     k8: S,
-    /// `m*g - m^2*h^2*g/(m*h^2 + m*r^2)`
+    /// `m^2*r*h*g/(m*h^2 + m*r^2)`
     k9: S,
-    /// `sqrt(h^2 + r^2)/(m*h^2 + m*r^2)`
+    /// `m*g - m^2*h^2*g/(m*h^2 + m*r^2)`
     k10: S,
-    /// `sqrt(h^2 + r^2)^2/(m*h^2 + m*r^2)`
+    /// `sqrt(h^2 + r^2)/(m*h^2 + m*r^2)`
     k11: S,
-    /// `r/sqrt(h^2 + r^2) - m*r*sqrt(h^2 + r^2)/(m*h^2 + m*r^2)`
+    /// `sqrt(h^2 + r^2)^2/(m*h^2 + m*r^2)`
     k12: S,
-    /// `h/sqrt(h^2 + r^2) - m*h*sqrt(h^2 + r^2)/(m*h^2 + m*r^2)`
+    /// `r/sqrt(h^2 + r^2) - m*r*sqrt(h^2 + r^2)/(m*h^2 + m*r^2)`
     k13: S,
+    /// `h/sqrt(h^2 + r^2) - m*h*sqrt(h^2 + r^2)/(m*h^2 + m*r^2)`
+    k14: S,
+    /// `-r/sqrt(h^2 + r^2)`
+    k15: S,
+    /// `-h/sqrt(h^2 + r^2)`
+    k16: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
@@ -220,7 +233,7 @@ pub fn friction<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 1],
     v: &[S; 1],
-) -> Result<[S; 12], ::lagrangian::emitted::Singular> {
+) -> Result<[S; 15], ::lagrangian::emitted::Singular> {
     S::run(Friction { p, q, v })
 }
 
@@ -235,7 +248,7 @@ pub struct Friction<'a, S> {
 }
 
 impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
-    type Output = Result<[S; 12], ::lagrangian::emitted::Singular>;
+    type Output = Result<[S; 15], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
     fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
@@ -247,24 +260,29 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
         let theta = n(q[0]);
         let theta_dot = n(v[0]);
         let (sin_theta, cos_theta) = theta.sin_cos();
-        let t0 = theta_dot * (theta_dot * n(p.k5));
-        let r2 = -n(p.k8).mul_add(sin_theta, cos_theta * t0);
-        let r3 = n(p.k8).mul_sub(cos_theta, sin_theta * t0);
-        let r7 = sin_theta * n(p.k12);
-        let r8 = -(cos_theta * n(p.k12));
+        let t0 = theta_dot * (theta_dot * n(p.k6));
+        let r2 = -t0.mul_add(cos_theta, sin_theta * n(p.k9));
+        let r3 = cos_theta.mul_sub(n(p.k9), t0 * sin_theta);
+        let r7 = sin_theta * n(p.k13);
+        let r8 = -(cos_theta * n(p.k13));
+        let r12 = sin_theta * n(p.k15);
+        let r13 = cos_theta * n(p.k5);
         let friction = [
-            n(p.k6).store(),
             n(p.k7).store(),
+            n(p.k8).store(),
             r2.store(),
             r3.store(),
-            n(p.k9).store(),
             n(p.k10).store(),
             n(p.k11).store(),
+            n(p.k12).store(),
             r7.store(),
             r8.store(),
-            n(p.k13).store(),
+            n(p.k14).store(),
             n(p.mu).store(),
             n(p.mu0).store(),
+            r12.store(),
+            r13.store(),
+            n(p.k16).store(),
         ];
         Ok(friction)
     }
@@ -305,7 +323,9 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     ]
     inputs Inputs {} []
     outputs Outputs {} []
-    prepared Prepared { k0, k1, k2, k3, k4, mu, mu0, k5, k6, k7, k8, k9, k10, k11, k12, k13 }
+    prepared Prepared {
+        k0, k1, k2, k3, k4, k5, mu, mu0, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16,
+    }
     singular singular
     accelerations friction
     system {

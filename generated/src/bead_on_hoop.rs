@@ -250,7 +250,7 @@ pub fn friction<S: ::lagrangian::emitted::Number>(
     t: S,
     q: &[S; 1],
     v: &[S; 1],
-) -> Result<[S; 12], ::lagrangian::emitted::Singular> {
+) -> Result<[S; 15], ::lagrangian::emitted::Singular> {
     S::run(Friction { p, t, q, v })
 }
 
@@ -267,7 +267,7 @@ pub struct Friction<'a, S> {
 }
 
 impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
-    type Output = Result<[S; 12], ::lagrangian::emitted::Singular>;
+    type Output = Result<[S; 15], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
     fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
@@ -291,17 +291,17 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
         let t6 = t3.mul_add(cos_theta, n(p.g));
         let t7 = t1.neg_mul_add(sin_t0, cos_t0);
         let t8 = t1.mul_add(cos_t0, sin_t0);
-        let t9 = cos_theta * t7;
-        let t10 = cos_theta * t8;
-        let t11 = n(p.k6) * cos_theta.mul_sub(t4 + t5, sin_theta * t6);
-        let r0 = n(p.k12) * t11;
-        let t12 = n(p.k6) * r0;
-        let t13 = n(p.m) * t2.mul_add(t10, t4.mul_add(t7, t5 * t7));
-        let t14 = n(p.m) * t9.neg_mul_add(t2, t4.mul_add(t8, t5 * t8));
+        let r12 = cos_theta * t7;
+        let r13 = cos_theta * t8;
+        let t9 = n(p.k6) * cos_theta.mul_sub(t4 + t5, sin_theta * t6);
+        let r0 = n(p.k12) * t9;
+        let t10 = n(p.k6) * r0;
+        let t11 = n(p.m) * t2.mul_add(r13, t4.mul_add(t7, t5 * t7));
+        let t12 = n(p.m) * r12.neg_mul_add(t2, t4.mul_add(t8, t5 * t8));
         let r1 = n(p.r) * r0;
-        let r2 = t9.mul_sub(t12, t13);
-        let r3 = t12.mul_sub(t10, t14);
-        let r4 = sin_theta.mul_add(t12, t6 * n(p.m));
+        let r2 = t10.mul_sub(r12, t11);
+        let r3 = t10.mul_sub(r13, t12);
+        let r4 = sin_theta.mul_add(t10, t6 * n(p.m));
         let zero = N::ZERO;
         let friction = [
             r0.store(),
@@ -316,6 +316,9 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
             zero.store(),
             n(p.mu).store(),
             n(p.mu).store(),
+            r12.store(),
+            r13.store(),
+            sin_theta.store(),
         ];
         Ok(friction)
     }

@@ -11,6 +11,8 @@ pub mod andrews_squeezer;
 pub mod asymmetric_top;
 /// The machine of [`BallInBowl`].
 pub mod ball_in_bowl;
+/// The machine of [`BeadInShell`].
+pub mod bead_in_shell;
 /// The machine of [`BeadOnHelix`].
 pub mod bead_on_helix;
 /// The machine of [`BeadOnHoop`].
@@ -69,6 +71,8 @@ pub mod particle_pendulum;
 pub mod position_servo;
 /// The machine of [`Prisms`].
 pub mod prisms;
+/// The machine of [`PuckInSlot`].
+pub mod puck_in_slot;
 /// The machine of [`Rattleback`].
 pub mod rattleback;
 /// The machine of [`RollingCoin`].
@@ -105,6 +109,7 @@ pub mod wedge_and_block;
 pub use andrews_squeezer::AndrewsSqueezer;
 pub use asymmetric_top::AsymmetricTop;
 pub use ball_in_bowl::BallInBowl;
+pub use bead_in_shell::BeadInShell;
 pub use bead_on_helix::BeadOnHelix;
 pub use bead_on_hoop::BeadOnHoop;
 pub use block_on_incline::BlockOnIncline;
@@ -134,6 +139,7 @@ pub use paper_crusher::PaperCrusher;
 pub use particle_pendulum::ParticlePendulum;
 pub use position_servo::PositionServo;
 pub use prisms::Prisms;
+pub use puck_in_slot::PuckInSlot;
 pub use rattleback::Rattleback;
 pub use rolling_coin::RollingCoin;
 pub use rolling_cylinder::RollingCylinder;

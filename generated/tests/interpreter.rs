@@ -527,6 +527,8 @@ fn machines_that_stick_and_slide_agree() {
     agrees_in_f64::<machines::BlockOnIncline>("block_on_incline", |_| Default::default());
     agrees_in_f64::<machines::BeadOnHelix>("bead_on_helix", |_| Default::default());
     agrees_in_f64::<machines::BeadOnHoop>("bead_on_hoop", |_| Default::default());
+    agrees_in_f64::<machines::BeadInShell>("bead_in_shell", |_| Default::default());
+    agrees_in_f64::<machines::PuckInSlot>("puck_in_slot", |_| Default::default());
     agrees_in_f64::<machines::Prisms>("prisms", |_| Default::default());
     agrees_in_f64::<machines::StickSlip>("stick_slip", |_| Default::default());
     agrees_in_f64::<machines::WedgeAndBlock>("wedge_and_block", |_| Default::default());

@@ -1,6 +1,7 @@
 //! Coulomb's law for contacts in given states, and which states they may be in.
 
 use super::MOST_CONTACTS;
+use crate::scalar::Scalar;
 use crate::{Pivot, Singular};
 
 /// A number for each contact.
@@ -19,6 +20,15 @@ const SINGULAR: f64 = 1e-12;
 /// contraction by a factor of 0.9 as many for sixteen digits.
 const MOST_STEPS: usize = 400;
 
+/// Directions in which what slides off from rest on a surface is looked for first.
+const LOOKS: usize = 48;
+
+/// Halvings of the angle between two of these that reach its rounding.
+const BISECTIONS: usize = 54;
+
+/// Directions of several contacts that change by no more than this from one round to the next are found.
+const SETTLED: f64 = 1e-15;
+
 /// What a contact does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Motion {
@@ -26,6 +36,8 @@ pub(crate) enum Motion {
     Sticks,
     /// It slides forward (1) or backward (−1).
     Slides(f64),
+    /// It slides on a surface, along both of its tangents; which way is said by [`Mode::course`].
+    Skids,
 }
 
 /// The states of the contacts: what they do, and to which side they press (1 or −1).
@@ -33,6 +45,19 @@ pub(crate) enum Motion {
 pub(crate) struct Mode {
     pub motion: [Motion; MOST_CONTACTS],
     pub press: Each,
+    /// Of what skids, the component along each tangent of the direction in which it does. 0 for both where that is not known.
+    pub course: Each,
+}
+
+impl Mode {
+    /// Which part of a friction force that opposes the slip acts along this direction of it.
+    fn share(&self, contact: usize) -> f64 {
+        match self.motion[contact] {
+            Motion::Sticks => 0.0,
+            Motion::Slides(sign) => sign,
+            Motion::Skids => self.course[contact],
+        }
+    }
 }
 
 /// How many solutions there are, where it is not one, and of which contact first.
@@ -53,21 +78,43 @@ impl Paradox {
 
 /// How the results of [`System::friction`](crate::System::friction) are arranged: `1 + k` parts of `n` accelerations, `m`
 /// multipliers, `k` slip rates and `k` normal reactions of so many components, then `k` coefficients of what slides and `k`
-/// of what sticks.
+/// of what sticks; in space then the directions of the guides.
 #[derive(Clone, Copy)]
 pub(super) struct Layout {
     pub n: usize,
     pub m: usize,
     pub k: usize,
     pub axes: usize,
+    /// Which contacts are the second tangents of surfaces ([`System::second_tangents`](crate::System::second_tangents)).
+    pub seconds: usize,
 }
 
 impl Layout {
+    /// Whether a contact is the second tangent of the surface that the one before it is on.
+    pub const fn is_second(self, contact: usize) -> bool {
+        self.seconds >> contact & 1 != 0
+    }
+
+    /// Whether a contact is the first of two tangents.
+    pub const fn has_second(self, contact: usize) -> bool {
+        self.is_second(contact + 1)
+    }
+
     pub const fn part(self) -> usize {
         self.n + self.m + (1 + self.axes) * self.k
     }
 
     pub const fn len(self) -> usize {
+        let of_directions = if self.axes == 1 {
+            0
+        } else {
+            self.axes * self.k
+        };
+        self.directions() + of_directions
+    }
+
+    /// Where the directions of the guides stand, in space.
+    const fn directions(self) -> usize {
         (1 + self.k) * self.part() + 2 * self.k
     }
 }
@@ -113,11 +160,27 @@ impl Parts<'_> {
         if self.layout.axes == 1 {
             return self.sum(components.start, friction_forces);
         }
-        let sums = components.map(|i| self.sum(i, friction_forces));
-        let squares = sums.fold([0.0; 2], |[squares, of_terms], [x, terms]| {
-            [squares + x * x, of_terms + terms * terms]
-        });
-        squares.map(crate::math::sqrt)
+        let (mut vector, mut terms) = ([0.0; 3], 0.0);
+        for (x, i) in vector.iter_mut().zip(components) {
+            let [sum, size] = self.sum(i, friction_forces);
+            *x = sum;
+            terms += size * size;
+        }
+        let across = self.across(contact, vector);
+        [dot(&across, &across), terms].map(crate::math::sqrt)
+    }
+
+    /// What of a reaction presses in space: all but the part along a curve, or the part along the normal of a surface. The rest is
+    /// what acts along the guide and stands in the spec by coordinates, not by where the body is.
+    fn across(&self, contact: usize, vector: [f64; 3]) -> [f64; 3] {
+        let first = self.layout.directions() + 3 * contact;
+        let direction = [0, 1, 2].map(|i| self.values[first + i]);
+        let along = dot(&direction, &vector);
+        let on_surface = self.layout.is_second(contact) || self.layout.has_second(contact);
+        [0, 1, 2].map(|i| match on_surface {
+            true => along * direction[i],
+            false => vector[i] - along * direction[i],
+        })
     }
 
     pub fn friction(&self, contact: usize) -> f64 {
@@ -167,9 +230,13 @@ impl Parts<'_> {
         for (k, row) in rows[..count].iter_mut().enumerate() {
             let (entry, factor, own) = match mode.motion[k] {
                 Motion::Sticks => (self.slip_rate(k), 1.0, 0.0),
-                Motion::Slides(sign) => {
+                Motion::Slides(_) | Motion::Skids => {
                     let normal = self.components(k).start;
-                    (normal, sign * mode.press[k] * self.friction(k), 1.0)
+                    (
+                        normal,
+                        mode.share(k) * mode.press[k] * self.friction(k),
+                        1.0,
+                    )
                 }
             };
             for (j, x) in row[..count].iter_mut().enumerate() {
@@ -182,14 +249,15 @@ impl Parts<'_> {
     }
 
     /// In space the size of a friction force `f = μ |N|` goes with the length of a vector. What sticks follows linearly from
-    /// what slides, so `N = A + B f`, and there remains one equation `f = μ |A + B f|` for each contact that slides.
+    /// what slides, so `N = A + B f`, and there remains one equation `f = μ |A + B f|` for each contact that slides: on a surface
+    /// for both tangents together.
     fn by_sizes(&self, mode: &Mode, look: &mut dyn FnMut(Each)) -> bool {
         let count = self.layout.k;
-        let mut sliding = [(0, 0.0); MOST_CONTACTS];
+        let mut sliding = [0; MOST_CONTACTS];
         let mut number = 0;
         for (k, motion) in mode.motion[..count].iter().enumerate() {
-            if let Motion::Slides(sign) = motion {
-                sliding[number] = (k, *sign);
+            if *motion != Motion::Sticks && !self.layout.is_second(k) {
+                sliding[number] = k;
                 number += 1;
             }
         }
@@ -207,8 +275,9 @@ impl Parts<'_> {
                     row[count] = if part == 0 { -self.at(0, entry) } else { 0.0 };
                 } else {
                     row[k] = 1.0;
-                    let own = part > 0 && sliding[part - 1].0 == k;
-                    row[count] = if own { -sliding[part - 1].1 } else { 0.0 };
+                    let first = k - usize::from(self.layout.is_second(k));
+                    let own = part > 0 && sliding[part - 1] == first;
+                    row[count] = if own { -mode.share(k) } else { 0.0 };
                 }
             }
             let Some(solved) = solve(&mut rows, count) else {
@@ -218,17 +287,18 @@ impl Parts<'_> {
         }
         // N of each that slides, by the same parts.
         let mut pressing = [[[0.0; 3]; MOST_CONTACTS + 1]; MOST_CONTACTS];
-        for (&(k, _), pressing) in sliding.iter().zip(&mut pressing) {
+        for (&k, pressing) in sliding.iter().zip(&mut pressing) {
             for (part, vector) in pressing[..=number].iter_mut().enumerate() {
                 for (x, i) in vector.iter_mut().zip(self.components(k)) {
                     let start = if part == 0 { self.at(0, i) } else { 0.0 };
                     let by = forces[part][..count].iter().enumerate();
                     *x = by.fold(start, |sum, (j, force)| sum + self.at(1 + j, i) * force);
                 }
+                *vector = self.across(k, *vector);
             }
         }
         let mut coefficients = [0.0; MOST_CONTACTS];
-        for (&(k, _), coefficient) in sliding.iter().zip(&mut coefficients) {
+        for (&k, coefficient) in sliding.iter().zip(&mut coefficients) {
             *coefficient = self.friction(k);
         }
         let sizes = Sizes {
@@ -255,14 +325,18 @@ impl Parts<'_> {
             if turned == Some((k, mode.motion[k], mode.press[k])) {
                 return true;
             }
+            // What a contact does along both tangents is asked of the first.
+            if self.layout.is_second(k) {
+                return true;
+            }
             let [normal, terms] = self.reaction(k, friction_forces);
             match mode.motion[k] {
                 Motion::Sticks => {
                     let most = self.static_friction(k) * normal.abs();
-                    friction_forces[k].abs()
+                    self.used(k, friction_forces)
                         <= most + ROUNDING * (most + self.static_friction(k) * terms)
                 }
-                Motion::Slides(_) => mode.press[k] * normal >= -ROUNDING * terms,
+                Motion::Slides(_) | Motion::Skids => mode.press[k] * normal >= -ROUNDING * terms,
             }
         })
     }
@@ -273,7 +347,118 @@ impl Parts<'_> {
         match mode.motion[contact] {
             Motion::Sticks => true,
             Motion::Slides(sign) => sign * rate >= -ROUNDING * terms,
+            Motion::Skids if self.layout.is_second(contact) => true,
+            Motion::Skids => {
+                let [across, more] = self.sum(self.slip_rate(contact + 1), friction_forces);
+                let ahead = mode.course[contact] * rate + mode.course[contact + 1] * across;
+                ahead >= -ROUNDING * (terms + more)
+            }
         }
+    }
+
+    /// How large the friction of a contact is, along both tangents if it has two.
+    pub fn used(&self, contact: usize, friction_forces: &Each) -> f64 {
+        let along = friction_forces[contact];
+        match self.layout.has_second(contact) {
+            true => length([along, friction_forces[contact + 1]]),
+            false => along.abs(),
+        }
+    }
+
+    /// Whatever friction forces there may be in given states, of which those on surfaces that are `open` slide off from rest: in
+    /// which direction is what is asked. False where nothing says that these are all.
+    fn each_course(&self, mode: Mode, open: &[usize], look: &mut dyn FnMut(Mode, Each)) -> bool {
+        match *open {
+            [] => self.each_solution(&mode, &mut |forces| look(mode, forces)),
+            [contact] => {
+                let mut known = true;
+                self.courses(mode, contact, &mut |mode| {
+                    known &= self.each_solution(&mode, &mut |forces| look(mode, forces));
+                });
+                known
+            }
+            _ => match self.courses_together(mode, open) {
+                Some(mode) => self.each_solution(&mode, &mut |forces| look(mode, forces)),
+                None => false,
+            },
+        }
+    }
+
+    /// The directions in which a contact on a surface may slide off from rest, all others doing what is given: those in which
+    /// its slip grows along itself. Looked for all around, and then by bisection to rounding.
+    fn courses(&self, mut mode: Mode, contact: usize, look: &mut dyn FnMut(Mode)) {
+        let mut along = |angle: f64| {
+            let (sin, cos) = Scalar::sin_cos(angle);
+            (mode.course[contact], mode.course[contact + 1]) = (cos, sin);
+            mode
+        };
+        // How far the slip grows to the left of the direction, and along it.
+        let grows = |mode: &Mode| {
+            let forces = self.friction_forces(mode).ok()?;
+            let [x, y] = [contact, contact + 1].map(|k| self.sum(self.slip_rate(k), &forces)[0]);
+            let [a, b] = [mode.course[contact], mode.course[contact + 1]];
+            Some([a * y - b * x, a * x + b * y])
+        };
+        let whole = 2.0 * core::f64::consts::PI;
+        let at = |number: usize| whole * number as f64 / LOOKS as f64;
+        let mut before = grows(&along(at(0)));
+        for number in 1..=LOOKS {
+            let (mut from, mut to) = (at(number - 1), at(number));
+            let after = grows(&along(to));
+            let (Some([mut aside, _]), Some([next, _])) = (before, after) else {
+                before = after;
+                continue;
+            };
+            before = after;
+            if aside != 0.0 {
+                if (aside > 0.0) == (next > 0.0) {
+                    continue;
+                }
+                for _ in 0..BISECTIONS {
+                    let middle = 0.5 * (from + to);
+                    let Some([value, _]) = grows(&along(middle)) else {
+                        break;
+                    };
+                    match (value > 0.0) == (aside > 0.0) {
+                        true => (from, aside) = (middle, value),
+                        false => to = middle,
+                    }
+                }
+                from = 0.5 * (from + to);
+            }
+            look(along(from));
+        }
+    }
+
+    /// Where several contacts on surfaces slide off at once: each in turn with the others as they are, until none turns.
+    /// Nothing where one of them might go in several directions, or they do not settle.
+    fn courses_together(&self, mut mode: Mode, open: &[usize]) -> Option<Mode> {
+        for _ in 0..MOST_STEPS {
+            let mut turned = 0.0_f64;
+            for &contact in open {
+                let (mut found, mut several) = (None, false);
+                self.courses(mode, contact, &mut |next| {
+                    let forces = self.friction_forces(&next).ok();
+                    if forces.is_some_and(|forces| self.departs(&next, &forces, contact)) {
+                        several |= found.is_some_and(|known: Mode| {
+                            let [a, b] = [known.course[contact], known.course[contact + 1]];
+                            let [c, d] = [next.course[contact], next.course[contact + 1]];
+                            (a * d - b * c).abs() > SAME || a * c + b * d < 0.0
+                        });
+                        found = Some(next);
+                    }
+                });
+                let next = found.filter(|_| !several)?;
+                for k in [contact, contact + 1] {
+                    turned = turned.max((next.course[k] - mode.course[k]).abs());
+                }
+                mode = next;
+            }
+            if turned <= SETTLED {
+                return Some(mode);
+            }
+        }
+        None
     }
 
     /// Whether two solutions give the machine the same accelerations.
@@ -297,6 +482,8 @@ pub(super) type Turned = (usize, Motion, f64);
 pub(super) struct Question {
     /// What each contact does, if that is known.
     pub motion: [Option<Motion>; MOST_CONTACTS],
+    /// In which direction each skids of which it is known that it does; 0 where that is asked too.
+    pub course: Each,
     /// What has just proved impossible: what a contact does, or the side to which it presses.
     pub excluded: Option<(usize, Motion, Option<f64>)>,
     /// What presses to the other side from here on, unless it stops.
@@ -305,13 +492,22 @@ pub(super) struct Question {
 
 impl Question {
     /// Where nothing but the slips is known: what moves slides, the rest is open.
-    pub fn from_slips(slips: &Each) -> Question {
+    pub fn from_slips(slips: &Each, layout: Layout) -> Question {
         let sliding = |slip: f64| (slip != 0.0).then_some(Motion::Slides(slip.signum()));
-        Question {
+        let mut question = Question {
             motion: slips.map(sliding),
+            course: [0.0; MOST_CONTACTS],
             excluded: None,
             turned: None,
+        };
+        for k in (0..layout.k).filter(|k| layout.has_second(*k)) {
+            let speed = length([slips[k], slips[k + 1]]);
+            for k in [k, k + 1] {
+                question.motion[k] = (speed != 0.0).then_some(Motion::Skids);
+                question.course[k] = if speed != 0.0 { slips[k] / speed } else { 0.0 };
+            }
         }
+        question
     }
 
     /// The one solution.
@@ -329,8 +525,15 @@ impl Question {
         let mut several = None;
         let mut unknown = None;
         let mut look = |mode: Mode, friction_forces: Each| {
-            let departs =
-                |k: usize| self.motion[k].is_some() || parts.departs(&mode, &friction_forces, k);
+            // That a contact skids may be known, and not in which direction.
+            let is_asked = |k: usize| {
+                let skids = self.motion[k] == Some(Motion::Skids) && parts.layout.has_second(k);
+                skids && self.course[k] == 0.0 && self.course[k + 1] == 0.0
+            };
+            let departs = |k: usize| {
+                let is_known = self.motion[k].is_some() && !is_asked(k);
+                is_known || parts.departs(&mode, &friction_forces, k)
+            };
             if !parts.admits(&mode, &friction_forces, self.turned) || !(0..count).all(departs) {
                 return;
             }
@@ -356,7 +559,15 @@ impl Question {
             }
         };
         self.each(parts.layout, &mut |mode| {
-            let known = parts.each_solution(&mode, &mut |forces| look(mode, forces));
+            let (mut open, mut number) = ([0; MOST_CONTACTS], 0);
+            for k in 0..count {
+                let skids = mode.motion[k] == Motion::Skids && parts.layout.has_second(k);
+                if skids && mode.course[k] == 0.0 && mode.course[k + 1] == 0.0 {
+                    open[number] = k;
+                    number += 1;
+                }
+            }
+            let known = parts.each_course(mode, &open[..number], &mut look);
             if !known {
                 unknown = (0..count).find(|k| mode.motion[*k] != Motion::Sticks);
             }
@@ -385,9 +596,13 @@ impl Question {
         ];
         // In space a guide has no sides.
         const IN_SPACE: [(Motion, f64); 3] = [IN_PLANE[0], IN_PLANE[1], IN_PLANE[3]];
+        const ON_SURFACE: [(Motion, f64); 2] = [IN_PLANE[0], (Motion::Skids, 1.0)];
         let count = layout.k;
-        let states = match layout.axes {
+        let states = |k: usize| match layout.axes {
             1 => &IN_PLANE[..],
+            _ if layout.has_second(k) => &ON_SURFACE[..],
+            // What the first tangent says.
+            _ if layout.is_second(k) => &ON_SURFACE[..1],
             _ => &IN_SPACE[..],
         };
         let mut digits = [0; MOST_CONTACTS];
@@ -395,10 +610,17 @@ impl Question {
             let mut mode = Mode {
                 motion: [Motion::Sticks; MOST_CONTACTS],
                 press: [1.0; MOST_CONTACTS],
+                course: [0.0; MOST_CONTACTS],
             };
             let mut is_open = true;
             for (k, &digit) in digits[..count].iter().enumerate() {
-                (mode.motion[k], mode.press[k]) = states[digit];
+                (mode.motion[k], mode.press[k]) = match layout.is_second(k) {
+                    true => (mode.motion[k - 1], 1.0),
+                    false => states(k)[digit],
+                };
+                if mode.motion[k] == Motion::Skids {
+                    mode.course[k] = self.course[k];
+                }
                 is_open &= self.motion[k].is_none_or(|known| known == mode.motion[k]);
                 if let Some((contact, motion, press)) = self.excluded
                     && contact == k
@@ -410,7 +632,8 @@ impl Question {
             if is_open {
                 look(mode);
             }
-            let Some(next) = digits[..count].iter().position(|d| d + 1 < states.len()) else {
+            let next = (0..count).find(|k| digits[*k] + 1 < states(*k).len());
+            let Some(next) = next else {
                 return;
             };
             digits[next] += 1;
@@ -542,6 +765,15 @@ impl Sizes {
             off = here;
         }
         None
+    }
+}
+
+pub(super) fn length([x, y]: [f64; 2]) -> f64 {
+    // Neither square may be lost or overflow.
+    let most = x.abs().max(y.abs());
+    match most > 0.0 && most.is_finite() {
+        true => most * crate::math::sqrt((x / most) * (x / most) + (y / most) * (y / most)),
+        false => most,
     }
 }
 

@@ -31,8 +31,8 @@ const BEYOND: f64 = 1e-9;
 
 /// A slip in space that comes to rest, or turns by a right angle, is followed in a step of its own from this part of the way on; and
 /// no further where that part of the step is less than the second.
-const APPROACH: f64 = 0.9;
-const LEAST_APPROACH: f64 = 1e-9;
+pub(super) const APPROACH: f64 = 0.9;
+pub(super) const LEAST_APPROACH: f64 = 1e-9;
 
 /// A change that waits for the stepper to come to its instant.
 #[derive(Clone, Copy, Debug)]

@@ -4,6 +4,7 @@
 
 mod space;
 mod spelling;
+mod surface;
 
 use std::f64::consts::PI;
 

@@ -61,11 +61,13 @@ pub const CONSTRAINED: [&str; 16] = [
 ];
 
 /// The file names of those that stick and slide.
-pub const SLIDING: [&str; 6] = [
+pub const SLIDING: [&str; 8] = [
+    "bead_in_shell",
     "bead_on_helix",
     "bead_on_hoop",
     "block_on_incline",
     "prisms",
+    "puck_in_slot",
     "stick_slip",
     "wedge_and_block",
 ];

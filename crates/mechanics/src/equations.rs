@@ -24,7 +24,7 @@ mod derivatives;
 mod energy;
 mod freedom;
 pub mod groups;
-mod guide;
+pub(crate) mod guide;
 pub mod integrals;
 mod kinematics;
 mod lagrange;
@@ -300,11 +300,21 @@ impl<'d> Equations<'d> {
 
     /// The generalized friction on a coordinate where every contact slides along its direction and
     /// presses to the side of its normal, eqs. (E33) and (E34): `−Σ μ N τᵢ`, accelerations in it. What
-    /// constraints and other friction forces press is not.
+    /// constraints and other friction forces press is not. On a surface it slides in any direction, and each tangent has its part.
     pub fn sliding_friction(&self, model: &Model<'d>, coordinate: usize) -> Expr<'d> {
-        let friction =
-            |s: &SlidingEquation<'d>| -(s.friction * s.pressing(model) * s.row[coordinate]);
-        model.dag.sum(self.sliding.iter().map(friction))
+        let friction = |(k, s): (usize, &SlidingEquation<'d>)| {
+            let first = k - usize::from(s.is_second());
+            let part = match s.surface {
+                None => model.dag.one(),
+                Some(_) => {
+                    let slips = [first, first + 1].map(|k| self.sliding[k].slip.square());
+                    s.slip / model.dag.sum(slips).sqrt()
+                }
+            };
+            -(s.friction * s.pressing(model) * part * s.row[coordinate])
+        };
+        let all = self.sliding.iter().enumerate();
+        model.dag.sum(all.map(friction))
     }
 
     /// Adds the power of constraints that move by themselves, `v·Gᵀλ = v·(M a − f)`; the others do no

@@ -115,6 +115,9 @@ pub fn lower_by<'d>(
     );
     program.contacts = equations.sliding.iter().map(|s| s.name.clone()).collect();
     program.reaction_axes = model.space.reaction_axes();
+    let seconds = equations.sliding.iter().enumerate();
+    let seconds = seconds.filter(|(_, sliding)| sliding.is_second());
+    program.second_tangents = seconds.fold(0, |all, (k, _)| all | 1 << k);
     let unilateral = equations.unilateral.iter().map(|u| Unilateral {
         name: u.name.clone(),
         law: u.law,
@@ -287,6 +290,7 @@ fn build<'d>(
         constraints,
         contacts: Vec::new(),
         reaction_axes: 1,
+        second_tangents: 0,
         unilateral: Vec::new(),
         kept: model
             .kept

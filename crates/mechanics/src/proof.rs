@@ -42,6 +42,7 @@ use std::ops::Deref;
 use lagrangian_scalar::{Ball, Dual, Residue, Scalar};
 use lagrangian_symbolic::{Expr, Function as Call, Node, reachable};
 
+use crate::equations::guide::{counts, guides_of};
 use crate::equations::literal::{Lagrange, Literal, LiteralSliding, State};
 use crate::proof::symbolic::{determinant, guarded_coordinates, with_guarded_values};
 use crate::{Dependent, Equations};
@@ -1141,6 +1142,17 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
                 self.compare(Role::Friction, place, responses[place], expected)?;
             }
         }
+        if layout.axes != 1 {
+            let told = responses[layout.directions()..].chunks_exact(3);
+            for (k, (told, contact)) in told.zip(&contacts).enumerate() {
+                // Up to its sign, which no square root in a field knows.
+                for (i, j) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)] {
+                    let place = layout.directions() + 3 * k + j;
+                    let expected = contact.telling[i] * contact.telling[j];
+                    self.compare(Role::Friction, place, told[i] * told[j], expected)?;
+                }
+            }
+        }
         let pressed = Pressed {
             multipliers,
             friction_forces: &friction_forces,
@@ -1168,6 +1180,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             list.resize(all, R::ZERO);
         }
         let dimension = relaxed.model.space.dimension();
+        let guides = guides_of(relaxed.model);
         // The side of each guide on which the body is.
         let mut sides = Vec::with_capacity(contacts.len());
         for contact in contacts {
@@ -1183,7 +1196,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             .map(|(k, axis)| {
                 let mut w = vec![R::ZERO; all];
                 for (i, &component) in axis.iter().enumerate() {
-                    w[n + dimension * k + i] = sides[k] * component;
+                    w[n + dimension * guides[k] + i] = sides[k] * component;
                 }
                 (k, relaxed.at(&at, &w))
             })
@@ -1213,6 +1226,9 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
                 for (j, contact) in literal.sliding.iter().enumerate() {
                     let friction = pressed.signs[j] * pressed.friction_forces[j];
                     open = open.plus(-(contact.slip_along * friction));
+                    if !counts(&guides, *k, j) {
+                        continue;
+                    }
                     for (axis, &off) in contact.off_along.iter().enumerate() {
                         open = open.plus(-(sides[j] * off * normal(j, axis)));
                     }

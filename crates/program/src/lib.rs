@@ -96,6 +96,9 @@ pub struct Program {
     /// How many components their normal reactions have: one in the plane, along the normal; three in space, along the
     /// axes of the ground.
     pub reaction_axes: usize,
+    /// Which of the guided contacts are the second tangents of surfaces: bit `k` says that contact `k` is at right angles to contact
+    /// `k − 1`, on the same surface.
+    pub second_tangents: usize,
     /// The unilateral contacts; the functions about them are there if these are.
     pub unilateral: Vec<Unilateral>,
     /// Which start values stay as they are where the start does not obey the constraints: `theta`,
@@ -211,7 +214,8 @@ pub struct Unilateral {
 /// Everything is linear in the friction forces `F`: `x = x₀ + Σ Fₖ xₖ`. First comes what there is without
 /// friction, then what one unit of each does. A part holds the accelerations, the multipliers of
 /// constraints, `dw/dt` of each contact and the components of the normal reaction `N` of each; behind all parts stand `μ`
-/// of each contact and `μ₀` of each.
+/// of each contact and `μ₀` of each. In space there follows for each contact the direction by which the part of `N` is told that
+/// presses: the tangent of a curve, along which nothing presses, or the normal of a surface, along which all does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FrictionLayout {
     /// How many coordinates there are.
@@ -232,6 +236,16 @@ impl FrictionLayout {
 
     /// How many results there are.
     pub fn len(self) -> usize {
+        self.directions()
+            + if self.axes == 1 {
+                0
+            } else {
+                self.axes * self.contacts
+            }
+    }
+
+    /// Where the directions stand, in space.
+    pub fn directions(self) -> usize {
         (1 + self.contacts) * self.part() + 2 * self.contacts
     }
 

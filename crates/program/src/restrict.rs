@@ -64,6 +64,7 @@ impl Program {
             constraints: self.constraints.clone(),
             contacts: self.contacts.clone(),
             reaction_axes: self.reaction_axes,
+            second_tangents: self.second_tangents,
             unilateral: self.unilateral.clone(),
             kept: self.kept.clone(),
             derivatives: self.derivatives.clone(),

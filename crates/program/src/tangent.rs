@@ -131,6 +131,7 @@ impl Program {
             assumptions: Vec::new(),
             contacts: Vec::new(),
             reaction_axes: 1,
+            second_tangents: 0,
             unilateral: Vec::new(),
             kept: Vec::new(),
             derivatives: Vec::new(),

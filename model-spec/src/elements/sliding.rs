@@ -1,9 +1,15 @@
-//! Guided contacts: a body slides along a direction, and the normal reaction of the guide makes Coulomb
-//! friction.
+//! Guided contacts: a body slides along a direction, or in space on a surface, and the normal reaction of the guide makes
+//! Coulomb friction.
+//!
+//! A surface is said by its normal alone. What slides on it contributes two contacts, along two tangents.
 
+use lagrangian_symbolic::Expr;
+
+use crate::identity;
 use crate::model::bounds::BoundKind;
-use crate::model::element::{Contribution, Sliding};
-use crate::model::stage;
+use crate::model::element::{ACROSS, Contribution, Sliding, Tangent};
+use crate::model::spheres::tangents;
+use crate::model::{Name, Space, stage};
 use crate::resolve::Resolver;
 use crate::resolve::element::{Meaning, Resolved, Row};
 use crate::resolve::value::{Limit, MemberId, POSITIONS, limit};
@@ -26,7 +32,8 @@ const SECTION: Section = Section {
         "friction",
         "static_friction",
     ]),
-    help: "a sliding contact is `name { body: …, on: …, direction: …, friction: … }`",
+    help: "a sliding contact is `name { body: …, on: …, direction: …, friction: … }`; on a surface in space with `normal: …` in place of \
+           `direction`",
 };
 
 static DIRECTION: Limit = limit(stage::POSITION, "a direction", POSITIONS);
@@ -35,7 +42,14 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     let record = resolver.record(member)?;
     let body = resolver.field(member, record, "body");
     let on = resolver.field(member, record, "on");
-    let direction = resolver.field(member, record, "direction");
+    // On a surface its tangents say what a direction says along a curve.
+    let is_surface = resolver.space == Space::Space
+        && record.get("direction").is_none()
+        && record.get("normal").is_some();
+    let direction = match is_surface {
+        true => None,
+        false => resolver.field(member, record, "direction"),
+    };
     let friction = resolver.field(member, record, "friction");
     let body = body.and_then(|body| resolver.body_at(member, body));
     let on = on.and_then(|on| resolver.place(member, on));
@@ -52,21 +66,59 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         }
         sticking
     });
-    Some(Resolved::of([Contribution::Sliding(Sliding {
+    // What is said and wrong has been reported.
+    let normal = match normal {
+        Some(normal) => Some(normal?.components),
+        None => None,
+    };
+    let directions = match &normal {
+        Some(normal) if is_surface => {
+            let [first, second] = tangents(&unit(normal));
+            vec![
+                (Some(Tangent::First), first.to_vec()),
+                (Some(Tangent::Second), second.to_vec()),
+            ]
+        }
+        _ => vec![(None, direction?.components)],
+    };
+    let sliding = Sliding {
         name: resolver.name(member),
         body: resolver.ordinal(body?)?,
         on: on?,
-        direction: direction?.components,
-        // What is said and wrong has been reported.
-        normal: match normal {
-            Some(normal) => Some(normal?.components),
-            None => None,
-        },
+        direction: Vec::new(),
+        normal,
+        tangent: None,
         friction: friction?,
         static_friction: match sticking {
             Some(friction) => Some(friction?),
             None => None,
         },
         span: resolver.span(member),
-    })]))
+    };
+    let contact = |(tangent, direction)| {
+        let name = match tangent {
+            Some(Tangent::Second) => Name {
+                base: format!("{}{ACROSS}", sliding.name),
+                index: None,
+            },
+            _ => sliding.name.clone(),
+        };
+        Contribution::Sliding(Sliding {
+            name,
+            direction,
+            tangent,
+            ..sliding.clone()
+        })
+    };
+    Some(Resolved::of(directions.into_iter().map(contact)))
+}
+
+/// A vector as long as 1.
+fn unit<'d>(vector: &[Expr<'d>]) -> Vec<Expr<'d>> {
+    let dag = vector[0].dag();
+    let square = dag.sum(vector.iter().map(|x| x.square()));
+    match identity::equal(square, dag.one()) {
+        Some(true) => vector.to_vec(),
+        _ => vector.iter().map(|&x| x / square.sqrt()).collect(),
+    }
 }

@@ -145,16 +145,27 @@ pub struct Sliding<'d> {
     pub body: usize,
     /// What it slides on.
     pub on: Place,
-    /// The direction of sliding, as given.
+    /// The direction of sliding, as given; on a surface one of two tangents.
     pub direction: Vec<Expr<'d>>,
-    /// The side on which the body is, as given; the direction turned left where nothing is said.
+    /// The side on which the body is, as given; the direction turned left where nothing is said. On a surface its normal, as given.
     pub normal: Option<Vec<Expr<'d>>>,
+    /// Which of the two tangents of a surface the direction is, in space; none of a line or a curve.
+    pub tangent: Option<Tangent>,
     /// The coefficient of friction.
     pub friction: Expr<'d>,
     /// The coefficient of friction of what sticks, where it is another.
     pub static_friction: Option<Expr<'d>>,
     /// Its name in the spec.
     pub span: Span,
+}
+
+/// The tangents of a surface: what slides on it stands as two contacts, one behind the other, which obey one law of friction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tangent {
+    /// The one that has the name of the element.
+    First,
+    /// At right angles to that, with `.across` behind its name. What holds the body is said with the first.
+    Second,
 }
 
 /// How a report draws an element.
@@ -269,6 +280,25 @@ impl<'d> Model<'d> {
         all.collect()
     }
 }
+
+impl Sliding<'_> {
+    /// Whether this is the second tangent of a surface.
+    pub fn is_second(&self) -> bool {
+        self.tangent == Some(Tangent::Second)
+    }
+
+    /// The name in the spec.
+    pub fn said(&self) -> String {
+        let name = self.name.to_string();
+        match self.is_second() {
+            true => name.trim_end_matches(ACROSS).to_owned(),
+            false => name,
+        }
+    }
+}
+
+/// What stands behind the name of a second tangent.
+pub const ACROSS: &str = ".across";
 
 impl<'d> Element<'d> {
     /// Every expression in what it contributes and in its drawing, in one order.

@@ -28,9 +28,11 @@ pub(super) struct Guide<'d> {
     pub by: Vec<[Expr<'d>; 3]>,
 }
 
-/// The guides of a machine, in the order of its contacts.
+/// The guides of a machine, in the order of its contacts; a surface is one, of two contacts.
 pub(super) fn guides<'d>(model: &Model<'d>) -> Vec<Guide<'d>> {
     let sliding = model.sliding().into_iter();
+    // Both tangents of a surface are of one guide.
+    let sliding = sliding.filter(|one| !one.is_second());
     sliding.map(|one| guide(model, one)).collect()
 }
 

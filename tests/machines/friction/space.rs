@@ -242,6 +242,37 @@ fn prisms_in_space_are_those_in_the_plane() {
     }
 }
 
+/// What is written in coordinates acts along the guide, and presses on nothing: a spring, a force, a potential.
+#[test]
+fn what_acts_along_a_guide_in_space_does_not_press_on_it() {
+    let of = |space: &str, at: &str, gravity: &str, direction: &str| {
+        machine(&format!(
+            "machine OnSpring in {space} {{
+                parameters {{ m: kg = 1, k: N/m = 40, mu: 1 = 0.05, g: m/s^2 = 9.81 }}
+                coordinates {{ x: m = 0.3 }}
+                bodies {{ block {{ mass: m, at: {at} }} }}
+                gravity {gravity};
+                springs {{ spring {{ stiffness: k, stretch: x }} }}
+                sliding {{ table {{ body: block, on: ground, direction: {direction}, friction: mu }} }}
+            }}"
+        ))
+    };
+    let (plane, space) = (
+        of("plane", "(x, 0)", "(0, -g)", "(1, 0)"),
+        of("space", "(0.6*x, 0.8*x, 0)", "(0, 0, -g)", "(3, 4, 0)"),
+    );
+    let [plane, space] = [plane, space].map(|machine| {
+        let run = run(&machine, &[], &[("x", 0.3, 0.0)], (1e-11, 3.0)).expect("it runs");
+        let seen = run.observe(0.2).expect("in the run");
+        assert_near(seen.contacts[0].normal, 9.81, 1e-12);
+        assert_near(seen.contacts[0].friction, 0.05 * 9.81, 1e-12);
+        [value(&run.end().q, "x"), value(&seen.q, "x")]
+    });
+    for (plane, space) in plane.into_iter().zip(space) {
+        assert_near(space, plane, 1e-9);
+    }
+}
+
 /// Two beads on rails that pass each other at right angles, tied by a rod.
 const TIED: &str = "machine Tied in space {
     parameters { m1: kg = 1, m2: kg = 2, mu1: 1 = 0.3, mu2: 1 = 0.4, a: m = 0.3, l: m = 1, g: m/s^2 = 9.81 }

@@ -348,6 +348,10 @@ impl Emitter<'_> {
             let axes = Layout::Atom(self.program.reaction_axes.to_string());
             self.row("count", "reaction_axes", &["p"], Some(axes));
         }
+        if self.program.second_tangents != 0 {
+            let seconds = Layout::Atom(self.program.second_tangents.to_string());
+            self.row("count", "second_tangents", &["p"], Some(seconds));
+        }
         let slips = self.emitted(Role::Slips);
         let needs = slips.map(|function| self.needs(function));
         let arguments = needs.map(|needs| self.arguments(needs)).unwrap_or_default();

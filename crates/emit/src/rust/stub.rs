@@ -96,6 +96,7 @@ fn standstill(spec: &Spec) -> Program {
         constraints: Vec::new(),
         contacts: Vec::new(),
         reaction_axes: 1,
+        second_tangents: 0,
         unilateral: Vec::new(),
         kept: Vec::new(),
         derivatives: Vec::new(),

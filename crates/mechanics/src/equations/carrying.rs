@@ -65,7 +65,7 @@ const CLEAR: f64 = 1e-9;
 /// Which bodies the guides of a machine carry, and on which bodies forces on its coordinates act.
 ///
 /// All lists are of indices, ascending: bodies as in [`Model::bodies`], guides as in
-/// [`Model::sliding`], coordinates as in [`Model::coordinates`].
+/// [`Model::sliding`], where a surface stands twice, once for each tangent, coordinates as in [`Model::coordinates`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Carrying {
     /// For each guide, the bodies that move off with it: the guided one, and what is built on it.
@@ -172,6 +172,10 @@ struct Motion<T> {
     columns: Vec<Vec<T>>,
     /// The directions of the guides, as long as the spec has them.
     directions: Vec<Vec<T>>,
+    /// The normals of surfaces, as long as the spec has them.
+    normals: Vec<Option<Vec<T>>>,
+    /// Which guide each contact is of: a surface has two, one for each tangent.
+    numbers: Vec<usize>,
     coordinates: usize,
     /// How many components a vector has.
     dimension: usize,
@@ -286,7 +290,12 @@ impl<T: Number> Motion<T> {
             .into_iter()
             .flat_map(|s| s.direction.iter().copied())
             .collect();
-        let all: Vec<Expr<'_>> = expressions.iter().chain(&directions).copied().collect();
+        let normals: Vec<Expr<'_>> = (model.sliding().into_iter())
+            .filter(|s| s.tangent.is_some())
+            .flat_map(|s| s.normal.iter().flatten().copied())
+            .collect();
+        let all = expressions.iter().chain(&directions).chain(&normals);
+        let all: Vec<Expr<'_>> = all.copied().collect();
         let values = |point| {
             evaluate(model.dag, &all, |s| {
                 relaxed.value::<T>((point, Guides::Shut), s)
@@ -303,7 +312,15 @@ impl<T: Number> Motion<T> {
         Some(Motion {
             parts,
             columns,
-            directions: values[expressions.len()..]
+            numbers: guide::guides_of(model),
+            normals: {
+                let of_surfaces = &values[expressions.len() + directions.len()..];
+                let mut of_surfaces = of_surfaces.chunks_exact(model.space.dimension());
+                let normal = |s: &Sliding<'_>| s.tangent.and_then(|_| of_surfaces.next());
+                let normals = model.sliding().into_iter().map(normal);
+                normals.map(|normal| normal.map(<[T]>::to_vec)).collect()
+            },
+            directions: values[expressions.len()..][..directions.len()]
                 .chunks_exact(model.space.dimension())
                 .map(<[T]>::to_vec)
                 .collect(),
@@ -314,9 +331,9 @@ impl<T: Number> Motion<T> {
         })
     }
 
-    /// The columns of the displacements of a guide.
+    /// The columns of the displacements of a guide: both tangents of a surface have the same.
     fn own(&self, guide: usize) -> Vec<usize> {
-        let first = self.coordinates + self.dimension * guide;
+        let first = self.coordinates + self.dimension * self.numbers[guide];
         (first..first + self.dimension).collect()
     }
 
@@ -327,10 +344,13 @@ impl<T: Number> Motion<T> {
             .fold(T::ZERO, |sum, term| sum + term)
     }
 
-    /// Vectors that are across a guide, and of which all others that are so are combinations: one in the plane, and in space
-    /// three, of which one follows from the others.
+    /// Vectors that are across a guide, and of which all others that are so are combinations: one in the plane and of a surface, and
+    /// of a curve in space three, of which one follows from the others.
     fn across(&self, guide: usize) -> Vec<Vec<T>> {
         let zero = T::ZERO;
+        if let Some(normal) = &self.normals[guide] {
+            return vec![normal.clone()];
+        }
         match self.directions[guide][..] {
             [x, y] => vec![vec![-y, x]],
             [x, y, z] => vec![vec![-y, x, zero], vec![-z, zero, x], vec![zero, -z, y]],
@@ -515,12 +535,14 @@ impl<T: Number> Motion<T> {
                 None if self.work() > WORK => {
                     let message = format!(
                         "what the guide `{}` carries cannot be found out: there are too many bodies",
-                        sliding.name
+                        sliding.said()
                     );
                     found.push(Diagnostic::new(Code::TooLarge, sliding.span, message).help(
                         "it can where what moves with the guided body is built on its frame",
                     ));
                 }
+                // Of a surface it has been said with the first tangent.
+                None if sliding.is_second() && !found.is_empty() => {}
                 None => found.extend(self.blame(model, guide, sliding)),
             }
         }
@@ -631,7 +653,7 @@ impl<T: Number> Motion<T> {
     /// (E38) holds.
     fn blame(&self, model: &Model<'_>, guide: usize, sliding: &Sliding<'_>) -> Vec<Diagnostic> {
         let body = &model.bodies[sliding.body].name;
-        let name = &sliding.name;
+        let name = sliding.said();
         let own = self.own(guide);
         let is_own = |part: &Part| matches!(part.what, What::Body(b) if b == sliding.body);
         let mut blamed: Vec<bool> = self.parts.iter().map(|part| !is_own(part)).collect();
@@ -672,7 +694,7 @@ impl<T: Number> Motion<T> {
 /// The message for a part that moves with the body of a guide, and is tied to it by nothing.
 fn untied(model: &Model<'_>, guide: usize, what: What) -> Diagnostic {
     let sliding = model.sliding()[guide];
-    let (body, name) = (&model.bodies[sliding.body].name, &sliding.name);
+    let (body, name) = (&model.bodies[sliding.body].name, sliding.said());
     let message = |what: &str| {
         format!(
             "{what} moves with `{body}`, and nothing says what ties them: what the guide `{name}` carries is not determined"
@@ -689,7 +711,7 @@ fn untied(model: &Model<'_>, guide: usize, what: What) -> Diagnostic {
         }
         What::Base(other) => {
             let other = model.sliding()[other];
-            let message = message(&format!("what `{}` is on", other.name));
+            let message = message(&format!("what `{}` is on", other.said()));
             Diagnostic::new(Code::Untied, other.span, message).help(format!(
                 "say `on: {body}`, or build that frame on the frame of `{body}`"
             ))
@@ -847,7 +869,7 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
         }
         let pulls_across = |&guide: &usize| {
             let mut pulls = on_bodies.chunks_exact(self.motion.dimension).enumerate();
-            pulls.any(|(other, pull)| match other == guide {
+            pulls.any(|(other, pull)| match other == self.motion.numbers[guide] {
                 true => self.motion.is_across(guide, pull),
                 false => pull.iter().any(|&pull| !self.is_zero(pull)),
             })
@@ -865,7 +887,7 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
         let body = &self.model.bodies[sliding.body].name;
         let message = format!(
             "{what} moves with `{body}` and is not said by where `{body}` is: how it pulls across the guide `{}` is not determined",
-            sliding.name
+            sliding.said()
         );
         let diagnostic = Diagnostic::new(Code::Untied, span, message);
         diagnostic.help(help).note(sliding.span, "this guide")

@@ -17,6 +17,25 @@ pub(super) struct Guide<'d> {
     pub axes: Vec<Vec<Expr<'d>>>,
 }
 
+/// The guides of a machine among its contacts: which of them a contact is of. A surface is one guide, and two contacts.
+pub(crate) fn guides_of(model: &Model<'_>) -> Vec<usize> {
+    let mut guides = 0;
+    let number = |sliding: &Sliding<'_>| {
+        guides += usize::from(!sliding.is_second());
+        guides - 1
+    };
+    model.sliding().into_iter().map(number).collect()
+}
+
+/// Whether in the equation that says what the reaction of one contact is, that of another takes part: each guide once, said by its
+/// first contact, and the own one by the contact itself.
+pub(crate) fn counts(guides: &[usize], own: usize, other: usize) -> bool {
+    match guides[own] == guides[other] {
+        true => own == other,
+        false => other == 0 || guides[other] != guides[other - 1],
+    }
+}
+
 /// How a guided body moves on what it slides on, at some rate.
 pub(super) struct Relative<'d> {
     /// Along the guide.
@@ -132,7 +151,7 @@ pub(super) fn guide<'d>(model: &Model<'d>, sliding: &Sliding<'d>) -> Guide<'d> {
 }
 
 /// A vector as long as 1.
-fn unit<'d>(vector: &[Expr<'d>]) -> Vec<Expr<'d>> {
+pub(super) fn unit<'d>(vector: &[Expr<'d>]) -> Vec<Expr<'d>> {
     let dag = vector[0].dag();
     let square = dag.sum(vector.iter().map(|x| x.square()));
     match identity::equal(square, dag.one()) {

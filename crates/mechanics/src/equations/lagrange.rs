@@ -13,7 +13,7 @@ use lagrangian_symbolic::{Expr, Symbol, Tangent, substitute};
 use super::approximation::Approximations;
 use super::constraints::{self, ConstraintEquation};
 use super::energy;
-use super::guide::{guide, relative};
+use super::guide::{counts, guide, guides_of, relative, unit};
 use super::kinematics::{self, Variables, gradient};
 use super::projected::with_state;
 use super::symmetric::Symmetric;
@@ -65,6 +65,9 @@ pub struct OracleSliding<'d> {
     pub drift: Expr<'d>,
     /// `dw/dt` with the accelerations in it.
     pub slip_rate: Expr<'d>,
+    /// In space the direction that tells which part of the reaction presses, of length 1: the normal of a surface, or the tangent of
+    /// a curve.
+    pub telling: Vec<Expr<'d>>,
     /// For each component of the reaction the equation of the displacement that opens the guide that way.
     pub reactions: Vec<OracleReaction<'d>>,
     /// `μ` and `μ₀`.
@@ -166,6 +169,7 @@ fn sliding<'d>(model: &Model<'d>) -> Vec<OracleSliding<'d>> {
     let oracle = Oracle::derive(relaxed);
     let sliding = model.sliding();
     let guides: Vec<_> = sliding.iter().map(|s| guide(model, s)).collect();
+    let numbers = guides_of(model);
     let pairs = || relaxed.sliding().into_iter().zip(&guides);
     let mut coasting = x.coasting(relaxed);
     let rates: Vec<_> = pairs()
@@ -174,7 +178,7 @@ fn sliding<'d>(model: &Model<'d>) -> Vec<OracleSliding<'d>> {
     let contact = |k: usize| {
         let dimension = model.space.dimension();
         let along = |axis: &[Expr<'d>], column: &dyn Fn(usize) -> Expr<'d>| {
-            let pairs = (n + dimension * k..).zip(axis);
+            let pairs = (n + dimension * numbers[k]..).zip(axis);
             closed(dag.sum(pairs.map(|(i, &normal)| normal * column(i))))
         };
         let reaction = |axis: &Vec<Expr<'d>>| OracleReaction {
@@ -188,10 +192,13 @@ fn sliding<'d>(model: &Model<'d>) -> Vec<OracleSliding<'d>> {
                 .iter()
                 .map(|rate| along(axis, &|i| rate.slip.diff(x.v[i])))
                 .collect(),
-            by_normals: rates
-                .iter()
-                .flat_map(|rate| &rate.off)
-                .map(|off| along(axis, &|i| off.diff(x.v[i])))
+            // The two contacts of a surface have one reaction, which counts once.
+            by_normals: (rates.iter().enumerate())
+                .flat_map(|(j, rate)| rate.off.iter().map(move |off| (j, off)))
+                .map(|(j, off)| match counts(&numbers, k, j) {
+                    true => along(axis, &|i| off.diff(x.v[i])),
+                    false => dag.zero(),
+                })
                 .collect(),
         };
         let slip = closed(rates[k].slip);
@@ -203,7 +210,12 @@ fn sliding<'d>(model: &Model<'d>) -> Vec<OracleSliding<'d>> {
             .zip(&model.coordinates)
             .map(|(&tau, c)| tau * c.a);
         let sliding = sliding[k];
+        let telling = match (sliding.tangent, &sliding.normal) {
+            (Some(_), Some(normal)) => unit(normal),
+            _ => guides[k].along.clone(),
+        };
         OracleSliding {
+            telling,
             slip,
             slip_rate: dag.sum(accelerating.chain([drift])),
             drift,

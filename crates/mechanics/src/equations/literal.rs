@@ -128,6 +128,9 @@ pub(crate) struct LiteralSliding<R> {
     pub side: R,
     /// `μ` and `μ₀`.
     pub coefficients: [R; 2],
+    /// In space the direction that tells which part of the reaction presses, of length 1: the normal of a surface, or the tangent of
+    /// a curve.
+    pub telling: Vec<R>,
 }
 
 /// Numbers with τ outside and ε inside.
@@ -645,7 +648,17 @@ impl<'m, 'd> Lagrange<'m, 'd> {
             }
             _ => R::ONE,
         };
+        let telling: Vec<R> = match (sliding.tangent, &sliding.normal) {
+            (Some(_), Some(normal)) => {
+                let normal: Vec<R> = normal.iter().map(|&e| here(e).value.value).collect();
+                let square = normal.iter().fold(R::ZERO, |sum, &x| sum + x * x);
+                let length = square.sqrt();
+                normal.into_iter().map(|x| x / length).collect()
+            }
+            _ => along.iter().map(|e| e.value.value).collect(),
+        };
         LiteralSliding {
+            telling,
             slip: slip.value.value,
             slip_rate: slip.derivative.value,
             slip_along: slip.value.derivative,

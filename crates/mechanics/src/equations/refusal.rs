@@ -156,12 +156,12 @@ fn refuse_sliding(model: &Model<'_>, report: &mut Report) -> bool {
     };
     for contact in sliding
         .iter()
-        .filter(|s| model.space == Space::Space && s.normal.is_some())
+        .filter(|s| model.space == Space::Space && s.normal.is_some() && s.tangent.is_none())
     {
         let message = "in space a guide has no side, so no normal".to_owned();
-        let help =
-            "leave `normal` out: its reaction is a vector, in any direction across the guide"
-                .to_owned();
+        let help = "leave `normal` out: along a curve the reaction is a vector, in any direction across; or leave `direction` out: then the body \
+             slides on a surface"
+            .to_owned();
         refuse(Code::NotSupported, contact.span, message, help);
     }
     let beside = [
@@ -178,7 +178,12 @@ fn refuse_sliding(model: &Model<'_>, report: &mut Report) -> bool {
     if let Some(contact) = sliding.get(MOST_CONTACTS) {
         let count = sliding.len();
         let message = format!("{count} contacts that stick or slide are too many");
-        let help = format!("a machine may have {MOST_CONTACTS} of them");
+        let help = match sliding.iter().any(|s| s.is_second()) {
+            true => {
+                format!("a machine may have {MOST_CONTACTS} of them, and a surface counts as two")
+            }
+            false => format!("a machine may have {MOST_CONTACTS} of them"),
+        };
         refuse(Code::TooLarge, contact.span, message, help);
     }
     if model.relaxed.is_none() {

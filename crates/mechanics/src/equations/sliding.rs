@@ -12,8 +12,11 @@
 //! its frame, and the row of δ in Lagrange's equations says which force along it keeps δ at zero. It
 //! depends on the accelerations, so friction changes the matrix in front of them. Displacements δ are
 //! in ground axes. In the plane what counts is the row along the normal `n`, which is `e` turned left. In space a guide
-//! holds its body in two directions, and all three rows are taken: the reaction is a vector in ground axes, `|N|` its
-//! length, and that nothing of it is along `e` is (E38).
+//! holds its body in two directions, and all three rows are taken: the reaction is a vector in ground axes. What acts along the
+//! guide and is written in coordinates is in its part along `e`; `|N|` is the length of the rest.
+//!
+//! On a surface in space, which holds a body from both sides, the slip has two components (E73). They stand as two contacts, the
+//! second behind the first, with one displacement and one reaction.
 //!
 //! Where several guides hold one body, each displacement meets the reactions of all of them: the rows
 //! are solved for the reactions, here and symbolically. Guides that hold the same cannot be told
@@ -23,12 +26,12 @@ use lagrangian_symbolic::{Expr, Tangent, substitute};
 
 use super::carrying;
 use super::constraints;
-use super::guide::{Guide, base, dot, guide, is_zero, relative};
+use super::guide::{Guide, base, dot, guide, is_zero, relative, unit};
 use super::kinematics::{Variables, cross, gradient};
 use super::projected::Projection;
 use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
 use lagrangian_spec::identity;
-use lagrangian_spec::model::element::Sliding;
+use lagrangian_spec::model::element::{self, Sliding};
 use lagrangian_spec::model::{Model, Space, stage};
 
 /// The most contacts of a machine: at a stop, every way in which they may stick or slide is looked at,
@@ -49,6 +52,9 @@ pub struct SlidingEquation<'d> {
     pub drift: Expr<'d>,
     /// The direction `e(q, t)`, of length 1.
     pub direction: Vec<Expr<'d>>,
+    /// The normal `n(q, t)` of the surface that it slides on, of any length, and which of its tangents the direction is; none of
+    /// what slides along a line or a curve.
+    pub surface: Option<(Vec<Expr<'d>>, element::Tangent)>,
     /// The components of the normal reaction: one in the plane, along the normal; three in space, along the axes of the
     /// ground.
     pub reactions: Vec<Reaction<'d>>,
@@ -72,13 +78,33 @@ pub struct Reaction<'d> {
 }
 
 impl<'d> SlidingEquation<'d> {
-    /// The components of the normal reaction over the symbols of the accelerations and of the multipliers, in their order. The
-    /// friction of other contacts is left out; the contact's own, which is along the direction, has none.
+    /// The direction by which the part of the reaction is told that presses, of length 1: the normal of a surface, along which all of
+    /// it does, or the tangent of a curve, along which nothing does.
+    pub fn telling(&self) -> Vec<Expr<'d>> {
+        match &self.surface {
+            Some((normal, _)) => unit(normal),
+            None => self.direction.clone(),
+        }
+    }
+
+    /// Whether it is the second tangent of the surface that the contact before it is on.
+    pub fn is_second(&self) -> bool {
+        matches!(self.surface, Some((_, element::Tangent::Second)))
+    }
+
+    /// The components of the normal reaction over the symbols of the accelerations and of the multipliers, in their order: in space
+    /// three in ground axes, and on a surface one, along its normal. The friction of other contacts is left out; the contact's own,
+    /// which is along the direction, has none.
     pub fn normal(&self, model: &Model<'d>, multipliers: &[Expr<'d>]) -> Vec<Expr<'d>> {
         let dag = model.dag;
         // With the accelerations of any motion there is a part along the direction in space: the friction.
         let across = |part: Vec<Expr<'d>>| {
             if part.len() == 1 {
+                return part;
+            }
+            if self.surface.is_some() {
+                let mut part = vec![dot(&self.telling(), &part)];
+                identity::settle(dag, &mut part);
                 return part;
             }
             let along = dot(&self.direction, &part);
@@ -149,13 +175,14 @@ pub(super) fn sliding<'d>(
     let relaxed = model.relaxed.as_deref()?;
     let reactions = Reactions::of(model, relaxed, &guides);
     let Some(solved) = reactions.solved() else {
-        let names = all.iter().map(|s| format!("`{}`", s.name));
+        let names = all.iter().filter(|s| !s.is_second());
+        let names = names.map(|s| format!("`{}`", s.name));
         let names = names.collect::<Vec<_>>().join(", ");
         let message = format!("what each of {names} carries is not determined");
         let diagnostic = Diagnostic::new(Code::NoGuide, all[0].span, message);
         report.push(diagnostic.help(match model.space {
             Space::Plane => "guides that hold a body in the same direction share its load in unknown parts: say it of one of them",
-            Space::Space => "in space a body has one guide: give what slides at several places a body at each, and tie these by `constraints`",
+            Space::Space => "in space a body has one guide, a curve or a surface: give what slides at several places a body at each, and tie these by `constraints`",
         }));
         return None;
     };
@@ -168,13 +195,23 @@ pub(super) fn sliding<'d>(
     for (sliding, guide) in all.iter().zip(&guides) {
         let slip = relative(model, sliding, guide, &mut coasting).slip;
         let (slip, row) = settled(model, &x, slip);
+        let reactions = match sliding.is_second() {
+            // Both tangents have one reaction.
+            true => equations
+                .last()
+                .map_or_else(Vec::new, |first: &SlidingEquation<'d>| {
+                    first.reactions.clone()
+                }),
+            false => solved.by_ref().take(guide.axes.len()).collect(),
+        };
         equations.push(SlidingEquation {
             name: sliding.name.to_string(),
             slip,
             row,
             drift: coasting.of(slip),
             direction: guide.along.clone(),
-            reactions: solved.by_ref().take(guide.axes.len()).collect(),
+            surface: (sliding.normal.clone().zip(sliding.tangent)),
+            reactions,
             friction: sliding.friction,
             static_friction: sliding.static_friction.unwrap_or(sliding.friction),
         });
@@ -212,6 +249,13 @@ fn what_is_wrong<'d>(
     let error = |message: String, help: &str| {
         Some(Diagnostic::new(Code::NoGuide, sliding.span, message).help(help))
     };
+    if let (Some(tangent), Some(normal)) = (sliding.tangent, &sliding.normal) {
+        return match tangent {
+            element::Tangent::First => what_is_wrong_on_surface(model, sliding, normal),
+            // It has been said of the first.
+            element::Tangent::Second => None,
+        };
+    }
     if is_zero(model.dag.sum(sliding.direction.iter().map(|x| x.square()))) {
         return error(
             format!("the direction of `{name}` has no length"),
@@ -243,16 +287,74 @@ fn what_is_wrong<'d>(
             "friction acts where something moves, or could",
         );
     }
-    let alone = model
-        .sliding()
-        .iter()
-        .filter(|s| s.body == sliding.body)
-        .count()
-        == 1;
-    if alone && follows(model, sliding, slip, &mut coasting) {
+    if is_alone(model, sliding) && follows(model, sliding, slip, &mut coasting) {
         return error(
             format!("the body of `{name}` is held by more than this guide"),
-            "where it is on the guide follows from how the guide moves: say under `sliding` what else it slides in, with `friction: 0` where that is smooth",
+            HELD_BY_MORE,
+        );
+    }
+    None
+}
+
+const HELD_BY_MORE: &str = "where it is on the guide follows from how the guide moves: say under `sliding` what else it slides in, with `friction: 0` where that is smooth";
+
+/// Whether a body has no other guide.
+fn is_alone(model: &Model<'_>, sliding: &Sliding<'_>) -> bool {
+    let guides = model.sliding().into_iter().filter(|s| !s.is_second());
+    guides.filter(|s| s.body == sliding.body).count() == 1
+}
+
+/// Why what is said by a normal is no surface on which a body slides.
+fn what_is_wrong_on_surface<'d>(
+    model: &Model<'d>,
+    sliding: &Sliding<'d>,
+    normal: &[Expr<'d>],
+) -> Option<Diagnostic> {
+    let name = &sliding.name;
+    let error = |message: String, help: &str| {
+        Some(Diagnostic::new(Code::NoGuide, sliding.span, message).help(help))
+    };
+    if is_zero(dot(normal, normal)) {
+        return error(
+            format!("the normal of `{name}` has no length"),
+            "it is at right angles to the surface on which the body slides",
+        );
+    }
+    let x = Variables::of(model);
+    let mut coasting = x.coasting(model);
+    let velocity = super::guide::velocity(model, sliding, &mut coasting);
+    if !is_zero(dot(normal, &velocity)) {
+        return error(
+            format!("the coordinates let the body of `{name}` leave its surface"),
+            "the origin of its frame, or the mass centre of a body without one, may move only at right angles to the normal, seen from what it \
+             slides on: write it by two coordinates on the surface, or let it touch the surface by `contacts`",
+        );
+    }
+    let rows: Vec<Vec<Expr<'d>>> = (velocity.iter())
+        .map(|&velocity| gradient(model.dag, velocity, &x.v))
+        .collect();
+    // The velocity is at right angles to the normal, so it has one or two independent components.
+    let cross = |i: usize, j: usize| {
+        let minor = |k: usize, l: usize| rows[k][i] * rows[l][j] - rows[k][j] * rows[l][i];
+        [(1, 2), (2, 0), (0, 1)]
+            .into_iter()
+            .all(|(k, l)| is_zero(minor(k, l)))
+    };
+    let n = x.v.len();
+    if (0..n).all(|i| (0..i).all(|j| cross(i, j))) {
+        return error(
+            format!("the body of `{name}` can move along a line of its surface at most"),
+            "something else holds it, of which nothing is known: along a curve it slides by `direction` in place of `normal`",
+        );
+    }
+    if is_alone(model, sliding)
+        && velocity
+            .iter()
+            .any(|&along| !is_zero(along) && follows(model, sliding, along, &mut coasting))
+    {
+        return error(
+            format!("the body of `{name}` is held by more than this surface"),
+            HELD_BY_MORE,
         );
     }
     None
@@ -298,7 +400,8 @@ impl<'d> Reactions<'d> {
         let x = Variables::of(relaxed);
         let n = model.coordinates.len();
         let dimension = model.space.dimension();
-        let own = |k: usize| n + dimension * k..n + dimension * (k + 1);
+        let numbers = super::guide::guides_of(model);
+        let own = |k: usize| n + dimension * numbers[k]..n + dimension * (numbers[k] + 1);
 
         let unbalanced = Projection::of(relaxed, &x).unbalanced();
         let constraints = constraints::constraints(relaxed);
@@ -307,6 +410,9 @@ impl<'d> Reactions<'d> {
         for (sliding, guide) in relaxed.sliding().into_iter().zip(guides) {
             let relative = relative(relaxed, sliding, guide, &mut coasting);
             slips.push(gradient(dag, relative.slip, &x.v));
+            if sliding.is_second() {
+                continue;
+            }
             offs.extend(
                 relative
                     .off
@@ -325,7 +431,9 @@ impl<'d> Reactions<'d> {
             let row = dag.sum(pairs.map(|(i, &normal)| normal * column(i)));
             closed(&[row])[0]
         };
+        let contacts = model.sliding();
         let axes = guides.iter().enumerate();
+        let axes = axes.filter(|(k, _)| !contacts[*k].is_second());
         let axes = axes.flat_map(|(k, guide)| guide.axes.iter().map(move |axis| (k, &axis[..])));
         let mut rows = Vec::with_capacity(offs.len());
         let mut shares = Vec::with_capacity(offs.len());

@@ -67,6 +67,8 @@ struct Contact {
     reactions: Vec<Component>,
     friction: Scaled,
     static_friction: Scaled,
+    /// In space the direction that tells which part of the reaction presses.
+    telling: Vec<Scaled>,
 }
 
 /// A component of its reaction.
@@ -83,11 +85,16 @@ impl Contact {
             lowering.lower(expressions);
             lowering.values(expressions)
         };
+        let telling = match sliding.reactions.len() {
+            1 => Vec::new(),
+            _ => many(&sliding.telling()),
+        };
         let mut one = |expression| many(&[expression])[0];
         Contact {
             drift: one(sliding.drift),
             friction: one(sliding.friction),
             static_friction: one(sliding.static_friction),
+            telling,
             row: many(&sliding.row),
             reactions: sliding
                 .reactions
@@ -169,5 +176,8 @@ fn results(
     }
     all.extend(contacts.iter().map(|contact| contact.friction));
     all.extend(contacts.iter().map(|contact| contact.static_friction));
+    if layout.axes != 1 {
+        all.extend(contacts.iter().flat_map(|contact| &contact.telling));
+    }
     all
 }

@@ -523,6 +523,16 @@ impl<'a, 'd> Point<'a, 'd> {
                     return Err(wrong(n + m + count + k * layout.axes + axis));
                 }
             }
+            if layout.axes != 1 {
+                let expected = self.evaluate(&contact.telling, a)?;
+                for (i, j) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)] {
+                    let place = layout.directions() + 3 * k;
+                    let told = responses[place + i] * responses[place + j];
+                    if told != expected[i] * expected[j] {
+                        return Err(wrong(place + j));
+                    }
+                }
+            }
             let at = (1 + count) * part + k;
             let expected = self.evaluate(&contact.coefficients, a)?;
             for (index, expected) in [at, at + count].into_iter().zip(expected) {

@@ -700,3 +700,67 @@ fn in_space_too_what_a_guide_carries_is_said_or_asked_for() {
     let found = codes(&sided);
     assert!(matches!(&found[..], [(Code::NotSupported, _)]), "{found:?}");
 }
+
+/// A puck at a place, held to a surface with this normal.
+fn on_surface(place: &str, normal: &str, more: &str) -> String {
+    format!(
+        "machine Puck in space {{
+            parameters {{ m: kg, r: m, mu: 1, g: m/s^2 }}
+            coordinates {{ x: m, y: m, z: m }}
+            bodies {{ puck {{ mass: m, at: {place} }}, other {{ mass: m, at: (0, 0, z) }} {more} }}
+            gravity (0, 0, -g);
+            sliding {{ slot {{ body: puck, on: ground, normal: {normal}, friction: mu }} }}
+        }}"
+    )
+}
+
+#[test]
+fn a_surface_that_is_none_is_refused_once_and_by_its_name() {
+    for (place, normal, code, words) in [
+        ("(x, y, 0)", "(0, 0, 2)", None, ""),
+        ("(x, y, (x^2 + y^2)/r)", "(-2*x/r, -2*y/r, 1)", None, ""),
+        (
+            "(x, y, x)",
+            "(0, 0, 1)",
+            Some(Code::NoGuide),
+            "leave its surface",
+        ),
+        (
+            "(x, y, 0)",
+            "(x - x, 0, 0)",
+            Some(Code::NoGuide),
+            "has no length",
+        ),
+        (
+            "(x, 0, 0)",
+            "(0, 0, 1)",
+            Some(Code::NoGuide),
+            "along a line of its surface",
+        ),
+        (
+            "(x, 2*x, 0)",
+            "(0, 0, 1)",
+            Some(Code::NoGuide),
+            "along a line of its surface",
+        ),
+        // The other moves with it, and nothing says what ties them.
+        (
+            "(x, z, 0)",
+            "(0, 0, 1)",
+            Some(Code::Untied),
+            "the guide `slot`",
+        ),
+    ] {
+        let found = codes(&on_surface(place, normal, ""));
+        match code {
+            None => assert!(found.is_empty(), "{place}: {found:?}"),
+            Some(code) => {
+                let [(known, message)] = &found[..] else {
+                    panic!("{place}: {found:?}");
+                };
+                assert_eq!(*known, code, "{place}: {message}");
+                assert!(message.contains(words), "{place}: {message}");
+            }
+        }
+    }
+}

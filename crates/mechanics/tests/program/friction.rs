@@ -79,9 +79,11 @@ fn accelerations_multipliers_and_reactions_are_right_with_any_friction() {
 #[test]
 fn the_contacts_of_the_library_are_proved() {
     for name in [
+        "bead_in_shell",
         "bead_on_helix",
         "bead_on_hoop",
         "prisms",
+        "puck_in_slot",
         "wedge_and_block",
         "block_on_incline",
         "stick_slip",

@@ -80,6 +80,7 @@ fn damaged_programs_of_every_kind_of_machine_are_stopped() {
         ("prisms", 7),
         ("bead_on_helix", 2),
         ("bead_on_hoop", 5),
+        ("puck_in_slot", 3),
         ("two_body_orbit", 3),
         ("small_angle_crusher", 61),
         ("frozen_crusher", 61),

@@ -38,6 +38,21 @@ impl<'d> Chapter<'_, 'd> {
                  accelerations, and so friction changes the matrix in front of them.",
             ]),
         ];
+        if contacts.iter().any(|contact| contact.is_second()) {
+            let on_surface = Math::row([
+                Math::sign(Sign::Negative),
+                letter('μ') * size(letter('N')) * Math::fraction(letter('w'), size(letter('w'))),
+            ]);
+            blocks.push(Block::Paragraph(words![
+                "On a surface ",
+                letter('w'),
+                " and ",
+                letter('F'),
+                " have a component along each of two tangents, ",
+                letter('F').equals(on_surface),
+                ", and what sticks is held by both together.",
+            ]));
+        }
         for (number, contact) in contacts.iter().enumerate() {
             blocks.extend(self.contact(number, contact));
         }
@@ -50,12 +65,14 @@ impl<'d> Chapter<'_, 'd> {
         let mut rows = self.equality(letter('w'), contact.slip, "slip");
         let constraints = &self.compiled.equations.constraints;
         let multipliers: Vec<Expr<'d>> = constraints.iter().map(|one| one.multiplier).collect();
-        for (normal, axis) in contact
-            .normal(self.model, &multipliers)
-            .into_iter()
-            .zip(['x', 'y', 'z'])
-        {
-            let name = match contact.reactions.len() {
+        let normals = match contact.is_second() {
+            // It stands with the first tangent.
+            true => Vec::new(),
+            false => contact.normal(self.model, &multipliers),
+        };
+        let components = normals.len();
+        for (normal, axis) in normals.into_iter().zip(['x', 'y', 'z']) {
+            let name = match components {
                 1 => letter('N'),
                 _ => letter('N').with_index(letter(axis)),
             };
