@@ -336,6 +336,7 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
         {
             let held = phase.touching.machine(&self.system);
             project(&held, &phase.constraints, t, &mut q, &mut v)
+                .map_err(|error| phase.touching.explain(&self.system, error))
                 .map_err(|error| Error::of_step(error, &self.system))?;
             return Ok((q, v));
         }

@@ -763,7 +763,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             && let Some(touching) = &self.model.touching
         {
             let held = touching.machine(self.model.system.get());
-            return project(&held, &self.model.constraints, t, q, v);
+            let projected = project(&held, &self.model.constraints, t, q, v);
+            return projected.map_err(|error| touching.explain(self.model.system.get(), error));
         }
         project(self.model.system.get(), &self.model.constraints, t, q, v)
     }
@@ -1131,7 +1132,8 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             let held = touching.machine(self.system.get());
             return match &mut self.constraints {
                 Some(constraints) if held.constraints().len() != 0 => {
-                    constraints.project(&held, &mut now.place())
+                    let projected = constraints.project(&held, &mut now.place());
+                    projected.map_err(|error| touching.explain(self.system.get(), error))
                 }
                 _ => Ok(false),
             };

@@ -87,6 +87,9 @@ pub enum ImpactLaw {
 pub enum ContactTrouble {
     /// The law of friction leaves no motion, or more than one: P. Painlevé's paradox.
     Paradox,
+    /// No force along its normal holds it shut: its gap hardly changes with the coordinates, or constraints, walls that move or other
+    /// contacts contradict it. There is no friction in it.
+    NotHeld,
     /// No forces were found that obey the law of friction in space, by a method that converges where there are.
     Unsolved,
     /// A gap is negative at the start.
@@ -107,6 +110,10 @@ impl ContactTrouble {
         match self {
             Self::Paradox => {
                 "its friction leaves no motion, or more than one (a paradox of P. Painlevé)"
+            }
+            Self::NotHeld => {
+                "no force along its normal holds it shut here: its gap hardly changes with the coordinates, or constraints, walls that move or \
+                 other contacts contradict it"
             }
             Self::Unsolved => {
                 "no forces were found that obey the law of friction in space: there may be none"

@@ -9,9 +9,12 @@ use std::io::{self, Write as _};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
+use lagrangian::Machine;
+use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::native::text::{CIRCULAR, LANES, PLAIN, REGISTER, SINCOS, VECTOR, X86};
 use lagrangian::scalar::text::{KERNEL, LIB, REAL, SERIES};
 use lagrangian_emit as emit;
+use lagrangian_linear::starts::dependent_constraint;
 use lagrangian_mechanics::Proved;
 use lagrangian_program::{LONGEST_SCHEDULED, Program, Role, Slot};
 use lagrangian_spec::diagnostic::nearest;
@@ -23,6 +26,26 @@ use crate::failure::Failure;
 use crate::output::{self, Destination, LIBRARY, RUST, keep_apart, keep_document_apart};
 use crate::progress;
 use crate::reading::Reading;
+
+/// Says of constraints that others imply that the library has no answer there: it solves for the multipliers of all.
+fn warn_of_constraints(program: &Proved) {
+    let machine = InterpretedMachine::new(program.clone());
+    let start = machine.start();
+    let are_known = machine
+        .parameter_values()
+        .iter()
+        .all(|value| value.is_finite())
+        && start.q.values.iter().all(|value| value.is_finite());
+    if program.constraints.is_empty() || !are_known {
+        return;
+    }
+    if let Some(constraint) = dependent_constraint(&machine, &start) {
+        output::complain(format_args!(
+            "warning: the constraint `{constraint}` follows from others at the start, and the library, which solves for the multipliers of \
+             all of them, has no accelerations there: where it does so everywhere, leave it out in a variant, `remove constraints.{constraint};`"
+        ));
+    }
+}
 
 /// Runs the command.
 ///
@@ -43,14 +66,16 @@ pub fn run(call: &call::Library) -> Result<(), Failure> {
     if !program.contacts.is_empty() {
         return Err(Failure::run(
             "what sticks and slides has a state that a function of q and v alone does not know: a library of a machine with \
-             `sliding` cannot be made",
+             `sliding` cannot be made; take a variant with a constraint in the place of each guide, or run it by `lagrangian simulate` or the crate",
         ));
     }
     if !program.unilateral.is_empty() {
         return Err(Failure::run(
-            "whether contacts are closed is no function of q and v alone: a library of a machine with `contacts` cannot be made",
+            "whether contacts are closed is no function of q and v alone: a library of a machine with `contacts` cannot be \
+             made; take a variant without them, or run it by `lagrangian simulate` or the crate",
         ));
     }
+    warn_of_constraints(&program);
     let mut lanes = call.lanes.clone();
     lanes.sort_unstable();
     lanes.dedup();

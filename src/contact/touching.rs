@@ -11,7 +11,7 @@ use super::lcp;
 use super::problem::{self, Asked};
 use super::{ContactTrouble, ImpactLaw, ImpactOrder, Painleve};
 use crate::balance::PartOfContact;
-use crate::{Singular, StepError, System, Vector};
+use crate::{Pivot, Singular, StepError, System, Vector};
 use compliant::Yielding;
 pub(crate) use held::Held;
 
@@ -386,12 +386,38 @@ impl Touching {
     pub(super) fn unsolved(&self, asked_of: &[usize], t: f64) -> StepError {
         let trouble = match asked_of.iter().any(|k| self.across[*k]) {
             true => ContactTrouble::Unsolved,
-            false => ContactTrouble::Paradox,
+            false if asked_of.iter().any(|k| self.rubs[*k]) => ContactTrouble::Paradox,
+            false => ContactTrouble::NotHeld,
         };
         StepError::Contact {
             contact: asked_of[0],
             trouble,
             t,
+        }
+    }
+
+    /// An error of the machine with what is closed as constraints: of such a one it is said which contact it is.
+    pub fn explain<S: System>(&self, system: &S, error: StepError) -> StepError {
+        let (StepError::Inconsistent { constraint, t, .. }
+        | StepError::Singular {
+            singular:
+                Singular {
+                    at: Pivot::Constraint(constraint),
+                    ..
+                },
+            t,
+        }) = error
+        else {
+            return error;
+        };
+        let held = constraint.checked_sub(system.constraints().len());
+        match held.and_then(|place| self.held.get(place)) {
+            None => error,
+            Some(direction) => StepError::Contact {
+                contact: self.first(direction / 2),
+                trouble: ContactTrouble::NotHeld,
+                t,
+            },
         }
     }
 

@@ -142,7 +142,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         match trouble {
             ContactTrouble::Unsettled => {}
             // Of several contacts at once the cause may be one of them or the problem that they make together.
-            ContactTrouble::Paradox | ContactTrouble::Unsolved if several => {}
+            ContactTrouble::Paradox | ContactTrouble::Unsolved | ContactTrouble::NotHeld
+                if several => {}
             _ => return Ok(false),
         }
         if !self.pace.is_free {

@@ -345,7 +345,8 @@ pub(super) fn hold<S: System>(
         return Ok(None);
     }
     let mut constraints = Constraints::new(&held, &now.q, &now.v);
-    constraints.begin(&held, &mut now.place(), None)?;
+    let begun = constraints.begin(&held, &mut now.place(), None);
+    begun.map_err(|error| touching.explain(system, error))?;
     // Contacts that share a load depend on each other for as long as they last.
     constraints.at_fork = false;
     Ok(Some(constraints))

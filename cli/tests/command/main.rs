@@ -1,5 +1,6 @@
 //! The command line as a user calls it.
 
+mod audit;
 mod books;
 mod brachistochrone;
 mod browser;

@@ -47,7 +47,7 @@ impl<V: Vector, M: Vector> Canonical<V, M> {
         let n = q.as_slice().len();
         let unsuited = |reason| Err(StepError::Unsuited { reason, t });
         if system.contacts().len() + system.unilateral_contacts().len() != 0 {
-            return unsuited("it has contacts");
+            return unsuited("it has contacts, which `dop853` and `radau5` follow");
         }
         if system.equations() != n {
             return unsuited("its mass matrix is not that of all its coordinates");
@@ -186,9 +186,14 @@ impl Rounds {
     /// Whether that was the last round, by its change and by the size of what was changed; none where there are no numbers, or
     /// too many rounds.
     pub fn is_last(&mut self, change: f64, size: f64) -> Option<bool> {
+        self.is_last_beside(change, (size, 0.0))
+    }
+
+    /// [`is_last`](Self::is_last) where rounding alone changes as much as is said.
+    pub fn is_last_beside(&mut self, change: f64, (size, rounding): (f64, f64)) -> Option<bool> {
         self.count += 1;
         let before = core::mem::replace(&mut self.before, change);
-        let is_close = change <= CLOSE * size;
+        let is_close = change <= CLOSE * size + rounding;
         if !change.is_finite() {
             return None;
         }

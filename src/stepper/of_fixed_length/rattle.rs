@@ -176,6 +176,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             }
             held.multipliers.fill(0.0);
         }
+        // What rounding makes of the constraints is a change of the rates too, however slow these are: from rest they are all there is.
+        let mut rounding = 0.0;
+        if !held.is_empty() {
+            scratch.as_mut_slice().fill(0.0);
+            start.add_momenta(1.0, &before.q, scratch);
+            rounding = 16.0 * f64::EPSILON * f64::EPSILON * dot(scratch, &before.q).abs() / (h * h);
+        }
         here.clone_from(&before.v);
         for (rate, a) in here.as_mut_slice().iter_mut().zip(k[0].as_slice()) {
             *rate += half * a;
@@ -222,7 +229,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                     }
                 }
             }
-            match rounds.is_last(change, size) {
+            match rounds.is_last_beside(change, (size, rounding)) {
                 Some(true) => break,
                 Some(false) => {}
                 None => return Err(not_solved),
