@@ -16,13 +16,13 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 21 | 7 | 0 | 0 | 0 | 28 |
+//! | `prepare` | 19 | 7 | 1 | 0 | 0 | 27 |
 //! | `start` | 2 | 0 | 0 | 0 | 0 | 2 |
 //! | `mass_matrix` | 43 | 18 | 1 | 0 | 0 | 62 |
 //! | `bias` | 66 | 35 | 1 | 0 | 0 | 102 |
 //! | `applied` | 41 | 23 | 2 | 0 | 0 | 66 |
 //! | `forces` | 77 | 42 | 2 | 0 | 0 | 121 |
-//! | `accelerations` | 153 | 87 | 6 | 0 | 0 | 246 |
+//! | `accelerations` | 76 | 42 | 2 | 0 | 0 | 120 |
 //! | `kinetic_energy` | 26 | 15 | 1 | 0 | 0 | 42 |
 //! | `potential_energy` | 6 | 4 | 1 | 0 | 0 | 11 |
 //! | `output_vertical_momentum` | 52 | 32 | 1 | 0 | 0 | 85 |
@@ -80,25 +80,24 @@ impl<S: ::lagrangian::emitted::Scalar> UprightTop<S> {
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.l * self.m;
         let t1 = self.l * t0;
-        let k6 = t0 * self.g;
-        let k2 = t1 * S::from_f64(2.0) + (self.C + self.A * S::from_f64(2.0));
+        let k5 = t0 * self.g;
         let k0 = t1 + self.A;
-        let t2 = k2 - self.C * S::from_f64(3.0);
+        let t2 = t1 * S::from_f64(2.0) + (self.C + self.A * S::from_f64(2.0));
         let t3 = S::from_ratio(4, 3);
         let k1 = k0 - self.C;
-        let k3 = self.A * S::from_f64(4.0);
-        let k4 = self.C * S::from_f64(4.0);
-        let k5 = t1 * S::from_f64(4.0);
-        let k7 = k0 * S::from_f64(4.0);
-        let k8 = S::from_f64(4.0) * (self.C - k0);
-        let k9 = S::from_f64(2.0) * k6;
-        let k10 = t3 * t2;
-        let k11 = self.C * S::from_f64(8.0);
-        let k12 = k2 * S::from_ratio(2, 3);
-        let k13 = S::from_f64(4.0) * k6;
-        let k14 = k2 * t3;
-        let k15 = t3 * (k2 - k0 * S::from_f64(3.0));
-        let k16 = t2 * (t2 * S::from_ratio(16, 9));
+        let k2 = self.A * S::from_f64(4.0);
+        let k3 = self.C * S::from_f64(4.0);
+        let k4 = t1 * S::from_f64(4.0);
+        let k6 = k0 * S::from_f64(4.0);
+        let k7 = S::from_f64(4.0) * (self.C - k0);
+        let k8 = k5 * S::from_f64(2.0);
+        let k9 = t3 * (t2 - self.C * S::from_f64(3.0));
+        let k10 = self.C * S::from_f64(8.0);
+        let k11 = t2 * S::from_ratio(2, 3);
+        let k12 = S::from_f64(4.0) * k5;
+        let k13 = t3 * t2;
+        let k14 = t3 * (t2 - k0 * S::from_f64(3.0));
+        let k15 = S::from_f64(0.5) / k0;
         Prepared {
             C: self.C,
             k0,
@@ -117,7 +116,6 @@ impl<S: ::lagrangian::emitted::Scalar> UprightTop<S> {
             k13,
             k14,
             k15,
-            k16,
         }
     }
 
@@ -169,36 +167,34 @@ pub struct Prepared<S = f64> {
     k0: S,
     /// `A - C + m*l^2`
     k1: S,
-    /// `C + 2*A + 2*m*l^2`
-    k2: S,
     /// `4*A`
-    k3: S,
+    k2: S,
     /// `4*C`
-    k4: S,
+    k3: S,
     /// `4*m*l^2`
-    k5: S,
+    k4: S,
     /// `m*l*g`
-    k6: S,
+    k5: S,
     /// `4*(A + m*l^2)`
-    k7: S,
+    k6: S,
     /// `4*(C - (A + m*l^2))`
-    k8: S,
+    k7: S,
     /// `2*m*l*g`
-    k9: S,
+    k8: S,
     /// `(4/3)*(C + 2*A + 2*m*l^2 - 3*C)`
-    k10: S,
+    k9: S,
     /// `8*C`
-    k11: S,
+    k10: S,
     /// `(2/3)*(C + 2*A + 2*m*l^2)`
-    k12: S,
+    k11: S,
     /// `4*m*l*g`
-    k13: S,
+    k12: S,
     /// `(4/3)*(C + 2*A + 2*m*l^2)`
-    k14: S,
+    k13: S,
     /// `(4/3)*(C + 2*A + 2*m*l^2 - 3*(A + m*l^2))`
+    k14: S,
+    /// `0.5/(A + m*l^2)`
     k15: S,
-    /// `(16/9)*(C + 2*A + 2*m*l^2 - 3*C)^2`
-    k16: S,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
@@ -253,20 +249,20 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 4]
     let t7 = e_2 * e_0;
     let t8 = t0 + t1 + (t2 + t3);
     let t9 = S::ONE / (t8 * t8);
-    let t10 = t9 * p.k7;
-    let t11 = t9 * p.k10;
+    let t10 = t9 * p.k6;
+    let t11 = t9 * p.k9;
     let t12 = t0 * t10 + t3 * t10;
     let t13 = t2 * t10 + t1 * t10;
-    let m11 = t12 + t9 * (t2 * p.k4 + t1 * p.k14);
-    let m21 = -(t9 * (t5 * p.k8 - t4 * p.k15));
-    let m22 = t13 + t9 * (t0 * p.k14 + t3 * p.k4);
-    let m31 = t9 * (p.k15 * t7 + p.k8 * t6);
+    let m11 = t12 + t9 * (t2 * p.k3 + t1 * p.k13);
+    let m21 = -(t9 * (t5 * p.k7 - t4 * p.k14));
+    let m22 = t13 + t9 * (t0 * p.k13 + t3 * p.k3);
+    let m31 = t9 * (p.k14 * t7 + p.k7 * t6);
     let m32 = t11 * (e_2 * e_1);
-    let m33 = t13 + t9 * (t0 * p.k4 + t3 * p.k14);
+    let m33 = t13 + t9 * (t0 * p.k3 + t3 * p.k13);
     let m41 = t11 * (e_3 * e_0);
-    let m42 = t9 * (p.k8 * t7 + p.k15 * t6);
-    let m43 = t9 * (p.k15 * t5 - t4 * p.k8);
-    let m44 = t12 + t9 * (t2 * p.k14 + t1 * p.k4);
+    let m42 = t9 * (p.k7 * t7 + p.k14 * t6);
+    let m43 = t9 * (p.k14 * t5 - t4 * p.k7);
+    let m44 = t12 + t9 * (t2 * p.k13 + t1 * p.k3);
     [
         [m11, m21, m31, m41],
         [m21, m22, m32, m42],
@@ -295,17 +291,17 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 4], v: &[
     let t0 = e_1 * e_1_dot + e_0 * e_0_dot + (e_3 * e_3_dot + e_2 * e_2_dot);
     let t1 = e_2 * e_1_dot + e_0 * e_3_dot - (e_1 * e_2_dot + e_3 * e_0_dot);
     let t2 = S::ONE / (e_1 * e_1 + e_0 * e_0 + (e_3 * e_3 + e_2 * e_2));
-    let t3 = t0 * p.k7;
+    let t3 = t0 * p.k6;
     let t4 = e_1 * e_3_dot + e_0 * e_2_dot - (e_3 * e_1_dot + e_2 * e_0_dot);
-    let t5 = p.k8 * t1;
+    let t5 = p.k7 * t1;
     let t6 = e_3 * e_2_dot + e_0 * e_1_dot - (e_2 * e_3_dot + e_1 * e_0_dot);
     let t7 = e_3_dot * e_3_dot + e_2_dot * e_2_dot;
     let t8 = t2 * t2;
     let t9 = S::from_f64(2.0) * (e_1_dot * e_1_dot + e_0_dot * e_0_dot + t7);
     let t10 = t8 * (t3 * t6 - t5 * t4);
     let t11 = t8 * (t5 * t6 + t4 * t3);
-    let t12 = (t9 - t2 * (t0 * (t0 * S::from_f64(4.0)))) * (t2 * p.k12);
-    let t13 = t8 * p.k11 * (t0 * t1);
+    let t12 = (t9 - t2 * (t0 * (t0 * S::from_f64(4.0)))) * (t2 * p.k11);
+    let t13 = t8 * p.k10 * (t0 * t1);
     let t14 = S::from_f64(2.0) * (e_0 * t10 - e_3 * t11) + e_2 * t13 - e_1 * t12;
     let t15 = S::from_f64(2.0) * (e_1 * t11 - e_2 * t10) + e_0 * t13 - e_3 * t12;
     let t16 = e_0 * t12 + (S::from_f64(2.0) * (e_1 * t10 + e_2 * t11) + e_3 * t13);
@@ -367,11 +363,11 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(
     let t6 = t4 * (e_3 * e_1 - e_2 * e_0);
     let t7 = t4 * (e_1 * e_0 + e_3 * e_2);
     let t8 = (S::ONE - t0) * t5 / (t0 + S::ONE) - t2 * (t3 * S::from_f64(2.0));
-    let t9 = t2 * p.k14 * t8;
-    let q_e_0 = p.k13 * (e_2 * t6 - e_1 * t7) + e_0 * t9;
-    let q_e_1 = p.k13 * (e_0 * t7 + e_3 * t6) + e_1 * t9;
-    let q_e_2 = e_2 * t9 - p.k13 * (e_0 * t6 - e_3 * t7);
-    let q_e_3 = e_3 * t9 - p.k13 * (e_2 * t7 + e_1 * t6);
+    let t9 = t2 * p.k13 * t8;
+    let q_e_0 = p.k12 * (e_2 * t6 - e_1 * t7) + e_0 * t9;
+    let q_e_1 = p.k12 * (e_0 * t7 + e_3 * t6) + e_1 * t9;
+    let q_e_2 = e_2 * t9 - p.k12 * (e_0 * t6 - e_3 * t7);
+    let q_e_3 = e_3 * t9 - p.k12 * (e_2 * t7 + e_1 * t6);
     [q_e_0, q_e_1, q_e_2, q_e_3]
 }
 
@@ -391,17 +387,17 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 4], v: 
     let t3 = S::ONE / t0;
     let t4 = e_3_dot * e_3_dot + e_2_dot * e_2_dot;
     let t5 = e_1_dot * e_1_dot + e_0_dot * e_0_dot + t4;
-    let t6 = p.k7 * t1;
-    let t7 = p.k8 * t2;
+    let t6 = p.k6 * t1;
+    let t7 = p.k7 * t2;
     let t8 = e_1 * e_3_dot + e_0 * e_2_dot - (e_3 * e_1_dot + e_2 * e_0_dot);
     let t9 = e_3 * e_2_dot + e_0 * e_1_dot - (e_2 * e_3_dot + e_1 * e_0_dot);
     let t10 = t3 * t1;
-    let t11 = t3 * (p.k9 * (e_1 * e_0 + e_3 * e_2) + t3 * (t6 * t9 - t7 * t8));
-    let t12 = t3 * (t3 * (t7 * t9 + t8 * t6) - p.k9 * (e_3 * e_1 - e_2 * e_0));
-    let t13 = t10 * (t2 * (t3 * p.k11));
+    let t11 = t3 * (p.k8 * (e_1 * e_0 + e_3 * e_2) + t3 * (t6 * t9 - t7 * t8));
+    let t12 = t3 * (t3 * (t7 * t9 + t8 * t6) - p.k8 * (e_3 * e_1 - e_2 * e_0));
+    let t13 = t10 * (t2 * (t3 * p.k10));
     let t14 = (S::ONE - t0) * (S::ONE + t3 * t5) / (t0 + S::ONE);
-    let t15 = (S::from_f64(2.0) * t5 - t10 * (t1 * S::from_f64(4.0))) * (t3 * p.k12);
-    let t16 = p.k14 * (t14 - S::from_f64(2.0) * t10) - t15;
+    let t15 = (S::from_f64(2.0) * t5 - t10 * (t1 * S::from_f64(4.0))) * (t3 * p.k11);
+    let t16 = p.k13 * (t14 - S::from_f64(2.0) * t10) - t15;
     let t17 = e_0 * t16 - (S::from_f64(2.0) * (e_1 * t11 + e_2 * t12) + e_3 * t13);
     let t18 = S::from_f64(2.0) * (e_0 * t11 - e_3 * t12) + e_2 * t13 + e_1 * t16;
     let t19 = e_2 * t16 - (e_1 * t13 - S::from_f64(2.0) * (e_3 * t11 + e_0 * t12));
@@ -413,7 +409,7 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 4], v: 
     [f_e_0, f_e_1, f_e_2, f_e_3]
 }
 
-/// Accelerations `a`, the solution of `M a = f` eliminated along the machine, pivots ahead.
+/// Accelerations `a`, the solution of `M a = f` eliminated along the machine, factored.
 ///
 /// A pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::emitted::Number>(
@@ -449,104 +445,51 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let e_1_dot = n(v[1]);
         let e_2_dot = n(v[2]);
         let e_3_dot = n(v[3]);
-        let t0 = e_0 * e_0;
-        let t1 = e_2 * e_2;
-        let t2 = e_1 * e_1;
-        let t3 = e_3 * e_3;
-        let t4 = e_0 * e_1;
-        let t5 = e_3 * e_2;
-        let t6 = t2 + t0 + (t3 + t1);
-        let t7 = t5.mul_sub(n(p.k8), t4 * n(p.k15));
-        let t8 = t3.mul_add(n(p.k7), n(p.k7) * t0);
-        let t9 = e_3 * e_1;
-        let t10 = n(p.k7).mul_add(t2, t0 * n(p.k14));
-        let t11 = t10 + t3.mul_add(n(p.k4), t1 * n(p.k7));
-        let t12 = N::ONE / t6;
-        let t13 = e_0 * e_2;
-        let t14 = N::ONE / t11;
-        let t15 = e_3_dot.mul_add(e_3_dot, e_2_dot * e_2_dot);
-        let t16 = e_1_dot.mul_add(e_1_dot, e_0_dot * e_0_dot) + t15;
-        let t17 = e_3.mul_add(e_3_dot, e_2 * e_2_dot);
-        let t18 = e_1.mul_add(e_1_dot, e_0 * e_0_dot) + t17;
-        let t19 = n(p.k15).mul_add(t13, n(p.k8) * t9);
-        let t20 = t12 * t12;
-        let t21 = t14 * t7;
-        let t22 = t14 * t19;
-        let t23 = t20 * (t8 + n(p.k4).mul_add(t1, t2 * n(p.k14)));
-        let t24 = t20 * t18;
-        let t25 = e_1.mul_add(e_2_dot, e_3 * e_0_dot);
-        let t26 = e_2.mul_add(e_1_dot, e_0 * e_3_dot) - t25;
-        let t27 = t20 * t21;
-        let t28 = e_3.mul_add(e_1_dot, e_2 * e_0_dot);
-        let t29 = e_1.mul_add(e_3_dot, e_0 * e_2_dot) - t28;
-        let t30 = n(p.k7) * t24;
-        let t31 = t8 + t1.mul_add(n(p.k14), n(p.k4) * t2);
-        let t32 = e_2.mul_add(e_3_dot, e_1 * e_0_dot);
-        let t33 = e_3.mul_add(e_2_dot, e_0 * e_1_dot) - t32;
-        let t34 = t20 * n(p.k8) * t26;
-        let t35 = t12 * N::from_f64(2.0);
-        let t36 = t7 * t27;
-        let t37 = t27.mul_add(t19, t20 * (e_2 * (n(p.k10) * e_1)));
-        let t38 = t0 * t20;
-        let t39 = t1 * t20;
-        let t40 = t12 * n(p.k9);
-        let t41 = N::ONE / (t36 - t23);
-        let t42 = e_3 * (e_0 * n(p.k10));
-        let t43 = t3 * t20;
-        let t44 = t2 * t20;
-        let t45 = t24 * (t26 * n(p.k11));
-        let t46 = n(p.k7).mul_add(t44, n(p.k7) * t39);
-        let t47 = t40.neg_mul_add(t9 - t13, t34.mul_add(t33, t29 * t30));
-        let t48 = N::from_f64(2.0) * t47;
-        let t49 = (N::ONE - t6) * t12.mul_add(t16, N::ONE) / (N::ONE + t6);
-        let t50 = t24.neg_mul_add(t18 * N::from_f64(4.0), t35 * t16);
-        let t51 = t41 * t37;
-        let t52 = t20 * n(p.k8).mul_add(t13, n(p.k15) * t9);
-        let t53 = t42.mul_add(t27, t52);
-        let t54 = t42.neg_mul_add(t22, n(p.k15).mul_sub(t5, t4 * n(p.k8)));
-        let t55 = n(p.k14).mul_add(t43, n(p.k4) * t38) + t46;
-        let t56 = t40.mul_add(t4 + t5, t30.mul_sub(t33, t34 * t29));
-        let t57 = N::from_f64(2.0) * t56;
-        let t58 = t37.mul_add(t51, t20 * t19.neg_mul_add(t22, t31));
-        let t59 = N::from_ratio(2, 3) * t50;
-        let t60 = t18.neg_mul_add(t35, t49);
-        let t61 = t41 * t53;
-        let t62 = t51.mul_add(t53, t20 * t54);
-        let t63 = N::ONE / t58;
-        let t64 = N::from_ratio(4, 3).mul_sub(t60, t59) * n(p.k2);
-        let t65 = t38.neg_mul_add(t14 * (t3 * n(p.k16)), t55);
-        let t66 = t42 * t14;
-        let t67 = e_1.mul_add(t57, e_2.mul_add(t48, e_3 * t45));
-        let t68 = e_0.neg_mul_add(t64, t67);
-        let t69 = e_2.neg_mul_add(t57, e_1.mul_add(t48, e_0 * t45));
-        let t70 = e_0.neg_mul_add(t57, e_3.mul_sub(t48, e_2 * t45));
-        let t71 = e_3.mul_add(t57, e_0.mul_sub(t48, e_1 * t45));
-        let t72 = t21.mul_add(t68, e_1.neg_mul_add(t64, t70));
-        let t73 = n(p.k7).mul_add(t43, n(p.k7) * t38);
-        let t74 = t63 * t62;
-        let t75 = t66.mul_add(t68, e_3.mul_add(t64, t69));
-        let t76 = t22.mul_add(t68, e_2.mul_add(t64, t71));
-        let t77 = t51.neg_mul_add(t72, t76);
-        let t78 = t62.neg_mul_add(t74, t53.mul_add(t61, t65));
-        let t79 = t12 * t74.neg_mul_add(t77, t61.neg_mul_add(t72, t75));
-        let e_3_ddot = N::ONE / t78 * t79;
-        let e_2_ddot = t74.neg_mul_add(e_3_ddot, t77 * (t12 * t63));
-        let t80 = t61.mul_add(e_3_ddot, t72 * (t12 * t41));
-        let e_1_ddot = t51.mul_add(e_2_ddot, t80);
-        let t81 = t66.mul_add(e_3_ddot, t68 * (t14 * t6));
-        let e_0_ddot = t21.mul_sub(e_1_ddot, t22.mul_add(e_2_ddot, t81));
-        let t82 = t11 * t20;
-        let t83 = t46 + n(p.k4).mul_add(t43, n(p.k14) * t38);
-        let t84 = t23 - t36;
-        let t85 = t73 + n(p.k14).mul_add(t44, n(p.k4) * t39);
-        let t86 = t73 + n(p.k4).mul_add(t44, n(p.k14) * t39);
-        let sound = PIVOTS.hold(t82, t83)
-            & PIVOTS.hold(t84, t85)
-            & PIVOTS.hold(t58, t86)
-            & PIVOTS.hold(t78, t55)
-            & e_0_ddot.is_finite();
+        let t0 = e_1.mul_add(e_1, e_0 * e_0) + e_3.mul_add(e_3, e_2 * e_2);
+        let t1 = e_3_dot.mul_add(e_3_dot, e_2_dot * e_2_dot);
+        let t2 = e_1_dot.mul_add(e_1_dot, e_0_dot * e_0_dot) + t1;
+        let t3 = e_1.mul_add(e_2_dot, e_3 * e_0_dot);
+        let t4 = e_2.mul_add(e_1_dot, e_0 * e_3_dot) - t3;
+        let t5 = e_3.mul_add(e_3_dot, e_2 * e_2_dot);
+        let t6 = e_1.mul_add(e_1_dot, e_0 * e_0_dot) + t5;
+        let t7 = N::ONE / t0;
+        let t8 = n(p.k7) * t4;
+        let t9 = n(p.k6) * t6;
+        let t10 = e_3.mul_add(e_1_dot, e_2 * e_0_dot);
+        let t11 = e_1.mul_add(e_3_dot, e_0 * e_2_dot) - t10;
+        let t12 = e_2.mul_add(e_3_dot, e_1 * e_0_dot);
+        let t13 = e_3.mul_add(e_2_dot, e_0 * e_1_dot) - t12;
+        let t14 = t7 * t6;
+        let t15 = t7 * n(p.k6);
+        let t16 = t7 * n(p.k3);
+        let t17 = n(p.k8) * e_3.mul_sub(e_1, e_2 * e_0);
+        let t18 = n(p.k8) * e_1.mul_add(e_0, e_3 * e_2);
+        let t19 = t14 * N::from_f64(2.0);
+        let t20 = N::from_f64(2.0) * t2;
+        let t21 = t7 * n(p.k13);
+        let t22 = t7 * t7.mul_sub(t8.mul_add(t13, t9 * t11), t17);
+        let t23 = t7 * t7.mul_add(t13.mul_sub(t9, t8 * t11), t18);
+        let t24 = t19 * (t7 * t4);
+        let t25 = t14.neg_mul_add(t6 * N::from_f64(4.0), t20);
+        let t26 = (N::ONE - t0) * t7.mul_add(t2, N::ONE) / (t0 + N::ONE);
+        let t27 = t25 * (t7 * N::from_ratio(2, 3));
+        let t28 = N::from_ratio(4, 3).mul_sub(t26 - t19, t27);
+        let t29 = N::from_f64(0.75) * t28;
+        let t30 = n(p.k15).mul_add(e_2.mul_add(t22, e_1 * t23), e_3 * t24);
+        let t31 = n(p.k15).mul_add(e_0.mul_sub(t23, e_3 * t22), e_2 * t24);
+        let t32 = n(p.k15).mul_sub(e_3.mul_add(t23, e_0 * t22), e_1 * t24);
+        let t33 = n(p.k15).mul_add(e_1.mul_sub(t22, e_2 * t23), e_0 * t24);
+        let e_0_ddot = e_0.mul_sub(t29, t30);
+        let e_1_ddot = e_1.mul_add(t29, t31);
+        let e_2_ddot = e_2.mul_add(t29, t32);
+        let e_3_ddot = e_3.mul_add(t29, t33);
+        let sound = PIVOTS.hold(t15, t15)
+            & PIVOTS.hold(t15, t15)
+            & PIVOTS.hold(t16, t16)
+            & PIVOTS.hold(t21, t21)
+            & e_3_ddot.is_finite();
         if !sound {
-            let pivots = [(0, t82, t83), (1, t84, t85), (2, t58, t86), (3, t78, t55)];
+            let pivots = [(0, t15, t15), (1, t15, t15), (2, t16, t16), (3, t21, t21)];
             PIVOTS.check(pivots)?;
         }
         let accelerations = [
@@ -589,7 +532,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let t3 = e_1 * e_3_dot + e_0 * e_2_dot - (e_3 * e_1_dot + e_2 * e_0_dot);
     let t4 = S::ONE / (t0 * t0);
     let t5 = t3 * t3 + t1 * t1;
-    let t6 = t4 * (p.k5 * t5) + t4 * (t5 * p.k3 + t2 * (t2 * p.k4));
+    let t6 = t4 * (p.k4 * t5) + t4 * (t5 * p.k2 + t2 * (t2 * p.k3));
     S::from_f64(0.5) * t6
 }
 
@@ -604,7 +547,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let e_2 = q[2];
     let e_3 = q[3];
     let t0 = e_2 * e_2 + e_1 * e_1;
-    p.k6 * (S::ONE - t0 * S::from_f64(2.0) / (t0 + (e_3 * e_3 + e_0 * e_0)))
+    p.k5 * (S::ONE - t0 * S::from_f64(2.0) / (t0 + (e_3 * e_3 + e_0 * e_0)))
 }
 
 /// Angular momentum about the vertical: conserved. Unit: `J*s`.
@@ -748,9 +691,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
         axial_momentum: "axial_momentum" "J*s";
         upright: "upright" "1";
     ]
-    prepared Prepared {
-        C, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16,
-    }
+    prepared Prepared { C, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15 }
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
     system {
         matrix mass_matrix(p, t, q) = mass_matrix(p, q);

@@ -7,6 +7,7 @@ mod derivatives;
 mod friction;
 mod stages;
 pub(crate) mod states;
+mod turned;
 
 use lagrangian_symbolic::{self as symbolic, Dag, Expr, Stage, Symbol, nearest, reachable};
 use rustc_hash::FxHashMap;
@@ -1072,14 +1073,27 @@ fn along_the_machine<'d>(
         Basis::Ahead => Order::Ahead,
         _ => Order::Short,
     };
+    // What four numbers turn moves with three velocities.
+    let turned = turned::turned(source.model, machine);
+    let (model, machine) = match &turned {
+        Some(turned) => (&turned.model, &turned.machine),
+        None => (source.model, machine),
+    };
     let Some(articulated::Solution {
         accelerations,
         pivots,
         names,
         ..
-    }) = articulated::solve(source.model, machine, order)
+    }) = articulated::solve(model, machine, order)
     else {
         return Some(Vec::new());
+    };
+    let (accelerations, pivots) = match &turned {
+        Some(turned) => (
+            turned.accelerations(source.model, accelerations),
+            turned.pivots(source.model, pivots),
+        ),
+        None => (accelerations, pivots),
     };
     let values: Vec<Expr<'d>> = pivots.iter().map(|(_, pivot)| *pivot).collect();
     if has_other {

@@ -1,0 +1,176 @@
+//! Angular velocities in the place of rates of the four numbers that turn a frame.
+//!
+//! What is built on a frame moves with the angular velocity ω of its turn, `2/s vec(ē∘ė)`, and how long the four numbers are changes with
+//! `u̇ = e·ė/s` alone. So three columns of velocities hang on them, not four, and one stands apart: eliminated are ω and u̇,
+//!
+//! ```text
+//! ė = ½ e∘ω + e u̇,      and beside the motion without accelerations ë = ½ e∘α + e ü
+//! ```
+//!
+//! for in space what a motion without ë has is among the loads. With `det ∂(ω, u̇)/∂ė = 8/s²` and orthogonal rows the pivots of M are
+//! those of ω times `4/s`, and that of u̇ times `1/s`.
+
+use lagrangian_symbolic::{Dag, Expr, Id, Node, Symbol, Tangent, reachable, substitute};
+use rustc_hash::FxHashMap;
+
+use crate::{InertialPair, Unprojected};
+use lagrangian_spec::model::quaternion;
+use lagrangian_spec::model::{Model, stage};
+
+/// A machine whose velocities are those of turns.
+pub(super) struct Turned<'d> {
+    /// The machine, with the velocities of turns as those of its coordinates.
+    pub model: Model<'d>,
+    pub machine: Unprojected<'d>,
+    /// What the velocities of turns are.
+    meanings: Vec<(Symbol, Expr<'d>)>,
+}
+
+/// The machine in the velocities of its turns; `None` if it has none by four numbers, or something moves with their rates otherwise.
+pub(super) fn turned<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option<Turned<'d>> {
+    if model.quaternions.is_empty() || machine.drifts {
+        return None;
+    }
+    let dag = model.dag;
+    let mut other = model.clone();
+    let mut known: FxHashMap<Id, Expr<'d>> = FxHashMap::default();
+    let mut meanings = Vec::new();
+    for four in &model.quaternions {
+        let places = four.coordinates(model);
+        let rates = places.map(|i| model.coordinates[i].v);
+        let name = &model.coordinates[places[0]].name;
+        // No name of a spec has a space in it.
+        let symbol = |of: &str| dag.symbol(&format!("{of} of {name}"), stage::VELOCITY);
+        let velocities = ["turn x", "turn y", "turn z", "growth"].map(symbol);
+        let s = quaternion::square(&four.e);
+        for (sum, velocity) in quaternion::vector(&four.e, &rates)
+            .into_iter()
+            .zip(velocities)
+        {
+            known.insert(sum.id(), s * velocity / 2);
+        }
+        let pairs = four.e.iter().zip(rates);
+        let pairs = pairs.filter_map(|(e, rate)| Some((e.as_symbol()?, rate)));
+        let growing = Tangent::new(dag, &pairs.collect::<Vec<_>>()).of(s);
+        known.insert(growing.id(), 2 * s * velocities[3]);
+        known.insert(quaternion::along(&four.e, &rates).id(), s * velocities[3]);
+        for (i, velocity) in places.into_iter().zip(velocities) {
+            other.coordinates[i].v = velocity;
+        }
+        let turn = quaternion::turning(&four.e, &rates);
+        let growth = quaternion::along(&four.e, &rates) / s;
+        let values = turn.into_iter().chain([growth]);
+        let pairs = velocities.into_iter().zip(values);
+        meanings.extend(pairs.filter_map(|(velocity, value)| Some((velocity.as_symbol()?, value))));
+    }
+    let pairs = machine.inertia.iter().flat_map(|pair| [pair.u, pair.w]);
+    let loaded = machine.loads.iter().map(|(u, _)| *u);
+    let roots: Vec<Expr<'d>> = pairs.chain(loaded).collect();
+    let mut written = rewritten(dag, &roots, known)?.into_iter();
+    let rates = model
+        .quaternions
+        .iter()
+        .flat_map(|four| four.coordinates(model));
+    let rates: Vec<_> = rates
+        .filter_map(|i| model.coordinates[i].v.as_symbol())
+        .collect();
+    if written
+        .clone()
+        .any(|u| u.symbols().iter().any(|symbol| rates.contains(symbol)))
+    {
+        return None;
+    }
+    let mut next = || written.next();
+    let mut inertia = Vec::with_capacity(machine.inertia.len());
+    for pair in &machine.inertia {
+        let (u, w) = (next()?, next()?);
+        inertia.push(InertialPair { u, w, ..*pair });
+    }
+    let mut loads = Vec::with_capacity(machine.loads.len());
+    for (_, load) in &machine.loads {
+        loads.push((next()?, *load));
+    }
+    let machine = Unprojected {
+        inertia,
+        loads,
+        drifts: false,
+    };
+    Some(Turned {
+        model: other,
+        machine,
+        meanings,
+    })
+}
+
+/// Velocities, sums and products of others, in which some nodes stand for others; `None` where one of these is in a function.
+fn rewritten<'d>(
+    dag: &'d Dag,
+    roots: &[Expr<'d>],
+    mut known: FxHashMap<Id, Expr<'d>>,
+) -> Option<Vec<Expr<'d>>> {
+    for id in reachable(dag, roots) {
+        if known.contains_key(&id) {
+            continue;
+        }
+        let node = dag.node(id);
+        let mut changes = false;
+        node.for_each_child(|child| changes |= known.contains_key(&child));
+        if !changes {
+            continue;
+        }
+        let new = |child: &Id| known.get(child).copied().unwrap_or(dag.expr(*child));
+        let other = match &node {
+            Node::Sum(terms) => dag.sum(terms.iter().map(|(x, c)| new(x) * c.clone())),
+            Node::Product(factors) => dag.product(factors.iter().map(|(x, n)| new(x).powi(*n))),
+            _ => return None,
+        };
+        known.insert(id, other);
+    }
+    let all = roots
+        .iter()
+        .map(|root| known.get(&root.id()).copied().unwrap_or(*root));
+    Some(all.collect())
+}
+
+impl<'d> Turned<'d> {
+    /// The accelerations of the coordinates of the machine from those of its turns, without what they are where neither accelerates.
+    pub fn accelerations(&self, model: &Model<'d>, mut of: Vec<Expr<'d>>) -> Vec<Expr<'d>> {
+        let dag = model.dag;
+        for four in &model.quaternions {
+            let places = four.coordinates(model);
+            let [a, b, c, growth] = places.map(|i| of[i]);
+            let [a, b, c] = [a, b, c].map(|turn| turn / 2);
+            let [w, x, y, z] = four.e;
+            let turned = [
+                dag.sum([w * growth, -(x * a), -(y * b), -(z * c)]),
+                dag.sum([x * growth, w * a, y * c, -(z * b)]),
+                dag.sum([y * growth, w * b, z * a, -(x * c)]),
+                dag.sum([z * growth, w * c, x * b, -(y * a)]),
+            ];
+            for (i, value) in places.into_iter().zip(turned) {
+                of[i] = value;
+            }
+        }
+        // Loads on what is not linear in velocities have some in them.
+        substitute(dag, &of, &self.meanings)
+    }
+
+    /// The pivots of the mass matrix from those of the turns, each with its coordinate.
+    pub fn pivots(
+        &self,
+        model: &Model<'d>,
+        mut of: Vec<(usize, Expr<'d>)>,
+    ) -> Vec<(usize, Expr<'d>)> {
+        for four in &model.quaternions {
+            let s = quaternion::square(&four.e);
+            let places = four.coordinates(model);
+            for (i, pivot) in of.iter_mut().filter(|(i, _)| places.contains(i)) {
+                *pivot = match *i == places[3] {
+                    true => *pivot / s,
+                    false => 4 * *pivot / s,
+                };
+            }
+        }
+        of
+    }
+}
