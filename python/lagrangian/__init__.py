@@ -12,7 +12,7 @@ from ._command import Brachistochrone, Campbell, Check, Published
 from ._equations import Equations, Program
 from ._fit import Combination, Fit
 from ._linear import Linear, Mode, Modes
-from ._machine import Evaluation, Machine, from_urdf, load, loads
+from ._machine import Evaluation, Machine, from_mjcf, from_urdf, load, loads
 from ._named import Named, State
 from ._native import __version__, set_engine, set_threads
 from ._looks import Comparison, Peaks, Section, Spectrum
@@ -86,6 +86,7 @@ __all__ = [
     "UnknownName",
     "__version__",
     "errors",
+    "from_mjcf",
     "from_urdf",
     "load",
     "loads",

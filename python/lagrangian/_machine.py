@@ -74,18 +74,55 @@ def from_urdf(
 
     What was left out is told as warnings of Python. A file at fault is a ValueError that gives the line.
     """
+    return _imported(path, [f"--base={base}"], ball, friction, limits, drop_massless, ignore, constants, parameters)
+
+
+def from_mjcf(
+    path: Union[str, "os.PathLike[str]"],
+    *,
+    ball: Optional[str] = None,
+    friction: Optional[str] = None,
+    limits: str = "none",
+    drop_massless: bool = False,
+    ignore: Sequence[str] = (),
+    constants: Optional[Mapping[str, Any]] = None,
+    **parameters: Number,
+) -> "Machine":
+    """The machine of a robot in a file of MJCF, with the ending ``.xml`` or ``.mjcf``, whose spec ``machine.text`` is: what
+    ``lagrangian import`` writes. The file itself says by ``freejoint`` which bodies float.
+
+    The keywords are the command's options, as of :func:`from_urdf`. What was left out is told as warnings of Python. A file at
+    fault is a ValueError that gives the line.
+    """
+    if os.fspath(path).lower().endswith(".urdf"):
+        raise ValueError(f"{os.fspath(path)}: this is a file of URDF, which from_urdf reads")
+    return _imported(path, [], ball, friction, limits, drop_massless, ignore, constants, parameters)
+
+
+def _imported(
+    path: Union[str, "os.PathLike[str]"],
+    options: List[str],
+    ball: Optional[str],
+    friction: Optional[str],
+    limits: str,
+    drop_massless: bool,
+    ignore: Sequence[str],
+    constants: Optional[Mapping[str, Any]],
+    parameters: Mapping[str, Number],
+) -> "Machine":
+    """The machine that ``lagrangian import`` writes of a robot's file."""
     import warnings
 
-    options = [f"--base={base}", f"--limits={limits}"]
+    options = [*options, f"--limits={limits}"]
     options += [] if ball is None else [f"--ball={ball}"]
     options += [] if friction is None else [f"--friction={friction}"]
     options += ["--drop-massless"] if drop_massless else []
     options += [f"--ignore={name}" for name in ignore]
     document = _command.imported(os.fspath(path), options)
     for warning in document["warnings"]:
-        warnings.warn(str(warning), stacklevel=2)
+        warnings.warn(str(warning), stacklevel=3)
     name = os.path.splitext(os.path.basename(os.fspath(path)))[0]
-    return loads(document["text"], name=f"{name}.machine", files={}, constants=constants, **parameters)
+    return loads(document["text"], name=f"{name}.machine", files={}, constants=constants)._set(parameters)
 
 
 def _constants(constants: Optional[Mapping[str, Any]]) -> List[Tuple[str, str]]:

@@ -157,6 +157,27 @@ def test_robots_move_as_pinocchio_moves_them(name):
             np.testing.assert_allclose(getattr(seen, quantity), truth, rtol=0, atol=CLOSE * np.abs(truth).max())
 
 
+CLOSE_TO_MUJOCO = 1e-12
+MODELS = ROOT / "cli" / "tests" / "command" / "import" / "mujoco"
+
+
+@pytest.mark.parametrize("name", ["ant", "crane", "gripper", "half_cheetah", "hopper", "walker2d"])
+def test_models_move_as_mujoco_moves_them(name):
+    # The references and the tolerance of the command's own test.
+    model = lg.from_mjcf(MODELS / f"{name}.xml")
+    for point in json.loads((MODELS / "mujoco.json").read_text())[name]:
+        truth = np.array(point["accelerations"])
+        seen = model.accelerations(point["q"], point["v"], u=point["inputs"])
+        np.testing.assert_allclose(seen, truth, rtol=0, atol=CLOSE_TO_MUJOCO * np.abs(truth).max())
+
+
+def test_a_model_at_fault_is_told(tmp_path):
+    with pytest.raises(ValueError, match="from_urdf"):
+        lg.from_mjcf(ROOT / "cli" / "tests" / "command" / "import" / "arm.urdf")
+    with pytest.raises(ValueError, match="cannot read"):
+        lg.from_mjcf(tmp_path / "nowhere.xml")
+
+
 def test_a_robot_at_fault_is_told_with_its_line(tmp_path):
     file = tmp_path / "robot.urdf"
     file.write_text('<robot name="r">\n  <link name="a"/>\n  <joint name="j" type="hinge"/>\n</robot>\n')
