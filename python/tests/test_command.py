@@ -19,6 +19,47 @@ def lagrangian(*arguments, **settings):
     return subprocess.run(call, capture_output=True, text=True, cwd=ROOT, **settings)
 
 
+# Where the package has what a command does; None, where the command itself is what is called: what it makes is a file for others.
+IN_PYTHON = {
+    "check": (lg.Machine, "check"),
+    "derive": (lg.Machine, "derive"),
+    "library": None,
+    "fmu": None,
+    "evaluate": (lg.Machine, "evaluate"),
+    "simulate": (lg.Machine, "simulate"),
+    "sweep": (lg.Machine, "sweep"),
+    "map": None,
+    "modes": (lg.Machine, "modes"),
+    "linearize": (lg.Machine, "linearize"),
+    "orbit": (lg.Machine, "orbit"),
+    "sensitivities": (lg.Machine, "sensitivities"),
+    "compare": (lg.Machine, "compare"),
+    "spectrum": (lg.Machine, "spectrum"),
+    "peaks": (lg.Machine, "peaks"),
+    "section": (lg.Machine, "section"),
+    "fit": (lg.Machine, "fit"),
+    "brachistochrone": (lg.Machine, "brachistochrone"),
+    "import": (lg, "from_mjcf"),
+}
+
+
+def commands(help_text):
+    """The names of commands that ``--help`` lists."""
+    listed = help_text.split("Commands:\n")[1].split("\n\n")[0]
+    return [line.split()[0] for line in listed.splitlines() if line.startswith("  ") and line[2] != " "]
+
+
+def test_every_command_has_a_place_in_the_package():
+    told = lagrangian("--help", env={**os.environ, "COLUMNS": "200"})
+    assert told.returncode == 0, told.stderr
+    assert set(commands(told.stdout)) - {"help"} == set(IN_PYTHON)
+    for command, place in IN_PYTHON.items():
+        if place is not None:
+            owner, name = place
+            assert callable(getattr(owner, name, None)), command
+            assert getattr(owner, name).__doc__, command
+
+
 def test_the_package_is_the_command():
     said = lagrangian("simulate", "machines/simple_pendulum.machine", "--until", "1", "--json")
     assert said.returncode == 0, said.stderr
