@@ -15,7 +15,7 @@
 //! holds its body in two directions, and all three rows are taken: the reaction is a vector in ground axes. What acts along the
 //! guide and is written in coordinates is in its part along `e`; `|N|` is the length of the rest.
 //!
-//! On a surface in space, which holds a body from both sides, the slip has two components (E73). They stand as two contacts, the
+//! On a surface in space, which holds a body from both sides, the slip has two components (E76). They stand as two contacts, the
 //! second behind the first, with one displacement and one reaction.
 //!
 //! Where several guides hold one body, each displacement meets the reactions of all of them: the rows
