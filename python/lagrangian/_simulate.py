@@ -254,6 +254,11 @@ class Run:
         """What is to be known although the run ended well."""
         return list(self._native.warnings)
 
+    @property
+    def choices(self) -> List[Tuple[float, str, str]]:
+        """Which methods a run with ``method="auto"`` took: since when, in s, which, and why; of other runs none."""
+        return list(self._native.choices)
+
     def to_numpy(self, names: Optional[Sequence[str]] = None) -> np.ndarray:
         """Columns side by side, (k, columns)."""
         chosen = self.columns if names is None else names
@@ -552,7 +557,8 @@ def simulate(
     * What is kept: every so many seconds, or the instants ``at``; 1000 intervals if nothing is said. ``dense=False`` forgets the
       steps, which ``run.at`` needs.
     * ``tolerance`` is ``relative`` and ``absolute`` at once; ``absolute`` may be a mapping from names to numbers.
-    * ``method``: ``dop853``, ``dopri5``, ``bs32``, ``radau5``, ``radau9`` and ``radau13`` for stiff machines, ``taylor``;
+    * ``method``: ``dop853``, ``dopri5``, ``bs32``, ``radau5``, ``radau9`` and ``radau13`` for stiff machines, ``taylor``; ``auto``
+      goes on by ``radau`` where the machine is stiff and by time stepping where contacts crowd, and ``run.choices`` tells;
       with steps of ``longest_step`` ``rk4``, ``semi-implicit-euler``, ``gauss4``, ``gauss6``, ``gauss8``, ``rattle``, ``generalized-alpha``, ``moreau``.
     * ``keep``: numbers of the start that constraints do not move, ``"theta"`` or ``"der(theta)"``.
     * ``progress``: ``"auto"`` (a line on a terminal after 2 s), False, or ``f(fraction, t, steps)``.
@@ -691,7 +697,8 @@ def simulate(
         "dense": bool(dense),
         "event_names": event_names,
         "engine": _native.engine(),
-        "method": method,
+        # Of a run that chose, the last one.
+        "method": native.choices[-1][1] if native.choices else method,
         "tolerance": (float(relative), float(absolute)),
         "driven": _driven(inputs, known_inputs),
         "arguments": (until, given),

@@ -239,6 +239,15 @@ impl Run {
         warnings.map(ToString::to_string).collect()
     }
 
+    /// Which methods a run chose, where that was left to it: since when, which, and why.
+    #[getter]
+    fn choices(&self) -> Vec<(f64, &'static str, String)> {
+        let choices = self.solution.choices().iter();
+        choices
+            .map(|of| (of.t, of.method.tableau.name, of.reason.to_string()))
+            .collect()
+    }
+
     /// What is wrong with a run that came to its end: more energy is missing than may be.
     fn objection(&self) -> Option<String> {
         verdict::objection(&self.solution)

@@ -24,6 +24,9 @@ const BETWEEN: Duration = Duration::from_millis(50);
 /// More instants than this are a slip of the hand.
 const MOST_SAMPLES: f64 = 5e6;
 
+/// What leaves the method to the run.
+const AUTO: &str = "auto";
+
 /// The names of methods.
 #[pyfunction]
 pub fn methods() -> Vec<&'static str> {
@@ -141,10 +144,15 @@ pub fn simulate(
     settings: Settings,
 ) -> PyResult<(Run, Option<String>)> {
     of.check_parameters(py)?;
-    let Some(method) = Method::named(&settings.method) else {
+    let is_automatic = settings.method == AUTO;
+    let method = match is_automatic {
+        true => Some(<&Method>::default()),
+        false => Method::named(&settings.method),
+    };
+    let Some(method) = method else {
         let known = methods().join(", ");
         return Err(PyValueError::new_err(format!(
-            "no method named {:?}; there are: {known}",
+            "no method named {:?}; there are: {AUTO}, {known}",
             settings.method
         )));
     };
@@ -216,6 +224,7 @@ pub fn simulate(
             states: Vec::new(),
         },
         method,
+        is_automatic,
         start,
         until: settings.until,
         tolerance: [settings.relative, settings.absolute],
@@ -263,6 +272,8 @@ struct Task {
     progress: Option<Py<PyAny>>,
     samples: Samples,
     method: &'static Method,
+    /// Whether the run chooses its methods.
+    is_automatic: bool,
     start: State<Named>,
     until: f64,
     /// Relative and absolute.
@@ -359,6 +370,9 @@ impl Task {
         }
         if !self.dense {
             simulation = simulation.forget_steps();
+        }
+        if self.is_automatic {
+            simulation = simulation.automatic();
         }
         for (name, of) in &self.absolute_of {
             simulation = simulation.absolute_of(name, *of);

@@ -222,6 +222,28 @@ def test_taylor_and_stiff_methods(oscillator):
         np.testing.assert_allclose(run["x"], np.cos(2 * run.t), atol=1e-5)
 
 
+def test_a_run_chooses_its_methods():
+    # x = cos t beside a mass that creeps back in a thick oil, y'' + 2e4 y' + 1e4 y = 0: what is fast dies away at once.
+    stiff = lg.loads(
+        """machine Damped in plane {
+            parameters { k: N/m = 1, c: N*s/m = 2e4 }
+            coordinates { x: m = 1, y: m = 1 }
+            bodies { a { mass: 1, at: (x, 0) }, b { mass: 1, at: (0, y) } }
+            springs { slow { stiffness: k, stretch: x }, fast { stiffness: 1e4*k, stretch: y } }
+            dissipations { oil: 1/2*c*der(y)^2 }
+        }"""
+    )
+    run = stiff.simulate(30, method="auto", tolerance=1e-8)
+    assert [of[1] for of in run.choices] == ["dop853", "radau9"]
+    assert run.choices[0][0] == 0 and "stability" in run.choices[1][2]
+    slow, fast = np.roots([1, 2e4, 1e4])[::-1]
+    y = (fast * math.exp(30 * slow)) / (fast - slow)
+    np.testing.assert_allclose([run.end.q["x"], run.end.q["y"]], [math.cos(30), y], atol=1e-6)
+    assert stiff.simulate(0.01).choices == []
+    with pytest.raises(ValueError, match="there are: auto, dop853"):
+        stiff.simulate(1, method="dop835")
+
+
 def test_scipy_integrates_the_same_machine(double):
     scipy = pytest.importorskip("scipy.integrate")
     solved = scipy.solve_ivp(double.rhs(), (0, 2), double.start.y, method="DOP853", rtol=1e-12, atol=1e-12, vectorized=True)
