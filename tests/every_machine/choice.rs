@@ -35,7 +35,12 @@ fn measured(program: &Proved, role: Role) -> Vec<f64> {
     let mut digits = SplitMix::new(7);
     let mut errors = Vec::with_capacity(STATES);
     for _ in 0..STATES {
-        let Sample { t, q, v } = random.sample();
+        let Sample { t, mut q, v } = random.sample();
+        // Four numbers that turn a frame are as long as a run keeps them, as where the choice estimates.
+        for four in &program.quaternions {
+            let length = four.iter().map(|&i| q[i] * q[i]).sum::<f64>().sqrt();
+            four.iter().for_each(|&i| q[i] /= length);
+        }
         let a = vec![0.3; q.len()];
         let mut sum = 0.0;
         for _ in 0..NEAR {

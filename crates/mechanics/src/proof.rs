@@ -325,6 +325,23 @@ fn validate<'d>(
     }
 }
 
+/// What functions of a machine's equations ask on which side of 0 it is.
+fn asked_sides<'d>(machine: &Lagrange<'_, 'd>) -> Vec<(Expr<'d>, [bool; 2])> {
+    let dag = machine.model.dag;
+    let nodes = reachable(dag, &machine.roots).into_iter();
+    let arguments = nodes.filter_map(|id| match dag.node(id) {
+        Node::Function(Call::Abs | Call::Sign, arguments) => {
+            arguments.first().map(|&id| dag.expr(id))
+        }
+        Node::Function(Call::Min | Call::Max, arguments) => match arguments[..] {
+            [a, b] => Some(dag.expr(a) - dag.expr(b)),
+            _ => None,
+        },
+        _ => None,
+    });
+    arguments.map(|argument| (argument, [false; 2])).collect()
+}
+
 /// About how many values one comparison computes, for a machine of so many nodes: each with three
 /// infinitesimals, which are eight numbers.
 fn work(program: &Program, nodes: usize) -> u64 {
@@ -455,6 +472,9 @@ struct Prover<'a, 'd, R> {
     called: BTreeSet<Role>,
     /// Whether accelerations were, at any point.
     has_moved: bool,
+    /// Arguments of what asks on which side of 0 they are, and whether each has been below and above it where all was equal. A
+    /// program that is right on one side alone agrees at any number of states there.
+    sides: Vec<(Expr<'d>, [bool; 2])>,
 }
 
 impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
@@ -474,6 +494,10 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             seen: vec![false; program.outputs.len()],
             called: BTreeSet::new(),
             has_moved: false,
+            sides: match R::IS_ORDERED {
+                true => asked_sides(parts.machine),
+                false => Vec::new(),
+            },
             parts,
         }
     }
@@ -492,8 +516,10 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
                 Err(Verdict::Elsewhere) => {}
                 Err(Verdict::Wrong(disagreement)) => return Found::Wrong(disagreement),
             }
-            // An output that has a value hardly anywhere is not waited for all the time.
-            let has_seen = self.seen.iter().all(|seen| *seen) || good >= 4 * points;
+            // An output that has a value hardly anywhere is not waited for all the time, nor a side where hardly anything is.
+            let has_seen = self.seen.iter().all(|seen| *seen)
+                && self.sides.iter().all(|(_, sides)| *sides == [true; 2]);
+            let has_seen = has_seen || good >= 4 * points;
             if good >= points && has_seen {
                 return self.covered();
             }
@@ -532,7 +558,16 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         self.interpreter.prepare(&state.parameters);
         self.guards.prepare(&state.parameters);
         let are_facts = facts.iter().all(|x| x.is_positive());
-        match self.compare_at(state, &facts) {
+        let asked: Vec<Expr<'d>> = self.sides.iter().map(|(argument, _)| *argument).collect();
+        let asked = machine.values(&asked, &state);
+        let compared = self.compare_at(state, &facts);
+        if compared.is_ok() {
+            for ((_, sides), argument) in self.sides.iter_mut().zip(asked) {
+                sides[0] |= (-argument).is_positive();
+                sides[1] |= argument.is_positive();
+            }
+        }
+        match compared {
             // Where the spec's facts do not hold, agreement is agreement, and a difference is none.
             Err(Verdict::Wrong(_)) if !are_facts => Err(Verdict::Elsewhere),
             result => result,

@@ -119,6 +119,18 @@ pub fn shares<'d>(model: &Model<'d>) -> Vec<Share<'d>> {
     shares
 }
 
+/// What acts on the lengths of the numbers that turn frames, eq. (E75), one for each coordinate: a part of `Q` that no element makes.
+pub fn on_lengths<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
+    if model.quaternions.is_empty() {
+        return vec![model.dag.zero(); model.coordinates.len()];
+    }
+    let x = Variables::of(model);
+    let projection = Projection::of(model, &x);
+    let mut loads = Loads::default();
+    projection.add_lengths(&mut loads);
+    projection.project(&loads, 0..x.q.len())
+}
+
 /// What is zero becomes 0.
 fn settle<'d>(model: &Model<'d>, shares: &mut [Share<'d>]) {
     let forces = shares.iter().flat_map(|c| c.forces.iter().copied());
@@ -215,6 +227,7 @@ pub fn equation<'d>(
     for (kind, term) in velocity_terms(model, equations.bias[i]) {
         add(kind, term);
     }
+    let on_lengths = on_lengths(model);
     for kind in [
         Kind::Gravity,
         Kind::Springs,
@@ -225,8 +238,9 @@ pub fn equation<'d>(
         let of_kind = shares.iter().filter(|share| share.kind == kind);
         let sum = of_kind.map(|share| share.forces[i]);
         // The row of a state says what its rate is.
-        let rate = model.coordinates[i].rate.filter(|_| kind == Kind::Applied);
-        let sum = dag.sum(sum.chain(rate));
+        let rate = model.coordinates[i].rate;
+        let others = rate.into_iter().chain([on_lengths[i]]);
+        let sum = dag.sum(sum.chain(others.filter(|_| kind == Kind::Applied)));
         let side = if kind == Kind::Applied { sum } else { -sum };
         add(
             kind,

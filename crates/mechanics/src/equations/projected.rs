@@ -232,7 +232,7 @@ impl<'a, 'd> Projection<'a, 'd> {
     }
 
     /// Adds what keeps the lengths of the numbers that turn frames, eq. (E75). It acts on them alone, and is no power.
-    fn add_lengths(&self, loads: &mut Loads<'d>) {
+    pub fn add_lengths(&self, loads: &mut Loads<'d>) {
         let rate = &mut self.x.coasting(self.model);
         for four in &self.model.quaternions {
             let load = four.load(&four.e.map(|e| rate.of(e)));

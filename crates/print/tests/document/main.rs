@@ -84,6 +84,8 @@ fn sources_add_up_to_energies_and_forces() {
                     .to_string()
                     .starts_with("integral(")
             };
+            // What holds the lengths of numbers that turn frames is no source's.
+            let on_lengths = groups::on_lengths(model);
             let mut differences = vec![
                 energy(&|kind| !damps(kind)) - equations.potential_energy,
                 energy(&damps) - equations.dissipation,
@@ -92,7 +94,8 @@ fn sources_add_up_to_energies_and_forces() {
                 (0..model.coordinates.len())
                     .filter(|&i| !is_integral(i))
                     .map(|i| {
-                        dag.sum(shares.iter().map(|part| part.forces[i])) - equations.applied[i]
+                        let forces = shares.iter().map(|part| part.forces[i]);
+                        dag.sum(forces.chain([on_lengths[i]])) - equations.applied[i]
                     }),
             );
             for values in residues(model, equations, &differences, false) {
