@@ -234,6 +234,9 @@ impl Command {
             add("--until-event", &call.ends);
             add("--reduce", &call.reductions);
         }
+        if let Command::Fmu(call) = self {
+            named.extend(call.events.iter().map(|set| ("--event", set.name.as_str())));
+        }
         if let Some(runs) = self.runs() {
             let mut add = |option: &'static str, list: &'a [Assignment]| {
                 named.extend(list.iter().map(|set| (option, set.name.as_str())));
@@ -476,6 +479,10 @@ pub struct Fmu {
     /// Which variables are outputs, as in `--outputs theta1,energy.kinetic`: in place of those of the spec, or of the coordinates.
     #[arg(long, value_name = "NAME,…", value_parser = names)]
     pub outputs: Option<Names>,
+    /// Watch for changes of sign of a formula, as in `--event low=theta1`: an event indicator for importers that integrate, and an output
+    /// `event.low` that counts them.
+    #[arg(long = "event", value_name = "NAME=FORMULA", value_parser = assignment, allow_hyphen_values = true)]
+    pub events: Vec<Assignment>,
     /// By which method the unit integrates in co-simulation: `dop853` of order 8, or `dopri5` of order 5, whose steps are cheaper, for
     /// points of communication that are close together.
     #[arg(long, value_enum, default_value_t = UnitMethod::Dop853)]

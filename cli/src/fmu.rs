@@ -20,10 +20,11 @@ use lagrangian_emit::c::uniform::{self, Derivatives};
 use lagrangian_mechanics::{Compiled, Unproved};
 use lagrangian_program::Program;
 use lagrangian_spec::diagnostic::nearest;
+use lagrangian_spec::model::stage;
 use lagrangian_symbolic::Dag;
 use serde_json::json;
 
-use crate::call::{self, Engine, Running, UnitKind, UnitMethod};
+use crate::call::{self, Assignment, Engine, Running, UnitKind, UnitMethod};
 use crate::evaluate::set_start;
 use crate::failure::Failure;
 use crate::output::{self, Destination, UNIT, keep_apart, keep_document_apart};
@@ -120,6 +121,8 @@ struct Unit<'a> {
     /// What the library and the archive are called, as an identifier of C.
     identifier: String,
     variables: Variables,
+    /// Events that the call watches for; their formulas are the last outputs of the program.
+    events: &'a [Assignment],
     /// Whether there are derivatives in a direction, and backwards.
     has_derivatives: bool,
     /// Another machine, another token.
@@ -139,8 +142,14 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
         _ => Version::Three,
     };
     let dag = Dag::new();
-    let compiled = Reading::open(&call.spec)?.compile_beside(&dag, [&out])?;
+    let mut reading = Reading::open(&call.spec)?;
+    for event in &call.events {
+        check_name(&event.name)?;
+        reading.ask(&format!("--event {}", event.name), &event.value, None);
+    }
+    let compiled = reading.compile_beside(&dag, [&out])?;
     check_sections(&compiled.program)?;
+    check_events(&compiled, &call.events)?;
     let given = call::Start {
         parameters: call.parameters.clone(),
         coordinates: call.coordinates.clone(),
@@ -153,7 +162,7 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
     let start = start(&machine, &given)?;
     check_defaults(&compiled.program, &machine)?;
     check_constraints(&machine, &given, &call.spec.path)?;
-    let variables = Variables::new(&compiled.program);
+    let variables = Variables::new(&compiled.program, &call.events);
     let variables = match &call.outputs {
         None => variables,
         Some(call::Names(names)) => variables.with_outputs(names, unknown_output)?,
@@ -171,6 +180,7 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
         method: call.method,
         identifier: identifier(&call.out),
         variables,
+        events: &call.events,
         has_derivatives: derivatives.is_some(),
         token: String::new(),
     };
@@ -236,13 +246,14 @@ fn say(call: &call::Fmu, unit: &Unit<'_>, platforms: &[&str]) {
                 "parameters": parameters.len(),
                 "inputs": inputs.len(),
                 "outputs": outputs,
+                "events": call.events.len(),
             })
         ));
         return;
     }
     let kinds: Vec<&str> = unit.kinds.iter().map(|kind| kind.words()).collect();
     output::line(format_args!(
-        "{}: FMI {}, {}, {}; {}, {}, {}, {}",
+        "{}: FMI {}, {}, {}; {}, {}, {}, {}{}",
         call.out.display(),
         unit.version.name(),
         kinds.join(" and "),
@@ -254,6 +265,10 @@ fn say(call: &call::Fmu, unit: &Unit<'_>, platforms: &[&str]) {
         count(parameters.len(), "parameter"),
         count(inputs.len(), "input"),
         count(outputs, "output"),
+        match call.events.len() {
+            0 => String::new(),
+            events => format!(", {}", count(events, "event")),
+        },
     ));
 }
 
@@ -278,6 +293,35 @@ fn check_sections(program: &Program) -> Result<(), Failure> {
     Err(Failure::run(format!(
         "there is no unit of this machine: {why}"
     )))
+}
+
+/// Refuses a name that is no part of a variable's: what counts the event is `event.NAME`.
+fn check_name(name: &str) -> Result<(), Failure> {
+    let is_word = name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+        && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+    match is_word {
+        true => Ok(()),
+        false => Err(Failure::Call(format!(
+            "--event {name}: the name of an event is made of the letters a to z, digits and `_`, since a variable is called by it: \
+             event.NAME"
+        ))),
+    }
+}
+
+/// Refuses formulas of accelerations, and those that nothing changes.
+fn check_events(compiled: &Compiled<'_>, events: &[Assignment]) -> Result<(), Failure> {
+    let outputs = &compiled.model.outputs;
+    let formulas = &outputs[outputs.len() - events.len()..];
+    for (event, formula) in events.iter().zip(formulas) {
+        let why = match formula.value.stage() {
+            stage::ACCELERATION => "depends on accelerations, which may jump",
+            known if known <= stage::PARAMETER => "does not change while the machine moves",
+            _ => continue,
+        };
+        let Assignment { name, value } = event;
+        return Err(Failure::Call(format!("--event {name}: `{value}` {why}")));
+    }
+    Ok(())
 }
 
 /// Refuses parameters and inputs without values: in a unit everything has a start value.

@@ -16,6 +16,8 @@ pub struct Dependencies<'a> {
     prepared: Vec<BTreeSet<Source>>,
     /// For each acceleration what it is a function of.
     accelerations: Vec<BTreeSet<Source>>,
+    /// How many outputs stand before the formulas of events.
+    shown: usize,
 }
 
 impl<'a> Dependencies<'a> {
@@ -27,6 +29,7 @@ impl<'a> Dependencies<'a> {
             variables: &unit.variables,
             prepared: reads(&program.prepare),
             accelerations: Vec::new(),
+            shown: program.outputs.len() - unit.events.len(),
         };
         let accelerations = dependencies.results(Role::Accelerations);
         dependencies.accelerations = accelerations;
@@ -58,7 +61,10 @@ impl<'a> Dependencies<'a> {
             Kind::KineticEnergy => whole(Role::KineticEnergy),
             Kind::PotentialEnergy => whole(Role::PotentialEnergy),
             Kind::Fact(i) => whole(Role::Assumption(i)),
-            Kind::Time
+            Kind::Event(i) => whole(Role::Output(self.shown + i)),
+            // What was counted before stays, whatever else changes.
+            Kind::Count(_)
+            | Kind::Time
             | Kind::Parameter(_)
             | Kind::Input(_)
             | Kind::Coordinate(_)

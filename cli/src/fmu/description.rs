@@ -7,7 +7,7 @@ use super::units::Units;
 use super::variables::{Kind, Variable};
 use super::xml::Document;
 use super::{Unit, Version};
-use crate::call::UnitKind;
+use crate::call::{Assignment, UnitKind};
 
 /// Where the default experiment ends, in s.
 const STOP: &str = "5";
@@ -39,7 +39,7 @@ pub fn text(unit: &Unit<'_>) -> String {
         true => "structured",
         false => "flat",
     };
-    let indicators = program.assumptions.len().to_string();
+    let indicators = (program.assumptions.len() + unit.events.len()).to_string();
     let (token, count) = match unit.version {
         Version::Two => ("guid", indicators.as_str()),
         Version::Three => ("instantiationToken", ""),
@@ -64,7 +64,12 @@ pub fn text(unit: &Unit<'_>) -> String {
     }
     units.write(&mut document);
     document.open("LogCategories", &[]);
-    for name in ["logStatusWarning", "logStatusDiscard", "logStatusError"] {
+    for name in [
+        "logEvents",
+        "logStatusWarning",
+        "logStatusDiscard",
+        "logStatusError",
+    ] {
         document.leaf("Category", &[("name", name)]);
     }
     document.close();
@@ -119,8 +124,14 @@ fn of_kind(document: &mut Document, unit: &Unit<'_>, kind: UnitKind) {
         (Version::Two, UnitKind::CoSimulation) if !unit.program.inputs.is_empty() => "true",
         _ => "",
     };
+    let has_events = !unit.events.is_empty();
+    let needs = has_events || !unit.program.constraints.is_empty();
     let needs_steps = match (unit.version, kind) {
-        (Version::Three, UnitKind::ModelExchange) if !unit.program.constraints.is_empty() => "true",
+        (Version::Three, UnitKind::ModelExchange) if needs => "true",
+        _ => "",
+    };
+    let event_mode = match (unit.version, kind) {
+        (Version::Three, UnitKind::CoSimulation) if has_events => "true",
         _ => "",
     };
     let attributes = [
@@ -132,6 +143,7 @@ fn of_kind(document: &mut Document, unit: &Unit<'_>, kind: UnitKind) {
         ("providesAdjointDerivatives", adjoint),
         ("canHandleVariableCommunicationStepSize", steps),
         ("canInterpolateInputs", interpolates),
+        ("hasEventMode", event_mode),
     ];
     match unit.version {
         Version::Three => document.leaf(name, &attributes),
@@ -240,14 +252,31 @@ fn row(unit: &Unit<'_>, variable: &Variable, units: &mut Units) -> Row {
             let text = &program.assumptions[i].text;
             calculated(String::new(), format!("Positive as long as {text}"))
         }
+        Kind::Event(i) => {
+            let slot = &program.outputs[program.outputs.len() - unit.events.len() + i];
+            let Assignment { name, value } = &unit.events[i];
+            let docs = format!("Changes its sign at the event {name}: {}", words(value));
+            calculated(units.of_slot(slot), docs)
+        }
+        Kind::Count(i) => Row {
+            variability: "discrete",
+            ..calculated(
+                String::new(),
+                format!("How often the event {} happened", unit.events[i].name),
+            )
+        },
     }
 }
 
 fn of_three(document: &mut Document, reference: usize, variable: &Variable, row: &Row) {
     let reference = reference.to_string();
     let derivative = row.derivative.map(|k| k.to_string()).unwrap_or_default();
+    let of_type = match variable.kind {
+        Kind::Count(_) => "Int32",
+        _ => "Float64",
+    };
     document.leaf(
-        "Float64",
+        of_type,
         &[
             ("name", variable.name.as_str()),
             ("valueReference", &reference),
@@ -278,8 +307,12 @@ fn of_two(document: &mut Document, reference: usize, variable: &Variable, row: &
     // Variables are counted from 1, in their order.
     let derivative = row.derivative.map(|k| (k + 1).to_string());
     let derivative = derivative.unwrap_or_default();
+    let of_type = match variable.kind {
+        Kind::Count(_) => "Integer",
+        _ => "Real",
+    };
     document.leaf(
-        "Real",
+        of_type,
         &[
             ("unit", row.unit.as_str()),
             ("start", &row.start),
@@ -307,7 +340,8 @@ fn structure(document: &mut Document, unit: &Unit<'_>) {
     let mut unknown: Vec<usize> = unknown.filter(is_calculated).collect();
     unknown.sort_unstable();
     unknown.dedup();
-    let facts: Vec<usize> = of(|kind| matches!(kind, Kind::Fact(_))).collect();
+    let indicators = of(|kind| matches!(kind, Kind::Fact(_) | Kind::Event(_)));
+    let indicators: Vec<usize> = indicators.collect();
     let dependencies = Dependencies::new(unit);
     document.open("ModelStructure", &[]);
     match unit.version {
@@ -316,7 +350,7 @@ fn structure(document: &mut Document, unit: &Unit<'_>) {
                 ("Output", &outputs),
                 ("ContinuousStateDerivative", &derivatives),
                 ("InitialUnknown", &unknown),
-                ("EventIndicator", &facts),
+                ("EventIndicator", &indicators),
             ] {
                 for reference in references {
                     let of = dependencies.of(*reference, name == "InitialUnknown");

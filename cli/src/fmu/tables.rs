@@ -49,6 +49,14 @@ pub fn text(unit: &Unit<'_>) -> String {
         "0",
     );
     list(&mut text, "unsigned char", "FACT_IS_STRICT", strict, "0");
+    let events = unit.events.iter().map(|event| event.name.clone());
+    list(
+        &mut text,
+        "char *const",
+        "EVENT_NAMES",
+        events.map(quoted),
+        "0",
+    );
     text.push_str("\n/* Which start values stay where the start does not obey the constraints, and which constraints are of positions. */\n");
     let kept = kept(program).into_iter().map(|x| u8::from(x).to_string());
     list(&mut text, "unsigned char", "IS_KEPT", kept, "0");
@@ -58,7 +66,9 @@ pub fn text(unit: &Unit<'_>) -> String {
     let has = |kind| u8::from(unit.kinds.contains(&kind));
     let _ = write!(
         text,
-        "\nenum {{ HAS_MODEL_EXCHANGE = {}, HAS_CO_SIMULATION = {} }};\n\n#define TOLERANCE {:?}\n",
+        "\n/* How many of the last outputs are formulas of events. */\nenum {{ EVENTS = {} }};\n\n\
+         enum {{ HAS_MODEL_EXCHANGE = {}, HAS_CO_SIMULATION = {} }};\n\n#define TOLERANCE {:?}\n",
+        unit.events.len(),
         has(UnitKind::ModelExchange),
         has(UnitKind::CoSimulation),
         unit.tolerance

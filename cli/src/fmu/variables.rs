@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use lagrangian_program::Program;
 use lagrangian_units::state_of;
 
+use crate::call::Assignment;
 use crate::failure::Failure;
 
 /// What a variable is.
@@ -21,6 +22,10 @@ pub enum Kind {
     KineticEnergy,
     PotentialEnergy,
     Fact(usize),
+    /// The formula of an event.
+    Event(usize),
+    /// How often it happened.
+    Count(usize),
 }
 
 /// A variable; its reference is its place.
@@ -41,14 +46,16 @@ pub struct Variables {
 }
 
 impl Variables {
-    /// Those of a machine; outputs are those of its spec, or its coordinates.
-    pub fn new(program: &Program) -> Variables {
+    /// Those of a machine; outputs are those of its spec, or its coordinates. The last outputs of the program are the formulas of
+    /// events.
+    pub fn new(program: &Program, events: &[Assignment]) -> Variables {
         let names = |slots: &[lagrangian_program::Slot]| -> Vec<String> {
             let names = slots.iter().map(|slot| slot.name.to_string());
             names.map(|name| structured(&name)).collect()
         };
         let coordinates = names(&program.coordinates);
-        let has_outputs = !program.outputs.is_empty();
+        let shown = &program.outputs[..program.outputs.len() - events.len()];
+        let has_outputs = !shown.is_empty();
         let mut all = vec![(Kind::Time, "time".to_owned())];
         let each = |names: &[String], kind: fn(usize) -> Kind, form: fn(&str) -> String| {
             let names = names.iter().enumerate();
@@ -79,7 +86,7 @@ impl Variables {
             str::to_owned,
         ));
         all.extend(each(&names(&program.inputs), Kind::Input, str::to_owned));
-        all.extend(each(&names(&program.outputs), Kind::Output, str::to_owned));
+        all.extend(each(&names(shown), Kind::Output, str::to_owned));
         let constraints = program.constraints.iter().enumerate();
         all.extend(constraints.map(|(i, constraint)| {
             let name = constraint.name.replace(['\'', '\\', '"'], "");
@@ -92,6 +99,11 @@ impl Variables {
             let text = fact.text.replace(['\'', '\\', '"'], "");
             (Kind::Fact(i), format!("'assume({text})'"))
         }));
+        let events: Vec<String> = events.iter().map(|event| event.name.clone()).collect();
+        all.extend(each(&events, Kind::Event, |name| {
+            format!("'indicator({name})'")
+        }));
+        all.extend(each(&events, Kind::Count, |name| format!("event.{name}")));
         let mut taken = BTreeSet::new();
         let all: Vec<Variable> = all
             .into_iter()
@@ -99,7 +111,7 @@ impl Variables {
                 kind,
                 name: free(name, &mut taken),
                 is_output: match kind {
-                    Kind::Output(_) => true,
+                    Kind::Output(_) | Kind::Count(_) => true,
                     Kind::Coordinate(i) => !has_outputs && states[i].is_none(),
                     Kind::Rate(i) => !has_outputs && states[i].is_some(),
                     _ => false,
@@ -134,7 +146,9 @@ impl Variables {
             }
         }
         for variable in &mut self.all {
-            variable.is_output = may_be(variable) && names.contains(&variable.name);
+            // What counts an event is there for nothing else.
+            let is_count = matches!(variable.kind, Kind::Count(_));
+            variable.is_output = is_count || may_be(variable) && names.contains(&variable.name);
         }
         Ok(self)
     }

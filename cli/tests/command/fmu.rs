@@ -457,6 +457,121 @@ fn a_unit_says_what_is_wrong() {
     }
 }
 
+/// A ball and a pendulum with events whose instants have closed forms, as a unit of a version.
+fn eventful(version: &str, method: &str, further: &[&str]) -> (Scratch, Value) {
+    let spec = "machine Two in plane {
+        parameters { g: m/s^2 = 9.81, high: m = 2.3 }
+        coordinates { y: m = 2, theta: rad = 1 }
+        assume { y > -1000*m }
+        bodies {
+            ball { mass: 1*kg, at: (0, y) },
+            bob { mass: 2*kg, at: 0.5*m*(sin(theta), -cos(theta)) },
+        }
+        gravity (0, -g);
+    }";
+    let spec = Scratch::new("two.machine", spec);
+    let at = Scratch::new("Machine.fmu", "");
+    let options = [
+        &["--fmi", version, "--method", method, "--rate", "y=3"][..],
+        &["--event", "high=y-high", "--event", "low=y-1*m"],
+        // Zero at the start but for a rounding, of another sign than a little later.
+        &["--event", "begin=y/3-0.6666666666666667*m"],
+        &["--event", "bottom=theta"],
+        further,
+    ];
+    let made = unit(spec.path(), &at, &options.concat());
+    assert_eq!(made["events"], json!(4 + further.len() / 2));
+    (at, made)
+}
+
+/// Instants, counts, ends of steps and saved states, by an importer in C; and what the descriptions say.
+#[test]
+fn a_unit_finds_its_events() {
+    let cases = [
+        ("3", "dop853", &[][..], include_str!("fmu/events3.c")),
+        ("3", "dopri5", &[], include_str!("fmu/events3.c")),
+        ("2", "dop853", &[], include_str!("fmu/events2.c")),
+        (
+            "3",
+            "dop853",
+            &["--event", "lost=sqrt(y+9*m)"],
+            concat!("#define LOST 1\n", include_str!("fmu/events3.c")),
+        ),
+    ];
+    for (version, method, further, driver) in cases {
+        let (at, made) = eventful(version, method, further);
+        let folder = at.0.parent().expect("a folder");
+        let files = files(&at.0);
+        for (name, content) in &files {
+            let name = name.rsplit('/').next().expect("a name");
+            fs::write(folder.join(name), content).expect("a file");
+        }
+        fs::write(folder.join("events.h"), include_str!("fmu/events.h")).expect("a file");
+        fs::write(folder.join("driver.c"), driver).expect("a file");
+        let mut cc = Command::new("cc");
+        cc.current_dir(folder)
+            .args(["-std=c99", "-Wall", "-Werror"]);
+        cc.arg(format!("-DTOKEN={}", made["token"]));
+        cc.args(["driver.c", "./Machine.so", "-o", "driver", "-lm"]);
+        run(cc.arg("-Wl,-rpath,."), "");
+        run(Command::new("./driver").current_dir(folder), "");
+        if !further.is_empty() {
+            continue; // references behind the formulas are others
+        }
+        let description = text(&files, "modelDescription.xml");
+        let wanted: &[&str] = match version {
+            "3" => &[
+                "<EventIndicator valueReference=\"11\" dependencies=\"1\"",
+                "<EventIndicator valueReference=\"15\" dependencies=\"2\"",
+                "needsCompletedIntegratorStep=\"true\"",
+                "hasEventMode=\"true\"",
+                "<Int32 name=\"event.bottom\" valueReference=\"19\"",
+                "<Float64 name=\"'indicator(low)'\" valueReference=\"13\" description=\"Changes its sign at the event low: y-1*m\" \
+                 causality=\"local\" variability=\"continuous\" initial=\"calculated\" unit=\"m\"/>",
+            ],
+            _ => &["numberOfEventIndicators=\"5\"", "<Integer/>"],
+        };
+        for words in wanted {
+            assert!(description.contains(words), "{words}: {description}");
+        }
+    }
+    // Without events nothing of that.
+    let at = Scratch::new("Pendulum.fmu", "");
+    let made = unit("machines/double_pendulum.machine", &at, &["--sources-only"]);
+    assert_eq!(made["events"], json!(0));
+    let description = text(&files(&at.0), "modelDescription.xml");
+    for words in ["Int32", "EventIndicator", "hasEventMode", "needsCompleted"] {
+        assert!(!description.contains(words), "{words}: {description}");
+    }
+}
+
+#[test]
+fn events_that_are_none_are_refused() {
+    let at = Scratch::new("machine.fmu", "older");
+    let pendulum = "machines/double_pendulum.machine";
+    for (events, status, words) in [
+        (&["low=theta3"][..], 1, "did you mean `theta1`?"),
+        (&["low=theta1+1*m"], 1, "expected rad, found m"),
+        (&["low=(1, 2)"], 1, "found a vector"),
+        (&["low=theta1 <"], 1, "--event low"),
+        (&["low"], 2, "expected NAME=VALUE"),
+        (&["low="], 2, "expected a value behind `=`"),
+        (&["low=theta1", "low=theta2"], 2, "more than once"),
+        (&["so low=theta1"], 2, "letters a to z"),
+        (&["θ=theta1"], 2, "letters a to z"),
+        (&["low=m1-1*kg"], 2, "does not change"),
+        (&["low=der(der(theta1))"], 2, "accelerations"),
+    ] {
+        let events = events.iter().flat_map(|event| ["--event", event]);
+        let events: Vec<&str> = events.collect();
+        let output = lagrangian(&[&["fmu", pendulum, "--out", at.path()], &events[..]].concat());
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(status), "{events:?}: {said}");
+        assert!(said.contains(words), "{events:?}: {said}");
+        assert_eq!(fs::read_to_string(&at.0).expect("a file"), "older");
+    }
+}
+
 #[test]
 fn what_no_unit_can_be_is_refused() {
     let at = Scratch::new("machine.fmu", "older");
@@ -543,6 +658,13 @@ fn fmpy_validates_and_simulates() {
     if !found.is_ok_and(|output| output.status.success()) {
         println!("skipped: {python} has no FMPy");
         return;
+    }
+    for version in ["2", "3"] {
+        let (at, _) = eventful(version, "dop853", &[]);
+        let mut command = Command::new(&python);
+        command.args(["-c", include_str!("fmu/events.py"), at.path()]);
+        let said = run(&mut command, "");
+        assert!(said.contains("valid"), "{version}: {said}");
     }
     // A start that is off its constraint by a hundredth, and moves along the rod onto it.
     let rod = "machine Rod in plane {

@@ -8,7 +8,7 @@
 #include "fmi2Functions.h"
 
 static void reportOf2(const Unit *unit, Outcome outcome, const char *message) {
-    static const char *const categories[] = {"logAll", "logStatusWarning", "logStatusDiscard", "logStatusError"};
+    static const char *const categories[] = {"logEvents", "logStatusWarning", "logStatusDiscard", "logStatusError"};
     fmi2CallbackLogger log;
     memcpy(&log, &unit->callback, sizeof log);
     if (log) log(unit->environment, unit->name, (fmi2Status)outcome, categories[outcome], "%s", message);
@@ -73,7 +73,7 @@ fmi2Status fmi2ExitInitializationMode(fmi2Component c) {
     if (started != WELL) return (fmi2Status)started;
     if (evaluate(unit)) return (fmi2Status)withoutAccelerations(unit, FAILED);
     checkFacts(unit);
-    return fmi2OK;
+    return (fmi2Status)beginEvents(unit);
 }
 
 fmi2Status fmi2Terminate(fmi2Component c) {
@@ -94,6 +94,16 @@ fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nv
     return (fmi2Status)set(c, vr, nvr, value);
 }
 
+fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Integer value[]) {
+    return (fmi2Status)getCounts(c, vr, nvr, value);
+}
+
+/* What is counted is nobody's to set. */
+fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Integer value[]) {
+    (void)value;
+    return nvr ? (fmi2Status)unknown(c, vr[0]) : fmi2OK;
+}
+
 /* There are no variables of these types. */
 #define NO_VARIABLES(Type) \
     fmi2Status fmi2Get##Type(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2##Type value[]) { \
@@ -105,7 +115,6 @@ fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nv
         return nvr ? absent(c, "fmi2Set" #Type) : fmi2OK; \
     }
 
-NO_VARIABLES(Integer)
 NO_VARIABLES(Boolean)
 NO_VARIABLES(String)
 
@@ -164,6 +173,7 @@ fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *fmi2eventInfo) 
     const int is_off = isOff(unit) > LEFT;
     if (is_off && project(unit, 0)) return (fmi2Status)say(unit, FAILED, "the state cannot be moved back onto the constraints");
     checkFacts(c);
+    settleEvents(c);
     memset(fmi2eventInfo, 0, sizeof *fmi2eventInfo);
     fmi2eventInfo->valuesOfContinuousStatesChanged = is_off;
     return fmi2OK;
@@ -180,7 +190,8 @@ fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean noSetFMUStat
                                        fmi2Boolean *terminateSimulation) {
     (void)noSetFMUStatePriorToCurrentPoint;
     checkFacts(c);
-    *enterEventMode = isOff(c) > LEFT;
+    const int is_crossed = isCrossed(c);
+    *enterEventMode = isOff(c) > LEFT || is_crossed;
     *terminateSimulation = fmi2False;
     return fmi2OK;
 }
@@ -202,8 +213,8 @@ fmi2Status fmi2GetDerivatives(fmi2Component c, fmi2Real derivatives[], size_t nx
 }
 
 fmi2Status fmi2GetEventIndicators(fmi2Component c, fmi2Real eventIndicators[], size_t ni) {
-    if (ni != FACTS) return absent(c, "another number of event indicators");
-    getFacts(c, eventIndicators);
+    if (ni != INDICATORS) return absent(c, "another number of event indicators");
+    getIndicators(c, eventIndicators);
     return fmi2OK;
 }
 

@@ -8,7 +8,7 @@
 #include "fmi3Functions.h"
 
 static void reportOf3(const Unit *unit, Outcome outcome, const char *message) {
-    static const char *const categories[] = {"logAll", "logStatusWarning", "logStatusDiscard", "logStatusError"};
+    static const char *const categories[] = {"logEvents", "logStatusWarning", "logStatusDiscard", "logStatusError"};
     fmi3LogMessageCallback log;
     memcpy(&log, &unit->callback, sizeof log);
     if (log) log(unit->environment, (fmi3Status)outcome, categories[outcome], message);
@@ -48,10 +48,15 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String instanceName, fmi3String ins
                                          fmi3Boolean earlyReturnAllowed, const fmi3ValueReference requiredIntermediateVariables[],
                                          size_t nRequiredIntermediateVariables, fmi3InstanceEnvironment instanceEnvironment,
                                          fmi3LogMessageCallback logMessage, fmi3IntermediateUpdateCallback intermediateUpdate) {
-    (void)resourcePath, (void)visible, (void)eventModeUsed, (void)earlyReturnAllowed, (void)requiredIntermediateVariables;
-    (void)nRequiredIntermediateVariables, (void)intermediateUpdate;
+    (void)resourcePath, (void)visible, (void)requiredIntermediateVariables, (void)nRequiredIntermediateVariables;
+    (void)intermediateUpdate;
     if (!HAS_CO_SIMULATION) return NULL;
-    return instantiate3(instanceName, instantiationToken, instanceEnvironment, logMessage, loggingOn, 1);
+    Unit *unit = instantiate3(instanceName, instantiationToken, instanceEnvironment, logMessage, loggingOn, 1);
+    if (unit) {
+        unit->has_event_mode = EVENTS > 0 && eventModeUsed;
+        unit->may_stop = unit->has_event_mode && earlyReturnAllowed;
+    }
+    return unit;
 }
 
 fmi3Instance fmi3InstantiateScheduledExecution(fmi3String instanceName, fmi3String instantiationToken, fmi3String resourcePath,
@@ -78,17 +83,17 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean tolera
 fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
     Unit *unit = instance;
     prepare(unit);
-    unit->now.mode = unit->is_co_simulation ? STEPPING : EVENT;
+    unit->now.mode = unit->is_co_simulation && !unit->has_event_mode ? STEPPING : EVENT;
     const Outcome started = projectStart(unit);
     if (started != WELL) return (fmi3Status)started;
     if (evaluate(unit)) return (fmi3Status)withoutAccelerations(unit, FAILED);
     checkFacts(unit);
-    return fmi3OK;
+    return (fmi3Status)beginEvents(unit);
 }
 
 fmi3Status fmi3EnterEventMode(fmi3Instance instance) {
     Unit *unit = instance;
-    if (unit->is_co_simulation) return absent(instance, "fmi3EnterEventMode");
+    if (unit->is_co_simulation && !unit->has_event_mode) return absent(instance, "fmi3EnterEventMode");
     unit->now.mode = EVENT;
     return fmi3OK;
 }
@@ -115,6 +120,19 @@ fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference valueR
     return (fmi3Status)set(instance, valueReferences, nValueReferences, values);
 }
 
+fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                        fmi3Int32 values[], size_t nValues) {
+    if (nValues != nValueReferences) return absent(instance, "arrays");
+    return (fmi3Status)getCounts(instance, valueReferences, nValueReferences, values);
+}
+
+/* What is counted is nobody's to set. */
+fmi3Status fmi3SetInt32(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                        const fmi3Int32 values[], size_t nValues) {
+    (void)values, (void)nValues;
+    return nValueReferences ? (fmi3Status)unknown(instance, valueReferences[0]) : fmi3OK;
+}
+
 /* There are no variables of these types. */
 #define NO_VARIABLES(Type) \
     fmi3Status fmi3Get##Type(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences, \
@@ -133,7 +151,6 @@ NO_VARIABLES(Int8)
 NO_VARIABLES(UInt8)
 NO_VARIABLES(Int16)
 NO_VARIABLES(UInt16)
-NO_VARIABLES(Int32)
 NO_VARIABLES(UInt32)
 NO_VARIABLES(Int64)
 NO_VARIABLES(UInt64)
@@ -294,6 +311,7 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *discrete
     const int is_off = !unit->is_co_simulation && isOff(unit) > LEFT;
     if (is_off && project(unit, 0)) return (fmi3Status)say(unit, FAILED, "the state cannot be moved back onto the constraints");
     checkFacts(instance);
+    settleEvents(unit);
     *discreteStatesNeedUpdate = fmi3False;
     *terminateSimulation = fmi3False;
     *nominalsOfContinuousStatesChanged = fmi3False;
@@ -314,7 +332,8 @@ fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean noSetF
                                        fmi3Boolean *enterEventMode, fmi3Boolean *terminateSimulation) {
     (void)noSetFMUStatePriorToCurrentPoint;
     checkFacts(instance);
-    *enterEventMode = isOff(instance) > LEFT;
+    const int is_crossed = isCrossed(instance);
+    *enterEventMode = isOff(instance) > LEFT || is_crossed;
     *terminateSimulation = fmi3False;
     return fmi3OK;
 }
@@ -336,8 +355,8 @@ fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, fmi3Float64 
 }
 
 fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 eventIndicators[], size_t nEventIndicators) {
-    if (nEventIndicators != FACTS) return absent(instance, "another number of event indicators");
-    getFacts(instance, eventIndicators);
+    if (nEventIndicators != INDICATORS) return absent(instance, "another number of event indicators");
+    getIndicators(instance, eventIndicators);
     return fmi3OK;
 }
 
@@ -357,7 +376,7 @@ fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance, fmi3Float64 
 
 fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *nEventIndicators) {
     (void)instance;
-    *nEventIndicators = FACTS;
+    *nEventIndicators = INDICATORS;
     return fmi3OK;
 }
 
@@ -389,8 +408,14 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
     *terminateSimulation = fmi3False;
     *earlyReturn = fmi3False;
     Outcome outcome = FAILED;
-    if (unit->now.mode == STEPPING) outcome = integrate(unit, currentCommunicationPoint + communicationStepSize);
-    else say(unit, FAILED, "fmi3DoStep is for co-simulation behind its initialization");
+    const double until = currentCommunicationPoint + communicationStepSize;
+    if (unit->now.mode == STEPPING) {
+        outcome = integrate(unit, until);
+        *eventHandlingNeeded = outcome == WELL && unit->has_stopped;
+        *earlyReturn = *eventHandlingNeeded && unit->now.time < until;
+    } else {
+        say(unit, FAILED, "fmi3DoStep is for co-simulation behind its initialization, outside of event mode");
+    }
     *lastSuccessfulTime = unit->now.time;
     return (fmi3Status)outcome;
 }

@@ -13,6 +13,9 @@
 
 enum {
     STATES = 2 * COORDINATES,
+    /* The formulas of events are outputs of the program behind those of the spec. */
+    SHOWN = OUTPUTS - EVENTS,
+    INDICATORS = FACTS + EVENTS,
     /* References of values: a number for each, in this order. */
     AT_TIME = 0,
     AT_STATES = 1,
@@ -20,11 +23,13 @@ enum {
     AT_PARAMETERS = AT_ACCELERATIONS + COORDINATES,
     AT_INPUTS = AT_PARAMETERS + PARAMETERS,
     AT_OUTPUTS = AT_INPUTS + INPUTS,
-    AT_MULTIPLIERS = AT_OUTPUTS + OUTPUTS,
+    AT_MULTIPLIERS = AT_OUTPUTS + SHOWN,
     AT_KINETIC_ENERGY = AT_MULTIPLIERS + CONSTRAINTS,
     AT_POTENTIAL_ENERGY,
     AT_FACTS,
-    REFERENCES = AT_FACTS + FACTS
+    AT_EVENTS = AT_FACTS + FACTS,
+    /* How often each event happened, a whole number. */
+    AT_COUNTS = AT_EVENTS + EVENTS
 };
 
 /* Beyond this share of the size of their terms a state is off its constraints. */
@@ -53,6 +58,14 @@ typedef struct {
     unsigned char is_started;
     /* Which facts were broken when it was looked last. */
     unsigned char is_broken[FACTS + 1];
+    /* For each event the sign that its formula had last, 0 before it has one; the sign behind a crossing that ended a step of
+       co-simulation and is not counted yet, or 0; and how often it happened. */
+    signed char side[EVENTS + 1], passed[EVENTS + 1];
+    int count[EVENTS + 1];
+    /* What the formula must exceed before its sign counts, where the run starts at its zero; else 0. */
+    double leave[EVENTS + 1];
+    /* Whether signs are to be looked at before the next step: something was set, or a step ended at an event. */
+    unsigned char is_unsettled;
     Mode mode;
 } State;
 
@@ -76,8 +89,10 @@ struct Unit {
     /* A step of co-simulation. */
     double slopes[STAGES][STATES + 1];
     double point[STATES + 1], fine[STATES + 1], coarse[STATES + 1];
-    /* For whom it runs. */
-    int is_co_simulation, is_logging;
+    /* The length of the step that was tried last. */
+    double tried;
+    /* For whom it runs; whether the importer handles events, whether a step may end there, and whether the last one did. */
+    int is_co_simulation, is_logging, has_event_mode, may_stop, has_stopped;
     Report *report;
     void *environment;
     void *callback;
@@ -164,6 +179,15 @@ static Outcome unknown(Unit *unit, unsigned reference) {
     return say(unit, FAILED, unit->message);
 }
 
+/* The formulas of all events, at a time and a state; they depend on no accelerations. */
+static void watch(const Unit *unit, double t, const double *states, double *to) {
+    double inputs[INPUTS + 1], all[OUTPUTS + 1];
+    if (EVENTS == 0) return;
+    for (int i = 0; i < INPUTS; ++i) inputs[i] = unit->now.inputs[i] + (t - unit->now.time) * unit->now.input_rates[i];
+    unitOutputs(&unit->prepared, t, states, states + COORDINATES, inputs, unit->accelerations, all);
+    for (int k = 0; k < EVENTS; ++k) to[k] = all[SHOWN + k];
+}
+
 /* Numbers by reference. */
 static Outcome get(Unit *unit, const unsigned *references, size_t count, double *to) {
     State *now = &unit->now;
@@ -195,12 +219,25 @@ static Outcome get(Unit *unit, const unsigned *references, size_t count, double 
             to[k] = unitKineticEnergy(&unit->prepared, now->time, q, v, u);
         } else if (i == AT_POTENTIAL_ENERGY) {
             to[k] = unitPotentialEnergy(&unit->prepared, now->time, q, v, u);
-        } else if (i < REFERENCES) {
+        } else if (i < AT_EVENTS) {
             unitFacts(&unit->prepared, now->time, q, v, u, a, several);
             to[k] = several[i - AT_FACTS];
+        } else if (i < AT_COUNTS) {
+            watch(unit, now->time, now->states, several);
+            to[k] = several[i - AT_EVENTS];
         } else {
             return unknown(unit, i);
         }
+    }
+    return WELL;
+}
+
+/* Whole numbers by reference: how often events happened. */
+static Outcome getCounts(Unit *unit, const unsigned *references, size_t count, int *to) {
+    for (size_t k = 0; k < count; ++k) {
+        const unsigned i = references[k];
+        if (i < AT_COUNTS || i >= AT_COUNTS + EVENTS) return unknown(unit, i);
+        to[k] = unit->now.count[i - AT_COUNTS];
     }
     return WELL;
 }
@@ -226,6 +263,7 @@ static Outcome set(Unit *unit, const unsigned *references, size_t count, const d
         } else {
             now->inputs[i - AT_INPUTS] = values[k];
         }
+        now->is_unsettled = 1;
         unit->is_evaluated = 0;
     }
     return WELL;
@@ -258,6 +296,117 @@ static void getFacts(Unit *unit, double *to) {
     const double *v = now->states + COORDINATES;
     unitFacts(&unit->prepared, now->time, now->states, v, now->inputs, unit->accelerations, all);
     memcpy(to, all, FACTS * sizeof *to);
+}
+
+/* All indicators: where one changes its sign, something happens. */
+static void getIndicators(Unit *unit, double *to) {
+    getFacts(unit, to);
+    watch(unit, unit->now.time, unit->now.states, to + FACTS);
+}
+
+/*
+ * Events: formulas of the state that change their signs. What is 0 has no sign. Where the run starts at a zero, to rounding, the sign
+ * is the one just behind.
+ */
+
+static double sizeOf(double x) { return x < 0.0 ? -x : x; }
+
+static int signOf(double x) { return (x > 0.0) - (x < 0.0); }
+
+/* The sign of a value that an event's formula has at some state of the run; 0 as long as it has not left the zero of the start. */
+static int signOfEvent(Unit *unit, int k, double value) {
+    if (sizeOf(value) <= unit->now.leave[k]) return 0;
+    unit->now.leave[k] = 0.0;
+    return signOf(value);
+}
+
+static Outcome withoutEvent(Unit *unit, int k, double t) {
+    snprintf(unit->message, sizeof unit->message, "at t = %.17g s the formula of event %s is no number", t, EVENT_NAMES[k]);
+    return say(unit, FAILED, unit->message);
+}
+
+/* The signs of all formulas at the start, where there are accelerations. */
+static Outcome beginEvents(Unit *unit) {
+    /* So many roundings of the state, and of a function of some ten operations, may stand in the place of a zero. */
+    const double rounding = 0x1p-48;
+    State *now = &unit->now;
+    double values[EVENTS + 1], moved[EVENTS + 1], noise[EVENTS + 1], states[STATES + 1];
+    if (EVENTS == 0) return WELL;
+    const double *q = now->states, *v = q + COORDINATES, *a = unit->accelerations;
+    watch(unit, now->time, now->states, values);
+    memset(noise, 0, sizeof noise);
+    for (int number = -1; number < STATES; ++number) {
+        double most[EVENTS + 1];
+        memset(most, 0, sizeof most);
+        for (int side = -1; side <= 1; side += 2) {
+            memcpy(states, now->states, STATES * sizeof *states);
+            if (number >= 0) states[number] *= 1.0 + side * rounding;
+            watch(unit, now->time * (number < 0 ? 1.0 + side * rounding : 1.0), states, moved);
+            for (int k = 0; k < EVENTS; ++k)
+                if (sizeOf(moved[k] - values[k]) > most[k]) most[k] = sizeOf(moved[k] - values[k]);
+        }
+        for (int k = 0; k < EVENTS; ++k) noise[k] += most[k];
+    }
+    for (int k = 0; k < EVENTS; ++k) {
+        if (values[k] != values[k]) return withoutEvent(unit, k, now->time);
+        now->passed[k] = 0;
+        now->leave[k] = 0.0;
+        now->side[k] = (signed char)signOf(values[k]);
+        if (sizeOf(values[k]) > noise[k]) continue;
+        now->side[k] = 0;
+        now->leave[k] = 2.0 * (noise[k] > sizeOf(values[k]) ? noise[k] : sizeOf(values[k]));
+        /* A little later, and not much: at the first instant at which the formula is more than noise. */
+        for (double h = 1e-12; h < 1.0 && !now->side[k]; h *= 4.0) {
+            for (int i = 0; i < COORDINATES; ++i) {
+                states[i] = q[i] + h * (v[i] + 0.5 * h * a[i]);
+                states[COORDINATES + i] = v[i] + h * a[i];
+            }
+            watch(unit, now->time + h, states, moved);
+            if (sizeOf(moved[k]) > now->leave[k]) now->side[k] = (signed char)signOf(moved[k]);
+        }
+    }
+    now->is_unsettled = 0;
+    return WELL;
+}
+
+/* Counts an event at a time, behind which its formula has a sign. */
+static void countEvent(Unit *unit, int k, double t, int sign) {
+    State *now = &unit->now;
+    now->side[k] = (signed char)sign;
+    /* The largest number that an importer reads stays. */
+    if (now->count[k] < 2147483647) ++now->count[k];
+    snprintf(unit->message, sizeof unit->message, "at t = %.17g s event %s, %s", t, EVENT_NAMES[k], sign > 0 ? "rising" : "falling");
+    say(unit, WELL, unit->message);
+}
+
+/* Whether a formula has another sign now than it had last, for model exchange; those without a sign get theirs. */
+static int isCrossed(Unit *unit) {
+    double values[EVENTS + 1];
+    int is_crossed = 0;
+    prepare(unit);
+    watch(unit, unit->now.time, unit->now.states, values);
+    for (int k = 0; k < EVENTS; ++k) {
+        const int sign = signOfEvent(unit, k, values[k]);
+        if (!unit->now.side[k]) unit->now.side[k] = (signed char)sign;
+        else if (sign && sign != unit->now.side[k]) is_crossed = 1;
+    }
+    return is_crossed;
+}
+
+/* Counts what has another sign at the state as it is, or has ended a step. */
+static void settleEvents(Unit *unit) {
+    State *now = &unit->now;
+    double values[EVENTS + 1];
+    prepare(unit);
+    watch(unit, now->time, now->states, values);
+    for (int k = 0; k < EVENTS; ++k) {
+        /* A step that ended at a crossing ended behind it, whatever rounding or a projection did to the state since. */
+        const int sign = now->passed[k] ? now->passed[k] : signOfEvent(unit, k, values[k]);
+        now->passed[k] = 0;
+        if (now->side[k] && sign && sign != now->side[k]) countEvent(unit, k, now->time, sign);
+        else if (sign) now->side[k] = (signed char)sign;
+    }
+    now->is_unsettled = 0;
 }
 
 /* Warns of each fact that does not hold any more. */
@@ -594,8 +743,6 @@ static Outcome begin(Unit *unit, int has_tolerance, double tolerance, double sta
 /* So many tries of a step may be between two communication points. */
 #define MOST_TRIES 10000000L
 
-static double sizeOf(double x) { return x < 0.0 ? -x : x; }
-
 /* What an error in a state is measured by. */
 static double scaleOf(const Unit *unit, double before, double after) {
     const double a = sizeOf(before), b = sizeOf(after);
@@ -619,6 +766,7 @@ static double firstStep(const Unit *unit, double most) {
    than 0 where there are no accelerations on the way. */
 static double tryStep(Unit *unit, double h) {
     const State *now = &unit->now;
+    unit->tried = h;
     for (int stage = 1; stage <= STAGES; ++stage) {
         for (int i = 0; i < STATES; ++i) {
             double sum = 0.0;
@@ -646,9 +794,128 @@ static double tryStep(Unit *unit, double h) {
     return isFinite(error) ? error : -1.0;
 }
 
+/* Where in a step the signs of events are looked at: what comes and goes between two of these is missed. */
+enum { LOOKS = 4 };
+static const double LOOKS_AT[LOOKS] = {0.25, 0.5, 0.75, 1.0};
+
+/* The formulas of events along the step that was tried: at its end, and before by polynomials through the state at both ends and the
+   accelerations at the first, which cost no evaluation. */
+static void lookAlong(Unit *unit, double h, double seen[LOOKS][EVENTS + 1]) {
+    const State *now = &unit->now;
+    double states[STATES + 1];
+    for (int look = 0; look < LOOKS - 1; ++look) {
+        const double x = LOOKS_AT[look];
+        for (int i = 0; i < COORDINATES; ++i) {
+            const double v = now->states[COORDINATES + i], a = unit->slopes[0][COORDINATES + i];
+            const double moved = unit->point[i] - now->states[i] - h * (v + 0.5 * h * a);
+            const double sped = h * (unit->point[COORDINATES + i] - v - h * a);
+            const double cubic = 4.0 * moved - sped, quartic = sped - 3.0 * moved;
+            states[i] = now->states[i] + x * (h * (v + 0.5 * x * h * a) + x * x * (cubic + x * quartic));
+            states[COORDINATES + i] = v + x * (h * a + x * (3.0 * cubic + 4.0 * x * quartic) / h);
+        }
+        watch(unit, now->time + x * h, states, seen[look]);
+    }
+    watch(unit, now->time + h, unit->point, seen[LOOKS - 1]);
+}
+
+/* The formula of an event at the end of a step of the length h, by the method itself; 0 where there is no such step. */
+static double atEndOf(Unit *unit, double h, int k) {
+    double values[EVENTS + 1];
+    if (tryStep(unit, h) < 0.0) return 0.0;
+    watch(unit, unit->now.time + h, unit->point, values);
+    return values[k];
+}
+
+/*
+ * The length of the step that ends just behind a change of sign, found by steps of the method itself: as exact as the end of
+ * any step. Behind a step of the length `late` the formula has another sign, which `sign` is, and the value `value`.
+ */
+static double locate(Unit *unit, int k, double early, double late, int sign, double value) {
+    const double instant = sizeOf(unit->now.time) + late;
+    /* To 1e-13 s, or the rounding of time. */
+    const double nearest = 1e-13 > 1e-15 * instant ? 1e-13 : 1e-15 * instant;
+    double at_early = 0.0, at_late = sign * value;
+    for (int tries = 0; tries < 200 && late - early > nearest; ++tries) {
+        double middle = 0.5 * (early + late);
+        /* Where the chord is 0, beside that by half of what is asked for, so that the interval closes from both sides; each third time its
+           half, whatever the formula is. */
+        if (tries % 3 != 2 && at_early < 0.0) {
+            const double chord = early + (late - early) * (at_early / (at_early - at_late));
+            const double beside = chord - early < late - chord ? chord + 0.5 * nearest : chord - 0.5 * nearest;
+            if (beside > early && beside < late) middle = beside;
+        }
+        if (!(middle > early && middle < late)) break;
+        const double there = sign * atEndOf(unit, middle, k);
+        if (there > 0.0) late = middle, at_late = there;
+        else early = middle, at_early = there;
+    }
+    return late;
+}
+
+/* The length of the step up to the next change of sign of a formula, behind a step of the length `early` and from a look on; 0 if there
+   is none. */
+static double nextCrossing(Unit *unit, double h, int k, double seen[LOOKS][EVENTS + 1], int *look, double early, int *sign) {
+    State *now = &unit->now;
+    for (; *look < LOOKS; ++*look) {
+        double value = seen[*look][k];
+        *sign = signOfEvent(unit, k, value);
+        if (!now->side[k]) now->side[k] = (signed char)*sign;
+        if (!*sign || *sign == now->side[k]) continue;
+        /* What the polynomial says is not certain. */
+        const double late = LOOKS_AT[*look] * h;
+        if (*look < LOOKS - 1) value = atEndOf(unit, late, k);
+        if (late <= early || signOf(value) != *sign) continue;
+        ++*look;
+        return locate(unit, k, early, late, *sign, value);
+    }
+    return 0.0;
+}
+
+/*
+ * Looks for events in the step that was tried. Where a step may not end there they are counted, and the step stays; where it may, the
+ * step is tried again up to the first of them. The length of the step that stands in `point`; 0 where a formula is no number.
+ */
+static double lookForEvents(Unit *unit, double h) {
+    State *now = &unit->now;
+    double seen[LOOKS][EVENTS + 1], first = h;
+    int which = -1, sign_of_first = 0;
+    lookAlong(unit, h, seen);
+    for (int k = 0; k < EVENTS; ++k) {
+        if (seen[LOOKS - 1][k] == seen[LOOKS - 1][k]) continue;
+        withoutEvent(unit, k, now->time + h);
+        return 0.0;
+    }
+    for (int k = 0; k < EVENTS; ++k) {
+        int look = 0, sign = 0;
+        double at = 0.0;
+        while ((at = nextCrossing(unit, h, k, seen, &look, at, &sign)) > 0.0) {
+            if (!unit->may_stop) {
+                countEvent(unit, k, now->time + at, sign);
+                continue;
+            }
+            if (which < 0 || at < first) first = at, which = k, sign_of_first = sign;
+            break;
+        }
+    }
+    /* The search leaves another step in `point`. */
+    if (unit->tried != first) tryStep(unit, first);
+    if (which < 0) return h;
+    /* Others that happen at the same time, to rounding. */
+    watch(unit, now->time + first, unit->point, seen[0]);
+    for (int k = 0; k < EVENTS; ++k) {
+        const int sign = signOfEvent(unit, k, seen[0][k]);
+        if (sign && now->side[k] && sign != now->side[k]) now->passed[k] = (signed char)sign;
+    }
+    now->passed[which] = (signed char)sign_of_first;
+    now->is_unsettled = 1;
+    unit->has_stopped = 1;
+    return first;
+}
+
 /*
  * Integrates to a time, which is hit exactly by a shortened step; the step after that is as long as it would have been. Where it
- * ends before, the state is that of the last good step.
+ * ends before, the state is that of the last good step. Where a step may end at events it ends behind the first, and `has_stopped`
+ * says so.
  */
 static Outcome integrate(Unit *unit, double until) {
     State *now = &unit->now;
@@ -656,9 +923,11 @@ static Outcome integrate(Unit *unit, double until) {
     if (!isFinite(until)) return say(unit, FAILED, "the end of the step is not finite");
     if (until < now->time) return say(unit, FAILED, "a step ends before it begins");
     prepare(unit);
+    if (now->is_unsettled) settleEvents(unit);
     unit->is_evaluated = 0;
+    unit->has_stopped = 0;
     int is_new = 1;
-    while (now->time < until) {
+    while (now->time < until && !unit->has_stopped) {
         const double left = until - now->time;
         if (is_new) {
             unit->singular = differentiate(unit, now->time, now->states, unit->slopes[0]);
@@ -671,9 +940,12 @@ static Outcome integrate(Unit *unit, double until) {
         const double h = is_last ? left : now->step;
         const double error = tryStep(unit, h);
         if (error >= 0.0 && error <= 1.0) {
+            const double gone = EVENTS > 0 ? lookForEvents(unit, h) : h;
+            if (!(gone > 0.0)) return FAILED;
             memcpy(now->states, unit->point, STATES * sizeof *now->states);
-            for (int i = 0; i < INPUTS; ++i) now->inputs[i] += h * now->input_rates[i];
-            now->time = is_last ? until : now->time + h;
+            for (int i = 0; i < INPUTS; ++i) now->inputs[i] += gone * now->input_rates[i];
+            now->time = is_last && gone == h ? until : now->time + gone;
+            if (now->time > until) now->time = until;
             unit->is_evaluated = 0;
             if (isOff(unit) > LEFT && project(unit, 0)) {
                 snprintf(unit->message, sizeof unit->message, "at t = %.17g s the state cannot be moved back onto the constraints",
