@@ -168,6 +168,53 @@ pub fn axes(turns: &Turns) -> Matrix3<f64> {
         })
 }
 
+/// The quaternion of length 1 that leads to a frame with these axes as columns, its largest number positive (S. W. Shepperd, *Quaternion
+/// from rotation matrix*, J. Guidance and Control 1 (1978) 223–224).
+pub fn quaternion(rotation: &Matrix3<f64>) -> [f64; 4] {
+    let r = |i: usize, j: usize| rotation[(i, j)];
+    let trace = rotation.trace();
+    // 4 times the squares of the four, of which the largest is taken by a root and the others by products with it.
+    let squares = [
+        1.0 + trace,
+        1.0 - trace + 2.0 * r(0, 0),
+        1.0 - trace + 2.0 * r(1, 1),
+        1.0 - trace + 2.0 * r(2, 2),
+    ];
+    let products = [
+        [
+            squares[0],
+            r(2, 1) - r(1, 2),
+            r(0, 2) - r(2, 0),
+            r(1, 0) - r(0, 1),
+        ],
+        [
+            r(2, 1) - r(1, 2),
+            squares[1],
+            r(1, 0) + r(0, 1),
+            r(0, 2) + r(2, 0),
+        ],
+        [
+            r(0, 2) - r(2, 0),
+            r(1, 0) + r(0, 1),
+            squares[2],
+            r(2, 1) + r(1, 2),
+        ],
+        [
+            r(1, 0) - r(0, 1),
+            r(0, 2) + r(2, 0),
+            r(2, 1) + r(1, 2),
+            squares[3],
+        ],
+    ];
+    let largest = (0..4).max_by(|&a, &b| squares[a].total_cmp(&squares[b]));
+    let row = products[largest.unwrap_or(0)];
+    let length = row.iter().map(|x| x * x).sum::<f64>().sqrt();
+    row.map(|x| match (x / length).abs() <= ROUNDING {
+        true => 0.0,
+        false => x / length,
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use std::f64::consts::{FRAC_PI_2, PI};
@@ -214,51 +261,4 @@ mod tests {
             }
         }
     }
-}
-
-/// The quaternion of length 1 that leads to a frame with these axes as columns, its largest number positive (S. W. Shepperd, *Quaternion
-/// from rotation matrix*, J. Guidance and Control 1 (1978) 223–224).
-pub fn quaternion(rotation: &Matrix3<f64>) -> [f64; 4] {
-    let r = |i: usize, j: usize| rotation[(i, j)];
-    let trace = rotation.trace();
-    // 4 times the squares of the four, of which the largest is taken by a root and the others by products with it.
-    let squares = [
-        1.0 + trace,
-        1.0 - trace + 2.0 * r(0, 0),
-        1.0 - trace + 2.0 * r(1, 1),
-        1.0 - trace + 2.0 * r(2, 2),
-    ];
-    let products = [
-        [
-            squares[0],
-            r(2, 1) - r(1, 2),
-            r(0, 2) - r(2, 0),
-            r(1, 0) - r(0, 1),
-        ],
-        [
-            r(2, 1) - r(1, 2),
-            squares[1],
-            r(1, 0) + r(0, 1),
-            r(0, 2) + r(2, 0),
-        ],
-        [
-            r(0, 2) - r(2, 0),
-            r(1, 0) + r(0, 1),
-            squares[2],
-            r(2, 1) + r(1, 2),
-        ],
-        [
-            r(1, 0) - r(0, 1),
-            r(0, 2) + r(2, 0),
-            r(2, 1) + r(1, 2),
-            squares[3],
-        ],
-    ];
-    let largest = (0..4).max_by(|&a, &b| squares[a].total_cmp(&squares[b]));
-    let row = products[largest.unwrap_or(0)];
-    let length = row.iter().map(|x| x * x).sum::<f64>().sqrt();
-    row.map(|x| match (x / length).abs() <= ROUNDING {
-        true => 0.0,
-        false => x / length,
-    })
 }
