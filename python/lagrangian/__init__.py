@@ -8,7 +8,7 @@
 """
 
 from . import errors
-from ._command import Brachistochrone, Campbell, Check, Published
+from ._command import Brachistochrone, Campbell, Check, Published, Unit
 from ._equations import Equations, Program
 from ._fit import Combination, Fit
 from ._linear import Linear, Mode, Modes
@@ -83,6 +83,7 @@ __all__ = [
     "Table",
     "Triangular",
     "Uniform",
+    "Unit",
     "UnknownName",
     "__version__",
     "errors",

@@ -12,7 +12,7 @@ import numpy as np
 
 from . import _batch, _native
 from ._named import Named, State
-from .errors import Diagnostic, LagrangianError, unknown
+from .errors import Diagnostic, ExportError, LagrangianError, unknown
 
 
 def main() -> int:
@@ -37,16 +37,21 @@ def answer(machine: Any, command: str, options: Sequence[str], wrong: Sequence[i
     return document
 
 
-def imported(path: str, options: Sequence[str]) -> Dict[str, Any]:
-    """The JSON document that ``lagrangian import`` prints about a robot's file."""
-    status, out, err = _native.import_robot(path, ["--json", *options])
+def told_of_file(command: str, path: str, options: Sequence[str]) -> str:
+    """What a command prints about a file that holds no spec; ValueError where that, or the call, is at fault."""
+    status, out, err = _native.answer_of_file(command, path, list(options))
     if status != 0:
         try:
             message = json.loads(out).get("error", "")
         except (ValueError, AttributeError):
             message = ""
         raise ValueError(message or err.strip() or out.strip())
-    document: Dict[str, Any] = json.loads(out)
+    return out
+
+
+def imported(path: str, options: Sequence[str]) -> Dict[str, Any]:
+    """The JSON document that ``lagrangian import`` prints about a robot's file."""
+    document: Dict[str, Any] = json.loads(told_of_file("import", path, ["--json", *options]))
     return document
 
 
@@ -110,6 +115,94 @@ class Check:
 def check(self: Any) -> Check:
     """Degrees of freedom, warnings, and printed equations against the derived ones, as ``lagrangian check``."""
     return Check(answer(self, "check", [], wrong=()))
+
+
+def library(
+    self: Any,
+    out: Union[str, "os.PathLike[str]"],
+    *,
+    lanes: Union[int, Sequence[int]] = (4,),
+    target_cpu: str = "native",
+    source: Optional[Union[str, "os.PathLike[str]"]] = None,
+    straight: bool = False,
+) -> str:
+    """Writes a shared library of the equations with a C interface, and its header beside it, as ``lagrangian library``; the path of the
+    header.
+
+    A Rust toolchain compiles it. Parameters and inputs are arguments of its functions, so that the values of this machine do not
+    matter; constants are those of this machine. ``lanes``: for how many states at once there are functions besides ``eval``, 2, 4,
+    8 or several of them. ``target_cpu`` is a processor as rustc names it, ``source`` a file for the Rust source.
+    """
+    of_lanes = [lanes] if isinstance(lanes, int) else list(lanes)
+    options = [f"--out={os.fspath(out)}", f"--lanes={','.join(map(str, of_lanes))}", f"--target-cpu={target_cpu}"]
+    if source is not None:
+        options.append(f"--source={os.fspath(source)}")
+    if straight:
+        options.append("--straight")
+    return str(_exported(self, "library", options)["header"])
+
+
+class Unit(NamedTuple):
+    """A functional mock-up unit that was written."""
+
+    path: str
+    fmi: str
+    """The version of the interface."""
+    kinds: List[str]
+    platforms: List[str]
+    """Those that there are libraries for; empty where the importer compiles."""
+    states: int
+    parameters: int
+    inputs: int
+    outputs: int
+    events: int
+
+
+def fmu(
+    self: Any,
+    out: Union[str, "os.PathLike[str]"],
+    *,
+    fmi: int = 3,
+    kind: Sequence[str] = ("me", "cs"),
+    outputs: Optional[Sequence[str]] = None,
+    events: Optional[Mapping[str, str]] = None,
+    method: str = "dop853",
+    tolerance: float = 1e-9,
+    start: Any = None,
+    rate: Any = None,
+    cc: Optional[str] = None,
+    target: Sequence[str] = (),
+    sources_only: bool = False,
+) -> Unit:
+    """Writes a functional mock-up unit, ``.fmu``, with the parameters and inputs of this machine as defaults, as ``lagrangian fmu``.
+
+    A C compiler makes its libraries, unless ``sources_only``. ``kind``: ``"me"``, model exchange, and ``"cs"``, co-simulation, by
+    ``method`` to ``tolerance``. ``outputs`` are names, ``events`` formulas whose changes of sign are told, by name.
+    """
+    options = [f"--out={os.fspath(out)}", f"--fmi={fmi}", f"--kind={','.join([kind] if isinstance(kind, str) else kind)}"]
+    options += [f"--method={method}", f"--tolerance={float(tolerance)!r}"]
+    options += [*settings(self), *_places(self, "--start", start), *_places(self, "--rate", rate)]
+    if outputs is not None:
+        options.append(f"--outputs={','.join([outputs] if isinstance(outputs, str) else outputs)}")
+    options += [f"--event={name}={formula}" for name, formula in (events or {}).items()]
+    if cc is not None:
+        options.append(f"--cc={cc}")
+    if target:
+        options.append(f"--target={','.join(target)}")
+    if sources_only:
+        options.append("--sources-only")
+    told = _exported(self, "fmu", options)
+    counts = [int(told[name]) for name in ("states", "parameters", "inputs", "outputs", "events")]
+    return Unit(told["unit"], told["fmi"], told["kinds"], told["platforms"], *counts)
+
+
+def _exported(machine: Any, command: str, options: Sequence[str]) -> Dict[str, Any]:
+    """What a command prints about a file that it wrote; ExportError where a compiler, or the machine, stands in the way."""
+    try:
+        return answer(machine, command, options)
+    except LagrangianError as error:
+        reason, _, output = str(error).partition("\n")
+        raise ExportError(reason, output) from None
 
 
 class Brachistochrone:

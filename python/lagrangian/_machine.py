@@ -535,6 +535,8 @@ class Machine(_native.Machine):
     sweep = _sweep.sweep
     check = _command.check
     campbell = _command.campbell
+    library = _command.library
+    fmu = _command.fmu
     brachistochrone = _command.brachistochrone
     fit = _fit.fit
     orbit = _orbit.orbit

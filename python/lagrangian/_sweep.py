@@ -7,6 +7,7 @@ import json
 import math
 import os
 import sys
+import tempfile
 import time
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
@@ -170,29 +171,78 @@ class Sweep:
 
             _written_beside(path, lambda file: pyarrow.parquet.write_table(self.to_arrow(), file))
         elif ending == ".csv":
-            _written_beside(path, lambda file: file.write(self._csv().encode()))
+            _written_beside(path, lambda file: file.write(_csv(self._columns).encode()))
         else:
             raise ValueError(f"{path}: the ending must be one of .parquet, .csv")
 
-    def _csv(self) -> str:
-        import csv
-        import io
+    def map(
+        self,
+        path: Union[str, "os.PathLike[str]"],
+        of: Union[str, Sequence[str]],
+        *,
+        over: Union[str, Sequence[str]] = (),
+        only: Optional[Mapping[str, float]] = None,
+        samples: bool = False,
+    ) -> None:
+        """Draws columns over what was varied, as ``lagrangian map``: curves over one parameter, colours over two, into an ``.svg``, or a
+        page ``.html`` that tells the numbers under the pointer.
 
-        text = io.StringIO()
-        writer = csv.writer(text, lineterminator="\n")
-        writer.writerow(f"{n} [{self.units[n]}]" if self.units.get(n, "1") != "1" else n for n in self._columns)
+        ``over``: over which of the parameters that were varied, all of them where nothing is said. ``only`` leaves out rows with
+        other values. ``samples`` draws :attr:`samples`, a dot for each: a bifurcation diagram where they were recorded at events.
+        """
+        from ._command import told_of_file
 
-        def cell(value: Any) -> str:
-            if value is None or (isinstance(value, float) and math.isnan(value)):
-                return ""
-            return repr(float(value)) if isinstance(value, float) else str(value)
-
-        for row in zip(*(values.tolist() for values in self._columns.values())):
-            writer.writerow(map(cell, row))
-        return text.getvalue()
+        path = os.fspath(path)
+        kinds = {".svg": "--plot", ".html": "--report"}
+        ending = os.path.splitext(path)[1].lower()
+        if ending not in kinds:
+            raise ValueError(f"{path}: the ending must be one of {', '.join(kinds)}")
+        names = [of] if isinstance(of, str) else list(of)
+        axes = [over] if isinstance(over, str) else list(over)
+        known = self.columns if not samples else tuple(self.samples or ())
+        for name in names:
+            if name not in known:
+                raise unknown("column", name, known)
+        for name in (*axes, *(only or ())):
+            if name not in self._keywords["varied"]:
+                raise unknown("varied name", name, self._keywords["varied"])
+        options = [f"--of={','.join(names)}", f"{kinds[ending]}={os.path.abspath(path)}"]
+        if axes:
+            options.append(f"--over={','.join(axes)}")
+        options += [f"--only={name}={float(value)!r}" for name, value in (only or {}).items()]
+        if samples:
+            options.append("--samples")
+        with tempfile.TemporaryDirectory() as folder:
+            # The command reads tables, with the samples in one beside that of the rows.
+            table = os.path.join(folder, "rows.csv")
+            self.save(table)
+            if self.samples is not None:
+                text = _csv(self.samples)
+                with open(os.path.join(folder, "rows.samples.csv"), "w", encoding="utf-8", newline="") as file:
+                    file.write(text)
+            told_of_file("map", table, options)
 
     def __repr__(self) -> str:
         return f"<Sweep of {self.machine.name}: {len(self)} runs, {len(self.failed)} failed>"
+
+
+def _csv(columns: Mapping[str, Any]) -> str:
+    """A table as the command writes it."""
+    import csv
+    import io
+
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(columns)
+
+    def cell(value: Any) -> str:
+        if value is None or (isinstance(value, float) and math.isnan(value)):
+            return ""
+        return repr(float(value)) if isinstance(value, float) else str(value)
+
+    for row in zip(*(np.asarray(values).tolist() for values in columns.values())):
+        writer.writerow(map(cell, row))
+    return text.getvalue()
 
 
 def _place(name: str) -> Tuple[str, str]:

@@ -23,16 +23,22 @@ pub fn command(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
     py.detach(|| lagrangian_cli::command(std::iter::once(name).chain(arguments)))
 }
 
-/// What `lagrangian import` answers about a robot's file: the exit status, what it prints, and what it complains of.
+/// What a command answers about a file that holds no spec, a robot's or the rows of a sweep: the exit status, what it prints, and
+/// what it complains of.
 #[pyfunction]
-pub fn import_robot(py: Python<'_>, path: String, options: Vec<String>) -> (u8, String, String) {
-    let robot = lagrangian_sweep::plan::SpecText {
+pub fn answer_of_file(
+    py: Python<'_>,
+    command: &str,
+    path: String,
+    options: Vec<String>,
+) -> (u8, String, String) {
+    let file = lagrangian_sweep::plan::SpecText {
         name: path,
         ..Default::default()
     };
     let stop = Arc::new(AtomicBool::new(false));
     let Answer { status, out, err } =
-        py.detach(|| lagrangian_cli::answer(&robot, "import", &options, &stop));
+        py.detach(|| lagrangian_cli::answer(&file, command, &options, &stop));
     (status, out, err)
 }
 

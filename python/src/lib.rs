@@ -27,7 +27,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(symbolic::symbolic, module)?)?;
     module.add_function(wrap_pyfunction!(command::command, module)?)?;
     module.add_function(wrap_pyfunction!(command::answer, module)?)?;
-    module.add_function(wrap_pyfunction!(command::import_robot, module)?)?;
+    module.add_function(wrap_pyfunction!(command::answer_of_file, module)?)?;
     module.add_function(wrap_pyfunction!(machine::set_engine, module)?)?;
     module.add_function(wrap_pyfunction!(machine::engine, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::set_threads, module)?)?;

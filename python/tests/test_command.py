@@ -1,10 +1,14 @@
 """What the command finds, and the command itself."""
 
+import ctypes
 import json
 import math
 import os
+import re
+import shutil
 import subprocess
 import sys
+import zipfile
 
 import numpy as np
 import pytest
@@ -19,16 +23,16 @@ def lagrangian(*arguments, **settings):
     return subprocess.run(call, capture_output=True, text=True, cwd=ROOT, **settings)
 
 
-# Where the package has what a command does; None, where the command itself is what is called: what it makes is a file for others.
+# Where the package has what a command does.
 IN_PYTHON = {
     "check": (lg.Machine, "check"),
     "derive": (lg.Machine, "derive"),
-    "library": None,
-    "fmu": None,
+    "library": (lg.Machine, "library"),
+    "fmu": (lg.Machine, "fmu"),
     "evaluate": (lg.Machine, "evaluate"),
     "simulate": (lg.Machine, "simulate"),
     "sweep": (lg.Machine, "sweep"),
-    "map": None,
+    "map": (lg.Sweep, "map"),
     "modes": (lg.Machine, "modes"),
     "linearize": (lg.Machine, "linearize"),
     "orbit": (lg.Machine, "orbit"),
@@ -54,10 +58,9 @@ def test_every_command_has_a_place_in_the_package():
     assert told.returncode == 0, told.stderr
     assert set(commands(told.stdout)) - {"help"} == set(IN_PYTHON)
     for command, place in IN_PYTHON.items():
-        if place is not None:
-            owner, name = place
-            assert callable(getattr(owner, name, None)), command
-            assert getattr(owner, name).__doc__, command
+        owner, name = place
+        assert callable(getattr(owner, name, None)), command
+        assert getattr(owner, name).__doc__, command
 
 
 def test_the_package_is_the_command():
@@ -228,3 +231,41 @@ def test_a_robot_at_fault_is_told_with_its_line(tmp_path):
         lg.from_urdf(file, base="flying")
     with pytest.raises(ValueError, match="cannot read"):
         lg.from_urdf(tmp_path / "nowhere.urdf")
+
+
+@pytest.mark.skipif(shutil.which("cc") is None, reason="no C compiler")
+def test_a_unit_has_the_values_of_the_machine(double, tmp_path):
+    made = double.with_parameters(l2=0.25).fmu(
+        tmp_path / "double.fmu", start={"theta1": 0.5}, outputs=["theta2"], events={"low": "theta1"}
+    )
+    # The count of events is an output as well.
+    assert (made.fmi, made.states, made.outputs, made.events) == ("3.0", 4, 2, 1) and len(made.platforms) == 1
+    with zipfile.ZipFile(made.path) as unit:
+        assert unit.testzip() is None
+        description = unit.read("modelDescription.xml").decode()
+    starts = dict(re.findall(r'name="([^"]*)"[^>]*?start="([^"]*)"', description))
+    assert float(starts["l2"]) == 0.25 and float(starts["theta1"]) == 0.5
+    sources = double.fmu(tmp_path / "sources.fmu", fmi=2, kind="cs", sources_only=True)
+    assert sources.fmi == "2.0" and not sources.platforms and len(sources.kinds) == 1
+    with pytest.raises(ValueError, match="thta1"):
+        double.fmu(tmp_path / "wrong.fmu", outputs=["thta1"])
+    with pytest.raises(lg.ExportError):
+        double.fmu(tmp_path / "wrong.fmu", cc="no-such-compiler")
+    assert not (tmp_path / "wrong.fmu").exists()
+
+
+@pytest.mark.skipif(shutil.which("rustc") is None, reason="no Rust toolchain")
+def test_a_library_computes_what_the_package_does(oscillator, tmp_path):
+    header = oscillator.library(tmp_path / "oscillator.so", lanes=[2])
+    assert "void eval2(" in (tmp_path / header).read_text()
+    made = ctypes.CDLL(str(tmp_path / "oscillator.so"))
+    made.eval.argtypes = [ctypes.c_void_p, ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p]
+    made.parameter_name.restype = ctypes.c_char_p
+    assert [made.parameter_name(i).decode() for i in range(made.parameters())] == list(oscillator.parameters)
+    numbers = (ctypes.c_double * 3)(*oscillator.parameters.values(), 0.5)
+    state, found = (ctypes.c_double * 2)(0.3, -0.2), (ctypes.c_double * 1)()
+    made.eval_setup(numbers)
+    made.eval(state, 0.0, numbers, found)
+    assert list(found) == oscillator.accelerations([0.3], [-0.2], u=[0.5]).tolist()
+    with pytest.raises(ValueError, match="lanes"):
+        oscillator.library(tmp_path / "wrong.so", lanes=3)

@@ -117,7 +117,10 @@ def test_files(oscillator, tmp_path):
     sweep = oscillator.sweep({"k": [1.0, 2.0]}, until=0.1)
     sweep.save(tmp_path / "rows.csv")
     lines = (tmp_path / "rows.csv").read_text().splitlines()
-    assert lines[0].startswith("run,k [N/m],status,error,t [s],x [m]") and len(lines) == 3
+    assert lines[0].startswith("run,k,status,error,t,x,der(x)") and len(lines) == 3
+    # What a sweep keeps as it goes is the same file.
+    oscillator.sweep({"k": [1.0, 2.0]}, until=0.1, out=tmp_path / "kept.csv")
+    assert (tmp_path / "kept.csv").read_bytes() == (tmp_path / "rows.csv").read_bytes()
     parquet = pytest.importorskip("pyarrow.parquet")
     sweep.save(tmp_path / "rows.parquet")
     assert parquet.read_table(tmp_path / "rows.parquet")["x"].to_pylist() == sweep["x"].tolist()
@@ -193,19 +196,28 @@ def test_a_sweep_that_is_killed_goes_on_and_has_the_same_bytes(tmp_path):
     _, said = whole.communicate(timeout=3600)
     assert whole.returncode == 0, said
     took = time.monotonic() - began
-    killed = 0
-    instants = random.Random()
-    for _ in range(KILLS):
+    seed = int(os.environ.get("LAGRANGIAN_KILL_SEED", random.SystemRandom().getrandbits(32)))
+    print(f"LAGRANGIAN_KILL_SEED={seed}")
+    instants, killed, ended = random.Random(seed), 0, 0
+    while killed < KILLS:
         process = begun("killed.parquet")
-        time.sleep(instants.uniform(0.1, 1.0) * took)
+        # What is kept makes the next try shorter, so that the instants of later kills come sooner.
+        time.sleep(instants.uniform(0.1, 1.0) * took / (1 + killed) ** 0.5)
         if process.poll() is None:
             process.send_signal(signal.SIGKILL)
             killed += 1
-        process.communicate()
+            process.communicate()
+            continue
+        _, said = process.communicate()
+        assert process.returncode == 0, said
+        # It came to its end before it was killed: from the beginning, so that there is something to kill.
+        ended += 1
+        assert ended < 10 * KILLS, "it is too fast to be killed"
+        assert (tmp_path / "killed.parquet").read_bytes() == (tmp_path / "whole.parquet").read_bytes()
+        (tmp_path / "killed.parquet").unlink()
     last = begun("killed.parquet")
     _, said = last.communicate(timeout=3600)
     assert last.returncode == 0, said
-    assert killed, "it was too fast to be killed"
     assert (tmp_path / "killed.parquet").read_bytes() == (tmp_path / "whole.parquet").read_bytes()
     assert not (tmp_path / "killed.parquet.part").exists()
 
@@ -243,3 +255,24 @@ def test_clusters_keep_the_same_bytes(double, engine, tmp_path):
     double.sweep(vary, until=2, threads=1, out=tmp_path / "here.csv")
     double.sweep(vary, until=2, engine=engine, threads=2, out=tmp_path / "there.csv")
     assert (tmp_path / "here.csv").read_bytes() == (tmp_path / "there.csv").read_bytes()
+
+
+def test_a_sweep_is_drawn(oscillator, tmp_path):
+    sweep = oscillator.sweep({"k": (1.0, 4.0, 5), "m": [1.0, 2.0]}, until=1, reduce={"peak": "max(abs(x))"})
+    sweep.map(tmp_path / "peak.svg", "peak")
+    sweep.map(tmp_path / "peak.html", ["peak", "x"], over="k", only={"m": 2.0})
+    assert (tmp_path / "peak.svg").read_text().startswith("<svg")
+    assert (tmp_path / "peak.html").read_text().startswith("<!doctype html>")
+    # The command draws the same from the table that the sweep keeps.
+    sweep.save(tmp_path / "rows.csv")
+    call = [sys.executable, "-m", "lagrangian", "map", "rows.csv", "--of", "peak", "--plot", "told.svg"]
+    assert subprocess.run(call, cwd=tmp_path, capture_output=True).returncode == 0
+    assert (tmp_path / "told.svg").read_bytes() == (tmp_path / "peak.svg").read_bytes()
+    for wrong in ({"of": "peek"}, {"of": "peak", "over": "kk"}):
+        with pytest.raises(lg.UnknownName):
+            sweep.map(tmp_path / "wrong.svg", **wrong)
+    with pytest.raises(ValueError, match="ending"):
+        sweep.map(tmp_path / "wrong.png", "peak")
+    at_events = oscillator.sweep({"k": (1.0, 4.0, 3)}, until=9, events={"zero": "x"}, record="event=zero")
+    at_events.map(tmp_path / "zeros.svg", "der(x)", samples=True)
+    assert (tmp_path / "zeros.svg").read_text().startswith("<svg")
