@@ -28,6 +28,37 @@ struct Entry {
     code: OnceLock<Option<Code>>,
 }
 
+/// The places of the functions that were called last: a run calls the same few ones again and again.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Recent {
+    places: [usize; 8],
+    oldest: usize,
+}
+
+impl Default for Recent {
+    fn default() -> Self {
+        Recent {
+            places: [usize::MAX; 8],
+            oldest: 0,
+        }
+    }
+}
+
+impl Recent {
+    /// The place of a function in this library, which is always the same one.
+    #[inline]
+    pub fn place(&mut self, library: &Library, role: Role) -> Option<usize> {
+        let mut known = self.places.iter();
+        if let Some(place) = known.find(|place| library.role_at(**place) == Some(role)) {
+            return Some(*place);
+        }
+        let place = library.place(role)?;
+        self.places[self.oldest] = place;
+        self.oldest = (self.oldest + 1) % self.places.len();
+        Some(place)
+    }
+}
+
 impl Library {
     /// A program for one state at a time. Nothing is compiled yet, but for the shortest function there is: so it is known
     /// whether anything can be.
@@ -130,6 +161,12 @@ impl Library {
     /// The code of a function, compiled if it is not yet; none if the program has no such function.
     pub fn code(&self, role: Role) -> Option<&Code> {
         self.code_at(self.place(role)?)
+    }
+
+    /// Whether a function has code already.
+    pub fn is_compiled(&self, role: Role) -> bool {
+        let entry = self.place(role).and_then(|place| self.functions.get(place));
+        entry.is_some_and(|entry| matches!(entry.code.get(), Some(Some(_))))
     }
 
     /// The place of a function.

@@ -6,6 +6,7 @@ use lagrangian_program::{Arguments, Interpreter, Role};
 
 use super::Library;
 use super::code::{Rows, Workspace};
+use super::library::Recent;
 
 /// When functions are compiled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,8 +28,8 @@ pub struct Running {
     at_time: Vec<f64>,
     at_position: Vec<f64>,
     workspace: Workspace,
-    /// The function of the last call.
-    last: usize,
+    /// The functions of the last calls.
+    recent: Recent,
 }
 
 impl Running {
@@ -42,7 +43,7 @@ impl Running {
             at_time: Vec::new(),
             at_position: Vec::new(),
             workspace: Workspace::default(),
-            last: usize::MAX,
+            recent: Recent::default(),
         }
     }
 
@@ -50,16 +51,15 @@ impl Running {
     /// to be asked, for results or for the error.
     #[inline]
     pub fn call(&mut self, role: Role, arguments: Arguments<'_, f64>, results: &mut [f64]) -> bool {
-        if self.library.role_at(self.last) != Some(role) {
-            // These two read parameters.
-            let has_none =
-                matches!(role, Role::Prepare | Role::Start) || self.is_singular && role.inverts();
-            match self.library.place(role) {
-                Some(place) if !has_none => self.last = place,
-                _ => return false,
-            }
+        // These two read parameters.
+        let has_none =
+            matches!(role, Role::Prepare | Role::Start) || self.is_singular && role.inverts();
+        if has_none {
+            return false;
         }
-        let place = self.last;
+        let Some(place) = self.recent.place(&self.library, role) else {
+            return false;
+        };
         let code = match self.when {
             When::Always => self.library.code_at(place),
             When::ItPays => self.library.code_where_it_pays(place),

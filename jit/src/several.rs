@@ -8,6 +8,7 @@ use lagrangian_program::{Interpreter, Role};
 use super::Library;
 use super::arguments::SeveralArguments;
 use super::code::{Results, Rows, Workspace};
+use super::library::Recent;
 
 /// A machine in N lanes, 4 or 8, run by machine code.
 ///
@@ -22,8 +23,8 @@ pub struct Several<const N: usize> {
     at_time: Vec<Lanes<N>>,
     at_position: Vec<Lanes<N>>,
     workspace: Workspace,
-    /// The function of the last call.
-    last: usize,
+    /// The functions of the last calls.
+    recent: Recent,
 }
 
 impl<const N: usize> Several<N> {
@@ -79,6 +80,36 @@ impl<const N: usize> Several<N> {
         Some(several)
     }
 
+    /// Each lane with its own parameters: those of this interpreter of the program in all of them, until [`put`](Self::put)
+    /// puts others there. None if the library is for another number of lanes or for shared parameters.
+    pub fn own(library: Arc<Library>, interpreter: &Interpreter<f64>) -> Option<Self> {
+        let layout = library.layout();
+        if layout.stride != N || layout.known_stride != N {
+            return None;
+        }
+        let mut several = Several::empty(library);
+        several.known = vec![0.0; interpreter.prepared().len() * N];
+        for lane in 0..N {
+            several.put(lane, interpreter);
+        }
+        Some(several)
+    }
+
+    /// Puts the parameters of an interpreter of the program into a lane of those that [`own`](Self::own) made.
+    ///
+    /// # Panics
+    /// If there is no such lane, or lanes share their parameters.
+    pub fn put(&mut self, lane: usize, interpreter: &Interpreter<f64>) {
+        assert!(lane < N && self.library.layout().known_stride == N);
+        for (known, value) in self.known.chunks_exact_mut(N).zip(interpreter.prepared()) {
+            known[lane] = *value;
+        }
+        match interpreter.singular() {
+            Some(_) => self.regular &= !(1 << lane),
+            None => self.regular |= 1 << lane,
+        }
+    }
+
     fn empty(library: Arc<Library>) -> Self {
         Several {
             library,
@@ -87,7 +118,7 @@ impl<const N: usize> Several<N> {
             at_time: Vec::new(),
             at_position: Vec::new(),
             workspace: Workspace::default(),
-            last: usize::MAX,
+            recent: Recent::default(),
         }
     }
 
@@ -117,10 +148,8 @@ impl<const N: usize> Several<N> {
         arguments: SeveralArguments<'_, N>,
         results: &mut [Lanes<N>],
     ) -> Option<u32> {
-        if self.library.role_at(self.last) != Some(role) {
-            self.last = self.library.place(role)?;
-        }
-        let code = self.library.code_at(self.last)?;
+        let place = self.recent.place(&self.library, role)?;
+        let code = self.library.code_at(place)?;
         let layout = self.library.layout();
         let left = [self.at_time.as_slice(), self.at_position.as_slice()];
         let rows = Rows::of_several(&arguments, &self.known, layout.known_stride, left);

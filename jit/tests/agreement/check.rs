@@ -234,9 +234,13 @@ fn in_lanes<const N: usize>(
         .map(|index| side_by_side(|lane| sets[lane][index]))
         .collect();
     let each = Several::<N>::each(library(false)?, &parameters).ok_or("not for each")?;
+    let mut own = Several::<N>::own(library(false)?, interpreter).ok_or("not for each")?;
+    for (lane, other) in others.iter().take(N).enumerate() {
+        own.put(lane, other);
+    }
 
     let mut compared = 0;
-    for (mut several, is_shared) in [(shared, true), (each, false)] {
+    for (mut several, is_shared) in [(shared, true), (each, false), (own, false)] {
         for function in &program.functions {
             let (role, len) = (function.role, function.results.len());
             for (group, states) in states.chunks_exact(N).enumerate() {
