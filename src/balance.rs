@@ -22,6 +22,11 @@ pub trait Quadratures<S: System>: Clone + sealed::Sealed {
         u: &S::Inputs,
     );
 
+    /// Takes the rates at one stage of a step, which somebody has evaluated: work and what is lost, in W.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn take(&mut self, _stage: usize, _work: f64, _lost: f64) {}
+
     /// Adds powers to the rates at a stage: work, and what is lost, in W.
     #[doc(hidden)]
     #[inline(always)]
@@ -255,6 +260,10 @@ impl<S: System> Quadratures<S> for EnergyIntegrals {
         ];
     }
 
+    fn take(&mut self, stage: usize, work: f64, lost: f64) {
+        self.own.rates[stage] = [work, work.abs(), lost];
+    }
+
     #[inline]
     fn add(&mut self, stage: usize, work: f64, lost: f64) {
         let [rate, absolute, dissipation] = &mut self.own.rates[stage];
@@ -327,6 +336,13 @@ impl<S: System> Quadratures<S> for Option<EnergyIntegrals> {
     fn add(&mut self, stage: usize, work: f64, lost: f64) {
         if let Some(integrals) = self {
             Quadratures::<S>::add(integrals, stage, work, lost);
+        }
+    }
+
+    #[inline(always)]
+    fn take(&mut self, stage: usize, work: f64, lost: f64) {
+        if let Some(integrals) = self {
+            Quadratures::<S>::take(integrals, stage, work, lost);
         }
     }
 

@@ -18,6 +18,8 @@ use lagrangian_scalar::{Dual, Interval, Kernel, Scalar};
 use lagrangian_spec::model::{self, Variable};
 use lagrangian_spec::token::normalized;
 
+#[cfg(feature = "jit")]
+mod abreast;
 mod enclosure;
 mod engine;
 mod in_numbers;
@@ -207,6 +209,22 @@ impl InterpretedMachine {
             self.names.parameters.iter().chain(self.names.inputs.iter()),
             name,
         )
+    }
+
+    /// Whether [`run_interpreted_side_by_side`](crate::Simulation::run_interpreted_side_by_side) makes runs of this machine, with
+    /// any parameters, in lanes, by an explicit method and with inputs that stay as they are: where it has machine code, no
+    /// constraints and no contacts. Of [`Engine::Auto`] that is so as soon as code has paid for one run.
+    pub fn goes_side_by_side(&self) -> bool {
+        let Program {
+            constraints,
+            contacts,
+            unilateral,
+            ..
+        } = &*self.program;
+        constraints.is_empty()
+            && contacts.is_empty()
+            && unilateral.is_empty()
+            && self.machine_code.pays_in_lanes()
     }
 
     /// The program that is interpreted.

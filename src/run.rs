@@ -1,5 +1,7 @@
 //! The making of a run: step after step, with everything that the simulation was told to look at.
 
+#[cfg(feature = "jit")]
+pub(crate) mod abreast;
 mod choosing;
 pub(crate) mod contacts;
 mod explained;
@@ -28,7 +30,8 @@ use crate::piece::Piece;
 use crate::roots;
 use crate::settings::{Callbacks, Of, Progress, Settings, Task};
 use crate::solution::{
-    Ending, Handover, Made, MethodReason, Solution, Statistics, Steps, handover, is_beyond,
+    Ending, Handover, Made, MethodChoice, MethodReason, Solution, Statistics, Steps, handover,
+    is_beyond,
 };
 use crate::stages::Point;
 use crate::step_error::StepError;
@@ -39,6 +42,7 @@ use crate::{
     Warning,
 };
 use choosing::{CANDIDATES, Choosing};
+use contacts::Meeting;
 use explained::Explained;
 use handing_over::Pace;
 
@@ -51,253 +55,383 @@ pub(crate) fn run<M: Machine>(
     task: Task<'_, M, Law<'_, M::System>>,
     start: State<Coordinates<M>>,
 ) -> Made<M> {
-    let clock = Instant::now();
-    let Task {
-        of,
-        law,
-        mut settings,
-        mut callbacks,
-        resumed,
-    } = task;
-    let quadratures = settings.energy_balance.then(EnergyIntegrals::default);
-    let until = settings.check()?;
-    stepping::check_length(settings.method.has_fixed_steps(), settings.longest_step)?;
-    let system = match of {
-        Of::Machine(machine) => {
-            check_parameters(machine)?;
-            machine.prepare()
+    let mut prepared = Prepared::new(task, start)?;
+    let mut run = prepared.begin()?;
+    let ending = run.go_to_end();
+    let over = run.end(ending);
+    Ok(prepared.solution(over))
+}
+
+/// A run that was not begun: what it holds on to as long as it is made.
+pub(crate) struct Prepared<'a, 'l, M: Machine> {
+    clock: Instant,
+    law: Law<'l, M::System>,
+    settings: Settings,
+    callbacks: Callbacks<'a, M>,
+    system: M::System,
+    start: State<Coordinates<M>>,
+    q: VectorOf<M>,
+    v: VectorOf<M>,
+    until: f64,
+    tolerance: Tolerance<VectorOf<M>>,
+    piece: Piece,
+    chosen: Option<(&'static Method, MethodReason)>,
+    /// Whether it goes on from where another one ended, and the event that ended that one there.
+    goes_on: bool,
+    ended: Option<String>,
+    /// What is to be said of its start.
+    of_start: Vec<Warning>,
+}
+
+/// What is left of a run that is over.
+pub(crate) struct Over<M: Machine> {
+    end: State<Coordinates<M>>,
+    ending: Ending,
+    error: Option<Error>,
+    record: Record<M>,
+    statistics: Statistics,
+    balance: Option<EnergyBalance>,
+    warnings: Vec<Warning>,
+    next_step: f64,
+    constraints: Option<Constraints<VectorOf<M>>>,
+    choices: Vec<MethodChoice>,
+}
+
+/// A run of a prepared one: by its law, whatever that is, with a balance of energy or without.
+pub(crate) type RunOf<'r, 'a, 'l, M> =
+    Run<'r, 'a, M, Law<'l, <M as Machine>::System>, Option<EnergyIntegrals>>;
+
+impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
+    /// Checks what a run is given, and brings its start onto the constraints.
+    pub(crate) fn new(
+        task: Task<'a, M, Law<'l, M::System>>,
+        start: State<Coordinates<M>>,
+    ) -> Result<Self, Error> {
+        let clock = Instant::now();
+        let Task {
+            of,
+            law,
+            mut settings,
+            callbacks,
+            resumed,
+        } = task;
+        let until = settings.check()?;
+        stepping::check_length(settings.method.has_fixed_steps(), settings.longest_step)?;
+        let system = match of {
+            Of::Machine(machine) => {
+                check_parameters(machine)?;
+                machine.prepare()
+            }
+            // Its equations were checked where it began.
+            Of::System(system) => system,
+        };
+        let goes_on = resumed.is_some();
+        if system.contacts().len() + system.unilateral_contacts().len() != 0 && until < start.t {
+            return Err(Error::InvalidSetting {
+                setting: "until",
+                value: until,
+                needed: "after the start: what friction or an impact has stopped cannot be run backward",
+            });
         }
-        // Its equations were checked where it began.
-        Of::System(system) => system,
-    };
-    let goes_on = resumed.is_some();
-    if system.contacts().len() + system.unilateral_contacts().len() != 0 && until < start.t {
-        return Err(Error::InvalidSetting {
-            setting: "until",
-            value: until,
-            needed: "after the start: what friction or an impact has stopped cannot be run backward",
-        });
-    }
-    if let Some(sampled) = &callbacks.sampled {
-        sampled.check(start.t, until, law.is_constant() || law.is_partial())?;
-    }
-    let tolerance = settings.tolerance(&system)?;
-    let (mut q, mut v) = (system.to_vector(&start.q), system.to_vector(&start.v));
-    check_start(&system, start.t, &q, &v)?;
-    let (mut start, mut of_start) = (start, Vec::new());
-    if <M::System as System>::MAY_BE_CONSTRAINED && system.constraints().len() != 0 {
-        let kept = settings.kept(&system, goes_on)?;
-        of_start = project_start(&system, start.t, &mut q, &mut v, kept)?;
-        start = state(&system, (start.t, q.clone(), v.clone()));
-    }
-    let ended = resumed.filter(|resumed| resumed.t == start.t);
-    let ended = ended.and_then(|resumed| resumed.event);
-    let inputs_stay = law.is_constant() && callbacks.sampled.is_none();
-    let mut chosen =
-        (settings.automatic).then(|| choosing::first(&system, &tolerance, inputs_stay));
-    if let Some((method, _)) = chosen {
-        settings.method = method;
-    }
-    let sampling = callbacks.sampled.as_ref().map(|of| of.begin(&system));
-    let held = sampling.is_some().then(|| system.default_inputs());
-    let forward = until >= start.t;
-    let order = settings.method.tableau.order;
-    let piece = law.piece(start.t, forward, order);
-    let piece = piece.map_err(|none| none.error(start.t))?;
-    let model = Model {
-        system: &system,
-        sight: Sight {
-            system: &system,
-            law: Held {
-                law: &law,
-                held: held.clone(),
-                piece,
-            },
-        },
-        start: (start.t, &q),
-    };
-    if let Some((_, assumption)) = model.ended_assumption((start.t, q.clone(), v.clone())) {
-        return Err(Error::AssumptionEnded {
-            assumption,
-            t: start.t,
-        });
-    }
-    let begun = |method| {
-        Stepper::begun(
-            Whose::Borrowed(&system),
-            model.sight.law.clone(),
-            quadratures.clone(),
-            method,
-            tolerance.clone(),
-            (start.t, q.clone(), v.clone()),
+        if let Some(sampled) = &callbacks.sampled {
+            sampled.check(start.t, until, law.is_constant() || law.is_partial())?;
+        }
+        let tolerance = settings.tolerance(&system)?;
+        let (mut q, mut v) = (system.to_vector(&start.q), system.to_vector(&start.v));
+        check_start(&system, start.t, &q, &v)?;
+        let (mut start, mut of_start) = (start, Vec::new());
+        if <M::System as System>::MAY_BE_CONSTRAINED && system.constraints().len() != 0 {
+            let kept = settings.kept(&system, goes_on)?;
+            of_start = project_start(&system, start.t, &mut q, &mut v, kept)?;
+            start = state(&system, (start.t, q.clone(), v.clone()));
+        }
+        let ended = resumed.filter(|resumed| resumed.t == start.t);
+        let ended = ended.and_then(|resumed| resumed.event);
+        let inputs_stay = law.is_constant() && callbacks.sampled.is_none();
+        let chosen =
+            (settings.automatic).then(|| choosing::first(&system, &tolerance, inputs_stay));
+        if let Some((method, _)) = chosen {
+            settings.method = method;
+        }
+        let forward = until >= start.t;
+        let order = settings.method.tableau.order;
+        let piece = law.piece(start.t, forward, order);
+        let piece = piece.map_err(|none| none.error(start.t))?;
+        Ok(Self {
+            clock,
+            law,
+            settings,
+            callbacks,
+            system,
+            start,
+            q,
+            v,
             until,
-        )
-    };
-    let mut begun_by = begun(settings.method);
-    if begun_by.is_err() && chosen.is_some() && settings.method.kind == Kind::Series {
-        chosen = Some((Method::DOP853, MethodReason::NoSeries));
-        settings.method = Method::DOP853;
-        begun_by = begun(settings.method);
-    }
-    let mut stepper = begun_by.map_err(|error| model.explain(error, &q, &v))?;
-    if !goes_on {
-        check_equations(&system, (start.t, &q, &v, stepper.inputs()))?;
-    }
-    stepper.set_longest_step(settings.longest_step);
-    if let Some(step) = settings.first_step {
-        stepper.set_first_step(step);
-    }
-    for watch in &mut callbacks.watches {
-        let observe = || model.sight.observe::<M, _>(&stepper, &start);
-        watch.begin(&start, ended.as_ref() == Some(&watch.name), &observe)?;
-    }
-    for stream in &mut callbacks.streams {
-        stream.begin(&start);
+            tolerance,
+            piece,
+            chosen,
+            goes_on,
+            ended,
+            of_start,
+        })
     }
 
-    let pace = Pace::new(
-        settings.hands_over && settings.method.kind == Kind::RungeKutta,
-        system.unilateral_contacts().len(),
-    );
-    let choosing = match chosen {
-        Some(choice) => {
-            let may_change = system.unilateral_contacts().len() == 0;
-            Choosing::begun(start.t, choice, may_change)
+    /// The run at its start.
+    pub(crate) fn begin<'r>(&'r mut self) -> Result<RunOf<'r, 'a, 'l, M>, Error> {
+        let Self {
+            law,
+            settings,
+            callbacks,
+            system,
+            start,
+            q,
+            v,
+            until,
+            tolerance,
+            piece,
+            chosen,
+            goes_on,
+            ended,
+            ..
+        } = self;
+        let (law, system, until, piece) = (&*law, &*system, *until, *piece);
+        let quadratures = settings.energy_balance.then(EnergyIntegrals::default);
+        let sampling = callbacks.sampled.as_ref().map(|of| of.begin(system));
+        let held = sampling.is_some().then(|| system.default_inputs());
+        let model = Model {
+            system,
+            sight: Sight {
+                system,
+                law: Held {
+                    law,
+                    held: held.clone(),
+                    piece,
+                },
+            },
+            start: (start.t, &*q),
+        };
+        if let Some((_, assumption)) = model.ended_assumption((start.t, q.clone(), v.clone())) {
+            return Err(Error::AssumptionEnded {
+                assumption,
+                t: start.t,
+            });
         }
-        None => Choosing::none(),
-    };
-    let others: &[_] = if settings.automatic { &CANDIDATES } else { &[] };
-    let mut run = Run {
-        model,
-        stepper,
-        settings: &settings,
-        callbacks: &mut callbacks,
-        start: start.t,
-        until,
-        stop: until,
-        sampling,
-        next_step: None,
-        pace,
-        choosing,
-        record: Record {
-            held: held.map(|held| (start.t, held)).into_iter().collect(),
-            pieces: (piece != Piece::ALL).then_some(piece).into_iter().collect(),
-            steps: (settings.keep_steps).then(|| Steps::new(settings.method, others)),
-            samples: settings.every.map(|_| start.clone()).into_iter().collect(),
-            events: Vec::new(),
-            energies: Vec::new(),
-            contacts: Vec::new(),
-            unilateral: Kept::default(),
-            handovers: Vec::new(),
-            kinetic_energy: 0.0,
-            explained: Explained::default(),
-            is_unexplained: false,
-        },
-    };
-    let contacts = run.stepper.contacts().iter().map(Contacts::as_seen_later);
-    run.record
-        .contacts
-        .extend(contacts.map(|known| (start.t, known)));
-    run.enter_energies();
-    if (run.record.energies.first()).is_some_and(|of| (of.kinetic + of.potential).is_nan()) {
-        return Err(Error::EnergiesUnknown { t: start.t });
-    }
-    if <M::System as System>::MAY_COLLIDE {
-        run.meet_at_start()?;
-    }
-    run.begin_choosing()?;
-    let (ending, error) = match run.go_to_end() {
-        Ok(ending) => (ending, None),
-        Err(error) => (Ending::Error, Some(error)),
-    };
+        let begun = |method| {
+            Stepper::begun(
+                Whose::Borrowed(system),
+                model.sight.law.clone(),
+                quadratures.clone(),
+                method,
+                tolerance.clone(),
+                (start.t, q.clone(), v.clone()),
+                until,
+            )
+        };
+        let mut begun_by = begun(settings.method);
+        if begun_by.is_err() && chosen.is_some() && settings.method.kind == Kind::Series {
+            *chosen = Some((Method::DOP853, MethodReason::NoSeries));
+            settings.method = Method::DOP853;
+            begun_by = begun(settings.method);
+        }
+        let mut stepper = begun_by.map_err(|error| model.explain(error, q, v))?;
+        if !*goes_on {
+            check_equations(system, (start.t, q, v, stepper.inputs()))?;
+        }
+        stepper.set_longest_step(settings.longest_step);
+        if let Some(step) = settings.first_step {
+            stepper.set_first_step(step);
+        }
+        for watch in &mut callbacks.watches {
+            let observe = || model.sight.observe::<M, _>(&stepper, start);
+            watch.begin(start, ended.as_ref() == Some(&watch.name), &observe)?;
+        }
+        for stream in &mut callbacks.streams {
+            stream.begin(start);
+        }
 
-    let Run {
-        stepper,
-        record,
-        next_step,
-        callbacks,
-        choosing,
-        ..
-    } = run;
-    let Record {
-        held,
-        pieces,
-        steps,
-        mut samples,
-        events,
-        energies,
-        contacts,
-        unilateral,
-        handovers,
-        explained,
-        kinetic_energy,
-        ..
-    } = record;
-    let end = state(
-        &system,
-        (stepper.t(), stepper.q().clone(), stepper.v().clone()),
-    );
-    if settings.every.is_some() && end.t != start.t {
-        samples.push(end.clone());
+        let pace = Pace::new(
+            settings.hands_over && settings.method.kind == Kind::RungeKutta,
+            system.unilateral_contacts().len(),
+        );
+        let choosing = match *chosen {
+            Some(choice) => {
+                let may_change = system.unilateral_contacts().len() == 0;
+                Choosing::begun(start.t, choice, may_change)
+            }
+            None => Choosing::none(),
+        };
+        let others: &[_] = if settings.automatic { &CANDIDATES } else { &[] };
+        let mut run = Run {
+            model,
+            stepper,
+            callbacks,
+            start: start.t,
+            until,
+            stop: until,
+            sampling,
+            next_step: None,
+            pace,
+            choosing,
+            record: Record {
+                held: held.map(|held| (start.t, held)).into_iter().collect(),
+                pieces: (piece != Piece::ALL).then_some(piece).into_iter().collect(),
+                steps: (settings.keep_steps).then(|| Steps::new(settings.method, others)),
+                samples: settings.every.map(|_| start.clone()).into_iter().collect(),
+                events: Vec::new(),
+                energies: Vec::new(),
+                contacts: Vec::new(),
+                unilateral: Kept::default(),
+                handovers: Vec::new(),
+                kinetic_energy: 0.0,
+                explained: Explained::default(),
+                is_unexplained: false,
+            },
+            settings,
+        };
+        let contacts = run.stepper.contacts().iter().map(Contacts::as_seen_later);
+        run.record
+            .contacts
+            .extend(contacts.map(|known| (start.t, known)));
+        run.enter_energies();
+        if (run.record.energies.first()).is_some_and(|of| (of.kinetic + of.potential).is_nan()) {
+            return Err(Error::EnergiesUnknown { t: start.t });
+        }
+        if <M::System as System>::MAY_COLLIDE {
+            run.meet_at_start()?;
+        }
+        run.begin_choosing()?;
+        Ok(run)
     }
-    for stream in &mut callbacks.streams {
-        stream.end(&end);
+
+    /// The solution of a run of this that is over.
+    pub(crate) fn solution(mut self, over: Over<M>) -> (Solution<M, ()>, Option<Error>) {
+        let Over {
+            end,
+            ending,
+            error,
+            record,
+            statistics,
+            balance,
+            warnings,
+            next_step,
+            constraints,
+            choices,
+        } = over;
+        let Record {
+            held,
+            pieces,
+            steps,
+            samples,
+            events,
+            energies,
+            contacts,
+            unilateral,
+            handovers,
+            ..
+        } = record;
+        self.of_start.extend(warnings);
+        let solution = Solution {
+            method: self.settings.method,
+            balance,
+            statistics: Statistics {
+                seconds: self.clock.elapsed().as_secs_f64(),
+                ..statistics
+            },
+            warnings: self.of_start,
+            next_step,
+            constraints,
+            contacts,
+            unilateral,
+            handovers,
+            choices,
+            held,
+            pieces,
+            start: self.start,
+            end,
+            steps,
+            samples,
+            events,
+            energies,
+            ending,
+            settings: self.settings,
+            law: (),
+            system: self.system,
+        };
+        (solution, error)
     }
-    let work = stepper.work();
-    let has_fixed_steps = settings.method.has_fixed_steps() || !handovers.is_empty();
-    let balance = balance(
-        &stepper,
-        &energies,
-        &explained,
-        (kinetic_energy, has_fixed_steps),
-    );
-    let mut warnings = warnings(&settings, &stepper, of_start);
-    if <M::System as System>::MAY_COLLIDE {
-        warnings.extend(unilateral.warning(&system));
-        warnings.extend(handover::warning(&handovers));
+}
+
+impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
+    /// What is left of the run where it is over.
+    pub(crate) fn end(self, ending: Result<Ending, Error>) -> Over<M> {
+        let (ending, error) = match ending {
+            Ok(ending) => (ending, None),
+            Err(error) => (Ending::Error, Some(error)),
+        };
+        let Self {
+            model,
+            stepper,
+            settings,
+            mut record,
+            next_step,
+            callbacks,
+            choosing,
+            ..
+        } = self;
+        let system = model.system;
+        let end = state(
+            system,
+            (stepper.t(), stepper.q().clone(), stepper.v().clone()),
+        );
+        if settings.every.is_some() && end.t != model.start.0 {
+            record.samples.push(end.clone());
+        }
+        for stream in &mut callbacks.streams {
+            stream.end(&end);
+        }
+        let work = stepper.work();
+        let has_fixed_steps = settings.method.has_fixed_steps() || !record.handovers.is_empty();
+        let balance = balance(
+            &stepper,
+            &record.energies,
+            &record.explained,
+            (record.kinetic_energy, has_fixed_steps),
+        );
+        let mut warnings = warnings(settings, &stepper);
+        if <M::System as System>::MAY_COLLIDE {
+            warnings.extend(record.unilateral.warning(system));
+            warnings.extend(handover::warning(&record.handovers));
+        }
+        if let Some(balance) = &balance
+            && error.is_none()
+            && balance.residual().abs() > balance.explained
+        {
+            warnings.push(Warning::EnergyUnexplained {
+                residual: balance.residual(),
+                explained: balance.explained,
+                relative: balance.relative(),
+            });
+        }
+        Over {
+            end,
+            ending,
+            error,
+            record,
+            statistics: Statistics {
+                steps: work.steps,
+                rejected: work.rejected,
+                evaluations: work.evaluations,
+                constraint_residual: stepper.constraint_residual(),
+                stiff_since: stepper.stiff_since(),
+                seconds: 0.0,
+            },
+            balance,
+            warnings,
+            next_step: next_step.unwrap_or(stepper.next_step()).abs(),
+            constraints: stepper.constraints().clone(),
+            choices: choosing.choices,
+        }
     }
-    if let Some(balance) = &balance
-        && error.is_none()
-        && balance.residual().abs() > balance.explained
-    {
-        warnings.push(Warning::EnergyUnexplained {
-            residual: balance.residual(),
-            explained: balance.explained,
-            relative: balance.relative(),
-        });
-    }
-    let solution = Solution {
-        method: settings.method,
-        balance,
-        statistics: Statistics {
-            steps: work.steps,
-            rejected: work.rejected,
-            evaluations: work.evaluations,
-            constraint_residual: stepper.constraint_residual(),
-            stiff_since: stepper.stiff_since(),
-            seconds: clock.elapsed().as_secs_f64(),
-        },
-        warnings,
-        next_step: next_step.unwrap_or(stepper.next_step()).abs(),
-        constraints: stepper.constraints().clone(),
-        contacts,
-        unilateral,
-        handovers,
-        choices: choosing.choices,
-        held,
-        pieces,
-        start,
-        end,
-        steps,
-        samples,
-        events,
-        energies,
-        ending,
-        settings,
-        law: (),
-        system,
-    };
-    Ok((solution, error))
 }
 
 /// How often the states of contacts may change at one instant before they are taken not to settle:
@@ -305,7 +439,7 @@ pub(crate) fn run<M: Machine>(
 const MOST_CHANGES_AT_ONCE: usize = 3 * crate::MOST_CONTACTS;
 
 /// A run in the making.
-struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> {
+pub(crate) struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> {
     model: Model<'r, M::System, L>,
     stepper: Stepper<'r, M::System, Held<'r, L, Inputs<M>>, A>,
     settings: &'r Settings,
@@ -323,6 +457,29 @@ struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
     /// Which method it takes, if that is left to it.
     choosing: Choosing,
     record: Record<M>,
+}
+
+/// What a run knows from one step to the next, until it is where it is to stop.
+struct Going {
+    /// What will have ended the run, once the end of the stepper is reached.
+    ending: Result<Ending, Error>,
+    /// The state of a contact that ends where the stepper is to stop, and the step to go on with.
+    pending: Option<(Change, f64)>,
+    /// When contacts have changed last, and how often then.
+    last_change: (f64, usize),
+    /// A change of unilateral contacts that the stepper is to stop at.
+    meeting: Option<Meeting>,
+}
+
+impl Going {
+    fn new() -> Self {
+        Self {
+            ending: Ok(Ending::End),
+            pending: None,
+            last_change: (f64::NAN, 0),
+            meeting: None,
+        }
+    }
 }
 
 /// What is kept of a run.
@@ -370,99 +527,118 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
 
     /// Steps to where it is to stop, or to what ends the run before.
     fn go(&mut self) -> Result<Ending, Error> {
-        // What will have ended the run, once the end of the stepper is reached.
-        let mut ending: Result<Ending, Error> = Ok(Ending::End);
-        // The state of a contact that ends where the stepper is to stop, and the step to go on with.
-        let mut pending = None;
-        // When contacts have changed last, and how often then.
-        let mut last_change = (f64::NAN, 0);
-        // A change of unilateral contacts that the stepper is to stop at.
-        let mut meeting = None;
+        let mut going = Going::new();
         while !self.stepper.is_done() {
-            if self.stepper.work().steps == self.settings.max_steps {
-                return Err(Error::TooManySteps {
-                    steps: self.settings.max_steps,
-                    t: self.stepper.t(),
-                    until: self.until,
-                });
-            }
-            if let Err(error) = self.stepper.step() {
-                // Where an assumption ends there may be nothing to go on with: then that is the
-                // cause.
-                ending?;
-                if self.leave_series(&error) {
-                    ending = Ok(Ending::End);
-                    continue;
-                }
-                return Err(self
-                    .model
-                    .explain(error, self.stepper.q(), self.stepper.v()));
-            }
-
-            if <M::System as System>::MAY_COLLIDE && self.is_stepped() && self.is_roused() {
-                continue;
-            }
-            let mut interpolant = None;
-            if <M::System as System>::MAY_SLIDE
-                && pending.is_none()
-                && ending.is_ok()
-                && let Some((t, change)) = self.contact_changed(&mut interpolant)?
-            {
-                let step = self.stepper.last_step();
-                self.stepper.retreat(t);
-                pending = Some((change, step));
-                if self.stepper.is_done() {
-                    self.change(&mut pending, &mut last_change)?;
-                }
-                continue;
-            }
-            if <M::System as System>::MAY_COLLIDE
-                && self.stepper.touching().is_some()
-                && !self.stepper.is_by_impulses()
-            {
-                let (looks, changes) = (ending.is_ok(), &mut last_change);
-                let next = self.follow_contacts(&mut meeting, &mut interpolant, looks, changes)?;
-                match next {
-                    contacts::Next::Step => continue,
-                    contacts::Next::End(ending) => return Ok(ending),
-                    contacts::Next::Keep => {}
-                }
-            }
-            // A run ends within a step by taking that step again, up to there: so the end is as
-            // exact as every other step's, and so is the balance of energy.
-            if ending.is_ok()
-                && let Some((t, assumption)) = self.assumption_ended(&mut interpolant)?
-            {
-                self.stepper.retreat(t);
-                ending = Err(Error::AssumptionEnded { assumption, t });
-                pending = None;
-                meeting = None;
-                continue;
-            }
-            if let Some(found) = self.find_events(&mut interpolant)? {
-                return self.end_at(found);
-            }
-            self.keep(&mut interpolant)?;
-            if self.shall_stop() {
-                return Ok(Ending::Stopped);
-            }
-            if <M::System as System>::MAY_COLLIDE && self.is_stepped() {
-                self.go_on_after_step()?;
-            }
-            if pending.is_none() && meeting.is_none() && ending.is_ok() {
-                self.choose_again()?;
-            }
-            if <M::System as System>::MAY_SLIDE && self.stepper.is_done() {
-                self.change(&mut pending, &mut last_change)?;
-            }
-            if <M::System as System>::MAY_COLLIDE
-                && self.stepper.is_done()
-                && let Some(ending) = self.meet(&mut meeting, &mut last_change)?
-            {
+            self.check_count()?;
+            let stepped = self.stepper.step();
+            if let Some(ending) = self.look_at_step(&mut going, stepped)? {
                 return Ok(ending);
             }
         }
-        ending
+        going.ending
+    }
+
+    /// Whether one more step may be taken.
+    #[inline(always)]
+    fn check_count(&self) -> Result<(), Error> {
+        match self.stepper.work().steps == self.settings.max_steps {
+            false => Ok(()),
+            true => Err(Error::TooManySteps {
+                steps: self.settings.max_steps,
+                t: self.stepper.t(),
+                until: self.until,
+            }),
+        }
+    }
+
+    /// Looks at a step that was taken, or could not be. The answer is what ends the run.
+    #[inline(always)]
+    fn look_at_step(
+        &mut self,
+        going: &mut Going,
+        stepped: Result<(), StepError>,
+    ) -> Result<Option<Ending>, Error> {
+        let Going {
+            ending,
+            pending,
+            last_change,
+            meeting,
+        } = going;
+        if let Err(error) = stepped {
+            // Where an assumption ends there may be nothing to go on with: then that is the
+            // cause.
+            std::mem::replace(ending, Ok(Ending::End))?;
+            if self.leave_series(&error) {
+                return Ok(None);
+            }
+            return Err(self
+                .model
+                .explain(error, self.stepper.q(), self.stepper.v()));
+        }
+
+        if <M::System as System>::MAY_COLLIDE && self.is_stepped() && self.is_roused() {
+            return Ok(None);
+        }
+        let mut interpolant = None;
+        if <M::System as System>::MAY_SLIDE
+            && pending.is_none()
+            && ending.is_ok()
+            && let Some((t, change)) = self.contact_changed(&mut interpolant)?
+        {
+            let step = self.stepper.last_step();
+            self.stepper.retreat(t);
+            *pending = Some((change, step));
+            if self.stepper.is_done() {
+                self.change(pending, last_change)?;
+            }
+            return Ok(None);
+        }
+        if <M::System as System>::MAY_COLLIDE
+            && self.stepper.touching().is_some()
+            && !self.stepper.is_by_impulses()
+        {
+            let looks = ending.is_ok();
+            let next = self.follow_contacts(meeting, &mut interpolant, looks, last_change)?;
+            match next {
+                contacts::Next::Step => return Ok(None),
+                contacts::Next::End(ending) => return Ok(Some(ending)),
+                contacts::Next::Keep => {}
+            }
+        }
+        // A run ends within a step by taking that step again, up to there: so the end is as
+        // exact as every other step's, and so is the balance of energy.
+        if ending.is_ok()
+            && let Some((t, assumption)) = self.assumption_ended(&mut interpolant)?
+        {
+            self.stepper.retreat(t);
+            *ending = Err(Error::AssumptionEnded { assumption, t });
+            *pending = None;
+            *meeting = None;
+            return Ok(None);
+        }
+        if let Some(found) = self.find_events(&mut interpolant)? {
+            return self.end_at(found).map(Some);
+        }
+        self.keep(&mut interpolant)?;
+        if self.shall_stop() {
+            return Ok(Some(Ending::Stopped));
+        }
+        if <M::System as System>::MAY_COLLIDE && self.is_stepped() {
+            self.go_on_after_step()?;
+        }
+        if pending.is_none() && meeting.is_none() && ending.is_ok() {
+            self.choose_again()?;
+        }
+        if <M::System as System>::MAY_SLIDE && self.stepper.is_done() {
+            self.change(pending, last_change)?;
+        }
+        if <M::System as System>::MAY_COLLIDE
+            && self.stepper.is_done()
+            && let Some(ending) = self.meet(meeting, last_change)?
+        {
+            return Ok(Some(ending));
+        }
+        Ok(None)
     }
 
     /// When the state of a contact ended in the last step, and which.
@@ -1464,8 +1640,8 @@ fn balance<S: System, L: InputLaw<S>, A: Quadratures<S>>(
 fn warnings<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     settings: &Settings,
     stepper: &Stepper<'_, S, L, A>,
-    mut warnings: Vec<Warning>,
 ) -> Vec<Warning> {
+    let mut warnings = Vec::new();
     // A relative tolerance of 0 asks for an absolute error only.
     if settings.relative > 0.0 && settings.relative < LEAST_RELATIVE_TOLERANCE {
         let (asked, used) = (settings.relative, LEAST_RELATIVE_TOLERANCE);

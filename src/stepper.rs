@@ -1,6 +1,8 @@
 //! One step after another: the core that every run goes through. It allocates nothing, and needs no
 //! standard library; methods whose stages depend on each other have their memory from an allocator.
 
+#[cfg(feature = "jit")]
+pub(crate) mod abreast;
 #[cfg(feature = "std")]
 mod along_dense_output;
 #[cfg(feature = "std")]
@@ -107,6 +109,15 @@ pub struct Stepper<'s, S: System, L = DefaultInputs, A = NoBalance> {
     /// None in methods whose steps have no fixed length, and in those that need no memory of their own.
     #[cfg(feature = "std")]
     fixed: Option<Box<Fixed<S::Vector, S::Matrix>>>,
+}
+
+/// How long a step may be at its beginning, in s.
+#[derive(Clone, Copy, Debug)]
+struct Room {
+    /// What is shorter is no step.
+    least: f64,
+    /// As far as to the end, with its sign.
+    left: f64,
 }
 
 /// The equations of motion with their inputs.
@@ -673,22 +684,9 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         if self.taylor.is_some() {
             self.choose_length()?;
         }
-        if self.control.work.steps == 0 && self.control.step == 0.0 {
-            self.control.step = self.first_step();
-        }
-        let least = control::least::<f64>(self.now.t);
-        let left = (self.end - self.now.t) - self.now.t_low;
-        if self.control.is_too_small(least, left) {
-            return Err(self.too_small());
-        }
-
-        self.begin();
-        self.control.is_retry = false;
+        let room = self.begin_tries()?;
         loop {
-            let last = self.control.is_last(left, self.longest);
-            let h = if last { left } else { self.control.step };
-            self.control.last_step = h;
-
+            let (h, last) = self.choose(room);
             #[cfg(feature = "std")]
             let tried = match (&self.implicit, &self.taylor) {
                 (None, None) => self.attempt(h, last),
@@ -697,30 +695,67 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             };
             #[cfg(not(feature = "std"))]
             let tried = self.attempt(h, last);
-            let (next, cause) = match tried {
-                Ok(error) if error <= 1.0 => {
-                    let factor = self.growth(h, error);
-                    self.control.take(h, error, factor);
-                    self.accept(h);
-                    return Ok(());
-                }
-                _ if self.meets_fork(h) => {
-                    // Once more, with an eye on that.
-                    self.control.work.rejected += 1;
-                    continue;
-                }
-                Ok(error) => (h * self.reduction(error), None),
-                // Perhaps a stage reached beyond where the machine can be.
-                Err(cause) => (0.1 * h, Some(cause)),
-            };
-            if self.control.give_up(next, least) {
-                continue;
+            if self.decide((h, room), tried)? {
+                return Ok(());
             }
-            let error = cause.unwrap_or_else(|| self.too_small());
-            // Now is where the last good step ended, not where this one was tried.
-            self.now.copy_from(&self.before);
-            return Err(error);
         }
+    }
+
+    /// Makes ready for the tries of a step.
+    #[inline(always)]
+    fn begin_tries(&mut self) -> Result<Room, StepError> {
+        if self.control.work.steps == 0 && self.control.step == 0.0 {
+            self.control.step = self.first_step();
+        }
+        let least = control::least::<f64>(self.now.t);
+        let left = (self.end - self.now.t) - self.now.t_low;
+        if self.control.is_too_small(least, left) {
+            return Err(self.too_small());
+        }
+        self.begin();
+        self.control.is_retry = false;
+        Ok(Room { least, left })
+    }
+
+    /// The length of the next try, and whether it is of the last step.
+    #[inline(always)]
+    fn choose(&mut self, room: Room) -> (f64, bool) {
+        let last = self.control.is_last(room.left, self.longest);
+        let h = if last { room.left } else { self.control.step };
+        self.control.last_step = h;
+        (h, last)
+    }
+
+    /// What becomes of a step after a try of length `h`: whether it is taken, or another try follows.
+    #[inline(always)]
+    fn decide(
+        &mut self,
+        (h, room): (f64, Room),
+        tried: Result<f64, StepError>,
+    ) -> Result<bool, StepError> {
+        let (next, cause) = match tried {
+            Ok(error) if error <= 1.0 => {
+                let factor = self.growth(h, error);
+                self.control.take(h, error, factor);
+                self.accept(h);
+                return Ok(true);
+            }
+            _ if self.meets_fork(h) => {
+                // Once more, with an eye on that.
+                self.control.work.rejected += 1;
+                return Ok(false);
+            }
+            Ok(error) => (h * self.reduction(error), None),
+            // Perhaps a stage reached beyond where the machine can be.
+            Err(cause) => (0.1 * h, Some(cause)),
+        };
+        if self.control.give_up(next, room.least) {
+            return Ok(false);
+        }
+        let error = cause.unwrap_or_else(|| self.too_small());
+        // Now is where the last good step ended, not where this one was tried.
+        self.now.copy_from(&self.before);
+        Err(error)
     }
 
     /// The continuous extension of the last step: the motion between its ends.

@@ -23,6 +23,9 @@ pub enum Engine {
 pub(super) struct MachineCode {
     #[cfg(feature = "jit")]
     library: Option<(Arc<lagrangian_jit::Library>, lagrangian_jit::When)>,
+    /// That of several states at once, made when it is first asked for; nothing where there is none.
+    #[cfg(feature = "jit")]
+    of_lanes: Arc<std::sync::OnceLock<Option<Arc<lagrangian_jit::Library>>>>,
 }
 
 /// The machine code of a program with the values of parameters.
@@ -49,12 +52,39 @@ impl MachineCode {
         match Library::new(program.clone()) {
             Ok(library) => Ok(MachineCode {
                 library: Some((Arc::new(library), when)),
+                of_lanes: Arc::default(),
             }),
             Err(_) if engine == Engine::Auto => Ok(MachineCode::default()),
             Err(error) => Err(NoMachineCode {
                 why: error.to_string(),
             }),
         }
+    }
+
+    /// Whether runs in lanes are worth their code: where machine code is asked for, or has paid for one state.
+    pub(super) fn pays_in_lanes(&self) -> bool {
+        use lagrangian_jit::When;
+        let library = self.library.as_ref();
+        library.is_some_and(|(library, when)| match when {
+            When::Always => true,
+            When::ItPays => library.is_compiled(Role::Accelerations),
+        })
+    }
+
+    /// The code of several states at once, each with its own parameters, if that is worth it.
+    pub(super) fn of_lanes(
+        &self,
+        program: &Arc<Program>,
+        lanes: usize,
+    ) -> Option<Arc<lagrangian_jit::Library>> {
+        if !self.pays_in_lanes() {
+            return None;
+        }
+        let made = self.of_lanes.get_or_init(|| {
+            let made = lagrangian_jit::Library::for_lanes(program.clone(), lanes, false);
+            made.ok().map(Arc::new)
+        });
+        made.clone()
     }
 
     /// With the parameters of an interpreter.
@@ -98,6 +128,10 @@ impl MachineCode {
             }),
             Engine::Interpreter | Engine::Auto => Ok(MachineCode {}),
         }
+    }
+
+    pub(super) fn pays_in_lanes(&self) -> bool {
+        false
     }
 
     pub(super) fn prepared(&self, _: &Interpreter<f64>) -> Compiled {

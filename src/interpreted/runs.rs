@@ -11,8 +11,11 @@ use crate::solution::{Made, Solution};
 use crate::{Coordinates, Error, Simulation, State};
 
 use super::{InterpretedMachine, InterpretedSystem};
+use std::vec::Vec;
 
 type Start<M> = State<Coordinates<M>>;
+/// A run as far as it came; an error where it could not begin.
+type RunAsFar<L> = Result<(Solution<InterpretedMachine, L>, Option<Error>), Error>;
 type SensitiveMachine<'m> = Sensitive<'m, InterpretedMachine>;
 
 impl<L: InputLaw<InterpretedSystem>> Simulation<'_, InterpretedMachine, L> {
@@ -36,6 +39,84 @@ impl<L: InputLaw<InterpretedSystem>> Simulation<'_, InterpretedMachine, L> {
         start: Start<InterpretedMachine>,
     ) -> Result<(Solution<InterpretedMachine, L>, Option<Error>), Error> {
         self.run_by(start, made)
+    }
+}
+
+impl<L: InputLaw<InterpretedSystem>> Simulation<'_, InterpretedMachine, L> {
+    /// Many runs with [`run_interpreted_as_far_as_possible`](Self::run_interpreted_as_far_as_possible), several at a time in
+    /// the lanes of the processor where [the machine has code for that](InterpretedMachine::goes_side_by_side): a lane
+    /// whose run is over takes the next one, and each has its own steps, events and end. What each of them came to, in their order.
+    ///
+    /// All of them are runs of one machine with whatever parameters, by one method with one relative tolerance; others are made
+    /// alone, and so are those of other methods than explicit ones, with constraints or contacts, or with inputs that change.
+    /// Every run has the bits that it has alone. What looks at runs while they are made is called by all of them in turn, and
+    /// [`Statistics::seconds`](crate::Statistics::seconds) of each is the time of all.
+    ///
+    /// ```
+    /// # use lagrangian_mechanics::Compiled;
+    /// # use lagrangian_spec::{diagnostic::Report, source::{InMemory, Sources}};
+    /// use lagrangian::interpreted::{Engine, InterpretedMachine};
+    /// use lagrangian::{Machine, Simulation};
+    ///
+    /// # let text = "machine Swing in plane {
+    /// #     parameters { m: kg = 1, l: m = 1, g: m/s^2 = 9.81 }
+    /// #     coordinates { theta: rad = 0.5 }
+    /// #     bodies { bob { mass: m, at: l*(sin(theta), -cos(theta)) } }
+    /// #     gravity (0, -g);
+    /// # }";
+    /// # let (dag, mut sources, mut report) = (Default::default(), Sources::new(), Report::new());
+    /// # let files = &mut InMemory::new();
+    /// # let model = lagrangian_spec::model(&dag, "swing", text, &[], files, &mut sources, &mut report);
+    /// # let swing = model.and_then(|model| Compiled::new(model, &mut report)).expect("a pendulum");
+    /// let mut machine = InterpretedMachine::new(swing.program);
+    /// machine.set_engine(Engine::Auto)?;
+    /// let lengths = [0.5, 1.0, 1.5, 2.0];
+    /// let machines = lengths.map(|l| {
+    ///     let mut machine = machine.clone();
+    ///     machine.set("l", l).map(|()| machine)
+    /// });
+    /// let machines = machines.into_iter().collect::<Result<Vec<_>, _>>()?;
+    /// let run = |machine| (Simulation::new(machine).until(1.0), Machine::start(machine));
+    /// let made = Simulation::run_interpreted_side_by_side(machines.iter().map(run).collect());
+    /// for (machine, made) in machines.iter().zip(made) {
+    ///     let (solution, error) = made?;
+    ///     let alone = Simulation::new(machine).until(1.0).run(machine.start())?;
+    ///     assert!(error.is_none() && solution.end() == alone.end());
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn run_interpreted_side_by_side(
+        simulations: Vec<(Self, Start<InterpretedMachine>)>,
+    ) -> Vec<RunAsFar<L>> {
+        let (mut laws, mut rest) = (Vec::new(), Vec::new());
+        for (simulation, start) in simulations {
+            let (of, settings) = (simulation.of, simulation.settings);
+            laws.push(simulation.law);
+            rest.push((
+                of,
+                settings,
+                simulation.callbacks,
+                simulation.resumed,
+                start,
+            ));
+        }
+        let tasks = rest.into_iter().zip(&laws).map(|(rest, law)| {
+            let (of, settings, callbacks, resumed, start) = rest;
+            let law = Law::of(law);
+            let task = Task {
+                of,
+                law,
+                settings,
+                callbacks,
+                resumed,
+            };
+            (task, start)
+        });
+        let made = made_side_by_side(tasks.collect());
+        let with_law = |(made, law): (Made<InterpretedMachine>, L)| {
+            made.map(|(solution, error)| (solution.with_law(law), error))
+        };
+        made.into_iter().zip(laws).map(with_law).collect()
     }
 }
 
@@ -67,6 +148,23 @@ fn made(
     start: Start<InterpretedMachine>,
 ) -> Made<InterpretedMachine> {
     run(task, start)
+}
+
+/// A run to be made.
+pub(super) type ToBeMade<'a, 'l> = (
+    Task<'a, InterpretedMachine, Law<'l, InterpretedSystem>>,
+    Start<InterpretedMachine>,
+);
+
+#[cfg(feature = "jit")]
+fn made_side_by_side(tasks: Vec<ToBeMade<'_, '_>>) -> Vec<Made<InterpretedMachine>> {
+    super::abreast::made(tasks)
+}
+
+#[cfg(not(feature = "jit"))]
+fn made_side_by_side(tasks: Vec<ToBeMade<'_, '_>>) -> Vec<Made<InterpretedMachine>> {
+    let tasks = tasks.into_iter();
+    tasks.map(|(task, start)| made(task, start)).collect()
 }
 
 fn made_with_derivatives<'m>(

@@ -1,0 +1,139 @@
+//! Runs of interpreted machines side by side: what evaluates them in lanes.
+
+use std::sync::Arc;
+use std::vec::Vec;
+
+use lagrangian_jit::{Library, Several, SeveralArguments};
+use lagrangian_native::Lanes;
+use lagrangian_program::{Function, Op, Program, Role};
+
+use super::runs::ToBeMade;
+use super::{InterpretedMachine, InterpretedSystem, Named};
+use crate::run::Prepared;
+use crate::run::abreast::{Machines, run_all};
+use crate::run::run;
+use crate::settings::Of;
+use crate::solution::Made;
+use crate::stepper::abreast::{Evaluate, WIDTH, Which, Wide};
+
+/// The machines of all lanes, by machine code.
+struct InLanes {
+    library: Arc<Library>,
+    program: Arc<Program>,
+    /// Made with the first machine.
+    several: Option<Several<WIDTH>>,
+    inputs: Vec<Wide>,
+    /// Of work and of losses: whether the program has a function for them that is not 0 at all times.
+    has_powers: [bool; 2],
+}
+
+/// Whether all that a function gives is 0.
+fn is_nothing(function: &Function) -> bool {
+    let zero = |op: &Op| matches!(op, Op::Constant(constant) if constant.is_zero());
+    function.guards.is_empty()
+        && function
+            .results
+            .iter()
+            .all(|value| function.code.get(value.index()).is_some_and(zero))
+}
+
+/// Makes all these runs, in lanes where the machine of the first has code for that.
+pub(super) fn made(tasks: Vec<ToBeMade<'_, '_>>) -> Vec<Made<InterpretedMachine>> {
+    let first = tasks.first().map(|(task, _)| &task.of);
+    let machine = match first {
+        Some(Of::Machine(machine)) if machine.goes_side_by_side() => *machine,
+        _ => return alone(tasks),
+    };
+    let Some(library) = machine.machine_code.of_lanes(&machine.program, WIDTH) else {
+        return alone(tasks);
+    };
+    let has = |role| {
+        let function = machine.program.function(role);
+        function.is_some_and(|function| !is_nothing(function))
+    };
+    let mut machines = InLanes {
+        library,
+        program: machine.program.clone(),
+        several: None,
+        inputs: Vec::new(),
+        has_powers: [Role::WorkRate, Role::DissipationRate].map(has),
+    };
+    let mut all = Vec::new();
+    let mut made: Vec<Option<Made<InterpretedMachine>>> = Vec::new();
+    for (task, start) in tasks {
+        match Prepared::new(task, start) {
+            Ok(prepared) => {
+                all.push(prepared);
+                made.push(None);
+            }
+            Err(error) => made.push(Some(Err(error))),
+        }
+    }
+    let left = run_all(&mut all, &mut machines);
+    let solutions = all.into_iter().zip(left);
+    let mut solutions = solutions.map(|(prepared, over)| over.map(|over| prepared.solution(over)));
+    let made = made.into_iter();
+    made.filter_map(|made| made.or_else(|| solutions.next()))
+        .collect()
+}
+
+fn alone(tasks: Vec<ToBeMade<'_, '_>>) -> Vec<Made<InterpretedMachine>> {
+    let tasks = tasks.into_iter();
+    tasks.map(|(task, start)| run(task, start)).collect()
+}
+
+impl Machines<InterpretedMachine> for InLanes {
+    fn put(&mut self, lane: usize, system: &InterpretedSystem, inputs: &Named) -> bool {
+        if !Arc::ptr_eq(&system.program, &self.program) {
+            return false;
+        }
+        let running = system.running.lock();
+        match &mut self.several {
+            Some(several) => several.put(lane, &running.interpreter),
+            // Lanes without a run have the numbers of the first one, not those of no machine.
+            none => {
+                self.inputs = inputs.values.iter().map(|u| Lanes::splat(*u)).collect();
+                *none = Several::own(self.library.clone(), &running.interpreter);
+            }
+        }
+        for (row, u) in self.inputs.iter_mut().zip(&inputs.values) {
+            row[lane] = *u;
+        }
+        self.several.is_some()
+    }
+}
+
+impl InLanes {
+    fn call(
+        &mut self,
+        role: Role,
+        (t, q, v): (Wide, &[Wide], &[Wide]),
+        a: &[Wide],
+        results: &mut [Wide],
+    ) -> Which {
+        let u = &self.inputs;
+        let arguments = SeveralArguments { t, q, v, u, a };
+        let several = self.several.as_mut();
+        let held = several.and_then(|several| several.call(role, arguments, results));
+        // Without code every lane is run alone.
+        held.unwrap_or(0)
+    }
+}
+
+impl Evaluate for InLanes {
+    fn accelerations(&mut self, at: (Wide, &[Wide], &[Wide]), a: &mut [Wide]) -> Which {
+        self.call(Role::Accelerations, at, &[], a)
+    }
+
+    fn powers(&mut self, at: (Wide, &[Wide], &[Wide]), a: &[Wide]) -> ([Wide; 2], Which) {
+        let mut powers = [Lanes::splat(0.0); 2];
+        let mut held = !0;
+        let roles = [(Role::WorkRate, a), (Role::DissipationRate, &[])];
+        for (k, (role, a)) in roles.into_iter().enumerate() {
+            if self.has_powers[k] {
+                held &= self.call(role, at, a, &mut powers[k..=k]);
+            }
+        }
+        (powers, held)
+    }
+}

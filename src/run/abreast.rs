@@ -1,0 +1,158 @@
+//! Many runs, several at a time in the lanes of the processor: a lane whose run is over takes the next one.
+//!
+//! A run here is what it is alone, step by step; only the tries of steps are made for all lanes together
+//! (`src/stepper/abreast.rs`). So a run has the bits that it has alone, whatever its neighbours do.
+
+use std::vec::Vec;
+
+use super::{Going, Over, Prepared, RunOf};
+use crate::solution::Ending;
+use crate::step_error::StepError;
+use crate::stepper::abreast::{Abreast, Evaluate, Try, WIDTH, Which};
+use crate::{Error, Inputs, Machine};
+
+/// Fewer lanes than this are run one after the other, which is faster than all of them together with most at rest.
+const FEWEST: u32 = 3;
+
+/// The machines of all lanes.
+pub(crate) trait Machines<M: Machine>: Evaluate {
+    /// Puts a machine with its inputs into a lane, if it is of their kind.
+    fn put(&mut self, lane: usize, system: &M::System, inputs: &Inputs<M>) -> bool;
+}
+
+/// A run that is under way in a lane.
+struct Under<'r, 'a, 'l, M: Machine> {
+    index: usize,
+    run: RunOf<'r, 'a, 'l, M>,
+    going: Going,
+    next: Option<Try>,
+}
+
+/// How a run ends.
+type End = Result<Ending, Error>;
+
+/// What a run leaves; an error where it could not begin.
+type Left<M> = Result<Over<M>, Error>;
+
+/// Makes all these runs; what each of them leaves, in their order.
+pub(crate) fn run_all<'a, 'l, M: Machine>(
+    prepared: &mut [Prepared<'a, 'l, M>],
+    machines: &mut impl Machines<M>,
+) -> Vec<Left<M>> {
+    let mut left: Vec<Option<Left<M>>> = prepared.iter().map(|_| None).collect();
+    let mut queue = prepared.iter_mut().enumerate();
+    let mut lanes: [Option<Under<'_, 'a, 'l, M>>; WIDTH] = std::array::from_fn(|_| None);
+    let mut abreast: Option<Abreast> = None;
+    loop {
+        let mut which: Which = 0;
+        for (number, lane) in lanes.iter_mut().enumerate() {
+            while lane.is_none()
+                && let Some((index, prepared)) = queue.next()
+            {
+                let mut run = match prepared.begin() {
+                    Ok(run) => run,
+                    Err(error) => {
+                        left[index] = Some(Err(error));
+                        continue;
+                    }
+                };
+                let is_plain = run.sampling.is_none() && !run.settings.automatic;
+                let steps = &run.stepper;
+                let goes = is_plain && steps.may_go_abreast() && {
+                    let abreast = abreast.get_or_insert_with(|| Abreast::new(steps));
+                    abreast.goes_with(steps)
+                        && machines.put(number, run.model.system, steps.inputs())
+                };
+                if !goes {
+                    let ending = run.go_to_end();
+                    left[index] = Some(Ok(run.end(ending)));
+                    continue;
+                }
+                let mut under = Under {
+                    index,
+                    run,
+                    going: Going::new(),
+                    next: None,
+                };
+                match under.begin_step() {
+                    Some(ending) => left[index] = Some(Ok(under.run.end(ending))),
+                    None => *lane = Some(under),
+                }
+            }
+            which |= Which::from(lane.is_some()) << number;
+        }
+        let Some(abreast) = abreast.as_mut().filter(|_| which != 0) else {
+            break;
+        };
+        match which.count_ones() < FEWEST {
+            true => abreast.rest(),
+            false => {
+                for (number, lane) in lanes.iter().enumerate() {
+                    if let Some(Under { run, next, .. }) = lane
+                        && let Some(next) = next
+                    {
+                        abreast.put(number, &run.stepper, *next);
+                    }
+                }
+                abreast.attempt(which, machines);
+            }
+        }
+        for (number, lane) in lanes.iter_mut().enumerate() {
+            let ending = lane.as_mut().and_then(|under| under.go_on(number, abreast));
+            if let Some(ending) = ending
+                && let Some(Under { index, run, .. }) = lane.take()
+            {
+                left[index] = Some(Ok(run.end(ending)));
+            }
+        }
+    }
+    // Each was begun, and a lane is empty only where its run has left something.
+    left.into_iter().flatten().collect()
+}
+
+impl<M: Machine> Under<'_, '_, '_, M> {
+    /// Begins the next step, if the run is not over.
+    fn begin_step(&mut self) -> Option<End> {
+        loop {
+            if self.run.stepper.is_done() {
+                let going = std::mem::replace(&mut self.going, Going::new());
+                return Some(going.ending);
+            }
+            if let Err(error) = self.run.check_count() {
+                return Some(Err(error));
+            }
+            match self.run.stepper.begin_abreast() {
+                Ok(next) => {
+                    self.next = Some(next);
+                    return None;
+                }
+                Err(error) => {
+                    if let Some(ending) = self.look(Err(error)) {
+                        return Some(ending);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Goes on after a try of its step.
+    fn go_on(&mut self, lane: usize, abreast: &Abreast) -> Option<End> {
+        let stepped = match self.next.take() {
+            None => Ok(()),
+            Some(of) => match self.run.stepper.end_abreast(lane, of, abreast) {
+                Ok(Some(next)) => {
+                    self.next = Some(next);
+                    return None;
+                }
+                Ok(None) => Ok(()),
+                Err(error) => Err(error),
+            },
+        };
+        self.look(stepped).or_else(|| self.begin_step())
+    }
+
+    fn look(&mut self, stepped: Result<(), StepError>) -> Option<End> {
+        let looked = self.run.look_at_step(&mut self.going, stepped);
+        looked.transpose()
+    }
+}

@@ -1,0 +1,314 @@
+//! One try of the steps of several steppers at once, in the lanes of the processor.
+//!
+//! Each stepper chooses the length of its step, and decides what becomes of it: only what lies in between, the stages, is done
+//! for all of them together, by the sums that a stepper alone adds up. So each has the bits that it has alone. A lane in which
+//! anything is out of the ordinary, accelerations without a value or an error without measure, is tried again alone, which
+//! then says what it is.
+
+use std::vec::Vec;
+
+use super::{Room, Stepper};
+use crate::attempt;
+use crate::balance::Quadratures;
+use crate::inputs::InputLaw;
+use crate::methods::{Kind, MAX_STAGES, Method};
+use crate::scalar::{Kernel, Scalar};
+use crate::stages::Point;
+use crate::step_error::StepError;
+use crate::step_number::StepNumber;
+use crate::tolerance::Tolerance;
+use crate::{System, Vector};
+use lagrangian_native::{Lanes, Number};
+
+/// How many lanes there are: as many as the widest registers have.
+pub(crate) const WIDTH: usize = 8;
+
+/// A number of each lane.
+pub(crate) type Wide = Lanes<WIDTH>;
+
+/// A bit for each lane, the lowest of the first.
+pub(crate) type Which = u32;
+
+/// What evaluates the machines of all lanes.
+pub(crate) trait Evaluate {
+    /// Accelerations, and in which lanes they have values.
+    fn accelerations(&mut self, at: (Wide, &[Wide], &[Wide]), a: &mut [Wide]) -> Which;
+
+    /// What is done on the machines and what they lose, in W, and in which lanes these have values.
+    fn powers(&mut self, at: (Wide, &[Wide], &[Wide]), a: &[Wide]) -> ([Wide; 2], Which);
+}
+
+/// A step that is being tried: how long the try is, whether it is of the last step, and how long it may be.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Try {
+    h: f64,
+    last: bool,
+    room: Room,
+}
+
+/// What the steps of all lanes need.
+pub(crate) struct Abreast {
+    method: &'static Method,
+    tolerance: Tolerance<Vec<Wide>>,
+    before: Point<Vec<Wide>, Wide>,
+    now: Point<Vec<Wide>, Wide>,
+    k: [Vec<Wide>; MAX_STAGES],
+    stage: (Vec<Wide>, Vec<Wide>),
+    /// Of work and of losses at each stage.
+    powers: Option<[[Wide; 2]; MAX_STAGES]>,
+    h: Wide,
+    end: Wide,
+    is_last: [bool; WIDTH],
+    errors: [f64; WIDTH],
+    /// Where the last try went as it should.
+    went_well: Which,
+}
+
+impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
+    /// Whether its steps are made by explicit stages and nothing else, with inputs that stay as they are.
+    pub(crate) fn may_go_abreast(&self) -> bool {
+        let system = self.model.system.get();
+        let held = system.constraints().len()
+            + system.contacts().len()
+            + system.unilateral_contacts().len();
+        held == 0
+            && self.method.kind == Kind::RungeKutta
+            && self.implicit.is_none()
+            && self.taylor.is_none()
+            && self.model.law.is_constant()
+    }
+
+    /// Begins a step: its first try.
+    pub(crate) fn begin_abreast(&mut self) -> Result<Try, StepError> {
+        if self.changed {
+            self.look_again()?;
+        }
+        let room = self.begin_tries()?;
+        Ok(self.next_try(room))
+    }
+
+    fn next_try(&mut self, room: Room) -> Try {
+        let (h, last) = self.choose(room);
+        Try { h, last, room }
+    }
+
+    /// Ends a try: the next one, or nothing where the step was taken.
+    pub(crate) fn end_abreast(
+        &mut self,
+        lane: usize,
+        of: Try,
+        abreast: &Abreast,
+    ) -> Result<Option<Try>, StepError> {
+        let tried = match abreast.take(lane, self) {
+            Some(error) => Ok(error),
+            None => self.attempt(of.h, of.last),
+        };
+        let is_taken = self.decide((of.h, of.room), tried)?;
+        Ok((!is_taken).then(|| self.next_try(of.room)))
+    }
+}
+
+impl Abreast {
+    /// For steppers that go with this one.
+    pub fn new<S: System, L: InputLaw<S>, A: Quadratures<S>>(of: &Stepper<'_, S, L, A>) -> Self {
+        let spread = |numbers: &S::Vector| -> Vec<Wide> {
+            let numbers = numbers.as_slice().iter();
+            numbers.map(|number| Lanes::splat(*number)).collect()
+        };
+        let (q, v) = (spread(&of.now.q), spread(&of.now.v));
+        let now = Point::new(Lanes::splat(of.now.t), q, v);
+        let zeros = now.q.zeros_like();
+        let has_powers = of.quadratures.integrals().is_some();
+        Self {
+            method: of.method,
+            tolerance: Tolerance {
+                relative: of.tolerance.relative,
+                absolute: spread(&of.tolerance.absolute),
+            },
+            before: now.clone(),
+            now,
+            k: zeros.several_zeros_like(),
+            stage: (zeros.clone(), zeros),
+            powers: has_powers.then_some([[Lanes::splat(0.0); 2]; MAX_STAGES]),
+            h: Lanes::splat(0.0),
+            end: Lanes::splat(of.now.t),
+            is_last: [false; WIDTH],
+            errors: [0.0; WIDTH],
+            went_well: 0,
+        }
+    }
+
+    /// Whether a stepper goes with the one that this was made for: the same weights and the same relative tolerance for both.
+    pub fn goes_with<S: System, L, A: Quadratures<S>>(&self, of: &Stepper<'_, S, L, A>) -> bool {
+        std::ptr::eq(self.method, of.method)
+            && self.tolerance.relative.to_bits() == of.tolerance.relative.to_bits()
+            && self.before.q.len() == of.now.q.as_slice().len()
+            && self.powers.is_some() == of.quadratures.integrals().is_some()
+    }
+
+    /// Puts the beginning of a step and the length of its try into a lane.
+    pub fn put<S: System, L: InputLaw<S>, A: Quadratures<S>>(
+        &mut self,
+        lane: usize,
+        of: &Stepper<'_, S, L, A>,
+        next: Try,
+    ) {
+        let to = &mut self.before;
+        (to.t[lane], to.t_low[lane]) = (of.before.t, of.before.t_low);
+        put(&mut to.q, lane, &of.before.q);
+        put(&mut to.q_low, lane, &of.before.q_low);
+        put(&mut to.v, lane, &of.before.v);
+        put(&mut to.v_low, lane, &of.before.v_low);
+        put(&mut self.k[0], lane, &of.k[0]);
+        put(&mut self.tolerance.absolute, lane, &of.tolerance.absolute);
+        (self.h[lane], self.end[lane]) = (next.h, of.end);
+        self.is_last[lane] = next.last;
+    }
+
+    /// Leaves the next try of every step to its stepper alone.
+    pub fn rest(&mut self) {
+        self.went_well = 0;
+    }
+
+    /// Tries the steps of these lanes. What the others hold changes nothing.
+    pub fn attempt(&mut self, which: Which, machines: &mut impl Evaluate) {
+        self.went_well = which;
+        <Wide as Number>::run(Attempt(self, machines));
+    }
+
+    /// Gives a stepper what a try of its step came to, and returns the error of the step, 1 being just tolerable. None if it is
+    /// to be tried alone.
+    fn take<S: System, L: InputLaw<S>, A: Quadratures<S>>(
+        &self,
+        lane: usize,
+        to: &mut Stepper<'_, S, L, A>,
+    ) -> Option<f64> {
+        if self.went_well >> lane & 1 == 0 {
+            return None;
+        }
+        let stages = self.method.tableau.stages;
+        let error = self.errors[lane];
+        let at_end = self.method.scheme.error_needs_end || error <= 1.0;
+        let known = if at_end { stages + 1 } else { stages };
+        for (to, from) in to.k.iter_mut().zip(&self.k).take(known).skip(1) {
+            take(to, lane, from);
+        }
+        let now = &mut to.now;
+        (now.t, now.t_low) = (self.now.t[lane], self.now.t_low[lane]);
+        take(&mut now.q, lane, &self.now.q);
+        take(&mut now.q_low, lane, &self.now.q_low);
+        take(&mut now.v, lane, &self.now.v);
+        take(&mut now.v_low, lane, &self.now.v_low);
+        take(&mut to.stage.0, lane, &self.stage.0);
+        take(&mut to.stage.1, lane, &self.stage.1);
+        if let Some(powers) = &self.powers {
+            for (stage, [work, lost]) in powers.iter().enumerate().take(known).skip(1) {
+                to.quadratures.take(stage, work[lane], lost[lane]);
+            }
+        }
+        to.control.work.evaluations += known - 1;
+        Some(error)
+    }
+
+    #[inline(always)]
+    fn attempt_in_lanes(&mut self, machines: &mut impl Evaluate) {
+        let Self {
+            method,
+            tolerance,
+            before,
+            now,
+            k,
+            stage: (q, v),
+            powers,
+            h,
+            end,
+            is_last,
+            errors,
+            went_well,
+        } = self;
+        let stages = method.tableau.stages;
+        let mut look =
+            |stage: usize, (t, q, v): (Wide, &Vec<Wide>, &Vec<Wide>), a: &mut Vec<Wide>| {
+                let mut fine = machines.accelerations((t, q, v), a);
+                // The sum of what is not finite is not finite, and one test is cheaper than many.
+                let mut sum = Wide::NOTHING;
+                for a in a.iter() {
+                    sum = sum + *a;
+                }
+                fine &= bits(&sum.are_finite());
+                if let Some(powers) = powers {
+                    let (of_stage, known) = machines.powers((t, q, v), a);
+                    powers[stage] = of_stage;
+                    fine &= known;
+                }
+                fine
+            };
+        let gone = attempt::go_through_stages(method, (before, *h), k, [q, v], |i, at, a| {
+            *went_well &= look(i, at, a);
+            if *went_well == 0 {
+                Err(NobodyTries)
+            } else {
+                Ok(())
+            }
+        });
+        if gone.is_err() {
+            return;
+        }
+        attempt::arrive(method, (before, *h), k, now, (*end, is_last));
+        if method.scheme.error_needs_end {
+            *went_well &= look(stages, (now.t, &now.q, &now.v), &mut k[stages]);
+        }
+        *errors = attempt::errors(method, *h, [before, now], k, tolerance);
+        *went_well &= bits(&attempt::are_finite(&now.q, &now.v));
+        let mut good = 0;
+        for (lane, error) in errors.iter().enumerate() {
+            if !error.is_finite() {
+                *went_well &= !(1 << lane);
+            }
+            good |= Which::from(*error <= 1.0) << lane;
+        }
+        good &= *went_well;
+        if !method.scheme.error_needs_end && good != 0 {
+            let fine = look(stages, (now.t, &now.q, &now.v), &mut k[stages]);
+            *went_well &= fine | !good;
+        }
+    }
+}
+
+/// No lane is trying any more.
+struct NobodyTries;
+
+/// One try of every lane, in the widest registers that there are.
+struct Attempt<'a, E>(&'a mut Abreast, &'a mut E);
+
+impl<E: Evaluate> Kernel<Wide> for Attempt<'_, E> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<N: Scalar<Stored = Wide>>(self) {
+        self.0.attempt_in_lanes(self.1);
+    }
+}
+
+#[inline(always)]
+fn bits(of: &[bool; WIDTH]) -> Which {
+    let mut bits = 0;
+    for (lane, is) in of.iter().enumerate() {
+        bits |= Which::from(*is) << lane;
+    }
+    bits
+}
+
+#[inline(always)]
+fn put(rows: &mut [Wide], lane: usize, vector: &impl Vector) {
+    for (row, number) in rows.iter_mut().zip(vector.as_slice()) {
+        row[lane] = *number;
+    }
+}
+
+#[inline(always)]
+fn take(vector: &mut impl Vector, lane: usize, rows: &[Wide]) {
+    for (number, row) in vector.as_mut_slice().iter_mut().zip(rows) {
+        *number = row[lane];
+    }
+}
