@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use lagrangian::interpreted::{Engine, InterpretedMachine, InterpretedSystem, Named, Signals};
 use lagrangian::methods::{Method, TAYLOR};
 use lagrangian::{
-    ContactEventKind, Crossing, Ending, Machine, Observation, Simulation, State, System,
+    ContactEventKind, Crossing, Ending, Machine, Observation, Simulation, Solution, State, System,
 };
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::series::ProvedSeries;
@@ -27,6 +27,12 @@ use crate::verdict;
 
 /// More instants of one run than this are a slip of the hand.
 const MOST_INSTANTS: f64 = 1e6;
+
+/// How many runs are begun at once where they go side by side: each holds as many numbers as its program has operations, and
+/// the more there are, the later lanes stand still.
+const OPERATIONS_AT_ONCE: u64 = 1 << 20;
+const LEAST_GROUP: u64 = 16;
+const MOST_GROUP: u64 = 64;
 
 /// Why a plan cannot be run.
 #[derive(Debug)]
@@ -53,6 +59,8 @@ pub struct Sweep {
     reductions: Vec<Made>,
     columns: Vec<Column>,
     sample_columns: Option<Vec<Column>>,
+    /// How many runs are begun at once where they go side by side.
+    group: u64,
 }
 
 /// How a reduction is made.
@@ -318,7 +326,14 @@ impl Sweep {
                 twice.name
             )));
         }
+        let operations: usize = compiled
+            .program
+            .all_functions()
+            .map(|function| function.code.len())
+            .sum();
+        let group = (OPERATIONS_AT_ONCE / operations.max(1) as u64).clamp(LEAST_GROUP, MOST_GROUP);
         Ok(Sweep {
+            group,
             machine,
             method,
             warning,
@@ -341,6 +356,11 @@ impl Sweep {
     /// Cuts the sweep into chunks of another length, which changes no row.
     pub fn set_chunk(&mut self, chunk: u64) {
         self.plan.chunk = chunk;
+    }
+
+    /// Whether its machine has code by which runs may go side by side, in lanes.
+    pub(crate) fn goes_side_by_side(&self) -> bool {
+        self.machine.goes_side_by_side()
     }
 
     /// What is to be said of it although it runs.
@@ -391,20 +411,31 @@ impl Sweep {
             samples: self.no_samples(),
             failed: 0,
         };
-        for run in runs {
+        let mut numbers = runs;
+        while !numbers.is_empty() {
             if stop.load(Ordering::Relaxed) {
                 return None;
             }
-            let values = design::values(&self.plan.design, run);
-            let mut outcome = self.run_one(run, &values, refuses.as_ref(), stop)?;
-            chunk.failed += u64::from(outcome.error.is_some());
-            done(outcome.error.is_some());
-            if let (Some(samples), Some(all)) = (outcome.samples.take(), &mut chunk.samples) {
-                all.extend(samples);
+            let group = match self.goes_side_by_side() {
+                true => self.group,
+                false => 1,
+            };
+            let last = numbers.end.min(numbers.start.saturating_add(group));
+            let runs: Vec<(u64, Vec<f64>)> = (numbers.start..last)
+                .map(|run| (run, design::values(&self.plan.design, run)))
+                .collect();
+            numbers.start = last;
+            let outcomes = self.run_group(&runs, refuses.as_ref(), stop)?;
+            for ((run, values), mut outcome) in runs.iter().zip(outcomes) {
+                chunk.failed += u64::from(outcome.error.is_some());
+                done(outcome.error.is_some());
+                if let (Some(samples), Some(all)) = (outcome.samples.take(), &mut chunk.samples) {
+                    all.extend(samples);
+                }
+                chunk
+                    .rows
+                    .push(self.row(*run, values, outcome.into_cells()));
             }
-            chunk
-                .rows
-                .push(self.row(run, &values, outcome.into_cells()));
         }
         Some(chunk)
     }
@@ -417,14 +448,48 @@ impl Sweep {
             .collect()
     }
 
-    /// Makes one run; nothing where it was stopped.
-    fn run_one(
+    /// Makes these runs, side by side where the machine has code for that; nothing where they were stopped.
+    fn run_group(
         &self,
-        run: u64,
-        values: &[f64],
+        runs: &[(u64, Vec<f64>)],
         refuses: Option<&Model<'_>>,
         stop: &AtomicBool,
-    ) -> Option<Outcome> {
+    ) -> Option<Vec<Outcome>> {
+        let mut begun: Vec<Begun> = runs
+            .iter()
+            .map(|(_, values)| self.begin_one(values, refuses))
+            .collect();
+        let mut simulations = Vec::new();
+        for ((run, _), begun) in runs.iter().zip(&mut begun) {
+            if begun.refused.is_none() {
+                let start = begun.start.clone();
+                simulations.push((self.simulation(*run, begun, stop), start));
+            }
+        }
+        let made = Simulation::run_interpreted_side_by_side(simulations);
+        let mut made = made.into_iter();
+        let outcomes = runs.iter().zip(begun).map(|((run, _), begun)| {
+            let (instants, reductions) = (begun.watched.at.len(), self.reductions.len());
+            let failed = Outcome::failed(begun.start, instants, reductions);
+            if let Some(error) = begun.refused {
+                let error = Some(error);
+                return Some(Outcome { error, ..failed });
+            }
+            match made.next()? {
+                Ok((solution, error)) => {
+                    self.outcome(*run, (&solution, error), begun.watched, failed)
+                }
+                Err(error) => {
+                    let error = Some(verdict::said(&error));
+                    Some(Outcome { error, ..failed })
+                }
+            }
+        });
+        outcomes.collect()
+    }
+
+    /// A run with the values of what is varied, not yet under way.
+    fn begin_one(&self, values: &[f64], refuses: Option<&Model<'_>>) -> Begun {
         let plan = &self.plan;
         let mut machine = self.machine.clone();
         let mut coordinates = [(&plan.start, Vec::new()), (&plan.rate, Vec::new())];
@@ -455,34 +520,50 @@ impl Sweep {
             Made::Along(tracker) => Some(tracker.clone()),
             Made::Of(..) => None,
         });
-        let mut watched = Watched {
+        let watched = Watched {
             trackers: trackers.collect(),
             at: vec![None; plan.at.len()],
             samples: self.no_samples(),
             due: 0,
         };
-        let mut outcome = Outcome::failed(start.clone(), watched.at.len(), self.reductions.len());
-        if let Some(model) = refuses {
+        let refused = refuses.and_then(|model| {
             let said = model.refused_values(machine.parameter_values());
             let error = said
                 .iter()
-                .find(|said| said.code.severity() == Severity::Error);
-            if let Some(error) = error {
-                outcome.error = Some(format!("{} [{}]", error.message, error.code));
-                return Some(outcome);
-            }
+                .find(|said| said.code.severity() == Severity::Error)?;
+            Some(format!("{} [{}]", error.message, error.code))
+        });
+        Begun {
+            system: machine.prepare(),
+            machine,
+            start,
+            watched,
+            refused,
         }
+    }
 
-        // Formulas are asked for while the run has its own system.
-        let system = machine.prepare();
-        let function = |output: usize, state: &State<Named>| {
+    /// The simulation of a run.
+    fn simulation<'r>(
+        &'r self,
+        run: u64,
+        begun: &'r mut Begun,
+        stop: &'r AtomicBool,
+    ) -> Simulation<'r, InterpretedMachine, Signals> {
+        let plan = &self.plan;
+        let Begun {
+            machine,
+            system,
+            watched,
+            ..
+        } = begun;
+        let (machine, system) = (&*machine, &*system);
+        let function = move |output: usize, state: &State<Named>| {
             let mut u = system.default_inputs();
             let State { t, q, v } = state;
-            lagrangian::InputLaw::set(&self.signals, &system, *t, &q.values, &v.values, &mut u);
+            lagrangian::InputLaw::set(&self.signals, system, *t, &q.values, &v.values, &mut u);
             system.output(output, *t, &q.values, &v.values, &[], &u.values)
         };
-        let started = &mut watched;
-        let simulation = Simulation::new(&machine)
+        let simulation = Simulation::new(machine)
             .tolerance(plan.tolerance)
             .method(self.method)
             .until(plan.until)
@@ -494,7 +575,7 @@ impl Sweep {
             true => simulation,
             false => simulation.forget_energies(),
         };
-        let mut simulation = self.signals.drive(simulation, &machine);
+        let mut simulation = self.signals.drive(simulation, machine);
         if let Some(keep) = &plan.keep {
             simulation = simulation.keep_none();
             for name in keep {
@@ -528,21 +609,28 @@ impl Sweep {
             || !plan.at.is_empty()
             || plan.every.is_some();
         if looks {
-            simulation = simulation.each_step(|step| started.take(plan, run, &system, step));
+            simulation = simulation.each_step(move |step| watched.take(plan, run, system, step));
         }
-        let simulation = simulation.stop_if(|_| stop.load(Ordering::Relaxed));
-        let (solution, error) = match simulation.run_interpreted_as_far_as_possible(start) {
-            Ok(made) => made,
-            Err(error) => {
-                outcome.error = Some(verdict::said(&error));
-                return Some(outcome);
-            }
-        };
+        simulation.stop_if(|_| stop.load(Ordering::Relaxed))
+    }
+
+    /// What came of a run that was begun; nothing where it was stopped.
+    fn outcome(
+        &self,
+        run: u64,
+        (solution, error): (
+            &Solution<InterpretedMachine, Signals>,
+            Option<lagrangian::Error>,
+        ),
+        mut watched: Watched,
+        mut outcome: Outcome,
+    ) -> Option<Outcome> {
+        let plan = &self.plan;
         if *solution.ending() == Ending::Stopped {
             return None;
         }
         let error = error.as_ref().map(verdict::said);
-        outcome.error = error.or_else(|| verdict::objection(&solution));
+        outcome.error = error.or_else(|| verdict::objection(solution));
         outcome.status = match (&outcome.error, solution.ending()) {
             (Some(_), _) => "failed".to_owned(),
             (None, Ending::Event(name)) => format!("event {name}"),
@@ -606,6 +694,17 @@ impl Sweep {
         }
         Some(outcome)
     }
+}
+
+/// A run with its numbers.
+struct Begun {
+    machine: InterpretedMachine,
+    /// What evaluates formulas while the run has a system of its own.
+    system: InterpretedSystem,
+    start: State<Named>,
+    watched: Watched,
+    /// What the spec says of numbers that no machine has.
+    refused: Option<String>,
 }
 
 /// What is looked at while a run is made.

@@ -12,6 +12,10 @@ use crate::sweep::Sweep;
 /// How long a chunk is to take.
 const CHUNK: Duration = Duration::from_secs(1);
 
+/// How many runs fill the lanes of a processor twice, and how long a chunk may take alone so that they do.
+const TO_FILL: u64 = 16;
+const LONGEST: Duration = Duration::from_secs(10);
+
 /// How many runs tell how long one takes.
 const TRIED: u64 = 8;
 
@@ -35,7 +39,8 @@ pub fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, NonZero::get)
 }
 
-/// A length of chunks: as many runs as take about a second, by the first of them; a power of two.
+/// A length of chunks: as many runs as take about a second, by the first of them, and more where lanes wait for them; a power of
+/// two.
 pub fn chunk_length(sweep: &Sweep) -> u64 {
     let runs = sweep.plan().runs();
     let most = (runs / (CHUNKS_A_CORE * cores() as u64)).clamp(1, LONGEST_CHUNK);
@@ -62,7 +67,10 @@ pub fn chunk_length(sweep: &Sweep) -> u64 {
         drop(tell);
     });
     let each = began.elapsed().as_secs_f64() / done.max(1) as f64;
-    let fit = (CHUNK.as_secs_f64() / each.max(1e-9)) as u64;
+    let mut fit = (CHUNK.as_secs_f64() / each.max(1e-9)) as u64;
+    if sweep.goes_side_by_side() && each * TO_FILL as f64 <= LONGEST.as_secs_f64() {
+        fit = fit.max(TO_FILL);
+    }
     let length = fit.clamp(1, most);
     1 << (63 - length.leading_zeros())
 }

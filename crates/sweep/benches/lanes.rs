@@ -1,0 +1,117 @@
+//! Runs of a sweep a second, side by side in lanes and one after the other, on one core.
+//!
+//! Both make the same rows, which is checked; rounds alternate, and the median of them counts.
+
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+use lagrangian::interpreted::Engine;
+use lagrangian_sweep::design::Factor;
+use lagrangian_sweep::plan::{Function, Reduction, SpecText, VERSION};
+use lagrangian_sweep::{Plan, Sweep};
+
+const RUNS: u64 = 512;
+const ROUNDS: usize = 7;
+
+fn plan(machine: &str, until: f64, varied: [(&str, f64, f64); 1], tolerance: f64) -> Plan {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines");
+    let path = path.join(machine).with_extension("machine");
+    let factor = |(name, from, to): (&str, f64, f64)| Factor::Grid {
+        name: name.into(),
+        from,
+        to,
+        count: RUNS,
+        log: false,
+    };
+    Plan {
+        version: VERSION,
+        spec: SpecText {
+            name: machine.into(),
+            text: std::fs::read_to_string(path).expect("a machine of the library"),
+            ..SpecText::default()
+        },
+        set: Vec::new(),
+        start: Vec::new(),
+        rate: Vec::new(),
+        keep: None,
+        until,
+        tolerance,
+        method: "dop853".into(),
+        max_steps: 10_000_000,
+        inputs: Vec::new(),
+        events: Vec::new(),
+        at: Vec::new(),
+        every: None,
+        at_events: Vec::new(),
+        reduce: Vec::new(),
+        after: None,
+        design: varied.map(factor).into(),
+        chunk: RUNS,
+    }
+}
+
+/// Runs a second, in pieces of so many; and the rows.
+fn measure(sweep: &Sweep, piece: u64) -> (f64, String) {
+    let (stop, mut all) = (AtomicBool::new(false), sweep.empty());
+    let began = Instant::now();
+    for from in (0..RUNS).step_by(piece as usize) {
+        let chunk = sweep.run(from..RUNS.min(from + piece), &stop, &|_| ());
+        all.extend(chunk.expect("nobody stops it").rows);
+    }
+    (
+        RUNS as f64 / began.elapsed().as_secs_f64(),
+        format!("{all:?}"),
+    )
+}
+
+fn main() {
+    println!("| machine | tolerance | kept | alone, runs/s | in lanes | ratio |");
+    println!("| --- | --- | --- | --- | --- | --- |");
+    for (machine, until, varied, of) in [
+        (
+            "double_pendulum",
+            10.0,
+            ("start(theta1)", 0.1, 3.0),
+            "theta2",
+        ),
+        ("vibrating_crusher", 1.0, ("start(x)", 0.0, 0.01), "x"),
+    ] {
+        for (tolerance, reduces) in [(1e-6, false), (1e-9, false), (1e-9, true)] {
+            let mut plan = plan(machine, until, [varied], tolerance);
+            if reduces {
+                plan.reduce.push(Reduction {
+                    name: "peak".into(),
+                    function: Function::Max,
+                    of: format!("abs({of})"),
+                });
+            }
+            let sweep = match Sweep::new(plan, Engine::Jit) {
+                Ok(sweep) => sweep,
+                Err(error) => {
+                    println!("no machine code here: {error:?}");
+                    return;
+                }
+            };
+            let (mut alone, mut in_lanes) = (Vec::new(), Vec::new());
+            for _ in 0..ROUNDS {
+                // A run alone has no lanes to share.
+                let (one, rows) = measure(&sweep, 1);
+                let (many, same) = measure(&sweep, RUNS);
+                assert!(rows == same, "{machine}: other rows in lanes");
+                alone.push(one);
+                in_lanes.push(many);
+            }
+            let median = |mut speeds: Vec<f64>| {
+                speeds.sort_by(f64::total_cmp);
+                speeds[ROUNDS / 2]
+            };
+            let (alone, in_lanes) = (median(alone), median(in_lanes));
+            let kept = if reduces { "end, a maximum" } else { "end" };
+            println!(
+                "| `{machine}` | {tolerance:e} | {kept} | {alone:.0} | {in_lanes:.0} | {:.2} |",
+                in_lanes / alone
+            );
+        }
+    }
+}

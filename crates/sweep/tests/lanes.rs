@@ -1,0 +1,251 @@
+//! Runs in lanes: the rows of machine code, side by side, are those of the interpreter, one run after the other, in every bit.
+
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+use lagrangian::interpreted::Engine;
+use lagrangian_sweep::design::Factor;
+use lagrangian_sweep::plan::{Function, Law, Reduction, SpecText, VERSION, Watch};
+use lagrangian_sweep::{Plan, Sweep};
+
+fn plan(text: &str, until: f64, design: Vec<Factor>) -> Plan {
+    Plan {
+        version: VERSION,
+        spec: SpecText {
+            name: "machine".into(),
+            text: text.into(),
+            ..SpecText::default()
+        },
+        set: Vec::new(),
+        start: Vec::new(),
+        rate: Vec::new(),
+        keep: None,
+        until,
+        tolerance: 1e-9,
+        method: "dop853".into(),
+        max_steps: 10_000_000,
+        inputs: Vec::new(),
+        events: Vec::new(),
+        at: Vec::new(),
+        every: None,
+        at_events: Vec::new(),
+        reduce: Vec::new(),
+        after: None,
+        design,
+        chunk: 1,
+    }
+}
+
+fn library(name: &str) -> String {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines");
+    std::fs::read_to_string(root.join(name).with_extension("machine")).expect("a machine")
+}
+
+fn grid(name: &str, from: f64, to: f64, count: u64) -> Factor {
+    Factor::Grid {
+        name: name.into(),
+        from,
+        to,
+        count,
+        log: false,
+    }
+}
+
+fn reduce(name: &str, function: Function, of: &str) -> Reduction {
+    Reduction {
+        name: name.into(),
+        function,
+        of: of.into(),
+    }
+}
+
+fn watch(name: &str, formula: &str, ends: bool) -> Watch {
+    Watch {
+        name: name.into(),
+        formula: formula.into(),
+        ends,
+    }
+}
+
+/// All rows and samples, made in pieces of so many runs; with every digit that tells two numbers apart.
+fn rows(sweep: &Sweep, piece: u64) -> (String, u64) {
+    let (mut all, mut samples) = (sweep.empty(), sweep.no_samples());
+    let (stop, runs) = (AtomicBool::new(false), sweep.plan().runs());
+    let (mut from, mut failed) = (0, 0);
+    while from < runs {
+        let to = runs.min(from + piece);
+        let chunk = sweep
+            .run(from..to, &stop, &|_| ())
+            .expect("nobody stops it");
+        failed += chunk.failed;
+        all.extend(chunk.rows);
+        if let (Some(all), Some(more)) = (&mut samples, chunk.samples) {
+            all.extend(more);
+        }
+        from = to;
+    }
+    (format!("{all:?} {samples:?}"), failed)
+}
+
+/// Compares lanes, in pieces of many lengths, with the interpreter; how many runs failed. Nothing where there is no machine code.
+fn compare(plan: &Plan) -> u64 {
+    let alone = Sweep::new(plan.clone(), Engine::Interpreter).expect("a plan");
+    let (truth, failed) = rows(&alone, plan.runs());
+    if let Ok(in_lanes) = Sweep::new(plan.clone(), Engine::Jit) {
+        // One run alone, too few for lanes, fewer than lanes, as many, more, and lanes that are filled again.
+        for piece in [1, 2, 5, 8, 13, plan.runs()] {
+            let (found, also_failed) = rows(&in_lanes, piece);
+            assert!(found == truth, "pieces of {piece}: {plan:?}");
+            assert_eq!(also_failed, failed);
+        }
+    }
+    if let Ok(automatic) = Sweep::new(plan.clone(), Engine::Auto) {
+        // Code comes in the middle of it.
+        assert!(rows(&automatic, plan.runs()).0 == truth, "{plan:?}");
+    }
+    failed
+}
+
+#[test]
+fn library_machines_by_every_explicit_method() {
+    for (name, varied, until) in [
+        ("double_pendulum", grid("start(theta1)", 0.2, 3.0, 21), 2.0),
+        ("vibrating_crusher", grid("omega", 100.0, 180.0, 19), 0.2),
+        ("kapitza_pendulum", grid("start(theta)", 2.0, 3.1, 19), 0.2),
+        ("elastic_pendulum", grid("rate(theta)", 0.0, 1.0, 18), 1.0),
+        (
+            "gyroscope_in_gimbals",
+            grid("rate(gamma)", 9.0, 90.0, 18),
+            0.5,
+        ),
+        ("spring_mass_train", grid("pull", 0.0, 300.0, 17), 1.0),
+        ("cart_pole", grid("start(theta)", 0.1, 3.0, 18), 1.0),
+    ] {
+        for method in ["dop853", "dopri5", "bs32"] {
+            let mut plan = plan(&library(name), until, vec![varied.clone()]);
+            plan.method = method.into();
+            plan.tolerance = 1e-7;
+            plan.at = vec![0.3 * until, until];
+            assert_eq!(compare(&plan), 0, "{name}");
+        }
+    }
+}
+
+#[test]
+fn what_is_recorded_on_the_way() {
+    let text = library("double_pendulum");
+    let mut plan = plan(
+        &text,
+        4.0,
+        vec![grid("start(theta1)", 0.5, 3.0, 9), grid("m2", 0.5, 1.5, 3)],
+    );
+    plan.events = vec![
+        watch("down", "theta1", false),
+        watch("over", "theta2^2 - 9.8", true),
+    ];
+    plan.reduce = vec![
+        reduce("fast", Function::Max, "abs(der(theta2))"),
+        reduce("mean", Function::Mean, "der(der(theta1))"),
+        reduce("downs", Function::Count, "down"),
+    ];
+    plan.after = Some(0.5);
+    plan.every = Some(0.25);
+    assert_eq!(compare(&plan), 0);
+    // Samples at events instead; and backward in time.
+    plan.every = None;
+    plan.at_events = vec!["down".into()];
+    assert_eq!(compare(&plan), 0);
+    plan.until = -2.0;
+    plan.after = None;
+    assert_eq!(compare(&plan), 0);
+}
+
+/// The pendulum that is let go from 0.1 swings for a minute, all others turn over within seconds and make room for others.
+#[test]
+fn one_run_is_far_longer_than_the_others() {
+    let text = library("double_pendulum");
+    let mut starts = vec![vec![0.1]];
+    starts.extend((0..40).map(|i| vec![2.0 + 0.025 * f64::from(i)]));
+    let design = vec![Factor::List {
+        names: vec!["start(theta1)".into()],
+        rows: starts,
+    }];
+    let mut plan = plan(&text, 60.0, design);
+    plan.events = vec![watch("over", "theta2^2 - 9.8", true)];
+    assert_eq!(compare(&plan), 0);
+}
+
+/// A mass falls into a centre that attracts it, where there is no force any more; from elsewhere it swings by.
+const FALLING: &str = "machine Falling in plane {
+    parameters { m: kg = 1, k: J*m = 1 }
+    coordinates { x: m = 1, y: m = 0 }
+    bodies { block { mass: m, at: (x, y) } }
+    potentials { attraction: -k/sqrt(x^2 + y^2) }
+}";
+
+/// The inertia of `s` is 0 where `s` is: accelerations have no value there.
+const CUSP: &str = "machine Cusp in plane {
+    parameters { m: kg = 1, g: m/s^2 = 9.81, l: m = 1, top: m = 1 }
+    coordinates { s: m = 1 }
+    bodies { bead { mass: m, at: (s^2/(2*l), s^3/(3*l^2)) } }
+    gravity (-g, -g);
+    assume { s < top }
+}";
+
+#[test]
+fn runs_that_fail_in_the_middle_of_others() {
+    let mut falling = plan(FALLING, 3.0, vec![grid("rate(y)", -0.5, 0.5, 21)]);
+    assert!(compare(&falling) >= 1);
+    // Those that pass near the centre need more steps than they may take.
+    falling.max_steps = 90;
+    let failed = compare(&falling);
+    assert!((2..21).contains(&failed), "{failed} failed");
+
+    // Some meet the cusp, some come to where the spec ends, some do neither; a mass of less than 0 is refused.
+    let mut cusp = plan(
+        CUSP,
+        0.3,
+        vec![grid("start(s)", 0.1, 2.0, 20), grid("m", -1.0, 1.0, 3)],
+    );
+    cusp.set = vec![("top".into(), 1.7)];
+    let failed = compare(&cusp);
+    assert!((40..60).contains(&failed), "{failed} failed");
+    // Backward in time beads rise, and meet their end later.
+    cusp.until = -0.3;
+    compare(&cusp);
+}
+
+/// A mass of 1 kg on a spring, pushed by an input.
+const OSCILLATOR: &str = "machine Oscillator in plane {
+    parameters { m: kg = 1, k: N/m = 4, c: N*s/m = 0.1 }
+    coordinates { x: m = 0.1 }
+    inputs { push: N = 0 }
+    bodies { block { mass: m, at: (x, 0) } }
+    springs { spring { stiffness: k, stretch: x } }
+    dampers { damper { damping: c, stretch: x } }
+    forces { push { on: x, value: push } }
+}";
+
+#[test]
+fn inputs_that_stay_and_inputs_that_change() {
+    let mut plan = plan(
+        OSCILLATOR,
+        3.0,
+        vec![grid("push", -1.0, 1.0, 11), grid("k", 1.0, 9.0, 3)],
+    );
+    assert_eq!(compare(&plan), 0);
+    plan.design.remove(0);
+    plan.design.push(grid("m", 0.5, 2.0, 7));
+    for law in [
+        Law::Formula("2*N".into()),
+        Law::Formula("0.5*N*cos(3*rad/s*t) - k*x".into()),
+        Law::Sampled {
+            formula: "-k*x".into(),
+            every: 0.1,
+            delay: 0.0,
+        },
+    ] {
+        plan.inputs = vec![("push".into(), law)];
+        assert_eq!(compare(&plan), 0);
+    }
+}
