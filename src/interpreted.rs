@@ -18,10 +18,10 @@ use lagrangian_scalar::{Dual, Interval, Kernel, Scalar};
 use lagrangian_spec::model::{self, Variable};
 use lagrangian_spec::token::normalized;
 
-#[cfg(feature = "jit")]
-mod abreast;
 mod enclosure;
 mod engine;
+#[cfg(feature = "jit")]
+mod in_lanes;
 mod in_numbers;
 mod in_series;
 mod reading;

@@ -1,11 +1,11 @@
 //! The making of a run: step after step, with everything that the simulation was told to look at.
 
-#[cfg(feature = "jit")]
-pub(crate) mod abreast;
 mod choosing;
 pub(crate) mod contacts;
 mod explained;
 mod handing_over;
+#[cfg(feature = "jit")]
+pub(crate) mod in_lanes;
 pub(crate) mod sampled;
 mod stepping;
 

@@ -1,8 +1,6 @@
 //! One step after another: the core that every run goes through. It allocates nothing, and needs no
 //! standard library; methods whose stages depend on each other have their memory from an allocator.
 
-#[cfg(feature = "jit")]
-pub(crate) mod abreast;
 #[cfg(feature = "std")]
 mod along_dense_output;
 #[cfg(feature = "std")]
@@ -13,6 +11,8 @@ mod handing_over;
 mod implicitly;
 #[cfg(feature = "std")]
 mod in_impulses;
+#[cfg(feature = "jit")]
+pub(crate) mod in_lanes;
 #[cfg(feature = "std")]
 mod in_series;
 #[cfg(feature = "std")]

@@ -158,7 +158,7 @@ pub(super) type ToBeMade<'a, 'l> = (
 
 #[cfg(feature = "jit")]
 fn made_side_by_side(tasks: Vec<ToBeMade<'_, '_>>) -> Vec<Made<InterpretedMachine>> {
-    super::abreast::made(tasks)
+    super::in_lanes::made(tasks)
 }
 
 #[cfg(not(feature = "jit"))]

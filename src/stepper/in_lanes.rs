@@ -47,7 +47,7 @@ pub(crate) struct Try {
 }
 
 /// What the steps of all lanes need.
-pub(crate) struct Abreast {
+pub(crate) struct Tries {
     method: &'static Method,
     tolerance: Tolerance<Vec<Wide>>,
     before: Point<Vec<Wide>, Wide>,
@@ -66,7 +66,7 @@ pub(crate) struct Abreast {
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// Whether its steps are made by explicit stages and nothing else, with inputs that stay as they are.
-    pub(crate) fn may_go_abreast(&self) -> bool {
+    pub(crate) fn may_run_in_lanes(&self) -> bool {
         let system = self.model.system.get();
         let held = system.constraints().len()
             + system.contacts().len()
@@ -79,7 +79,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     }
 
     /// Begins a step: its first try.
-    pub(crate) fn begin_abreast(&mut self) -> Result<Try, StepError> {
+    pub(crate) fn begin_in_lanes(&mut self) -> Result<Try, StepError> {
         if self.changed {
             self.look_again()?;
         }
@@ -93,13 +93,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     }
 
     /// Ends a try: the next one, or nothing where the step was taken.
-    pub(crate) fn end_abreast(
+    pub(crate) fn end_in_lanes(
         &mut self,
         lane: usize,
         of: Try,
-        abreast: &Abreast,
+        tries: &Tries,
     ) -> Result<Option<Try>, StepError> {
-        let tried = match abreast.take(lane, self) {
+        let tried = match tries.take(lane, self) {
             Some(error) => Ok(error),
             None => self.attempt(of.h, of.last),
         };
@@ -108,7 +108,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     }
 }
 
-impl Abreast {
+impl Tries {
     /// For steppers that go with this one.
     pub fn new<S: System, L: InputLaw<S>, A: Quadratures<S>>(of: &Stepper<'_, S, L, A>) -> Self {
         let spread = |numbers: &S::Vector| -> Vec<Wide> {
@@ -279,7 +279,7 @@ impl Abreast {
 struct NobodyTries;
 
 /// One try of every lane, in the widest registers that there are.
-struct Attempt<'a, E>(&'a mut Abreast, &'a mut E);
+struct Attempt<'a, E>(&'a mut Tries, &'a mut E);
 
 impl<E: Evaluate> Kernel<Wide> for Attempt<'_, E> {
     type Output = ();

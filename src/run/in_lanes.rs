@@ -1,14 +1,14 @@
 //! Many runs, several at a time in the lanes of the processor: a lane whose run is over takes the next one.
 //!
 //! A run here is what it is alone, step by step; only the tries of steps are made for all lanes together
-//! (`src/stepper/abreast.rs`). So a run has the bits that it has alone, whatever its neighbours do.
+//! (`src/stepper/in_lanes.rs`). So a run has the bits that it has alone, whatever its neighbours do.
 
 use std::vec::Vec;
 
 use super::{Going, Over, Prepared, RunOf};
 use crate::solution::Ending;
 use crate::step_error::StepError;
-use crate::stepper::abreast::{Abreast, Evaluate, Try, WIDTH, Which};
+use crate::stepper::in_lanes::{Evaluate, Tries, Try, WIDTH, Which};
 use crate::{Error, Inputs, Machine};
 
 /// Fewer lanes than this are run one after the other, which is faster than all of them together with most at rest.
@@ -42,7 +42,7 @@ pub(crate) fn run_all<'a, 'l, M: Machine>(
     let mut left: Vec<Option<Left<M>>> = prepared.iter().map(|_| None).collect();
     let mut queue = prepared.iter_mut().enumerate();
     let mut lanes: [Option<Under<'_, 'a, 'l, M>>; WIDTH] = std::array::from_fn(|_| None);
-    let mut abreast: Option<Abreast> = None;
+    let mut tries: Option<Tries> = None;
     loop {
         let mut which: Which = 0;
         for (number, lane) in lanes.iter_mut().enumerate() {
@@ -58,10 +58,9 @@ pub(crate) fn run_all<'a, 'l, M: Machine>(
                 };
                 let is_plain = run.sampling.is_none() && !run.settings.automatic;
                 let steps = &run.stepper;
-                let goes = is_plain && steps.may_go_abreast() && {
-                    let abreast = abreast.get_or_insert_with(|| Abreast::new(steps));
-                    abreast.goes_with(steps)
-                        && machines.put(number, run.model.system, steps.inputs())
+                let goes = is_plain && steps.may_run_in_lanes() && {
+                    let tries = tries.get_or_insert_with(|| Tries::new(steps));
+                    tries.goes_with(steps) && machines.put(number, run.model.system, steps.inputs())
                 };
                 if !goes {
                     let ending = run.go_to_end();
@@ -81,24 +80,24 @@ pub(crate) fn run_all<'a, 'l, M: Machine>(
             }
             which |= Which::from(lane.is_some()) << number;
         }
-        let Some(abreast) = abreast.as_mut().filter(|_| which != 0) else {
+        let Some(tries) = tries.as_mut().filter(|_| which != 0) else {
             break;
         };
         match which.count_ones() < FEWEST {
-            true => abreast.rest(),
+            true => tries.rest(),
             false => {
                 for (number, lane) in lanes.iter().enumerate() {
                     if let Some(Under { run, next, .. }) = lane
                         && let Some(next) = next
                     {
-                        abreast.put(number, &run.stepper, *next);
+                        tries.put(number, &run.stepper, *next);
                     }
                 }
-                abreast.attempt(which, machines);
+                tries.attempt(which, machines);
             }
         }
         for (number, lane) in lanes.iter_mut().enumerate() {
-            let ending = lane.as_mut().and_then(|under| under.go_on(number, abreast));
+            let ending = lane.as_mut().and_then(|under| under.go_on(number, tries));
             if let Some(ending) = ending
                 && let Some(Under { index, run, .. }) = lane.take()
             {
@@ -121,7 +120,7 @@ impl<M: Machine> Under<'_, '_, '_, M> {
             if let Err(error) = self.run.check_count() {
                 return Some(Err(error));
             }
-            match self.run.stepper.begin_abreast() {
+            match self.run.stepper.begin_in_lanes() {
                 Ok(next) => {
                     self.next = Some(next);
                     return None;
@@ -136,10 +135,10 @@ impl<M: Machine> Under<'_, '_, '_, M> {
     }
 
     /// Goes on after a try of its step.
-    fn go_on(&mut self, lane: usize, abreast: &Abreast) -> Option<End> {
+    fn go_on(&mut self, lane: usize, tries: &Tries) -> Option<End> {
         let stepped = match self.next.take() {
             None => Ok(()),
-            Some(of) => match self.run.stepper.end_abreast(lane, of, abreast) {
+            Some(of) => match self.run.stepper.end_in_lanes(lane, of, tries) {
                 Ok(Some(next)) => {
                     self.next = Some(next);
                     return None;

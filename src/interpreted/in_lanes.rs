@@ -10,11 +10,11 @@ use lagrangian_program::{Function, Op, Program, Role};
 use super::runs::ToBeMade;
 use super::{InterpretedMachine, InterpretedSystem, Named};
 use crate::run::Prepared;
-use crate::run::abreast::{Machines, run_all};
+use crate::run::in_lanes::{Machines, run_all};
 use crate::run::run;
 use crate::settings::Of;
 use crate::solution::Made;
-use crate::stepper::abreast::{Evaluate, WIDTH, Which, Wide};
+use crate::stepper::in_lanes::{Evaluate, WIDTH, Which, Wide};
 
 /// The machines of all lanes, by machine code.
 struct InLanes {
