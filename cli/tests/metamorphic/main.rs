@@ -22,6 +22,7 @@ mod rewrite;
 mod simulation;
 mod text;
 mod truth;
+mod turns;
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -36,6 +37,8 @@ const MACHINES: usize = 800;
 /// How many of them are run, and how many have their modes looked for.
 const RUNS: usize = 200;
 const MODES: usize = 60;
+/// How many solids are turned in two ways, and how many surfaces are said in two frames.
+const TURNS: usize = 60;
 
 /// What one of many tasks found: how often things took part, and what is wrong.
 #[derive(Default)]
@@ -157,6 +160,20 @@ fn their_runs_end_where_each_other_do() {
     let runs = |(what, count): (&String, &usize)| what.starts_with("run:").then_some(*count);
     let runs: usize = total.counts.iter().filter_map(runs).sum();
     assert!(!is_full() || runs > RUNS / 4, "only {runs} runs");
+}
+
+#[test]
+fn solids_by_four_numbers_are_those_by_three_angles() {
+    let total = each("turns", TURNS, turns::solids);
+    for what in ["first axis again", "three axes"] {
+        let count = total.counts.get(what).copied().unwrap_or(0);
+        assert!(!is_full() || count > TURNS / 8, "only {count} times {what}");
+    }
+}
+
+#[test]
+fn surfaces_are_the_same_in_every_frame() {
+    each("surfaces", TURNS, turns::surfaces);
 }
 
 #[test]
