@@ -150,7 +150,7 @@ pub fn in_double_doubles(call: &call::Simulate) -> Result<(), Failure> {
     let Ready { machine, start } = ready(call, "--precision dd")?;
     machine.prepare_in::<DoubleDouble>().map_err(|none| {
         Failure::Run(format!(
-            "--precision dd: of machines without constraints and contacts; {none}"
+            "--precision dd: of machines without constraints and contacts; {none}; `--global-error` estimates the error of an ordinary run"
         ))
     })?;
     let has_series = SeriesStepper::<DoubleDouble>::new(&machine, TOLERANCE);
@@ -309,7 +309,8 @@ pub fn validated(call: &call::Simulate) -> Result<(), Failure> {
     let enclosure = Enclosure::from_states(&machine, start.t, [&q, &v]);
     let mut enclosure = enclosure.map_err(|none| {
         Failure::Run(format!(
-            "--validated: of machines with a Taylor series and without constraints and contacts; {none}"
+            "--validated: of machines with a Taylor series and without constraints and contacts; {none}; `--global-error` estimates the error of \
+             an ordinary run"
         ))
     })?;
     enclosure.set_max_steps(call.max_steps);

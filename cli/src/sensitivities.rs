@@ -582,7 +582,10 @@ fn across_impacts(
     let failed = |error: lagrangian::Error| Failure::Run(verdict::said(&error));
     let run = across::run(&wanted, &start).map_err(|why| match why {
         NoDerivatives::Run(error) => failed(error),
-        broken => Failure::Run(broken.to_string()),
+        // Runs themselves pass what their derivatives do not.
+        broken => Failure::Run(format!(
+            "{broken}; take differences of runs instead, by `lagrangian compare` with `--set-second`, or by `lagrangian sweep`"
+        )),
     })?;
     let n = machine.program().dimension();
     let end = run.end();
