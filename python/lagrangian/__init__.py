@@ -8,8 +8,9 @@
 """
 
 from . import errors
-from ._command import Brachistochrone, Campbell, Check, Published, Unit
+from ._command import Accuracy, Brachistochrone, Campbell, Check, Published, Unit
 from ._equations import Equations, Program
+from ._exact import Enclosure, GlobalError, Precise
 from ._fit import Combination, Fit
 from ._linear import Linear, Mode, Modes
 from ._machine import Evaluation, Machine, from_mjcf, from_urdf, load, loads
@@ -43,18 +44,21 @@ def __getattr__(name: str) -> object:
 
 
 __all__ = [
+    "Accuracy",
     "Brachistochrone",
     "Campbell",
     "Check",
     "Combination",
     "Comparison",
     "Diagnostic",
+    "Enclosure",
     "Energy",
     "Equations",
     "Evaluation",
     "Event",
     "ExportError",
     "Fit",
+    "GlobalError",
     "LagrangianError",
     "Linear",
     "LogUniform",
@@ -66,6 +70,7 @@ __all__ = [
     "Normal",
     "Orbit",
     "Peaks",
+    "Precise",
     "Program",
     "Published",
     "Report",

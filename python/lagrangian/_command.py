@@ -75,6 +75,27 @@ class Published(NamedTuple):
     """Terms that it has too much."""
 
 
+class Accuracy(NamedTuple):
+    """How exact the program of a machine is in one quantity, held against numbers of 30 digits at many states."""
+
+    quantity: str
+    states: int
+    median: float
+    """Of the error over what rounding of the arguments alone may make, over the states."""
+    worst: float
+    """The greatest of these."""
+    ulps: float
+    """The error there, in units in the last place of the result."""
+    error: float
+    """The error there, in the unit of the quantity."""
+    result: str
+    """Which number of the quantity it is."""
+    kind: str
+    """How the worst state was chosen."""
+    state: Dict[str, Any]
+    """The worst state: ``t``, and by name ``q`` and ``v``."""
+
+
 class Check:
     """What ``lagrangian check`` finds in a spec."""
 
@@ -87,6 +108,8 @@ class Check:
     """Printed formulas that the spec holds against the derived ones."""
     diagnostics: List[Diagnostic]
     """Warnings, and contradictions of constraints."""
+    accuracy: Dict[str, Accuracy]
+    """By quantity; empty where it was not asked for."""
 
     def __init__(self, document: Mapping[str, Any]) -> None:
         freedom = document["freedom"] or {}
@@ -96,6 +119,8 @@ class Check:
         self.degrees_of_freedom = freedom.get("degrees_of_freedom")
         fields = Diagnostic._fields
         self.diagnostics = [Diagnostic(*(told[name] for name in fields)) for told in document["diagnostics"]]
+        measured = [Accuracy(*(told[name] for name in Accuracy._fields)) for told in document.get("accuracy") or ()]
+        self.accuracy = {one.quantity: one for one in measured}
         self.published = [Published(*(told[name] for name in Published._fields)) for told in document["published"]]
 
     @property
@@ -112,9 +137,10 @@ class Check:
         )
 
 
-def check(self: Any) -> Check:
-    """Degrees of freedom, warnings, and printed equations against the derived ones, as ``lagrangian check``."""
-    return Check(answer(self, "check", [], wrong=()))
+def check(self: Any, *, accuracy: bool = False) -> Check:
+    """Degrees of freedom, warnings, and printed equations against the derived ones, as ``lagrangian check``; with ``accuracy`` how exact
+    the derived program is as well, as ``--accuracy``."""
+    return Check(answer(self, "check", ["--accuracy"] if accuracy else [], wrong=()))
 
 
 def library(

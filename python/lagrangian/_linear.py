@@ -141,6 +141,56 @@ class Linear:
         inverse = np.linalg.solve(1j * omega[..., None, None] * eye - self.A, self.B.astype(complex))
         return np.asarray(self.C @ inverse + self.D)
 
+    def _frequencies(self) -> np.ndarray:
+        """Angular frequencies for a plot: two decades beyond all poles and zeros."""
+        sizes = np.abs(np.concatenate([self._poles, self._zeros]))
+        sizes = sizes[np.isfinite(sizes) & (sizes > 0)]
+        low, high = (sizes.min(), sizes.max()) if sizes.size else (1.0, 1.0)
+        return np.geomspace(low / 100, high * 100, 2000)
+
+    def _plotted(self, omega: Any) -> Tuple[np.ndarray, np.ndarray]:
+        if not self.inputs or not self.outputs:
+            raise ValueError("a frequency response is from an input to an output, and the model lacks one of them")
+        omega = self._frequencies() if omega is None else np.ravel(_batch.number_array(omega, "omega"))
+        return omega, self.response(omega)
+
+    def bode(self, omega: Any = None) -> Any:
+        """A matplotlib figure of gain, in dB, and phase from each input to each output over angular frequencies in rad/s (k,), those
+        about the poles and zeros where left out; ``lagrangian linearize --bode`` draws the same."""
+        import matplotlib.pyplot as plt
+
+        omega, response = self._plotted(omega)
+        figure, (gain, phase) = plt.subplots(2, 1, sharex=True)
+        for i, output in enumerate(self.outputs):
+            for j, name in enumerate(self.inputs):
+                to = response[:, i, j]
+                with np.errstate(divide="ignore"):
+                    gain.semilogx(omega, 20 * np.log10(np.abs(to)), label=f"{name} → {output}")
+                phase.semilogx(omega, np.degrees(np.unwrap(np.angle(to))))
+        gain.set_ylabel("gain [dB]")
+        gain.legend()
+        phase.set_ylabel("phase [°]")
+        phase.set_xlabel("angular frequency [rad/s]")
+        return figure
+
+    def nyquist(self, omega: Any = None) -> Any:
+        """A matplotlib figure of the frequency response in the complex plane, for positive and negative frequencies, with −1 marked;
+        ``lagrangian linearize --nyquist`` draws the same."""
+        import matplotlib.pyplot as plt
+
+        _, response = self._plotted(omega)
+        figure, axes = plt.subplots()
+        for i, output in enumerate(self.outputs):
+            for j, name in enumerate(self.inputs):
+                to = response[:, i, j]
+                (line,) = axes.plot(to.real, to.imag, label=f"{name} → {output}")
+                axes.plot(to.real, -to.imag, "--", color=line.get_color())
+        axes.plot([-1.0], [0.0], "k+")
+        axes.set_xlabel("Re")
+        axes.set_ylabel("Im")
+        axes.legend()
+        return figure
+
     def scipy(self) -> Any:
         """``scipy.signal.StateSpace``."""
         import scipy.signal

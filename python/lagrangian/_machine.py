@@ -11,7 +11,7 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
-from . import _batch, _command, _fit, _linear, _looks, _native, _orbit, _sensitive, _simulate, _sweep, _sympy
+from . import _batch, _command, _exact, _fit, _linear, _looks, _native, _orbit, _sensitive, _simulate, _sweep, _sympy
 from ._equations import Equations, Program
 from ._named import Named, State, rates, state_of
 from .errors import Diagnostic, SingularError, unknown
@@ -544,6 +544,9 @@ class Machine(_native.Machine):
     peaks = _looks.peaks
     section = _looks.section
     compare = _looks.compare
+    global_error = _exact.global_error
+    precise = _exact.precise
+    validated = _exact.validated
     sympy = _sympy.symbolic
     sensitivities = _sensitive.sensitivities
 

@@ -1,0 +1,106 @@
+"""How exact a run is: estimates of its error, runs in double-double, and enclosures, as ``lagrangian simulate`` has them."""
+
+from __future__ import annotations
+
+from decimal import Decimal
+from typing import Any, Dict, Mapping, NamedTuple, Optional, Sequence, Tuple
+
+from ._command import answer
+from ._looks import Names, _run
+
+
+class GlobalError(NamedTuple):
+    """How far the end of a run is from that of the exact motion."""
+
+    kind: str
+    """``"estimate"`` or ``"bound"``."""
+    by: str
+    """What the run was held against."""
+    errors: Dict[str, float]
+    """Of coordinates and rates ``der(x)`` by name, in their units."""
+    greatest: float
+    """The greatest of them, each in relation to its scale."""
+    is_rounding: bool
+    """Whether no tolerance would make it smaller: it is rounding."""
+
+
+class Precise(NamedTuple):
+    """The end of a run in double-double, some 30 digits."""
+
+    t: float
+    q: Dict[str, Decimal]
+    v: Dict[str, Decimal]
+    difference: float
+    """How far a run at another tolerance is from it: an estimate of its error."""
+    method: str
+    tolerance: float
+    steps: int
+    evaluations: int
+
+
+class Enclosure(NamedTuple):
+    """Bounds that are proved to contain the motion at the end."""
+
+    t: float
+    q: Dict[str, Tuple[float, float]]
+    """The lower and the upper bound by name."""
+    v: Dict[str, Tuple[float, float]]
+    steps: int
+
+
+def _end(machine: Any, flags: Sequence[str], until: float, start: Any, rate: Any, keep: Names, numbers: Mapping[str, Any]) -> Dict[str, Any]:
+    return answer(machine, "simulate", [*_run(machine, until, (), start, rate, keep, numbers), *flags])
+
+
+def global_error(
+    self: Any,
+    until: float,
+    *,
+    start: Any = None,
+    rate: Any = None,
+    keep: Names = (),
+    tolerance: Optional[float] = None,
+    method: Optional[str] = None,
+    max_steps: Optional[int] = None,
+) -> GlobalError:
+    """How exact the end of ``simulate(until, …)`` is, as ``lagrangian simulate --global-error``: held against a run in double-double
+    where the machine has one, else against a finer one. ``method`` and ``tolerance`` are those of the run that is judged."""
+    numbers = {"tolerance": tolerance, "method": method or "dop853", "max_steps": max_steps}
+    found = _end(self, ["--global-error"], until, start, rate, keep, numbers)["global_error"]
+    return GlobalError(**{name: found[name] for name in GlobalError._fields})
+
+
+def precise(
+    self: Any,
+    until: float,
+    *,
+    start: Any = None,
+    rate: Any = None,
+    tolerance: Optional[float] = None,
+    method: Optional[str] = None,
+    max_steps: Optional[int] = None,
+) -> Precise:
+    """The end of a run in double-double, as ``lagrangian simulate --precision dd``, for references. A machine that has none, one with
+    constraints or contacts, is an error that says so."""
+    numbers = {"tolerance": tolerance, "method": method, "max_steps": max_steps}
+    found = _end(self, ["--precision=dd"], until, start, rate, (), numbers)
+    q, v = ({name: Decimal(text) for name, text in found[kind].items()} for kind in ("q", "v"))
+    t, difference, method, tolerance, steps, evaluations = (found[name] for name in Precise._fields if name not in ("q", "v"))
+    return Precise(t, q, v, difference, method, tolerance, steps, evaluations)
+
+
+def validated(
+    self: Any,
+    until: float,
+    *,
+    start: Any = None,
+    rate: Any = None,
+    tolerance: Optional[float] = None,
+    max_steps: Optional[int] = None,
+) -> Enclosure:
+    """Bounds that are proved to contain the motion at ``until``, as ``lagrangian simulate --validated``, for short motions of machines
+    with a Taylor series and without constraints and contacts; others are an error that says so."""
+    numbers = {"tolerance": tolerance, "max_steps": max_steps}
+    found = _end(self, ["--validated"], until, start, rate, (), numbers)
+    bounds = {kind: {name: (low, high) for name, (low, high) in found[kind].items()} for kind in ("q", "v")}
+    return Enclosure(found["t"], bounds["q"], bounds["v"], found["steps"])
