@@ -30,6 +30,8 @@ mod runs;
 mod signals;
 mod table_file;
 
+use crate::inputs::Law;
+use crate::settings::Task;
 use crate::shared_workspace::SharedWorkspace;
 
 pub use crate::error::{Diagnostic, MissingParameters, NoMachineCode, NoNumbers, Note};
@@ -68,6 +70,12 @@ pub struct Named {
     /// The numbers, in the order of the description.
     pub values: Vec<f64>,
 }
+
+/// A run to be made, and its start.
+type ToBeMade<'a, 'l> = (
+    Task<'a, InterpretedMachine, Law<'l, InterpretedSystem>>,
+    State<Named>,
+);
 
 /// Name and unit of a number.
 #[derive(Debug, PartialEq, Eq)]

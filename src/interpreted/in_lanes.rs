@@ -7,8 +7,7 @@ use lagrangian_jit::{Library, Several, SeveralArguments};
 use lagrangian_native::Lanes;
 use lagrangian_program::{Function, Op, Program, Role};
 
-use super::runs::ToBeMade;
-use super::{InterpretedMachine, InterpretedSystem, Named};
+use super::{InterpretedMachine, InterpretedSystem, Named, ToBeMade};
 use crate::run::Prepared;
 use crate::run::in_lanes::{Machines, run_all};
 use crate::run::run;

@@ -10,7 +10,7 @@ use crate::settings::Task;
 use crate::solution::{Made, Solution};
 use crate::{Coordinates, Error, Simulation, State};
 
-use super::{InterpretedMachine, InterpretedSystem};
+use super::{InterpretedMachine, InterpretedSystem, ToBeMade};
 use std::vec::Vec;
 
 type Start<M> = State<Coordinates<M>>;
@@ -149,12 +149,6 @@ fn made(
 ) -> Made<InterpretedMachine> {
     run(task, start)
 }
-
-/// A run to be made.
-pub(super) type ToBeMade<'a, 'l> = (
-    Task<'a, InterpretedMachine, Law<'l, InterpretedSystem>>,
-    Start<InterpretedMachine>,
-);
 
 #[cfg(feature = "jit")]
 fn made_side_by_side(tasks: Vec<ToBeMade<'_, '_>>) -> Vec<Made<InterpretedMachine>> {
