@@ -22,7 +22,7 @@ pub trait Quadratures<S: System>: Clone + sealed::Sealed {
         u: &S::Inputs,
     );
 
-    /// Takes the rates at one stage of a step, which somebody has evaluated: work and what is lost, in W.
+    /// Takes the rates at one stage of a step as they were evaluated elsewhere: work and what is lost, in W.
     #[doc(hidden)]
     #[inline(always)]
     fn take(&mut self, _stage: usize, _work: f64, _lost: f64) {}

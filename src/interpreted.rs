@@ -219,10 +219,10 @@ impl InterpretedMachine {
         )
     }
 
-    /// Whether [`run_interpreted_side_by_side`](crate::Simulation::run_interpreted_side_by_side) makes runs of this machine, with
+    /// Whether [`run_interpreted_in_lanes`](crate::Simulation::run_interpreted_in_lanes) makes runs of this machine, with
     /// any parameters, in lanes, by an explicit method and with inputs that stay as they are: where it has machine code, no
     /// constraints and no contacts. Of [`Engine::Auto`] that is so as soon as code has paid for one run.
-    pub fn goes_side_by_side(&self) -> bool {
+    pub fn may_run_in_lanes(&self) -> bool {
         let Program {
             constraints,
             contacts,

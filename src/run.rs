@@ -58,11 +58,11 @@ pub(crate) fn run<M: Machine>(
     let mut prepared = Prepared::new(task, start)?;
     let mut run = prepared.begin()?;
     let ending = run.go_to_end();
-    let over = run.end(ending);
-    Ok(prepared.solution(over))
+    let finished = run.end(ending);
+    Ok(prepared.solution(finished))
 }
 
-/// A run that was not begun: what it holds on to as long as it is made.
+/// A run before its first step: what it borrows from while it is made.
 pub(crate) struct Prepared<'a, 'l, M: Machine> {
     clock: Instant,
     law: Law<'l, M::System>,
@@ -83,8 +83,8 @@ pub(crate) struct Prepared<'a, 'l, M: Machine> {
     of_start: Vec<Warning>,
 }
 
-/// What is left of a run that is over.
-pub(crate) struct Over<M: Machine> {
+/// What came of a run that has ended, without what it has borrowed.
+pub(crate) struct Finished<M: Machine> {
     end: State<Coordinates<M>>,
     ending: Ending,
     error: Option<Error>,
@@ -304,8 +304,8 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
     }
 
     /// The solution of a run of this that is over.
-    pub(crate) fn solution(mut self, over: Over<M>) -> (Solution<M, ()>, Option<Error>) {
-        let Over {
+    pub(crate) fn solution(mut self, finished: Finished<M>) -> (Solution<M, ()>, Option<Error>) {
+        let Finished {
             end,
             ending,
             error,
@@ -316,7 +316,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             next_step,
             constraints,
             choices,
-        } = over;
+        } = finished;
         let Record {
             held,
             pieces,
@@ -362,8 +362,8 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
 }
 
 impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
-    /// What is left of the run where it is over.
-    pub(crate) fn end(self, ending: Result<Ending, Error>) -> Over<M> {
+    /// Ends the run: what came of it, with its balance of energy and what is to be said of it.
+    pub(crate) fn end(self, ending: Result<Ending, Error>) -> Finished<M> {
         let (ending, error) = match ending {
             Ok(ending) => (ending, None),
             Err(error) => (Ending::Error, Some(error)),
@@ -412,7 +412,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 relative: balance.relative(),
             });
         }
-        Over {
+        Finished {
             end,
             ending,
             error,
@@ -460,7 +460,7 @@ pub(crate) struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures
 }
 
 /// What a run knows from one step to the next, until it is where it is to stop.
-struct Going {
+struct BetweenSteps {
     /// What will have ended the run, once the end of the stepper is reached.
     ending: Result<Ending, Error>,
     /// The state of a contact that ends where the stepper is to stop, and the step to go on with.
@@ -471,7 +471,7 @@ struct Going {
     meeting: Option<Meeting>,
 }
 
-impl Going {
+impl BetweenSteps {
     fn new() -> Self {
         Self {
             ending: Ok(Ending::End),
@@ -527,15 +527,15 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
 
     /// Steps to where it is to stop, or to what ends the run before.
     fn go(&mut self) -> Result<Ending, Error> {
-        let mut going = Going::new();
+        let mut between = BetweenSteps::new();
         while !self.stepper.is_done() {
             self.check_count()?;
             let stepped = self.stepper.step();
-            if let Some(ending) = self.look_at_step(&mut going, stepped)? {
+            if let Some(ending) = self.look_at_step(&mut between, stepped)? {
                 return Ok(ending);
             }
         }
-        going.ending
+        between.ending
     }
 
     /// Whether one more step may be taken.
@@ -555,15 +555,15 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     #[inline(always)]
     fn look_at_step(
         &mut self,
-        going: &mut Going,
+        between: &mut BetweenSteps,
         stepped: Result<(), StepError>,
     ) -> Result<Option<Ending>, Error> {
-        let Going {
+        let BetweenSteps {
             ending,
             pending,
             last_change,
             meeting,
-        } = going;
+        } = between;
         if let Err(error) = stepped {
             // Where an assumption ends there may be nothing to go on with: then that is the
             // cause.

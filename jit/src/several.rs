@@ -82,7 +82,7 @@ impl<const N: usize> Several<N> {
 
     /// Each lane with its own parameters: those of this interpreter of the program in all of them, until [`put`](Self::put)
     /// puts others there. None if the library is for another number of lanes or for shared parameters.
-    pub fn own(library: Arc<Library>, interpreter: &Interpreter<f64>) -> Option<Self> {
+    pub fn each_from(library: Arc<Library>, interpreter: &Interpreter<f64>) -> Option<Self> {
         let layout = library.layout();
         if layout.stride != N || layout.known_stride != N {
             return None;
@@ -95,7 +95,7 @@ impl<const N: usize> Several<N> {
         Some(several)
     }
 
-    /// Puts the parameters of an interpreter of the program into a lane of those that [`own`](Self::own) made.
+    /// Puts the parameters of an interpreter of the program into a lane of those that [`each_from`](Self::each_from) made.
     ///
     /// # Panics
     /// If there is no such lane, or lanes share their parameters.

@@ -8,7 +8,7 @@
 """
 
 from . import errors
-from ._command import Accuracy, Brachistochrone, Campbell, Check, Published, Unit
+from ._command import Accuracy, Brachistochrone, Campbell, Check, Fmu, Published
 from ._equations import Equations, Program
 from ._exact import Enclosure, GlobalError, Precise
 from ._fit import Combination, Fit
@@ -58,6 +58,7 @@ __all__ = [
     "Event",
     "ExportError",
     "Fit",
+    "Fmu",
     "GlobalError",
     "LagrangianError",
     "Linear",
@@ -88,7 +89,6 @@ __all__ = [
     "Table",
     "Triangular",
     "Uniform",
-    "Unit",
     "UnknownName",
     "__version__",
     "errors",

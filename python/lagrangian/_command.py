@@ -168,7 +168,7 @@ def library(
     return str(_exported(self, "library", options)["header"])
 
 
-class Unit(NamedTuple):
+class Fmu(NamedTuple):
     """A functional mock-up unit that was written."""
 
     path: str
@@ -199,7 +199,7 @@ def fmu(
     cc: Optional[str] = None,
     target: Sequence[str] = (),
     sources_only: bool = False,
-) -> Unit:
+) -> Fmu:
     """Writes a functional mock-up unit, ``.fmu``, with the parameters and inputs of this machine as defaults, as ``lagrangian fmu``.
 
     A C compiler makes its libraries, unless ``sources_only``. ``kind``: ``"me"``, model exchange, and ``"cs"``, co-simulation, by
@@ -219,7 +219,7 @@ def fmu(
         options.append("--sources-only")
     told = _exported(self, "fmu", options)
     counts = [int(told[name]) for name in ("states", "parameters", "inputs", "outputs", "events")]
-    return Unit(told["unit"], told["fmi"], told["kinds"], told["platforms"], *counts)
+    return Fmu(told["unit"], told["fmi"], told["kinds"], told["platforms"], *counts)
 
 
 def _exported(machine: Any, command: str, options: Sequence[str]) -> Dict[str, Any]:

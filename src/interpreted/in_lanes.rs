@@ -1,4 +1,4 @@
-//! Runs of interpreted machines side by side: what evaluates them in lanes.
+//! Runs of interpreted machines in lanes: what evaluates their machines.
 
 use std::sync::Arc;
 use std::vec::Vec;
@@ -13,7 +13,7 @@ use crate::run::in_lanes::{Machines, run_all};
 use crate::run::run;
 use crate::settings::Of;
 use crate::solution::Made;
-use crate::stepper::in_lanes::{Evaluate, WIDTH, Which, Wide};
+use crate::stepper::in_lanes::{Evaluate, LaneMask, WIDTH, Wide};
 
 /// The machines of all lanes, by machine code.
 struct InLanes {
@@ -27,7 +27,7 @@ struct InLanes {
 }
 
 /// Whether all that a function gives is 0.
-fn is_nothing(function: &Function) -> bool {
+fn is_zero(function: &Function) -> bool {
     let zero = |op: &Op| matches!(op, Op::Constant(constant) if constant.is_zero());
     function.guards.is_empty()
         && function
@@ -40,7 +40,7 @@ fn is_nothing(function: &Function) -> bool {
 pub(super) fn made(tasks: Vec<ToBeMade<'_, '_>>) -> Vec<Made<InterpretedMachine>> {
     let first = tasks.first().map(|(task, _)| &task.of);
     let machine = match first {
-        Some(Of::Machine(machine)) if machine.goes_side_by_side() => *machine,
+        Some(Of::Machine(machine)) if machine.may_run_in_lanes() => *machine,
         _ => return alone(tasks),
     };
     let Some(library) = machine.machine_code.of_lanes(&machine.program, WIDTH) else {
@@ -48,7 +48,7 @@ pub(super) fn made(tasks: Vec<ToBeMade<'_, '_>>) -> Vec<Made<InterpretedMachine>
     };
     let has = |role| {
         let function = machine.program.function(role);
-        function.is_some_and(|function| !is_nothing(function))
+        function.is_some_and(|function| !is_zero(function))
     };
     let mut machines = InLanes {
         library,
@@ -68,9 +68,10 @@ pub(super) fn made(tasks: Vec<ToBeMade<'_, '_>>) -> Vec<Made<InterpretedMachine>
             Err(error) => made.push(Some(Err(error))),
         }
     }
-    let left = run_all(&mut all, &mut machines);
-    let solutions = all.into_iter().zip(left);
-    let mut solutions = solutions.map(|(prepared, over)| over.map(|over| prepared.solution(over)));
+    let ended = run_all(&mut all, &mut machines);
+    let solutions = all.into_iter().zip(ended);
+    let mut solutions =
+        solutions.map(|(prepared, ended)| ended.map(|finished| prepared.solution(finished)));
     let made = made.into_iter();
     made.filter_map(|made| made.or_else(|| solutions.next()))
         .collect()
@@ -92,7 +93,7 @@ impl Machines<InterpretedMachine> for InLanes {
             // Lanes without a run have the numbers of the first one, not those of no machine.
             none => {
                 self.inputs = inputs.values.iter().map(|u| Lanes::splat(*u)).collect();
-                *none = Several::own(self.library.clone(), &running.interpreter);
+                *none = Several::each_from(self.library.clone(), &running.interpreter);
             }
         }
         for (row, u) in self.inputs.iter_mut().zip(&inputs.values) {
@@ -109,7 +110,7 @@ impl InLanes {
         (t, q, v): (Wide, &[Wide], &[Wide]),
         a: &[Wide],
         results: &mut [Wide],
-    ) -> Which {
+    ) -> LaneMask {
         let u = &self.inputs;
         let arguments = SeveralArguments { t, q, v, u, a };
         let several = self.several.as_mut();
@@ -120,11 +121,11 @@ impl InLanes {
 }
 
 impl Evaluate for InLanes {
-    fn accelerations(&mut self, at: (Wide, &[Wide], &[Wide]), a: &mut [Wide]) -> Which {
+    fn accelerations(&mut self, at: (Wide, &[Wide], &[Wide]), a: &mut [Wide]) -> LaneMask {
         self.call(Role::Accelerations, at, &[], a)
     }
 
-    fn powers(&mut self, at: (Wide, &[Wide], &[Wide]), a: &[Wide]) -> ([Wide; 2], Which) {
+    fn powers(&mut self, at: (Wide, &[Wide], &[Wide]), a: &[Wide]) -> ([Wide; 2], LaneMask) {
         let mut powers = [Lanes::splat(0.0); 2];
         let mut held = !0;
         let roles = [(Role::WorkRate, a), (Role::DissipationRate, &[])];

@@ -44,7 +44,7 @@ impl<L: InputLaw<InterpretedSystem>> Simulation<'_, InterpretedMachine, L> {
 
 impl<L: InputLaw<InterpretedSystem>> Simulation<'_, InterpretedMachine, L> {
     /// Many runs with [`run_interpreted_as_far_as_possible`](Self::run_interpreted_as_far_as_possible), several at a time in
-    /// the lanes of the processor where [the machine has code for that](InterpretedMachine::goes_side_by_side): a lane
+    /// the lanes of the processor where [the machine has code for that](InterpretedMachine::may_run_in_lanes): a lane
     /// whose run is over takes the next one, and each has its own steps, events and end. What each of them came to, in their order.
     ///
     /// All of them are runs of one machine with whatever parameters, by one method with one relative tolerance; others are made
@@ -77,7 +77,7 @@ impl<L: InputLaw<InterpretedSystem>> Simulation<'_, InterpretedMachine, L> {
     /// });
     /// let machines = machines.into_iter().collect::<Result<Vec<_>, _>>()?;
     /// let run = |machine| (Simulation::new(machine).until(1.0), Machine::start(machine));
-    /// let made = Simulation::run_interpreted_side_by_side(machines.iter().map(run).collect());
+    /// let made = Simulation::run_interpreted_in_lanes(machines.iter().map(run).collect());
     /// for (machine, made) in machines.iter().zip(made) {
     ///     let (solution, error) = made?;
     ///     let alone = Simulation::new(machine).until(1.0).run(machine.start())?;
@@ -85,7 +85,7 @@ impl<L: InputLaw<InterpretedSystem>> Simulation<'_, InterpretedMachine, L> {
     /// }
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn run_interpreted_side_by_side(
+    pub fn run_interpreted_in_lanes(
         simulations: Vec<(Self, Start<InterpretedMachine>)>,
     ) -> Vec<RunAsFar<L>> {
         let (mut laws, mut rest) = (Vec::new(), Vec::new());
@@ -112,7 +112,7 @@ impl<L: InputLaw<InterpretedSystem>> Simulation<'_, InterpretedMachine, L> {
             };
             (task, start)
         });
-        let made = made_side_by_side(tasks.collect());
+        let made = made_in_lanes(tasks.collect());
         let with_law = |(made, law): (Made<InterpretedMachine>, L)| {
             made.map(|(solution, error)| (solution.with_law(law), error))
         };
@@ -151,12 +151,12 @@ fn made(
 }
 
 #[cfg(feature = "jit")]
-fn made_side_by_side(tasks: Vec<ToBeMade<'_, '_>>) -> Vec<Made<InterpretedMachine>> {
+fn made_in_lanes(tasks: Vec<ToBeMade<'_, '_>>) -> Vec<Made<InterpretedMachine>> {
     super::in_lanes::made(tasks)
 }
 
 #[cfg(not(feature = "jit"))]
-fn made_side_by_side(tasks: Vec<ToBeMade<'_, '_>>) -> Vec<Made<InterpretedMachine>> {
+fn made_in_lanes(tasks: Vec<ToBeMade<'_, '_>>) -> Vec<Made<InterpretedMachine>> {
     let tasks = tasks.into_iter();
     tasks.map(|(task, start)| made(task, start)).collect()
 }

@@ -5,10 +5,10 @@
 
 use std::vec::Vec;
 
-use super::{Going, Over, Prepared, RunOf};
+use super::{BetweenSteps, Finished, Prepared, RunOf};
 use crate::solution::Ending;
 use crate::step_error::StepError;
-use crate::stepper::in_lanes::{Evaluate, Tries, Try, WIDTH, Which};
+use crate::stepper::in_lanes::{Evaluate, LaneMask, Tries, Try, WIDTH};
 use crate::{Error, Inputs, Machine};
 
 /// Fewer lanes than this are run one after the other, which is faster than all of them together with most at rest.
@@ -21,30 +21,30 @@ pub(crate) trait Machines<M: Machine>: Evaluate {
 }
 
 /// A run that is under way in a lane.
-struct Under<'r, 'a, 'l, M: Machine> {
+struct Lane<'r, 'a, 'l, M: Machine> {
     index: usize,
     run: RunOf<'r, 'a, 'l, M>,
-    going: Going,
+    between: BetweenSteps,
     next: Option<Try>,
 }
 
 /// How a run ends.
 type End = Result<Ending, Error>;
 
-/// What a run leaves; an error where it could not begin.
-type Left<M> = Result<Over<M>, Error>;
+/// A run that has ended, or the error for which it could not begin.
+type Ended<M> = Result<Finished<M>, Error>;
 
-/// Makes all these runs; what each of them leaves, in their order.
+/// Makes all these runs; what came of each of them, in their order.
 pub(crate) fn run_all<'a, 'l, M: Machine>(
     prepared: &mut [Prepared<'a, 'l, M>],
     machines: &mut impl Machines<M>,
-) -> Vec<Left<M>> {
-    let mut left: Vec<Option<Left<M>>> = prepared.iter().map(|_| None).collect();
+) -> Vec<Ended<M>> {
+    let mut ended: Vec<Option<Ended<M>>> = prepared.iter().map(|_| None).collect();
     let mut queue = prepared.iter_mut().enumerate();
-    let mut lanes: [Option<Under<'_, 'a, 'l, M>>; WIDTH] = std::array::from_fn(|_| None);
+    let mut lanes: [Option<Lane<'_, 'a, 'l, M>>; WIDTH] = std::array::from_fn(|_| None);
     let mut tries: Option<Tries> = None;
     loop {
-        let mut which: Which = 0;
+        let mut which: LaneMask = 0;
         for (number, lane) in lanes.iter_mut().enumerate() {
             while lane.is_none()
                 && let Some((index, prepared)) = queue.next()
@@ -52,7 +52,7 @@ pub(crate) fn run_all<'a, 'l, M: Machine>(
                 let mut run = match prepared.begin() {
                     Ok(run) => run,
                     Err(error) => {
-                        left[index] = Some(Err(error));
+                        ended[index] = Some(Err(error));
                         continue;
                     }
                 };
@@ -64,30 +64,30 @@ pub(crate) fn run_all<'a, 'l, M: Machine>(
                 };
                 if !goes {
                     let ending = run.go_to_end();
-                    left[index] = Some(Ok(run.end(ending)));
+                    ended[index] = Some(Ok(run.end(ending)));
                     continue;
                 }
-                let mut under = Under {
+                let mut lane_begun = Lane {
                     index,
                     run,
-                    going: Going::new(),
+                    between: BetweenSteps::new(),
                     next: None,
                 };
-                match under.begin_step() {
-                    Some(ending) => left[index] = Some(Ok(under.run.end(ending))),
-                    None => *lane = Some(under),
+                match lane_begun.begin_step() {
+                    Some(ending) => ended[index] = Some(Ok(lane_begun.run.end(ending))),
+                    None => *lane = Some(lane_begun),
                 }
             }
-            which |= Which::from(lane.is_some()) << number;
+            which |= LaneMask::from(lane.is_some()) << number;
         }
         let Some(tries) = tries.as_mut().filter(|_| which != 0) else {
             break;
         };
         match which.count_ones() < FEWEST {
-            true => tries.rest(),
+            true => tries.skip(),
             false => {
                 for (number, lane) in lanes.iter().enumerate() {
-                    if let Some(Under { run, next, .. }) = lane
+                    if let Some(Lane { run, next, .. }) = lane
                         && let Some(next) = next
                     {
                         tries.put(number, &run.stepper, *next);
@@ -97,25 +97,27 @@ pub(crate) fn run_all<'a, 'l, M: Machine>(
             }
         }
         for (number, lane) in lanes.iter_mut().enumerate() {
-            let ending = lane.as_mut().and_then(|under| under.go_on(number, tries));
+            let ending = lane
+                .as_mut()
+                .and_then(|lane_begun| lane_begun.go_on(number, tries));
             if let Some(ending) = ending
-                && let Some(Under { index, run, .. }) = lane.take()
+                && let Some(Lane { index, run, .. }) = lane.take()
             {
-                left[index] = Some(Ok(run.end(ending)));
+                ended[index] = Some(Ok(run.end(ending)));
             }
         }
     }
-    // Each was begun, and a lane is empty only where its run has left something.
-    left.into_iter().flatten().collect()
+    // Each was begun, and a lane is empty only where its run has ended.
+    ended.into_iter().flatten().collect()
 }
 
-impl<M: Machine> Under<'_, '_, '_, M> {
+impl<M: Machine> Lane<'_, '_, '_, M> {
     /// Begins the next step, if the run is not over.
     fn begin_step(&mut self) -> Option<End> {
         loop {
             if self.run.stepper.is_done() {
-                let going = std::mem::replace(&mut self.going, Going::new());
-                return Some(going.ending);
+                let between = std::mem::replace(&mut self.between, BetweenSteps::new());
+                return Some(between.ending);
             }
             if let Err(error) = self.run.check_count() {
                 return Some(Err(error));
@@ -151,7 +153,7 @@ impl<M: Machine> Under<'_, '_, '_, M> {
     }
 
     fn look(&mut self, stepped: Result<(), StepError>) -> Option<End> {
-        let looked = self.run.look_at_step(&mut self.going, stepped);
+        let looked = self.run.look_at_step(&mut self.between, stepped);
         looked.transpose()
     }
 }

@@ -27,15 +27,15 @@ pub(crate) const WIDTH: usize = 8;
 pub(crate) type Wide = Lanes<WIDTH>;
 
 /// A bit for each lane, the lowest of the first.
-pub(crate) type Which = u32;
+pub(crate) type LaneMask = u32;
 
 /// What evaluates the machines of all lanes.
 pub(crate) trait Evaluate {
     /// Accelerations, and in which lanes they have values.
-    fn accelerations(&mut self, at: (Wide, &[Wide], &[Wide]), a: &mut [Wide]) -> Which;
+    fn accelerations(&mut self, at: (Wide, &[Wide], &[Wide]), a: &mut [Wide]) -> LaneMask;
 
     /// What is done on the machines and what they lose, in W, and in which lanes these have values.
-    fn powers(&mut self, at: (Wide, &[Wide], &[Wide]), a: &[Wide]) -> ([Wide; 2], Which);
+    fn powers(&mut self, at: (Wide, &[Wide], &[Wide]), a: &[Wide]) -> ([Wide; 2], LaneMask);
 }
 
 /// A step that is being tried: how long the try is, whether it is of the last step, and how long it may be.
@@ -61,7 +61,7 @@ pub(crate) struct Tries {
     is_last: [bool; WIDTH],
     errors: [f64; WIDTH],
     /// Where the last try went as it should.
-    went_well: Which,
+    went_well: LaneMask,
 }
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
@@ -166,12 +166,12 @@ impl Tries {
     }
 
     /// Leaves the next try of every step to its stepper alone.
-    pub fn rest(&mut self) {
+    pub fn skip(&mut self) {
         self.went_well = 0;
     }
 
     /// Tries the steps of these lanes. What the others hold changes nothing.
-    pub fn attempt(&mut self, which: Which, machines: &mut impl Evaluate) {
+    pub fn attempt(&mut self, which: LaneMask, machines: &mut impl Evaluate) {
         self.went_well = which;
         <Wide as Number>::run(Attempt(self, machines));
     }
@@ -246,7 +246,7 @@ impl Tries {
         let gone = attempt::go_through_stages(method, (before, *h), k, [q, v], |i, at, a| {
             *went_well &= look(i, at, a);
             if *went_well == 0 {
-                Err(NobodyTries)
+                Err(NoLaneLeft)
             } else {
                 Ok(())
             }
@@ -265,7 +265,7 @@ impl Tries {
             if !error.is_finite() {
                 *went_well &= !(1 << lane);
             }
-            good |= Which::from(*error <= 1.0) << lane;
+            good |= LaneMask::from(*error <= 1.0) << lane;
         }
         good &= *went_well;
         if !method.scheme.error_needs_end && good != 0 {
@@ -275,8 +275,8 @@ impl Tries {
     }
 }
 
-/// No lane is trying any more.
-struct NobodyTries;
+/// All lanes have failed before the last stage.
+struct NoLaneLeft;
 
 /// One try of every lane, in the widest registers that there are.
 struct Attempt<'a, E>(&'a mut Tries, &'a mut E);
@@ -291,10 +291,10 @@ impl<E: Evaluate> Kernel<Wide> for Attempt<'_, E> {
 }
 
 #[inline(always)]
-fn bits(of: &[bool; WIDTH]) -> Which {
+fn bits(of: &[bool; WIDTH]) -> LaneMask {
     let mut bits = 0;
     for (lane, is) in of.iter().enumerate() {
-        bits |= Which::from(*is) << lane;
+        bits |= LaneMask::from(*is) << lane;
     }
     bits
 }

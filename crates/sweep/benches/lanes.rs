@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use lagrangian::interpreted::Engine;
 use lagrangian_sweep::design::Factor;
-use lagrangian_sweep::plan::{Function, Reduction, SpecText, VERSION};
+use lagrangian_sweep::plan::{Function, Reduction, SpecText};
 use lagrangian_sweep::{Plan, Sweep};
 
 const RUNS: u64 = 512;
@@ -24,30 +24,16 @@ fn plan(machine: &str, until: f64, varied: [(&str, f64, f64); 1], tolerance: f64
         count: RUNS,
         log: false,
     };
+    let spec = SpecText {
+        name: machine.into(),
+        text: std::fs::read_to_string(path).expect("a machine of the library"),
+        ..SpecText::default()
+    };
     Plan {
-        version: VERSION,
-        spec: SpecText {
-            name: machine.into(),
-            text: std::fs::read_to_string(path).expect("a machine of the library"),
-            ..SpecText::default()
-        },
-        set: Vec::new(),
-        start: Vec::new(),
-        rate: Vec::new(),
-        keep: None,
-        until,
         tolerance,
-        method: "dop853".into(),
-        max_steps: 10_000_000,
-        inputs: Vec::new(),
-        events: Vec::new(),
-        at: Vec::new(),
-        every: None,
-        at_events: Vec::new(),
-        reduce: Vec::new(),
-        after: None,
         design: varied.map(factor).into(),
         chunk: RUNS,
+        ..Plan::new(spec, until)
     }
 }
 

@@ -206,6 +206,32 @@ impl Function {
 }
 
 impl Plan {
+    /// One run of a spec until an instant, in s, as its start says, with the settings that the command has where nothing is said:
+    /// `dop853` to a tolerance of 1e-9, rows of the end alone.
+    pub fn new(spec: SpecText, until: f64) -> Self {
+        Plan {
+            version: VERSION,
+            spec,
+            set: Vec::new(),
+            start: Vec::new(),
+            rate: Vec::new(),
+            keep: None,
+            until,
+            tolerance: 1e-9,
+            method: "dop853".into(),
+            max_steps: 10_000_000,
+            inputs: Vec::new(),
+            events: Vec::new(),
+            at: Vec::new(),
+            every: None,
+            at_events: Vec::new(),
+            reduce: Vec::new(),
+            after: None,
+            design: Vec::new(),
+            chunk: 1,
+        }
+    }
+
     /// The parameters and inputs that it gives values to: none of these parameters follows from others.
     pub(crate) fn given(&self) -> Vec<String> {
         let set = self.set.iter().map(|(name, _)| name.as_str());

@@ -28,7 +28,7 @@ use crate::verdict;
 /// More instants of one run than this are a slip of the hand.
 const MOST_INSTANTS: f64 = 1e6;
 
-/// How many runs are begun at once where they go side by side: each holds as many numbers as its program has operations, and
+/// How many runs are begun at once where they may run in lanes: each holds as many numbers as its program has operations, and
 /// the more there are, the later lanes stand still.
 const OPERATIONS_AT_ONCE: u64 = 1 << 20;
 const LEAST_GROUP: u64 = 16;
@@ -59,7 +59,7 @@ pub struct Sweep {
     reductions: Vec<Made>,
     columns: Vec<Column>,
     sample_columns: Option<Vec<Column>>,
-    /// How many runs are begun at once where they go side by side.
+    /// How many runs are begun at once where they may run in lanes.
     group: u64,
 }
 
@@ -358,9 +358,10 @@ impl Sweep {
         self.plan.chunk = chunk;
     }
 
-    /// Whether its machine has code by which runs may go side by side, in lanes.
-    pub(crate) fn goes_side_by_side(&self) -> bool {
-        self.machine.goes_side_by_side()
+    /// Whether its machine has code for several runs at once in the lanes of the processor: machine code, no constraints and no
+    /// contacts. Of [`Engine::Auto`] only as soon as code has paid for one run.
+    pub fn may_run_in_lanes(&self) -> bool {
+        self.machine.may_run_in_lanes()
     }
 
     /// What is to be said of it although it runs.
@@ -416,7 +417,7 @@ impl Sweep {
             if stop.load(Ordering::Relaxed) {
                 return None;
             }
-            let group = match self.goes_side_by_side() {
+            let group = match self.may_run_in_lanes() {
                 true => self.group,
                 false => 1,
             };
@@ -448,7 +449,7 @@ impl Sweep {
             .collect()
     }
 
-    /// Makes these runs, side by side where the machine has code for that; nothing where they were stopped.
+    /// Makes these runs, in lanes where the machine has code for that; nothing where they were stopped.
     fn run_group(
         &self,
         runs: &[(u64, Vec<f64>)],
@@ -466,7 +467,7 @@ impl Sweep {
                 simulations.push((self.simulation(*run, begun, stop), start));
             }
         }
-        let made = Simulation::run_interpreted_side_by_side(simulations);
+        let made = Simulation::run_interpreted_in_lanes(simulations);
         let mut made = made.into_iter();
         let outcomes = runs.iter().zip(begun).map(|((run, _), begun)| {
             let (instants, reductions) = (begun.watched.at.len(), self.reductions.len());
@@ -696,7 +697,7 @@ impl Sweep {
     }
 }
 
-/// A run with its numbers.
+/// A run before its simulation: its machine with the values of what is varied, its start, and what is watched.
 struct Begun {
     machine: InterpretedMachine,
     /// What evaluates formulas while the run has a system of its own.

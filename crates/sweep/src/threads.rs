@@ -13,7 +13,7 @@ use crate::sweep::Sweep;
 const CHUNK: Duration = Duration::from_secs(1);
 
 /// How many runs fill the lanes of a processor twice, and how long a chunk may take alone so that they do.
-const TO_FILL: u64 = 16;
+const FILLS_LANES: u64 = 16;
 const LONGEST: Duration = Duration::from_secs(10);
 
 /// How many runs tell how long one takes.
@@ -68,8 +68,8 @@ pub fn chunk_length(sweep: &Sweep) -> u64 {
     });
     let each = began.elapsed().as_secs_f64() / done.max(1) as f64;
     let mut fit = (CHUNK.as_secs_f64() / each.max(1e-9)) as u64;
-    if sweep.goes_side_by_side() && each * TO_FILL as f64 <= LONGEST.as_secs_f64() {
-        fit = fit.max(TO_FILL);
+    if sweep.may_run_in_lanes() && each * FILLS_LANES as f64 <= LONGEST.as_secs_f64() {
+        fit = fit.max(FILLS_LANES);
     }
     let length = fit.clamp(1, most);
     1 << (63 - length.leading_zeros())

@@ -5,34 +5,18 @@ use std::sync::atomic::AtomicBool;
 
 use lagrangian::interpreted::Engine;
 use lagrangian_sweep::design::Factor;
-use lagrangian_sweep::plan::{Function, Law, Reduction, SpecText, VERSION, Watch};
+use lagrangian_sweep::plan::{Function, Law, Reduction, SpecText, Watch};
 use lagrangian_sweep::{Plan, Sweep};
 
 fn plan(text: &str, until: f64, design: Vec<Factor>) -> Plan {
+    let spec = SpecText {
+        name: "machine".into(),
+        text: text.into(),
+        ..SpecText::default()
+    };
     Plan {
-        version: VERSION,
-        spec: SpecText {
-            name: "machine".into(),
-            text: text.into(),
-            ..SpecText::default()
-        },
-        set: Vec::new(),
-        start: Vec::new(),
-        rate: Vec::new(),
-        keep: None,
-        until,
-        tolerance: 1e-9,
-        method: "dop853".into(),
-        max_steps: 10_000_000,
-        inputs: Vec::new(),
-        events: Vec::new(),
-        at: Vec::new(),
-        every: None,
-        at_events: Vec::new(),
-        reduce: Vec::new(),
-        after: None,
         design,
-        chunk: 1,
+        ..Plan::new(spec, until)
     }
 }
 
@@ -92,6 +76,7 @@ fn compare(plan: &Plan) -> u64 {
     let alone = Sweep::new(plan.clone(), Engine::Interpreter).expect("a plan");
     let (truth, failed) = rows(&alone, plan.runs());
     if let Ok(in_lanes) = Sweep::new(plan.clone(), Engine::Jit) {
+        assert!(in_lanes.may_run_in_lanes(), "{plan:?}");
         // One run alone, too few for lanes, fewer than lanes, as many, more, and lanes that are filled again.
         for piece in [1, 2, 5, 8, 13, plan.runs()] {
             let (found, also_failed) = rows(&in_lanes, piece);

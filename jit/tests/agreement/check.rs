@@ -234,7 +234,7 @@ fn in_lanes<const N: usize>(
         .map(|index| side_by_side(|lane| sets[lane][index]))
         .collect();
     let each = Several::<N>::each(library(false)?, &parameters).ok_or("not for each")?;
-    let mut own = Several::<N>::own(library(false)?, interpreter).ok_or("not for each")?;
+    let mut own = Several::<N>::each_from(library(false)?, interpreter).ok_or("not for each")?;
     for (lane, other) in others.iter().take(N).enumerate() {
         own.put(lane, other);
     }
