@@ -7,25 +7,22 @@ use crate::step_number::StepNumber;
 use crate::tolerance::Tolerance;
 use crate::{Vector, math};
 
-/// Goes through the stages of a step of length `h` from `before`. `evaluate(stage, (t, q, v), a)` finds the accelerations of each;
-/// where it fails, the stages after it are left out. The states are made in `q` and `v`.
+/// The state at which a stage of a step of length `h` from `before` asks for accelerations, made in `q` and `v`; returns its time.
+///
+/// Whoever calls it goes through the stages by a loop of its own: a closure that evaluates them would not be compiled into its caller for
+/// wide registers.
 #[inline(always)]
-pub(crate) fn go_through_stages<N: StepNumber, V: Vector<N>, E>(
-    method: &Method,
+pub(crate) fn go_to_stage<N: StepNumber, V: Vector<N>>(
+    (method, stage): (&Method, usize),
     (before, h): (&Point<V, N>, N),
-    k: &mut [V; MAX_STAGES],
-    [q, v]: [&mut V; 2],
-    mut evaluate: impl FnMut(usize, (N, &V, &V), &mut V) -> Result<(), E>,
-) -> Result<(), E> {
+    k: &[V; MAX_STAGES],
+    to: [&mut V; 2],
+) -> N {
     let (tableau, scheme) = (&method.tableau, &method.scheme);
-    for i in 1..tableau.stages {
-        let ch = h.weighted(tableau.c[i], scheme.c_beyond[i]);
-        let t = before.t + (before.t_low + ch);
-        let from = [&before.q, &before.v];
-        stage_state((&scheme.rows[i], ch, h), from, k, [&mut *q, &mut *v]);
-        evaluate(i, (t, &*q, &*v), &mut k[i])?;
-    }
-    Ok(())
+    let ch = h.weighted(tableau.c[stage], scheme.c_beyond[stage]);
+    let from = [&before.q, &before.v];
+    stage_state((&scheme.rows[stage], ch, h), from, k, to);
+    before.t + (before.t_low + ch)
 }
 
 /// The new point of a step of length `h` from `before`, which is at `end` where `is_last` holds.
@@ -61,7 +58,12 @@ pub(crate) fn errors<N: StepNumber, V: Vector<N>>(
         None => N::each(|_| 0.0),
     };
     let numbers = 2 * N::PARTS * ends[0].q.as_slice().len();
-    N::each(|lane| control::combined(fine.as_ref()[lane], coarse.as_ref()[lane], numbers))
+    // A loop, not a closure for each: that would not be compiled into its caller for wide registers.
+    let mut errors = fine;
+    for (error, coarse) in errors.as_mut().iter_mut().zip(coarse.as_ref()) {
+        *error = control::combined(*error, *coarse, numbers);
+    }
+    errors
 }
 
 /// The coordinate with the greatest error in a step of one trajectory.

@@ -411,14 +411,30 @@ pub(crate) fn state_at<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     interpolant: &Interpolant<S::Vector>,
     theta: f64,
 ) -> Result<Triple<S::Vector>, Error> {
-    if theta == 1.0 {
-        return Ok((stepper.t(), stepper.q().clone(), stepper.v().clone()));
-    }
-    let (t, (mut q, mut v)) = (interpolant.time_at(theta), interpolant.state_at(theta));
-    stepper
-        .project(t, &mut q, &mut v)
-        .map_err(|error| Error::of_step(error, system))?;
+    let (mut q, mut v) = (stepper.q().clone(), stepper.v().clone());
+    let t = state_into(system, stepper, interpolant, theta, [&mut q, &mut v])?;
     Ok((t, q, v))
+}
+
+/// [`state_at`], into vectors that are there; returns the time.
+pub(crate) fn state_into<S: System, L: InputLaw<S>, A: Quadratures<S>>(
+    system: &S,
+    stepper: &Stepper<'_, S, L, A>,
+    interpolant: &Interpolant<S::Vector>,
+    theta: f64,
+    [q, v]: [&mut S::Vector; 2],
+) -> Result<f64, Error> {
+    if theta == 1.0 {
+        q.clone_from(stepper.q());
+        v.clone_from(stepper.v());
+        return Ok(stepper.t());
+    }
+    let t = interpolant.time_at(theta);
+    interpolant.state_into(theta, [&mut *q, &mut *v]);
+    stepper
+        .project(t, q, v)
+        .map_err(|error| Error::of_step(error, system))?;
+    Ok(t)
 }
 
 pub(crate) fn state<S: System>(system: &S, (t, q, v): Triple<S::Vector>) -> State<S::Coordinates> {

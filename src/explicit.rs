@@ -198,6 +198,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
     }
 
     /// Whether a trajectory is at its end.
+    #[inline(always)]
     pub fn is_done(&self, lane: usize) -> bool {
         self.now.t.are_same(self.end).as_ref()[lane]
     }
@@ -270,10 +271,15 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         let mut failed = N::each(|_| None);
         let errors = self.try_steps((h, &is_last), machine, &mut failed);
         let h = h.rounded();
+        // For all at once, whatever becomes of them, and in a loop, not by a closure: in wide registers that costs what one alone costs.
+        let mut growth = N::each(|lane| self.lanes.as_ref()[lane].control.error_before);
+        for (growth, error) in growth.as_mut().iter_mut().zip(errors.as_ref()) {
+            *growth = control::growth(self.method, *error, *growth);
+        }
         for (lane, outcome) in outcomes.as_mut().iter_mut().enumerate() {
             if self.lanes.as_ref()[lane].is_running {
-                let (error, cause) = (errors.as_ref()[lane], failed.as_ref()[lane]);
-                *outcome = self.decide(lane, h.as_ref()[lane], error, cause);
+                let [h, error, growth] = [h, errors, growth].map(|each| each.as_ref()[lane]);
+                *outcome = self.decide(lane, h, (error, growth), failed.as_ref()[lane]);
             }
         }
         outcomes
@@ -352,28 +358,30 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         let lanes = lanes.as_mut();
         let (scheme, stages) = (&method.scheme, method.tableau.stages);
         let mut trying = N::each(|lane| lanes[lane].is_running);
-        let mut ask = |at: (N, &V, &V),
-                       a: &mut V,
-                       trying: &mut N::Each<bool>,
-                       failed: &mut N::Each<Option<StepError>>| {
-            for (lane, trying) in lanes.iter_mut().zip(trying.as_ref()) {
-                lane.control.work.evaluations += usize::from(*trying);
+        let mut asked = N::each(|_| 0);
+        let mut count = |asked: N::Each<usize>| {
+            for (lane, asked) in lanes.iter_mut().zip(asked.as_ref()) {
+                lane.control.work.evaluations += asked;
             }
-            evaluate(machine, at, a, trying, failed);
         };
 
-        let tried: Result<(), NobodyTries> = match trying.as_ref().contains(&true) {
-            false => Err(NobodyTries),
-            true => attempt::go_through_stages(method, (before, h), k, [q, v], |_, at, a| {
-                ask(at, a, &mut trying, failed);
-                match trying.as_ref().contains(&true) {
-                    true => Ok(()),
-                    false => Err(NobodyTries),
-                }
-            }),
-        };
-        if tried.is_err() {
+        let mut tries = trying.as_ref().contains(&true);
+        for i in 1..stages {
+            if tries {
+                let t = attempt::go_to_stage((method, i), (before, h), k, [&mut *q, &mut *v]);
+                ask::<N, V>(
+                    (machine, &mut asked),
+                    (t, &*q, &*v),
+                    &mut k[i],
+                    &mut trying,
+                    failed,
+                );
+                tries = trying.as_ref().contains(&true);
+            }
+        }
+        if !tries {
             choose_point(&N::each(|_| true), now, before);
+            count(asked);
             return N::each(|_| f64::INFINITY);
         }
 
@@ -381,7 +389,13 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         if scheme.error_needs_end && trying.as_ref().contains(&true) {
             keep_where(&trying, now, before);
             let at = (now.t, &now.q, &now.v);
-            ask(at, &mut k[stages], &mut trying, failed);
+            ask::<N, V>(
+                (machine, &mut asked),
+                at,
+                &mut k[stages],
+                &mut trying,
+                failed,
+            );
         }
         let found = attempt::errors(method, h, [before, now], k, tolerance);
         // Where the state has left the range of numbers, the error says nothing.
@@ -405,14 +419,22 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         if !scheme.error_needs_end && good.as_ref().contains(&true) {
             keep_where(&good, now, before);
             let at = (now.t, &now.q, &now.v);
-            ask(at, &mut k[stages], &mut good, failed);
+            ask::<N, V>((machine, &mut asked), at, &mut k[stages], &mut good, failed);
         }
         keep_where(&good, now, before);
+        count(asked);
         errors
     }
 
-    /// What becomes of a trajectory after a try of a step.
-    fn decide(&mut self, lane: usize, h: f64, error: f64, cause: Option<StepError>) -> Outcome {
+    /// What becomes of a trajectory after a try of a step with this error, after which the next may be longer by `growth`.
+    #[inline(always)]
+    fn decide(
+        &mut self,
+        lane: usize,
+        h: f64,
+        (error, growth): (f64, f64),
+        cause: Option<StepError>,
+    ) -> Outcome {
         let is_done = self.is_done(lane);
         let Lane {
             is_running,
@@ -421,8 +443,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         } = &mut self.lanes.as_mut()[lane];
         let next = match cause {
             None if error <= 1.0 => {
-                let factor = control::growth(self.method, error, control.error_before);
-                control.take(h, error, factor);
+                control.take(h, error, growth);
                 *is_after_step = true;
                 *is_running = !is_done;
                 return Outcome::Taken;
@@ -446,9 +467,6 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         }))
     }
 }
-
-/// No trajectory is trying any more.
-struct NobodyTries;
 
 impl<N: Real, V: Vector<N>> Track<N, V> {
     /// The motion of one trajectory within its last step, from the ends of the step alone.
@@ -511,10 +529,10 @@ fn evaluate<N: StepNumber, V: Vector<N>>(
     for a in a.as_slice() {
         sum = sum + *a;
     }
-    let mut fine = sum.are_finite();
-    if none.is_none() && !fine.as_ref().contains(&false) {
+    if none.is_none() && sum.are_all_finite() {
         return;
     }
+    let mut fine = sum.are_finite();
     for (lane, fine) in fine.as_mut().iter_mut().enumerate() {
         let t = t.rounded().as_ref()[lane];
         let singular = none.and_then(|none| none.as_ref()[lane]);
@@ -532,6 +550,23 @@ fn evaluate<N: StepNumber, V: Vector<N>>(
     for a in a.as_mut_slice() {
         *a = a.where_true(&fine, N::NOTHING);
     }
+}
+
+/// [`evaluate`], counted.
+///
+/// A function, not a closure: that would not be compiled into its caller for wide registers.
+#[inline(always)]
+fn ask<N: StepNumber, V: Vector<N>>(
+    (machine, asked): (&impl Accelerate<N, V>, &mut N::Each<usize>),
+    at: (N, &V, &V),
+    a: &mut V,
+    trying: &mut N::Each<bool>,
+    failed: &mut N::Each<Option<StepError>>,
+) {
+    for (asked, trying) in asked.as_mut().iter_mut().zip(trying.as_ref()) {
+        *asked += usize::from(*trying);
+    }
+    evaluate(machine, at, a, trying, failed);
 }
 
 /// Copies a vector, in the trajectories for which `condition` holds.

@@ -165,6 +165,17 @@ impl<V: Vector> Interpolant<V> {
     }
 }
 
+impl<V> Stages<V> {
+    /// Coordinates and rates at the fraction `theta` of the step.
+    fn state_at<N: Real>(&self, theta: N, q: &mut V, v: &mut V)
+    where
+        V: Vector<N>,
+    {
+        evaluate(&self.q[..self.length], theta, q);
+        evaluate(&self.v[..self.length], theta, v);
+    }
+}
+
 impl<N: Real, V: Vector<N>> Interpolant<V, N> {
     /// Coordinates and rates at time `t`, which should be in the step.
     pub fn state(&self, t: N) -> (V, V) {
@@ -174,12 +185,23 @@ impl<N: Real, V: Vector<N>> Interpolant<V, N> {
     /// Coordinates and rates at the fraction `theta` of the step.
     pub fn state_at(&self, theta: N) -> (V, V) {
         match &self.curve {
-            Curve::Stages(stages) => (
-                evaluate(&stages.q[..stages.length], theta),
-                evaluate(&stages.v[..stages.length], theta),
-            ),
+            Curve::Stages(stages) => {
+                let zeros = || stages.q[0].zeros_like();
+                let (mut q, mut v) = (zeros(), zeros());
+                stages.state_at(theta, &mut q, &mut v);
+                (q, v)
+            }
             #[cfg(feature = "std")]
             Curve::Series(coefficients) => crate::taylor::state(coefficients, theta * self.h),
+        }
+    }
+
+    /// [`state_at`](Self::state_at), into vectors that are there.
+    pub(crate) fn state_into(&self, theta: N, [q, v]: [&mut V; 2]) {
+        match &self.curve {
+            Curve::Stages(stages) => stages.state_at(theta, q, v),
+            #[cfg(feature = "std")]
+            Curve::Series(_) => (*q, *v) = self.state_at(theta),
         }
     }
 
@@ -197,8 +219,8 @@ fn cubic<N: StepNumber>([y0, y1]: [N; 2], [slope0, slope1]: [N; 2]) -> [N; 4] {
     [y0, rise, bend, rise - slope1 - bend]
 }
 
-fn evaluate<N: Real, V: Vector<N>>(coefficients: &[V], theta: N) -> V {
-    let mut y = coefficients[0].zeros_like();
+fn evaluate<N: Real, V: Vector<N>>(coefficients: &[V], theta: N, y: &mut V) {
+    y.as_mut_slice().fill(N::ZERO);
     for power in (1..coefficients.len()).rev() {
         let factor = if power % 2 == 1 {
             theta
@@ -216,7 +238,6 @@ fn evaluate<N: Real, V: Vector<N>>(coefficients: &[V], theta: N) -> V {
     for (y, c) in y.as_mut_slice().iter_mut().zip(coefficients[0].as_slice()) {
         *y = *y + *c;
     }
-    y
 }
 
 /// Coordinates and rates at the fraction `theta` of a step of length `h`, from its ends alone: the

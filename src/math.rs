@@ -12,47 +12,92 @@ pub(crate) fn power(x: f64, exponent: f64) -> f64 {
     Scalar::powf(x, exponent)
 }
 
+/// 2⁵², whose last digit is 1: in front of it stand the digits of a whole number.
+const WHOLE: f64 = 4_503_599_627_370_496.0;
+
 /// The binary logarithm of a positive number, to 2e-5: more than the root of a high order needs.
-#[cfg(feature = "std")]
-#[inline]
+///
+/// Here and in [`rough_exp2`] are only sums, products and digits moved, which lanes have as well, and the same bits everywhere.
+#[inline(always)]
 pub(crate) fn rough_log2(x: f64) -> f64 {
     // Below the smallest normal number exponents say nothing.
-    let (x, shift) = match x < f64::MIN_POSITIVE {
-        true => (x * 2_f64.powi(54), -54.0),
-        false => (x, 0.0),
+    let is_small = x < f64::MIN_POSITIVE;
+    let (scale, shift) = if is_small {
+        (1.801_439_850_948_198_4e16, 1023.0 + 54.0)
+    } else {
+        (1.0, 1023.0)
     };
-    let bits = x.to_bits();
-    let exponent = ((bits >> 52) & 0x7ff) as f64 - 1023.0;
+    let bits = (x * scale).to_bits();
+    let exponent = f64::from_bits(((bits >> 52) & 0x7ff) | WHOLE.to_bits()) - WHOLE;
     let mantissa = f64::from_bits((bits & ((1 << 52) - 1)) | (1023 << 52));
     // The interpolant of degree 5 in Chebyshev's nodes between 1 and 2: no division to wait for.
     let x = 2.0 * (mantissa - 1.5);
     let low = 0.584_950_50 + x * (0.480_910_61 - x * 0.079_937_27);
     let high = 0.017_714_77 + x * (x * 0.001_372_77 - 0.005_000_68);
-    exponent + shift + (low + (x * x * x) * high)
+    exponent - shift + (low + (x * x * x) * high)
 }
 
 /// 2 to a power, to 1e-5; 0 and infinity where that is beyond `f64`.
-#[cfg(feature = "std")]
-#[inline]
+#[inline(always)]
 pub(crate) fn rough_exp2(x: f64) -> f64 {
-    let x = x.clamp(-1100.0, 1100.0);
-    let towards_0 = x as i64 as f64;
-    let whole = if towards_0 > x {
-        towards_0 - 1.0
-    } else {
-        towards_0
-    };
-    let y = (x - whole - 0.5) * core::f64::consts::LN_2;
+    /// Makes all exponents positive.
+    const BIAS: f64 = 2200.0;
+    let x = if x < -1100.0 { -1100.0 } else { x };
+    let x = if x > 1100.0 { 1100.0 } else { x };
+    // The last digits of this sum are the nearest whole number.
+    let whole = x + (WHOLE + BIAS);
+    let y = (x - (whole - (WHOLE + BIAS))) * core::f64::consts::LN_2;
     let series = 1.0 + y * (1.0 + y * (0.5 + y * (1.0 / 6.0 + y * (1.0 / 24.0))));
     // In two factors, each of which has an exponent.
-    let half = (whole as i64 >> 1) as f64;
-    let power = |n: f64| f64::from_bits(((n + 1023.0) as u64) << 52);
-    series * core::f64::consts::SQRT_2 * power(half) * power(whole - half)
+    let whole = whole.to_bits() & 0xffff;
+    let half = whole >> 1;
+    let power = |n: u64| f64::from_bits((n + 1023 - 1100) << 52);
+    series * power(half) * power(whole - half)
 }
 
-/// `x` to a real power, `x ≥ 0`, to the seven digits of `f32`: more than the choice of a step
-/// needs, at a third of the price. 0 and infinity stay what they are, or become each other.
+/// `x` to a real power, `x ≥ 0`, to some 2e-5 times the power: more than the choice of a step needs, at a tenth of the time of a
+/// function that is right in the last digit. 0 and infinity stay what they are, or become each other.
 #[inline]
 pub(crate) fn rough_power(x: f64, exponent: f64) -> f64 {
-    f64::from(Scalar::powf(x as f32, exponent as f32))
+    let logarithm = match x {
+        0.0 => f64::NEG_INFINITY,
+        f64::INFINITY => f64::INFINITY,
+        _ => rough_log2(x),
+    };
+    match exponent {
+        0.0 => 1.0,
+        _ => rough_exp2(exponent * logarithm),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{rough_exp2, rough_log2, rough_power};
+
+    #[test]
+    fn rough_powers_are_within_their_bounds() {
+        // Against the functions of the standard library, over all exponents and between them.
+        let mut x = 5e-324_f64;
+        while x.is_finite() {
+            let error = rough_log2(x) - x.log2();
+            assert!(error.abs() < 2e-5, "log2 {x:e}: {error:e}");
+            x *= if x < 1e-300 { 2.0 } else { 1.37 };
+        }
+        for i in -10_700..10_230 {
+            let x = f64::from(i) * 0.1 + 0.03;
+            let exact = x.exp2();
+            // A denormal number has its own rounding.
+            let bound = 1e-5 * exact + 5e-324;
+            assert!((rough_exp2(x) - exact).abs() <= bound, "exp2 {x}");
+        }
+        assert_eq!([-5e3, 5e3].map(rough_exp2), [0.0, f64::INFINITY]);
+        assert_eq!(
+            [f64::NEG_INFINITY, f64::INFINITY].map(rough_exp2),
+            [0.0, f64::INFINITY]
+        );
+        let ends = [0.0, f64::INFINITY];
+        assert_eq!(ends.map(|x| rough_power(x, 0.125)), ends);
+        assert_eq!(ends.map(|x| rough_power(x, -0.125)), [ends[1], ends[0]]);
+        assert_eq!(ends.map(|x| rough_power(x, 0.0)), [1.0; 2]);
+    }
 }

@@ -13,11 +13,17 @@ pub trait StepMotion<M: Machine> {
     /// Whether it is one by Taylor series, whose motion is of a much higher degree than that of other methods.
     fn is_series(&self) -> bool;
 
-    /// Time and state at a fraction of the step, from 0 to 1.
+    /// Goes to a fraction of the step, from 0 to 1: makes `q` and `v` the state there, of which nothing but their lengths was known, and
+    /// returns its time in s.
     ///
     /// # Errors
     /// Where the method needs accelerations for it that do not exist, or the constraints cannot be met.
-    fn state_at(&mut self, theta: f64) -> Result<(f64, VectorOf<M>, VectorOf<M>), Error>;
+    fn state_at(
+        &mut self,
+        theta: f64,
+        q: &mut VectorOf<M>,
+        v: &mut VectorOf<M>,
+    ) -> Result<f64, Error>;
 
     /// The state at a time within the step: the one that a sample of the run has there, bit for bit.
     ///

@@ -46,6 +46,9 @@ pub(crate) fn looks(mut f: impl FnMut(f64) -> Result<f64, Error>) -> Result<Vec<
 /// How often an interval is halved in which a function has a kink, on the way to its extremes.
 const HALVINGS_TO_EXTREMES: u32 = 40;
 
+/// The highest degree of an interpolant on the way to extremes.
+const FINE: usize = 32;
+
 /// How many intervals of one step are looked at on the way to extremes.
 const MOST_INTERVALS: usize = 400;
 
@@ -78,26 +81,27 @@ pub fn extremes(
         }
         Ok::<f64, Error>(value)
     };
-    let mut open = Vec::from([([from, to], HALVINGS_TO_EXTREMES)]);
+    // What is open behind the first interval; most steps need no more than that, and allocate nothing.
+    let mut open = Vec::new();
+    let mut next = Some(([from, to], HALVINGS_TO_EXTREMES));
     let mut looked_at = 0;
-    let mut values = Vec::new();
-    'open: while let Some((ends @ [a, b], halvings)) = open.pop() {
+    let (mut values, mut c) = ([0.0; FINE + 1], [0.0; FINE + 1]);
+    'open: while let Some((ends @ [a, b], halvings)) = next.take().or_else(|| open.pop()) {
         looked_at += 1;
-        for degree in [COARSE, 16, 32] {
-            values.clear();
+        for degree in [COARSE, 16, FINE] {
+            let (values, c) = (&mut values[..=degree], &mut c[..=degree]);
             for node in (0..=degree).rev() {
-                values.push(take(extent, at(node, degree, ends))?);
+                values[node] = take(extent, at(node, degree, ends))?;
             }
-            values.reverse();
             let [Some((low, _)), Some((high, _))] = *extent else {
                 continue;
             };
             if low.is_nan() || high.is_nan() {
                 return Ok(());
             }
-            let c = coefficients(&values);
+            interpolate_into(values, c);
             let enough = EXTREMES * (high - low);
-            let rounding = 64.0 * f64::EPSILON * greatest(&c);
+            let rounding = 64.0 * f64::EPSILON * greatest(c);
             let rest: f64 = c[1..].iter().map(|c| c.abs()).sum();
             let last = c[degree].abs().max(c[degree - 1].abs());
             let beyond = rest + 4.0 * c.len() as f64 * last;
@@ -110,7 +114,7 @@ pub fn extremes(
             if tail.iter().any(|c| c.abs() > (0.01 * enough).max(rounding)) {
                 continue;
             }
-            let slopes = derivative(&c);
+            let slopes = derivative(c);
             let mut looks = Vec::new();
             isolate(&slopes, [-1.0, 1.0], &mut looks);
             for pair in looks.chunks(2) {
@@ -198,18 +202,31 @@ fn at(node: usize, degree: usize, [a, b]: [f64; 2]) -> f64 {
 
 /// `cos(π m/n)`. Degrees that divide 64 are looked up, since each step asks for some.
 fn cosine(m: usize, n: usize) -> f64 {
-    let m = m % (2 * n);
-    if n == 0 || !64_usize.is_multiple_of(n) {
-        return Scalar::cos(core::f64::consts::PI * m as f64 / n as f64);
-    }
-    // Of 128 parts of the circle.
-    let part = m * (64 / n);
-    let part = part.min(128 - part);
-    match part {
-        ..=32 => QUARTER[part],
-        _ => -QUARTER[64 - part],
+    match parts(n) {
+        Some(parts) => COSINES[m * parts % COSINES.len()],
+        None => Scalar::cos(core::f64::consts::PI * (m % (2 * n)) as f64 / n as f64),
     }
 }
+
+/// How many 128ths of the circle an angle of `π/n` has, if that is a whole number.
+fn parts(n: usize) -> Option<usize> {
+    (n != 0 && 64_usize.is_multiple_of(n)).then(|| 64 / n)
+}
+
+/// Cosines of all 128 parts of the circle.
+const COSINES: [f64; 128] = {
+    let mut all = [0.0; 128];
+    let mut part = 0;
+    while part < 128 {
+        let to_middle = if part < 64 { part } else { 128 - part };
+        all[part] = match to_middle {
+            ..=32 => QUARTER[to_middle],
+            _ => -QUARTER[64 - to_middle],
+        };
+        part += 1;
+    }
+    all
+};
 
 /// `cos(π k/64)` to the middle, rounded from 50 digits.
 const QUARTER: [f64; 33] = [
@@ -250,20 +267,26 @@ const QUARTER: [f64; 33] = [
 
 /// Coefficients of the interpolant through values at the nodes.
 fn coefficients(values: &[f64]) -> Vec<f64> {
+    let mut c = std::vec![0.0; values.len()];
+    interpolate_into(values, &mut c);
+    c
+}
+
+/// [`coefficients`], as many as there are values, into a list that is there.
+fn interpolate_into(values: &[f64], c: &mut [f64]) {
     let n = values.len() - 1;
     if n == 0 {
-        return values.to_vec();
+        c.copy_from_slice(values);
+        return;
     }
-    let cosines: Vec<f64> = (0..2 * n).map(|m| cosine(m, n)).collect();
     let half_ends = |j: usize| if j == 0 || j == n { 0.5 } else { 1.0 };
-    let coefficient = |k: usize| {
-        let terms = values.iter().enumerate();
-        let sum: f64 = terms
-            .map(|(j, value)| half_ends(j) * value * cosines[j * k % (2 * n)])
-            .sum();
-        2.0 / n as f64 * half_ends(k) * sum
-    };
-    (0..=n).map(coefficient).collect()
+    for (k, c) in c.iter_mut().enumerate() {
+        let mut sum = 0.0;
+        for (j, value) in values.iter().enumerate() {
+            sum += half_ends(j) * value * cosine(j * k, n);
+        }
+        *c = 2.0 / n as f64 * half_ends(k) * sum;
+    }
 }
 
 fn greatest(coefficients: &[f64]) -> f64 {

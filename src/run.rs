@@ -1113,14 +1113,20 @@ where
         self.stepper.coefficients().is_some()
     }
 
-    fn state_at(&mut self, theta: f64) -> Result<Triple<VectorOf<M>>, Error> {
+    fn state_at(
+        &mut self,
+        theta: f64,
+        q: &mut VectorOf<M>,
+        v: &mut VectorOf<M>,
+    ) -> Result<f64, Error> {
         let Self { model, stepper, .. } = self;
         if theta == 0.0 {
-            let (q, v) = (stepper.q_before().clone(), stepper.v_before().clone());
-            return Ok((stepper.t_before(), q, v));
+            q.clone_from(stepper.q_before());
+            v.clone_from(stepper.v_before());
+            return Ok(stepper.t_before());
         }
         let interpolant = made(self.interpolant, stepper, model.system)?;
-        event::state_at(model.system, stepper, interpolant, theta)
+        event::state_into(model.system, stepper, interpolant, theta, [q, v])
     }
 
     fn state(&mut self, t: f64) -> Result<State<Coordinates<M>>, Error> {

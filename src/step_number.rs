@@ -52,6 +52,11 @@ pub trait StepNumber:
     fn weighted(self, coefficient: f64, beyond: f64) -> Self;
     /// For each trajectory, whether it is a number.
     fn are_finite(self) -> Self::Each<bool>;
+    /// Whether all of them are numbers.
+    #[inline(always)]
+    fn are_all_finite(self) -> bool {
+        !self.are_finite().as_ref().contains(&false)
+    }
     /// For each trajectory, whether two numbers are the same.
     fn are_same(self, other: Self) -> Self::Each<bool>;
     /// `self` where `condition` holds, else `other`.
@@ -236,6 +241,17 @@ impl<const W: usize> StepNumber for Lanes<W> {
             *finite = lane.is_finite();
         }
         finite
+    }
+
+    #[inline(always)]
+    fn are_all_finite(self) -> bool {
+        // The greatest of whole numbers is found in registers, which a question for each lane is not.
+        const INFINITE: u64 = f64::INFINITY.to_bits();
+        let mut greatest = 0;
+        for lane in &self.0 {
+            greatest = greatest.max(lane.to_bits() & INFINITE);
+        }
+        greatest < INFINITE
     }
 
     #[inline(always)]

@@ -840,12 +840,12 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             ..
         } = self;
         let stages = method.tableau.stages;
-        let scratch = [&mut stage.0, &mut stage.1];
-        attempt::go_through_stages(method, (before, h), k, scratch, |i, (t, q, v), a| {
-            model.accelerations(t, q, v, a, work)?;
-            model.take_rates(quadratures, i, (t, q, v, a));
-            Ok(())
-        })?;
+        let (q, v) = (&mut stage.0, &mut stage.1);
+        for i in 1..stages {
+            let t = attempt::go_to_stage((method, i), (before, h), k, [&mut *q, &mut *v]);
+            model.accelerations(t, q, v, &mut k[i], work)?;
+            model.take_rates(quadratures, i, (t, q, v, &k[i]));
+        }
         attempt::arrive(method, (before, h), k, now, (self.end, &[last]));
         let mut moved = false;
         if method.scheme.error_needs_end {

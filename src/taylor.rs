@@ -219,8 +219,9 @@ pub(crate) fn length(worst: [f64; 2], powers: [usize; 2]) -> f64 {
 /// [`length`] where both terms are positive and finite: the same arithmetic without questions, for several at once.
 #[inline(always)]
 pub(crate) fn usual_length(worst: [f64; 2], powers: [usize; 2]) -> f64 {
-    let [one, other] = [0, 1].map(|k| rough_log2(worst[k]) / (1.0 - powers[k] as f64));
-    rough_exp2(one.min(other))
+    let one = rough_log2(worst[0]) / (1.0 - powers[0] as f64);
+    let other = rough_log2(worst[1]) / (1.0 - powers[1] as f64);
+    rough_exp2(if one < other { one } else { other })
 }
 
 /// Coefficients of coordinates that [`rises`] reads.

@@ -376,11 +376,14 @@ impl<V: LaneVector<W>, const W: usize> Kernel<Lanes<W>> for Lengths<'_, V, W> {
                 are_usual &= worst > 0.0 && worst < f64::INFINITY;
             }
         }
-        match are_usual {
-            true => {
-                core::array::from_fn(|lane| taylor::usual_length([one[lane], other[lane]], powers))
-            }
-            false => core::array::from_fn(|lane| taylor::length([one[lane], other[lane]], powers)),
+        // A loop, not a closure for each: that would not be compiled into its caller for wide registers.
+        let mut lengths = one;
+        for (one, other) in lengths.iter_mut().zip(other) {
+            *one = match are_usual {
+                true => taylor::usual_length([*one, other], powers),
+                false => taylor::length([*one, other], powers),
+            };
         }
+        lengths
     }
 }

@@ -227,36 +227,23 @@ impl Tries {
             went_well,
         } = self;
         let stages = method.tableau.stages;
-        let mut look =
-            |stage: usize, (t, q, v): (Wide, &Vec<Wide>, &Vec<Wide>), a: &mut Vec<Wide>| {
-                let mut fine = machines.accelerations((t, q, v), a);
-                // The sum of what is not finite is not finite, and one test is cheaper than many.
-                let mut sum = Wide::NOTHING;
-                for a in a.iter() {
-                    sum = sum + *a;
-                }
-                fine &= bits(&sum.are_finite());
-                if let Some(powers) = powers {
-                    let (of_stage, known) = machines.powers((t, q, v), a);
-                    powers[stage] = of_stage;
-                    fine &= known;
-                }
-                fine
-            };
-        let gone = attempt::go_through_stages(method, (before, *h), k, [q, v], |i, at, a| {
-            *went_well &= look(i, at, a);
+        let mut powers = powers.as_mut();
+        for i in 1..stages {
+            let t = attempt::go_to_stage((method, i), (before, *h), k, [&mut *q, &mut *v]);
+            *went_well &= look((machines, powers.as_deref_mut()), i, (t, q, v), &mut k[i]);
             if *went_well == 0 {
-                Err(NoLaneLeft)
-            } else {
-                Ok(())
+                return;
             }
-        });
-        if gone.is_err() {
-            return;
         }
         attempt::arrive(method, (before, *h), k, now, (*end, is_last));
         if method.scheme.error_needs_end {
-            *went_well &= look(stages, (now.t, &now.q, &now.v), &mut k[stages]);
+            let at = (now.t, &*now.q, &*now.v);
+            *went_well &= look(
+                (machines, powers.as_deref_mut()),
+                stages,
+                at,
+                &mut k[stages],
+            );
         }
         *errors = attempt::errors(method, *h, [before, now], k, tolerance);
         *went_well &= bits(&attempt::are_finite(&now.q, &now.v));
@@ -269,14 +256,42 @@ impl Tries {
         }
         good &= *went_well;
         if !method.scheme.error_needs_end && good != 0 {
-            let fine = look(stages, (now.t, &now.q, &now.v), &mut k[stages]);
+            let at = (now.t, &*now.q, &*now.v);
+            let fine = look(
+                (machines, powers.as_deref_mut()),
+                stages,
+                at,
+                &mut k[stages],
+            );
             *went_well &= fine | !good;
         }
     }
 }
 
-/// All lanes have failed before the last stage.
-struct NoLaneLeft;
+/// Accelerations of a stage, and where they are kept the powers; in which lanes they have values.
+///
+/// A function, not a closure: that would not be compiled into its caller for wide registers.
+#[inline(always)]
+fn look(
+    (machines, powers): (&mut impl Evaluate, Option<&mut [[Wide; 2]; MAX_STAGES]>),
+    stage: usize,
+    at: (Wide, &[Wide], &[Wide]),
+    a: &mut [Wide],
+) -> LaneMask {
+    let mut fine = machines.accelerations(at, a);
+    // The sum of what is not finite is not finite, and one test is cheaper than many.
+    let mut sum = Wide::NOTHING;
+    for a in a.iter() {
+        sum = sum + *a;
+    }
+    fine &= bits(&sum.are_finite());
+    if let Some(powers) = powers {
+        let (of_stage, known) = machines.powers(at, a);
+        powers[stage] = of_stage;
+        fine &= known;
+    }
+    fine
+}
 
 /// One try of every lane, in the widest registers that there are.
 struct Attempt<'a, E>(&'a mut Tries, &'a mut E);

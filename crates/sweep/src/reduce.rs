@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
-use lagrangian::{Error, StepMotion, extremes};
+use lagrangian::{Error, StepMotion, System, extremes};
 
 use crate::plan::Function;
 
@@ -165,7 +165,8 @@ impl Tracker {
     }
 }
 
-/// Time, state, and as far as they were asked for inputs and accelerations.
+/// Time, state and inputs at a fraction of a step, and accelerations if they were asked for.
+#[derive(Debug)]
 struct Look {
     theta: f64,
     t: f64,
@@ -173,6 +174,15 @@ struct Look {
     v: Vec<f64>,
     u: Named,
     a: Vec<f64>,
+    has_accelerations: bool,
+}
+
+/// What was seen of a step; kept from one step to the next, so that looking allocates nothing.
+#[derive(Debug, Default)]
+pub(crate) struct Seen {
+    /// Those of this step come first.
+    looks: Vec<Look>,
+    of_step: usize,
 }
 
 /// A step that several formulas look at, at the same places: states are made once.
@@ -181,50 +191,65 @@ pub(crate) struct Looks<'s, 'm> {
     pub is_series: bool,
     system: &'s InterpretedSystem,
     motion: RefCell<&'s mut (dyn StepMotion<InterpretedMachine> + 'm)>,
-    seen: RefCell<Vec<Look>>,
+    seen: RefCell<&'s mut Seen>,
 }
 
 impl<'s, 'm> Looks<'s, 'm> {
     pub fn new(
         system: &'s InterpretedSystem,
         motion: &'s mut (dyn StepMotion<InterpretedMachine> + 'm),
+        seen: &'s mut Seen,
     ) -> Self {
+        seen.of_step = 0;
         Looks {
             span: motion.span(),
             is_series: motion.is_series(),
             system,
             motion: RefCell::new(motion),
-            seen: RefCell::new(Vec::new()),
+            seen: RefCell::new(seen),
         }
     }
 
     /// A formula at a fraction of the step.
     pub fn value(&self, theta: f64, formula: Formula) -> Result<f64, Error> {
-        let mut seen = self.seen.borrow_mut();
         let mut motion = self.motion.borrow_mut();
-        let place = match seen.iter().position(|look| look.theta == theta) {
+        let mut seen = self.seen.borrow_mut();
+        let Seen { looks, of_step } = &mut **seen;
+        let known = looks[..*of_step]
+            .iter()
+            .position(|look| look.theta == theta);
+        let place = match known {
             Some(place) => place,
             None => {
-                let (t, q, v) = motion.state_at(theta)?;
-                let u = motion.inputs(t, &q, &v);
-                seen.push(Look {
-                    theta,
-                    t,
-                    q,
-                    v,
-                    u,
-                    a: Vec::new(),
-                });
-                seen.len() - 1
+                if looks.len() == *of_step {
+                    let zeros = || vec![0.0; self.system.coordinates().len()];
+                    looks.push(Look {
+                        theta,
+                        t: 0.0,
+                        q: zeros(),
+                        v: zeros(),
+                        u: self.system.default_inputs(),
+                        a: zeros(),
+                        has_accelerations: false,
+                    });
+                }
+                let look = &mut looks[*of_step];
+                look.theta = theta;
+                look.t = motion.state_at(theta, &mut look.q, &mut look.v)?;
+                look.u = motion.inputs(look.t, &look.q, &look.v);
+                look.has_accelerations = false;
+                *of_step += 1;
+                *of_step - 1
             }
         };
-        let look = &mut seen[place];
-        if formula.reads_accelerations && look.a.is_empty() {
-            let mut a = vec![0.0; look.q.len()];
-            motion.accelerations((look.t, &look.q, &look.v), &look.u, &mut a)?;
-            look.a = a;
+        let look = &mut looks[place];
+        if formula.reads_accelerations && !look.has_accelerations {
+            motion.accelerations((look.t, &look.q, &look.v), &look.u, &mut look.a)?;
+            look.has_accelerations = true;
         }
         let Look { t, q, v, u, a, .. } = look;
+        // What does not depend on accelerations is given none.
+        let a = if look.has_accelerations { &a[..] } else { &[] };
         Ok(self.system.output(formula.output, *t, q, v, a, &u.values))
     }
 }

@@ -19,7 +19,7 @@ use lagrangian_symbolic::{Dag, Rational};
 
 use crate::design;
 use crate::plan::{Function, Kept, Plan, Reduction};
-use crate::reduce::{Formula, Looks, Tracker};
+use crate::reduce::{Formula, Looks, Seen, Tracker};
 use crate::rows::{Cell, Column, Kind, Rows};
 use crate::signals::{self, without_series};
 use crate::sobol::MOST_VARIABLES;
@@ -526,6 +526,7 @@ impl Sweep {
             at: vec![None; plan.at.len()],
             samples: self.no_samples(),
             due: 0,
+            seen: Seen::default(),
         };
         let refused = refuses.and_then(|model| {
             let said = model.refused_values(machine.parameter_values());
@@ -716,6 +717,8 @@ struct Watched {
     samples: Option<Rows>,
     /// The number of the next sample.
     due: u64,
+    /// What the trackers saw of the step.
+    seen: Seen,
 }
 
 impl Watched {
@@ -752,7 +755,7 @@ impl Watched {
         if self.trackers.iter().all(Option::is_none) {
             return Ok(());
         }
-        let looks = Looks::new(system, step);
+        let looks = Looks::new(system, step, &mut self.seen);
         for tracker in self.trackers.iter_mut().flatten() {
             tracker.take(&looks, theta)?;
         }
