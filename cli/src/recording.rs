@@ -84,6 +84,17 @@ impl Panel<'_> {
     }
 }
 
+/// The same curve without the points in the middle of stretches where it does not change.
+pub fn steady(times: &[f64], values: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    let last = values.len().saturating_sub(1);
+    let is_kept = |i: &usize| {
+        let (before, after) = (values.get(i.wrapping_sub(1)), values.get(i + 1));
+        *i == 0 || *i == last || before != Some(&values[*i]) || after != Some(&values[*i])
+    };
+    let kept = (0..values.len()).filter(is_kept);
+    kept.map(|i| (times[i], values[i])).unzip()
+}
+
 /// About so many points that the curve looks the same: of every stretch the lowest and the highest, in order.
 pub fn thin(times: &[f64], values: &[f64], most: usize) -> Vec<(f64, f64)> {
     let points: Vec<(f64, f64)> = times
@@ -128,6 +139,16 @@ mod tests {
         let kept = thin(&times, &values, 1500);
         assert!(kept.len() <= 1502);
         assert!(kept.contains(&(70_001.0, 5.0)) && kept.contains(&(123.0, -3.0)));
+    }
+
+    #[test]
+    fn what_does_not_change_is_two_points() {
+        let times: Vec<f64> = (0..9).map(f64::from).collect();
+        let values = [0.0, 0.0, 0.0, 4.0, 5.0, 5.0, 5.0, 5.0, 0.0];
+        let (kept, of) = steady(&times, &values);
+        assert_eq!(kept, [0.0, 2.0, 3.0, 4.0, 7.0, 8.0]);
+        assert_eq!(of, [0.0, 0.0, 4.0, 5.0, 5.0, 0.0]);
+        assert_eq!(steady(&[], &[]), (Vec::new(), Vec::new()));
     }
 
     #[test]

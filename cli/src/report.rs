@@ -12,17 +12,18 @@ mod places;
 mod samples;
 mod scene;
 pub(crate) mod script;
+mod touching;
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
 use lagrangian::methods::Method;
-use lagrangian::{EnergyBalance, Event, Solution, State, Statistics, Warning};
+use lagrangian::{ContactEvent, EnergyBalance, Event, Solution, State, Statistics, Warning};
 use lagrangian_mechanics::Compiled;
 use lagrangian_symbolic::Symbol;
 use serde_json::{Value, json};
 
 use crate::collisions;
 use crate::contacts::Found;
-use crate::recording::{Column, Kind, Recording, panels, thin};
+use crate::recording::{Column, Kind, Recording, panels, steady, thin};
 
 pub(crate) use live::Live;
 pub(crate) use page::{DRAWING, STYLE};
@@ -33,6 +34,9 @@ pub(crate) use scene::Scene;
 /// What the curves may fill that are stored as such, in bytes before they are encoded; and the most points of one.
 const CURVE_BYTES: usize = 320_000;
 const CURVE_POINTS: usize = 1600;
+
+/// The most impacts whose impulses are stored: those of the greatest.
+const IMPACTS: usize = 12_000;
 
 /// A run, and everything that a page says about it.
 pub struct Report<'a, 'd> {
@@ -74,6 +78,7 @@ pub struct Outcome<'a> {
     start: &'a State<Named>,
     end: &'a State<Named>,
     events: &'a [Event<Named>],
+    contact_events: &'a [ContactEvent<Named>],
     warnings: &'a [Warning],
     statistics: Statistics,
     energy: Option<EnergyBalance>,
@@ -88,6 +93,7 @@ impl<'a, L> From<&'a Solution<InterpretedMachine, L>> for Outcome<'a> {
             start: run.start(),
             end: run.end(),
             events: run.events(),
+            contact_events: run.contact_events(),
             warnings: run.warnings(),
             statistics: run.statistics(),
             energy: run.energy_balance(),
@@ -152,8 +158,41 @@ impl Report<'_, '_> {
             .collect();
         let mut data = motion(self.recording, samples, self.machine, scene);
         data["picture"] = json!(scene.picture);
+        if !scene.picture.contacts.is_empty() {
+            data["impacts"] = self.impacts(scene);
+        }
         data["panels"] = panels.into();
         data
+    }
+
+    /// When which contact, of those that are drawn, had an impact, and its impulse along each direction of that contact.
+    fn impacts(&self, scene: &Scene<'_>) -> Value {
+        let place = |name: &str| {
+            let mut drawn = scene.picture.contacts.iter();
+            drawn.position(|contact| contact.name == name)
+        };
+        let mut impacts: Vec<(f64, usize, [f64; 3])> = (self.run.contact_events.iter())
+            .filter_map(|event| {
+                let impact = event.impact?;
+                let [normal, tangential] = impact.impulse;
+                let across = impact.across.map_or(0.0, |across| across.impulse);
+                let contact = place(&event.contact)?;
+                Some((event.state.t, contact, [normal, tangential, across]))
+            })
+            .collect();
+        let size = |(_, _, impulse): &(f64, usize, [f64; 3])| {
+            impulse.iter().map(|part| part * part).sum::<f64>()
+        };
+        if impacts.len() > IMPACTS {
+            impacts.sort_by(|a, b| size(b).total_cmp(&size(a)));
+            impacts.truncate(IMPACTS);
+            impacts.sort_by(|(a, ..), (b, ..)| a.total_cmp(b));
+        }
+        json!({
+            "times": samples::encoded(impacts.iter().map(|(t, ..)| *t)),
+            "contacts": samples::encoded(impacts.iter().map(|(_, contact, _)| *contact as f64)),
+            "impulses": samples::encoded(impacts.iter().flat_map(|(.., impulse)| *impulse)),
+        })
     }
 
     /// A curve: of a coordinate or a rate its index, since the states have it; of anything else its points.
@@ -164,7 +203,14 @@ impl Report<'_, '_> {
             Kind::Coordinate => json!({ "name": column.name, "coordinate": index }),
             Kind::Rate => json!({ "name": column.name, "rate": index }),
             kind => {
-                let points = thin(&self.recording.times, &column.values, points);
+                let points = match kind {
+                    // Most contacts are open most of the time.
+                    Kind::Contact => {
+                        let (times, values) = steady(&self.recording.times, &column.values);
+                        thin(&times, &values, points)
+                    }
+                    _ => thin(&self.recording.times, &column.values, points),
+                };
                 let times = samples::encoded(points.iter().map(|(time, _)| *time));
                 let values = samples::encoded(points.iter().map(|(_, value)| *value));
                 let mut curve = json!({ "name": column.name, "times": times, "values": values });

@@ -14,7 +14,7 @@ class Palette {
       this.probe.style.color = css;
       return getComputedStyle(this.probe).color;
     };
-    for (const name of ['paper', 'panel', 'ink', 'muted', 'line', 'grid', 'accent']) {
+    for (const name of ['paper', 'panel', 'ink', 'muted', 'line', 'grid', 'accent', 'force', 'impact']) {
       this[name] = colour(`var(--${name})`);
     }
     this.series = (index, count) => colour(seriesColour(index, count));
@@ -37,6 +37,11 @@ class Drawing {
     this.palette = new Palette();
     this.names = false;
     this.frames = false;
+    this.showsForces = true;
+    this.forces = [];
+    this.impacts = null;
+    /** How long the impulse of an impact stays to be seen, in s of the run. */
+    this.glow = 0;
     this.trail = 0;
     this.follow = null;
     this.stamp = '';
@@ -137,6 +142,102 @@ class Drawing {
     this.floor = lowest < -0.02 * this.reach ? lowest : 0;
   }
 
+  /** Gives contacts their forces, from the curves that hold these, and the impulses of their impacts. */
+  bear(curves, impacts) {
+    const named = new Map(curves.map((curve) => [curve.name, curve]));
+    this.forces = this.picture.contacts.map((contact) => ({
+      contact,
+      curves: contact.forces.map((name) => named.get(name)).filter(Boolean),
+    }));
+    if (impacts) {
+      const { times, contacts, impulses } = impacts;
+      this.impacts = { times: floats(times), contacts: floats(contacts), impulses: floats(impulses) };
+    }
+    this.weigh();
+  }
+
+  /** Which force and which impulse are drawn as long as a fifth of the motion: one that few exceed. */
+  weigh() {
+    const most = (sizes) => sizes.sort((a, b) => a - b)[Math.floor(0.95 * (sizes.length - 1))] ?? 0;
+    const sizes = this.forces.flatMap(({ curves }) => Array.from(curves[0]?.times ?? [], (t) => Math.hypot(...curves.map((curve) => curve.at(t)))));
+    this.fullForce = most(sizes.filter((size) => size > 0));
+    const { times, impulses } = this.impacts ?? { times: [], impulses: [] };
+    this.fullImpulse = most(Array.from(times, (_, k) => Math.hypot(...impulses.slice(3 * k, 3 * k + 3))));
+  }
+
+  /** Where a contact touches, and a force with these components on what touches there. */
+  forceOf(x, contact, components) {
+    if (contact.placed === 'line') {
+      return [this.inBody(x, this.picture.bodies[contact.body], contact.foot), [...contact.force.map((f) => components[0] * f), 0]];
+    }
+    const force = contact.directions.reduce(
+      (sum, place, k) => along(sum, components[k] ?? 0, this.vector(x, place)),
+      [0, 0, 0],
+    );
+    return [this.vector(x, contact.point), force];
+  }
+
+  /** The forces of contact at time `t`, and the impulses of the impacts just before: on the body that a contact names first. */
+  contactForces(t, x) {
+    const found = this.forces.map(({ contact, curves }) => {
+      const [point, force] = this.forceOf(x, contact, curves.map((curve) => curve.at(t)));
+      return { name: contact.name, point, force, unit: 'N', full: this.fullForce, age: 0 };
+    });
+    if (this.impacts) {
+      const { times, contacts, impulses } = this.impacts;
+      // Times are stored in 24 binary digits, and an impact is to be seen at its instant.
+      const [from, to] = [this.motion.from, this.motion.to];
+      const late = 2 ** -22 * Math.max(Math.abs(from), Math.abs(to));
+      let [first, last] = [0, times.length];
+      while (first < last) {
+        const middle = (first + last) >> 1;
+        if (times[middle] < t - this.glow - late) first = middle + 1; else last = middle;
+      }
+      for (let k = first; k < times.length && times[k] <= t + late; k++) {
+        const { contact } = this.forces[contacts[k]];
+        const [point, force] = this.forceOf(x, contact, impulses.slice(3 * k, 3 * k + 3));
+        const age = this.glow > 0 ? Math.max(t - times[k], 0) / (this.glow + late) : 0;
+        found.push({ name: contact.name, point, force, unit: 'N s', full: this.fullImpulse, age });
+      }
+    }
+    return found.filter(({ point, force, full }) => {
+      const size = Math.hypot(...force);
+      return size > 0 && full > 0 && Number.isFinite(size) && point.every(Number.isFinite);
+    });
+  }
+
+  /** An arrow for each force of contact, and for each impulse, which fades. One that is longer than the picture is cut there, and has no tip. */
+  drawForces(t, x) {
+    const { view, palette, context: c } = this;
+    for (const { name, point, force, unit: of, full, age } of this.contactForces(t, x)) {
+      const size = Math.hypot(...force);
+      const length = (0.2 * this.reach * size) / full;
+      const colour = of === 'N' ? palette.force : palette.impact;
+      const tip = along(point, Math.min(length, 2 * this.reach) / size, force);
+      const [start, end] = [view.project(point), view.project(tip)];
+      c.globalAlpha = 1 - 0.9 * age;
+      if (length > 2 * this.reach) this.line(start, end, colour, 2); else this.arrow(start, end, colour, 2);
+      if (this.names) this.text(`${name} ${figure(size, 3)} ${of}`, end[0] + 6, end[1] - 6, colour);
+      c.globalAlpha = 1;
+    }
+  }
+
+  /** What lengths of arrows mean, above the scale. */
+  drawForceScales() {
+    const { view, palette } = this;
+    const scales = [[this.fullForce, 'N', palette.force], [this.fullImpulse, 'N s', palette.impact]];
+    let y = view.height - 42;
+    for (const [full, of, colour] of scales) {
+      if (!(full > 0)) continue;
+      const metres = 0.2 * this.reach;
+      const size = round125(((0.24 * view.width) / view.scale) * (full / metres));
+      const length = (size / full) * metres * view.scale;
+      this.arrow([14, y], [14 + length, y], colour, 2);
+      this.text(`${figure(size, 3)} ${of}`, 14 + length / 2, y - 9, colour, 'center');
+      y -= 24;
+    }
+  }
+
   /** Springs and dampers of which only the line of action is known get a stand on the ground, at some distance. */
   sketches() {
     const { picture, motion } = this;
@@ -233,9 +334,11 @@ class Drawing {
     parts.sort((a, b) => a.depth - b.depth);
     parts.forEach((part) => part.draw());
     this.drawCentres(x);
+    if (this.showsForces) this.drawForces(t, x);
     if (this.frames) this.drawFrames(x);
     if (this.names) this.drawNames(x);
     this.drawScale();
+    if (this.showsForces) this.drawForceScales();
     this.drawGravity(x);
     // On paper, where no clock stands beside it.
     this.text(this.stamp, 14, 18, palette.ink);

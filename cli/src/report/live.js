@@ -316,6 +316,7 @@ class Live {
       motion.states = states;
       motion.parameters.set(this.parameters);
       player.plots.forEach((plot) => plot.curves.forEach((curve) => this.refresh(curve, p, times, states)));
+      player.drawing.weigh();
       const took = performance.now() - before;
       status.textContent = `Run again in this page: ${integrator.steps} steps in ${took.toFixed(0)} ms. `
         + 'The tables below are those of the command.';

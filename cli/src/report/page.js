@@ -9,6 +9,7 @@ class Player {
     this.canvas = byId('scene');
     this.drawing = new Drawing(this.canvas, data.picture, this.motion);
     this.plots = data.panels.map((panel) => new Plot(panel, this.motion, (t) => this.seek(t)));
+    this.drawing.bear(this.plots.flatMap((plot) => plot.curves), data.impacts);
     byId('plots').append(...this.plots.map((plot) => plot.element));
     this.t = this.motion.from;
     this.playing = false;
@@ -127,6 +128,7 @@ class Player {
     });
     check('labels', (on) => { drawing.names = on; });
     check('axes', (on) => { drawing.frames = on; });
+    if (byId('forces')) check('forces', (on) => { drawing.showsForces = on; });
     const follow = byId('follow');
     drawing.picture.bodies.forEach((body, index) => {
       follow.append(html('option', { value: index }, body.name));
@@ -157,7 +159,14 @@ class Player {
     const slow = speeds.filter((speed) => this.length / speed >= 4);
     this.speed = Math.min(slow.length ? Math.max(...slow) : speeds[0], 1);
     select.value = this.speed;
-    select.addEventListener('change', () => { this.speed = Number(select.value); });
+    // An impulse is seen for a sixth of a second.
+    const setSpeed = () => {
+      this.speed = Number(select.value);
+      this.drawing.glow = this.speed / 6;
+      this.dirty = true;
+    };
+    select.addEventListener('change', setSpeed);
+    setSpeed();
   }
 
   /** Turning, moving and zooming, with a mouse or with fingers. */
@@ -280,5 +289,10 @@ player.canvas.report = Object.freeze({
     const { picture } = player.drawing;
     const x = player.motion.values(t);
     return picture.bodies.map((body) => Array.from(x.slice(body.at, body.at + picture.dimension)));
+  },
+  /** The forces of contact that are drawn at time `t`, in N, and impulses, in N s, with the points where they act. */
+  forces: (t) => {
+    const { drawing, motion } = player;
+    return drawing.contactForces(t, motion.values(t)).map(({ name, point, force, unit: of }) => ({ name, point, force, unit: of }));
   },
 });

@@ -18,6 +18,10 @@ const PAGE: &str = include_str!("page.html");
 /// The style of all pages.
 pub const STYLE: &str = include_str!("page.css");
 
+/// The control of a page that has forces of contact to show.
+const FORCES: &str =
+    "<label><input type=\"checkbox\" id=\"forces\" checked> Contact forces</label>\n";
+
 /// What the derivation may fill, in bytes: whole equations of a large machine are megabytes.
 const DERIVATION: usize = 700_000;
 
@@ -53,6 +57,10 @@ pub fn text(
         "start" => start(report),
         "energy" => energy(report),
         "marks" => marks(report),
+        "forces" => match scene.picture.contacts.is_empty() {
+            true => String::new(),
+            false => FORCES.to_owned(),
+        },
         "events" => [events(report), contacts(report)].concat(),
         "statistics" => statistics(report, samples),
         "counts" => counts(&report.compiled.program),
@@ -408,40 +416,107 @@ fn energy(report: &Report<'_, '_>) -> String {
 }
 
 /// Marks of events beside the time line, each of which leads to its instant; nothing where nothing happened. Of very many events that
-/// stand closer than marks are wide one is marked.
+/// stand closer than marks are wide one is marked, an impact before others, and told how many there are.
 fn marks(report: &Report<'_, '_>) -> String {
     let (from, to) = (report.run.start.t, report.run.end.t);
     if from == to {
         return String::new();
     }
-    let mut marked = std::collections::BTreeSet::new();
-    let mut marks = String::new();
+    /// What stands at one place.
+    struct Mark {
+        t: f64,
+        said: String,
+        is_impact: bool,
+        others: usize,
+    }
+    let share = |t: f64| ((t - from) / (to - from)).clamp(0.0, 1.0);
+    let mut marks: std::collections::BTreeMap<u16, Mark> = std::collections::BTreeMap::new();
+    let impacts = impacts(report);
     for event in other_events(report.run.events, report.contacts) {
         let t = event.state.t;
-        let share = ((t - from) / (to - from)).clamp(0.0, 1.0);
+        let impact = impacts.get(&(t.to_bits(), event.name.as_str()));
+        let of_impact = impact.map_or_else(String::new, |impact| format!(": {impact}"));
+        let said = format!("{} at t = {} s{of_impact}", event.name, shortest(t));
+        let is_impact = impact.is_some();
         // 0 to 1000, of the share.
-        let place = (1000.0 * share).round() as u16;
-        if marked.insert(place) {
-            let said = safe(&format!("{} at t = {} s", event.name, shortest(t)));
-            marks.push_str(&format!(
-                "<a href=\"#t={t:?}\" style=\"left:{:.1}%\" title=\"{said}\" aria-label=\"{said}\"></a>",
-                100.0 * share
-            ));
+        let place = (1000.0 * share(t)).round() as u16;
+        let first = Mark {
+            t,
+            said,
+            is_impact,
+            others: 0,
+        };
+        match marks.get_mut(&place) {
+            None => {
+                marks.insert(place, first);
+            }
+            Some(mark) if is_impact && !mark.is_impact => {
+                let others = mark.others + 1;
+                *mark = Mark { others, ..first };
+            }
+            Some(mark) => mark.others += 1,
         }
     }
+    let marks: String = marks
+        .into_values()
+        .map(|mark| {
+            let said = match mark.others {
+                0 => mark.said,
+                others => format!("{}, and {others} more here", mark.said),
+            };
+            let (said, t) = (safe(&said), mark.t);
+            let class = if mark.is_impact { " class=\"impact\"" } else { "" };
+            format!(
+                "<a{class} href=\"#t={t:?}\" style=\"left:{:.1}%\" title=\"{said}\" aria-label=\"{said}\"></a>",
+                100.0 * share(t)
+            )
+        })
+        .collect();
     match marks.is_empty() {
         true => marks,
         false => format!("<div class=\"marks\">{marks}</div>\n"),
     }
 }
 
+/// What impacts did, in words, by the time and the name of their events.
+fn impacts<'a>(report: &'a Report<'_, '_>) -> std::collections::BTreeMap<(u64, &'a str), String> {
+    let told = report.run.contact_events.iter().filter_map(|told| {
+        let impact = told.impact?;
+        let [normal, tangential] = impact.impulse;
+        let across = impact.across.map_or(0.0, |across| across.impulse);
+        let rubbed = tangential.hypot(across);
+        let number = |x: f64| shortest(format!("{x:.3e}").parse().unwrap_or(x)).replace('-', "−");
+        let mut words = format!("an impulse of {} N s", number(normal));
+        if rubbed > 0.0 {
+            words.push_str(&format!(", {} N s by friction", number(rubbed)));
+        }
+        words.push_str(&format!(", which took {} J", number(impact.loss)));
+        Some(((told.state.t.to_bits(), told.contact.as_str()), words))
+    });
+    let told: std::collections::BTreeMap<(u64, &str), String> = told.collect();
+    let events = report.run.events.iter().filter_map(|event| {
+        let contact = event.name.strip_suffix(" impact")?;
+        let words = told.get(&(event.state.t.to_bits(), contact))?;
+        Some((
+            (event.state.t.to_bits(), event.name.as_str()),
+            words.clone(),
+        ))
+    });
+    events.collect()
+}
+
 /// What happened, each with a link to its instant.
 fn events(report: &Report<'_, '_>) -> String {
+    let impacts = impacts(report);
     let rows: Vec<Vec<Cell>> = other_events(report.run.events, report.contacts)
         .map(|event| {
             let t = event.state.t;
             let link = format!("<a href=\"#t={t:?}\">{}</a>", shortest(t));
-            vec![Cell::Raw(link), Cell::Words(event.name.clone())]
+            let words = match impacts.get(&(t.to_bits(), event.name.as_str())) {
+                Some(impact) => format!("{}: {impact}", event.name),
+                None => event.name.clone(),
+            };
+            vec![Cell::Raw(link), Cell::Words(words)]
         })
         .collect();
     if rows.is_empty() {

@@ -8,6 +8,8 @@
 //! * A body with an `outline` is drawn as that polygon.
 //! * A body with an inertia is drawn as the uniform solid that has it: a disc, or a bar where it hangs at the end of one,
 //!   in the plane; a cylinder or a box in space.
+//! * A contact has its force where it touches, along the normal and the tangents there. One whose gap is given by an expression has it on
+//!   its line of action, where that is found as that of a spring is.
 //! * A spring or damper given by its stretch is drawn between the two points whose distance differs from the stretch by
 //!   a constant; failing that, on its line of action: where on its body a force must act to have that work.
 //!
@@ -16,11 +18,14 @@
 
 use lagrangian_spec::model::circles::{body_axes, outline, placed};
 use lagrangian_spec::model::element::{Drawing, Element, Shape, Site};
-use lagrangian_spec::model::{Body, Inertia, Model, Place, PoseId, Rotation, Step, stage};
+use lagrangian_spec::model::{
+    Body, ContactGeometry, Inertia, Model, Place, PoseId, Rotation, Step, stage,
+};
 use lagrangian_symbolic::{Expr, Node, Symbol, Tangent, evaluate};
 use serde::Serialize;
 
 use super::places::{Experiment, Places};
+use super::touching;
 
 /// A part of so many pairs of points and elements would take seconds to search.
 const MOST_PAIRS: usize = 400_000;
@@ -50,9 +55,11 @@ pub struct Picture {
     /// Springs and dampers.
     pub elements: Vec<ElementDrawn>,
     pub circles: Vec<CircleDrawn>,
+    /// Contacts, for their forces.
+    pub contacts: Vec<ContactDrawn>,
     /// The acceleration of gravity, a vector.
     pub gravity: Option<usize>,
-    /// Springs and dampers that have no place that could be shown.
+    /// Springs, dampers and forces of contact that have no place that could be shown.
     pub omitted: Vec<String>,
 }
 
@@ -143,6 +150,31 @@ pub struct CircleDrawn {
     pub body: Option<usize>,
 }
 
+#[derive(Debug, Serialize)]
+pub struct ContactDrawn {
+    pub name: String,
+    /// The curves that hold the components of its force, along its directions.
+    pub forces: Vec<String>,
+    #[serde(flatten)]
+    pub place: Touch,
+}
+
+#[derive(Debug, Serialize, PartialEq)]
+#[serde(rename_all = "lowercase", tag = "placed")]
+pub enum Touch {
+    /// At a point, along unit vectors.
+    Point {
+        point: usize,
+        directions: Vec<usize>,
+    },
+    /// On a line of action: from a point of a body, in its axes, and what the force is where that on the gap is 1, in the ground's.
+    Line {
+        body: usize,
+        foot: [f64; 2],
+        force: [f64; 2],
+    },
+}
+
 impl<'d> Scene<'d> {
     /// The scene of a machine that starts at these values of the symbols: parameters, coordinates, time.
     pub fn new(model: &Model<'d>, value: &dyn Fn(Symbol) -> f64) -> Scene<'d> {
@@ -170,7 +202,9 @@ impl<'d> Scene<'d> {
             }
         }
         let links = finder.without_bars(links, &bodies);
-        let (elements, omitted) = finder.elements();
+        let (elements, mut omitted) = finder.elements();
+        let (contacts, placeless) = finder.contacts();
+        omitted.extend(placeless);
         let picture = Picture {
             dimension: points.dimension,
             ground: points.origins[0],
@@ -187,6 +221,7 @@ impl<'d> Scene<'d> {
             links,
             elements,
             circles: points.circles(model),
+            contacts,
             gravity: points.gravity,
             omitted,
         };
@@ -214,6 +249,8 @@ struct Points {
     constraints: Vec<usize>,
     /// Where each element is that is drawn, in the order of [`drawings`].
     sites: Vec<SitePoints>,
+    /// Point and directions of each contact, then of what rolls; none where an expression is all that is known.
+    touching: Vec<Option<(usize, Vec<usize>)>>,
     gravity: Option<usize>,
 }
 
@@ -263,6 +300,26 @@ impl Points {
             Site::At(point) => SitePoints::At(places.of(point)),
         });
         let sites = sites.collect();
+        let mut touch = |circle, surface| {
+            let touching::Site { point, directions } = touching::site(model, circle, surface);
+            let directions = directions.iter().map(|along| places.of(along));
+            let directions = directions.collect();
+            Some((places.of(&point), directions))
+        };
+        let mut touching = Vec::new();
+        for contact in &model.contacts {
+            touching.push(match &contact.geometry {
+                ContactGeometry::Circles(circles) => {
+                    touch(&model.circles[circles.circle], circles.surface)
+                }
+                ContactGeometry::Point { point, surface } => touch(point, *surface),
+                ContactGeometry::Expressions { .. } => None,
+            });
+        }
+        for rolling in model.rolling() {
+            let circles = rolling.circles;
+            touching.push(touch(&model.circles[circles.circle], circles.surface));
+        }
         Points {
             dimension,
             origins,
@@ -273,6 +330,7 @@ impl Points {
             circles,
             constraints,
             sites,
+            touching,
             gravity: model.gravity().map(|gravity| places.of(gravity)),
         }
     }
@@ -602,6 +660,53 @@ impl<'d> Finder<'_, 'd> {
         (drawn, omitted)
     }
 
+    /// Where the forces of contacts are drawn, of `contacts` and of `rolling`, and the names of those that have no place.
+    fn contacts(&self) -> (Vec<ContactDrawn>, Vec<String>) {
+        let (mut drawn, mut omitted) = (Vec::new(), Vec::new());
+        let collide = self.model.contacts.iter().map(|contact| {
+            let name = contact.name.to_string();
+            let mut forces = vec![format!("normal({name})")];
+            if contact.friction.is_some() {
+                forces.push(format!("friction({name})"));
+            }
+            if contact.slips_across(self.model.space) {
+                forces.push(format!("friction({name}.across)"));
+            }
+            let gap = match contact.geometry {
+                // Friction has a line of action of its own, of which only its power is known.
+                ContactGeometry::Expressions { gap, .. } if contact.friction.is_none() => Some(gap),
+                _ => None,
+            };
+            (name, forces, gap)
+        });
+        let roll = self.model.rolling().into_iter().map(|rolling| {
+            let name = rolling.name.to_string();
+            let forces = ["gap", "slip"].map(|row| format!("multiplier({name}.{row})"));
+            (name, forces.to_vec(), None)
+        });
+        for ((name, forces, gap), touching) in collide.chain(roll).zip(&self.points.touching) {
+            let place = match touching {
+                Some((point, directions)) => Some(Touch::Point {
+                    point: *point,
+                    // Without friction there is a force along the normal only.
+                    directions: directions.iter().copied().take(forces.len()).collect(),
+                }),
+                None => gap
+                    .and_then(|gap| self.line_of_action(gap))
+                    .map(|(body, foot, force)| Touch::Line { body, foot, force }),
+            };
+            match place {
+                Some(place) => drawn.push(ContactDrawn {
+                    name,
+                    forces,
+                    place,
+                }),
+                None => omitted.push(format!("force of contact {name}")),
+            }
+        }
+        (drawn, omitted)
+    }
+
     /// The two points whose distance is the stretch and a constant. From the ground the constant must not be 0: that would
     /// be a coordinate, not a length.
     fn pair(&self, stretch: usize, candidates: &[usize]) -> Option<[usize; 2]> {
@@ -617,9 +722,21 @@ impl<'d> Finder<'_, 'd> {
         None
     }
 
-    /// The line of action of a force that works on the stretch alone, as a force on one body of a plane machine: `w` with
-    /// `∂stretch/∂q = wᵀ ∂(x, y, angle)/∂q` at the start.
     fn sketch(&self, stretch: Expr<'d>) -> Option<Placed> {
+        let (body, foot, force) = self.line_of_action(stretch)?;
+        let size = force[0].hypot(force[1]);
+        Some(Placed::Sketch {
+            body,
+            foot,
+            along: force.map(|x| x / size),
+            side: -1,
+        })
+    }
+
+    /// The line of action of a force that works on the stretch alone, as a force on one body of a plane machine: `w` with
+    /// `∂stretch/∂q = wᵀ ∂(x, y, angle)/∂q` at the start. Its foot, in the axes of the body, and the force where that
+    /// on the stretch is 1, in those of the ground.
+    fn line_of_action(&self, stretch: Expr<'d>) -> Option<(usize, [f64; 2], [f64; 2])> {
         if self.dimension() != 2 {
             return None;
         }
@@ -663,12 +780,8 @@ impl<'d> Finder<'_, 'd> {
             let foot = [moment * y / (size * size), -moment * x / (size * size)];
             let turn = evaluate(self.model.dag, &[angle], |symbol| (self.value)(symbol))[0];
             let (sin, cos) = turn.sin_cos();
-            return Some(Placed::Sketch {
-                body: index,
-                foot: [cos * foot[0] + sin * foot[1], cos * foot[1] - sin * foot[0]],
-                along: [x / size, y / size],
-                side: -1,
-            });
+            let foot = [cos * foot[0] + sin * foot[1], cos * foot[1] - sin * foot[0]];
+            return Some((index, foot, [x, y]));
         }
         None
     }

@@ -310,6 +310,16 @@ fn every_machine_of_the_library_is_drawn() {
     assert!(seen >= 9, "{seen}");
 }
 
+/// With the forces of their contacts, in the plane and in space.
+#[test]
+#[ignore = "needs Chromium"]
+fn machines_whose_parts_collide_are_drawn() {
+    for machine in ["colliding_crusher", "dropped_box", "shaken_box"] {
+        let spec = format!("machines/contacts/{machine}.machine");
+        look(&spec, &["--until", "0.4"]);
+    }
+}
+
 #[test]
 #[ignore = "needs Chromium"]
 fn a_machine_that_does_not_move_is_drawn() {

@@ -547,3 +547,117 @@ fn circles_are_drawn_on_what_they_are_fixed_to() {
     // Its circles show the body; a disc of the same inertia beside them would be one outline too many.
     assert_eq!(picture["bodies"][0]["solid"], Value::Null);
 }
+
+/// Base 64 of 32-bit numbers.
+fn stored(value: &Value) -> Vec<f32> {
+    crate::support::floats(value.as_str().expect("text"))
+}
+
+/// A ball that falls from a height h hits the floor at √(2h/g), then after flights that shrink by e; its impulses are (1 + e) m v, v being
+/// √(2gh) and shrinking as well. Each has its mark, which leads to its instant, and its arrow.
+#[test]
+fn impacts_of_a_ball_are_marked_where_they_are() {
+    let page = library("contacts/bouncing_ball", &["--until", "2"]);
+    let (m, e, g, h) = (0.1_f64, 0.8_f64, 9.81_f64, 1.0_f64);
+    let fall = (2.0 * h / g).sqrt();
+    let hit = |k: i32| fall + 2.0 * fall * (1..=k).map(|i| e.powi(i)).sum::<f64>();
+    let expected: Vec<f64> = (0..).map(hit).take_while(|t| *t < 2.0).collect();
+    assert_eq!(expected.len(), 3);
+    let marks: Vec<&str> = page
+        .html
+        .split("<a class=\"impact\" href=\"#t=")
+        .skip(1)
+        .collect();
+    let times: Vec<f64> = (marks.iter())
+        .map(|mark| {
+            mark.split('"')
+                .next()
+                .and_then(|t| t.parse().ok())
+                .expect("a time")
+        })
+        .collect();
+    assert_eq!(times.len(), expected.len());
+    // The tolerance of a step, 1e-9, for some twenty steps.
+    for (seen, truth) in times.iter().zip(&expected) {
+        assert!((seen - truth).abs() < 1e-8, "{seen}, not {truth}");
+    }
+    assert!(marks[0].contains("an impulse of 0.7973 N s, which took 0.3532 J"));
+    let impacts = &page.data["impacts"];
+    assert_eq!(stored(&impacts["contacts"]), [0.0; 3]);
+    for (seen, truth) in stored(&impacts["times"]).iter().zip(&expected) {
+        assert!(
+            (f64::from(*seen) - truth).abs() < 1e-6,
+            "{seen}, not {truth}"
+        );
+    }
+    for (k, impulse) in stored(&impacts["impulses"]).chunks(3).enumerate() {
+        let truth = (1.0 + e) * m * (2.0 * g * h).sqrt() * e.powi(k as i32);
+        assert!((f64::from(impulse[0]) - truth).abs() < 1e-6 * truth);
+        assert_eq!(impulse[1..], [0.0, 0.0]);
+    }
+    let contact = &page.picture()["contacts"][0];
+    assert_eq!(contact["forces"], serde_json::json!(["normal(floor)"]));
+    assert_eq!(contact["placed"], "point");
+    // Upward, at the lowest point of the ball.
+    let up = place(&contact["directions"][0]);
+    for (k, value) in [(0, "0.0"), (1, "1.0")] {
+        assert!(page.html.contains(&format!("x[{}] = {value};", up + k)));
+    }
+    assert!(page.html.contains("id=\"forces\""));
+}
+
+/// A page that shows forces has curves of all their components.
+#[test]
+fn every_force_of_contact_has_its_curves() {
+    for (machine, directions) in [
+        ("contacts/colliding_crusher", 2),
+        ("contacts/dropped_box", 3),
+        ("contacts/pile", 2),
+        ("crushing_crusher", 2),
+    ] {
+        let page = library(machine, &["--until", "0.3", "--tolerance", "1e-6"]);
+        let panels = page.data["panels"].as_array().expect("panels").iter();
+        let curves = panels.flat_map(|panel| panel["curves"].as_array().expect("curves"));
+        let names: Vec<&str> = curves
+            .map(|curve| curve["name"].as_str().expect("a name"))
+            .collect();
+        let contacts = page.picture()["contacts"].as_array().expect("contacts");
+        assert!(contacts.len() >= 2, "{machine}");
+        for contact in contacts {
+            let forces = contact["forces"].as_array().expect("names");
+            assert_eq!(forces.len(), directions, "{machine}");
+            assert_eq!(
+                contact["directions"].as_array().map(Vec::len),
+                Some(directions)
+            );
+            for force in forces {
+                let name = force.as_str().expect("a name");
+                assert!(names.contains(&name), "{machine}: {name}");
+            }
+        }
+    }
+}
+
+/// Gaps that are given by expressions have a line of action where one body is enough for it: the walls of a box press along x.
+#[test]
+fn forces_of_gaps_by_expressions_are_drawn_on_their_lines() {
+    let page = library("contacts/shaken_box", &[]);
+    let contacts = &page.picture()["contacts"];
+    for (contact, direction) in [(0, 1.0), (1, -1.0)] {
+        let contact = &contacts[contact];
+        assert_eq!(
+            (&contact["placed"], &contact["body"]),
+            (&"line".into(), &0.into())
+        );
+        assert_near(&contact["force"][0], direction);
+        assert_near(&contact["force"][1], 0.0);
+    }
+    // Between two balls nothing says where they touch.
+    let page = library("contacts/newtons_cradle", &[]);
+    assert_eq!(page.picture()["contacts"], serde_json::json!([]));
+    assert!(
+        page.html
+            .contains("force of contact left, force of contact right")
+    );
+    assert!(!page.html.contains("id=\"forces\""));
+}

@@ -140,7 +140,7 @@ fn with_sphere<'d>(
 /// No field of tangents is steady on the whole sphere; this one jumps far from the places where things touch: from below, from
 /// above and from the side. (T. Duff et al., *Building an orthonormal basis, revisited*, J. Comput. Graph. Tech. 6 (2017) 1–8,
 /// with another place for the jump.)
-pub(crate) fn tangents<'d>(n: &[Expr<'d>]) -> [[Expr<'d>; 3]; 2] {
+pub fn tangents<'d>(n: &[Expr<'d>]) -> [[Expr<'d>; 3]; 2] {
     let dag = n[0].dag();
     let side = (n[2] + dag.int(5) / 16).sign();
     // The sign of 0 is 0, and there is to be a side even there.
