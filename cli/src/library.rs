@@ -69,13 +69,13 @@ pub fn run(call: &call::Library) -> Result<(), Failure> {
              `sliding` cannot be made; take a variant with a constraint in the place of each guide, or run it by `lagrangian simulate` or the crate",
         ));
     }
-    if !program.unilateral.is_empty() {
-        return Err(Failure::run(
-            "whether contacts are closed is no function of q and v alone: a library of a machine with `contacts` cannot be \
-             made; take a variant without them, or run it by `lagrangian simulate` or the crate",
-        ));
-    }
     warn_of_constraints(&program);
+    if !program.unilateral.is_empty() {
+        output::complain(
+            "warning: whether contacts are closed is no function of q and v alone: `eval` has the accelerations with all of them open, and \
+             which of them press, and how they bounce, is for its caller to find out, from what `eval_contacts` and `eval_inertia` say",
+        );
+    }
     let mut lanes = call.lanes.clone();
     lanes.sort_unstable();
     lanes.dedup();
@@ -132,6 +132,9 @@ fn file_name(path: &Path) -> String {
 
 /// The exports, and what stands beside them.
 const EXPORT: &str = include_str!("library/export.rs");
+
+/// Those of machines with unilateral contacts.
+const EXPORT_OF_CONTACTS: &str = include_str!("library/export_of_contacts.rs");
 
 /// Up to so many operations, eight states are two registers for each number where a register holds four: while one waits for
 /// the result before, the other works, which saves up to a quarter of the time of programs that mostly wait. Longer ones gain
@@ -195,6 +198,19 @@ fn source(program: &Proved, lanes: &[u8], is_straight: bool) -> Result<String, F
         let _ = writeln!(source, "{condition}mod {name} {{\n{text}}}\n"); // writing to a String cannot fail
     }
     source.push_str(EXPORT);
+    if !program.unilateral.is_empty() {
+        source.push_str(EXPORT_OF_CONTACTS);
+        let _ = writeln!(
+            source,
+            "\nconst CONSTRAINTS: usize = {};",
+            program.constraints.len()
+        ); // cannot fail
+        // A machine without constraints has no rows of any.
+        source.push_str(match program.constraints.is_empty() {
+            true => "use no_rows as constraint_rows;\n",
+            false => "use machine::constraint_matrix_of as constraint_rows;\n",
+        });
+    }
     let operations = program
         .function(Role::Accelerations)
         .map_or(0, |function| function.code.len());
@@ -313,6 +329,8 @@ fn header(program: &Program, lanes: &[u8], spec: &str) -> String {
         coordinates,
         parameters,
         inputs,
+        constraints,
+        unilateral,
         ..
     } = program;
     let guard = format!(
@@ -344,7 +362,28 @@ fn header(program: &Program, lanes: &[u8], spec: &str) -> String {
             )
         })
         .collect();
-    let interface = INTERFACE.replacen("LANES\n", &several, 1);
+    let mut interface = INTERFACE.replacen("LANES\n", &several, 1);
+    let mut counts = String::new();
+    if !unilateral.is_empty() {
+        interface.push('\n');
+        interface.push_str(INTERFACE_OF_CONTACTS);
+        let _ = write!(
+            counts,
+            ", CONTACTS = {}, CONSTRAINTS = {}",
+            unilateral.len(),
+            constraints.len()
+        ); // cannot fail
+    }
+    let of_contacts = match unilateral.is_empty() {
+        true => String::new(),
+        false => {
+            let names = unilateral.iter().enumerate();
+            let names: String = names
+                .map(|(i, contact)| format!("\n *   [{i}] {}", contact.name))
+                .collect();
+            format!("\n *\n * Contacts:{names}")
+        }
+    };
     let (n, p, u) = (coordinates.len(), parameters.len(), inputs.len());
     let of_inputs = match u {
         0 => String::new(),
@@ -355,11 +394,11 @@ fn header(program: &Program, lanes: &[u8], spec: &str) -> String {
          *\n \
          * SI units, angles in radians. Coordinates:{}\n \
          *\n \
-         * Parameters:{}{of_inputs}\n \
+         * Parameters:{}{of_inputs}{of_contacts}\n \
          */\n\
          #ifndef {guard}\n#define {guard}\n\n\
          #ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n\
-         enum {{ COORDINATES = {n}, PARAMETERS = {p}, INPUTS = {u} }};\n\n\
+         enum {{ COORDINATES = {n}, PARAMETERS = {p}, INPUTS = {u}{counts} }};\n\n\
          {interface}\n\
          #ifdef __cplusplus\n}}\n#endif\n\n#endif\n",
         list(coordinates),
@@ -369,3 +408,6 @@ fn header(program: &Program, lanes: &[u8], spec: &str) -> String {
 
 /// What every library exports.
 const INTERFACE: &str = include_str!("library/interface.h");
+
+/// What those of machines with unilateral contacts export, too.
+const INTERFACE_OF_CONTACTS: &str = include_str!("library/interface_of_contacts.h");

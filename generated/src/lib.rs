@@ -19,6 +19,8 @@ pub mod bead_on_helix;
 pub mod bead_on_hoop;
 /// The machine of [`BlockOnIncline`].
 pub mod block_on_incline;
+/// The machine of [`BowlingBall`].
+pub mod bowling_ball;
 /// The machine of [`Bricard`].
 pub mod bricard;
 /// The machine of [`CakedCrusher`].
@@ -33,10 +35,14 @@ pub mod chain_relative;
 pub mod chaplygin_sleigh;
 /// The machine of [`ClosedPendulum`].
 pub mod closed_pendulum;
+/// The machine of [`CollidingCrusher`].
+pub mod colliding_crusher;
 /// The machine of [`Crusher9`].
 pub mod crusher9;
 /// The machine of [`CrushingCrusher`].
 pub mod crushing_crusher;
+/// The machine of [`CueBall`].
+pub mod cue_ball;
 /// The machine of [`CushionedCrusher`].
 pub mod cushioned_crusher;
 /// The machine of [`DcMotor`].
@@ -113,6 +119,7 @@ pub use bead_in_shell::BeadInShell;
 pub use bead_on_helix::BeadOnHelix;
 pub use bead_on_hoop::BeadOnHoop;
 pub use block_on_incline::BlockOnIncline;
+pub use bowling_ball::BowlingBall;
 pub use bricard::Bricard;
 pub use caked_crusher::CakedCrusher;
 pub use cart_pole::CartPole;
@@ -120,8 +127,10 @@ pub use chain::Chain;
 pub use chain_relative::ChainRelative;
 pub use chaplygin_sleigh::ChaplyginSleigh;
 pub use closed_pendulum::ClosedPendulum;
+pub use colliding_crusher::CollidingCrusher;
 pub use crusher9::Crusher9;
 pub use crushing_crusher::CrushingCrusher;
+pub use cue_ball::CueBall;
 pub use cushioned_crusher::CushionedCrusher;
 pub use dc_motor::DcMotor;
 pub use double_pendulum::DoublePendulum;

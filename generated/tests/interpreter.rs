@@ -278,6 +278,35 @@ fn agrees_in_f64<M: Machine + Default>(
             check_list(Role::SlipMatrix, &rows);
         }
 
+        let c = program.unilateral.len();
+        assert_eq!(system.unilateral_contacts().len(), c);
+        for (contact, expected) in system.unilateral_contacts().zip(&program.unilateral) {
+            assert_eq!(contact.name, expected.name);
+            assert_eq!(
+                (contact.rubs, contact.rolls, contact.across),
+                (expected.rubs, expected.rolls, expected.across)
+            );
+        }
+        if c > 0 {
+            let mut check_list = |role: Role, found: &[f64]| {
+                let expected = interpret(role, found.len()).expect("nothing is inverted");
+                assert_eq!(bits(found), bits(&expected), "{}", place(&role.name()));
+            };
+            let (mut gaps, mut coefficients) = (vec![0.0; c], vec![0.0; 4 * c]);
+            system.gaps(t, &q, &mut gaps);
+            check_list(Role::Gaps, &gaps);
+            system.contact_coefficients(t, &q, &v, &mut coefficients);
+            check_list(Role::ContactCoefficients, &coefficients);
+            let (mut rates, mut drift) = (vec![0.0; 2 * c], vec![0.0; 2 * c]);
+            system.contact_rates(t, &q, &v, &mut rates);
+            check_list(Role::ContactRates, &rates);
+            system.contact_drift(t, &q, &v, &mut drift);
+            check_list(Role::ContactDrift, &drift);
+            let mut rows = vec![0.0; 2 * c * n];
+            system.contact_matrix(t, &q, &mut rows);
+            check_list(Role::ContactMatrix, &rows);
+        }
+
         let mut matrix = <M::System as System>::Matrix::zeros(n * n);
         system.mass_matrix(t, &q, &mut matrix);
         let triangle = interpret(Role::MassMatrix, n * (n + 1) / 2)
@@ -499,6 +528,14 @@ fn the_two_joint_arm_is_the_program_to_the_last_bit() {
         tau2: u[1],
     };
     agrees_in_f64::<machines::TwoJointArm>("two_joint_arm", inputs);
+}
+
+#[test]
+fn machines_whose_parts_collide_are_the_programs_to_the_last_bit() {
+    agrees_in_f64::<machines::BowlingBall>("contacts/bowling_ball", |_| Default::default());
+    agrees_in_f64::<machines::CueBall>("contacts/cue_ball", |_| Default::default());
+    let crusher = "contacts/colliding_crusher";
+    agrees_in_f64::<machines::CollidingCrusher>(crusher, |_| Default::default());
 }
 
 #[test]

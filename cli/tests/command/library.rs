@@ -268,6 +268,147 @@ fn machines_that_constraints_close_accelerate_as_these_allow() {
     check("rolling_coin", &[], 1, None);
 }
 
+/// Reads a state and a time, and prints all that a library has of contacts; before that it looks whether places may be null, and whether
+/// nothing is known before parameters are.
+const OF_CONTACTS: &str = r#"
+#include "libmachine.h"
+#include <math.h>
+#include <stdio.h>
+
+int main(void) {
+    enum { N = COORDINATES, C = CONTACTS, K = CONSTRAINTS };
+    double y[2 * N], t, numbers[N + C + 2 * C + 2 * C * N + 2 * C + 4 * C + N * N + K * N + 1];
+    double *gaps = numbers + N, *rates = gaps + C, *rows = rates + 2 * C, *drift = rows + 2 * C * N, *coefficients = drift + 2 * C;
+    double *mass = coefficients + 4 * C, *constraints = mass + N * N, *end = constraints + K * N;
+    if (contacts() != C || contact_name(C) || contact_law(-1) || contact_leans(C) != -1) return 2;
+    for (int i = 0; i < 2 * N; ++i)
+        if (scanf("%lf", &y[i]) != 1) return 3;
+    if (scanf("%lf", &t) != 1) return 3;
+    eval_contacts(y, t, gaps, NULL, NULL, NULL, NULL);
+    eval_inertia(y, t, mass, NULL);
+    if (!isnan(gaps[0]) || !isnan(mass[0])) return 4;
+    eval_setup(NULL);
+    *end = 123;
+    eval(y, t, NULL, numbers);
+    eval_contacts(y, t, gaps, rates, rows, drift, coefficients);
+    eval_contacts(y, t, NULL, NULL, NULL, NULL, NULL);
+    eval_inertia(y, t, mass, constraints);
+    if (*end != 123) return 5;
+    for (double *number = numbers; number < end; ++number) printf("%.17g\n", *number);
+    for (int i = 0; i < C; ++i) printf("%s %s %d\n", contact_name(i), contact_law(i), contact_leans(i));
+    return 0;
+}
+"#;
+
+/// What a library says of contacts is what the machine says.
+#[track_caller]
+fn check_contacts(name: &str, spec: &Path, names: &[&str]) {
+    use lagrangian::interpreted::InterpretedMachine;
+    use lagrangian::{Machine, System};
+    let folder = Folder::new(name);
+    let path = spec.to_str().expect("a path in UTF-8");
+    let mut making = lagrangian(&["library", path, "--out", "libmachine.so"], &folder);
+    let output = making.output().expect("the command runs");
+    let said = String::from_utf8(output.stderr).expect("text");
+    assert!(output.status.success(), "{said}");
+    assert!(
+        said.contains("`eval` has the accelerations with all of them open"),
+        "{said}"
+    );
+    fs::write(folder.0.join("program.c"), OF_CONTACTS).expect("a temporary file");
+    let mut cc = Command::new("cc");
+    cc.args([
+        "program.c",
+        "-o",
+        "program",
+        "-L.",
+        "-lmachine",
+        "-Wl,-rpath,.",
+        "-lm",
+    ]);
+    cc.current_dir(&folder.0);
+    answer(cc, "");
+
+    let machine = InterpretedMachine::from_file(spec).expect("a good spec");
+    let system = machine.prepare();
+    let (n, c, k) = (
+        machine.program().coordinates.len(),
+        system.unilateral_contacts().len(),
+        system.constraints().len(),
+    );
+    let number = |k: usize| ((k * 37 + 11) % 101) as f64 / 101.0; // in no pattern, in [0, 1)
+    let y: Vec<f64> = (0..2 * n).map(|k| 0.2 + number(k)).collect();
+    let (q, v) = (y[..n].to_vec(), y[n..].to_vec());
+    let t = 0.75;
+    let mut expected: Vec<f64> = Vec::new();
+    let mut tell = |count: usize, put: &dyn Fn(&mut Vec<f64>)| {
+        let mut numbers = vec![0.0; count];
+        put(&mut numbers);
+        expected.extend(numbers);
+    };
+    let inputs = system.default_inputs();
+    tell(n, &|to| {
+        system
+            .accelerations(t, &q, &v, &inputs, to)
+            .expect("it accelerates")
+    });
+    tell(c, &|to| system.gaps(t, &q, to));
+    tell(2 * c, &|to| system.contact_rates(t, &q, &v, to));
+    tell(2 * c * n, &|to| system.contact_matrix(t, &q, to));
+    tell(2 * c, &|to| system.contact_drift(t, &q, &v, to));
+    tell(4 * c, &|to| system.contact_coefficients(t, &q, &v, to));
+    tell(n * n, &|to| system.mass_matrix(t, &q, to));
+    tell(k * n, &|to| system.constraint_matrix(t, &q, to));
+
+    let mut program = Command::new(folder.0.join("program"));
+    program.current_dir(&folder.0);
+    let given: Vec<String> = y.iter().chain([&t]).map(|x| format!("{x:e}")).collect();
+    let printed = answer(program, &given.join(" "));
+    let lines: Vec<&str> = printed.lines().collect();
+    let (numbers, contacts) = lines.split_at(expected.len());
+    assert_eq!(contacts, names, "{name}");
+    for (i, (line, expected)) in numbers.iter().zip(&expected).enumerate() {
+        let found: f64 = line.parse().expect("a number");
+        // Some hundred operations on numbers of this size, and accelerations of a matrix of a condition below 1e3.
+        let limit = 100.0 * 1e3 * f64::EPSILON * (1.0 + expected.abs());
+        assert!(
+            (found - expected).abs() <= limit,
+            "{name} {i}: {found} for {expected}"
+        );
+    }
+}
+
+#[test]
+fn contacts_of_a_library_are_those_of_the_machine() {
+    let of = |name: &str| machine(&format!("contacts/{name}"));
+    let outer = ["outer newton 0", "inner newton 0"];
+    check_contacts("colliding", &of("colliding_crusher"), &outer);
+    check_contacts(
+        "cue",
+        &of("cue_ball"),
+        &["cloth newton 0", "cloth.across newton 2"],
+    );
+    let out = ["floor newton 0", "floor.rolling newton 1"];
+    check_contacts("rolling", &of("rolling_out"), &out);
+    let clearance = of("slider_crank_clearance");
+    let clearances = ["upper_left", "upper_right", "lower_left", "lower_right"];
+    let clearances = clearances.map(|name| format!("{name} newton 0"));
+    let clearances = clearances.each_ref().map(String::as_str);
+    check_contacts("clearance", &clearance, &clearances);
+    // One that yields, is without friction, and stands beside a constraint.
+    let text = "machine Yields in plane {
+        parameters { k: N/m = 200, d: N*s/m = 3, w: rad/s = 3, L: m = 1 }
+        coordinates { x: m = 1, y: m = 1 }
+        bodies { ball { mass: 2, at: (x, y) } }
+        constraints { on: x^2 + y^2 = 2*L^2 }
+        contacts { bed { gap: y - 0.1*sin(w*t)*x, compliance: linear(k, d) } }
+    }";
+    let folder = Folder::new("yielding-spec");
+    let spec = folder.0.join("yields.machine");
+    fs::write(&spec, text).expect("a temporary file");
+    check_contacts("yields", &spec, &["bed linear 0"]);
+}
+
 #[test]
 fn who_has_no_rustc_is_told() {
     let folder = Folder::new("no-rustc");

@@ -91,16 +91,35 @@ pub fn module(program: &Proved, options: &Options) -> String {
     Emitter::new(program, options).module()
 }
 
-/// The content of a module for a library that is called from C: the accelerations alone, and what they need.
+/// The content of a module for a library that is called from C: the accelerations alone, and what they need. Of a machine with unilateral
+/// contacts also what a simulator needs to find out which of them press: see [`OF_CONTACTS`].
 ///
-/// It has the functions `prepared` and `evaluate`, the type `Prepared` and the tables `COORDINATES`, `PARAMETERS`, `INPUTS`.
+/// It has the functions `prepared` and `evaluate`, the type `Prepared` and the tables `COORDINATES`, `PARAMETERS`, `INPUTS`; with
+/// contacts the table `CONTACTS`, and a function `gaps_of` and the like for each of these quantities.
 ///
 /// # Errors
-/// If the accelerations alone are not what they were among all functions, which is a defect of the compiler.
+/// If the functions alone are not what they were among all, which is a defect of the compiler.
 pub fn library(program: &Proved, options: &Options) -> Result<String, Unproved> {
-    let program = program.restricted(Role::Accelerations)?;
+    let mut roles = vec![Role::Accelerations];
+    if !program.unilateral.is_empty() {
+        roles.extend(OF_CONTACTS);
+        roles.retain(|role| program.function(*role).is_some());
+    }
+    let program = program.restricted(&roles)?;
     Ok(Emitter::new(&program, options).library())
 }
+
+/// What a library has of a machine with unilateral contacts, beside the accelerations with all of them open. With M and the rows of
+/// contacts and constraints, accelerations under any forces of contact follow, and the changes of rates by impulses.
+pub const OF_CONTACTS: [Role; 7] = [
+    Role::MassMatrix,
+    Role::ConstraintMatrix,
+    Role::Gaps,
+    Role::ContactRates,
+    Role::ContactMatrix,
+    Role::ContactDrift,
+    Role::ContactCoefficients,
+];
 
 /// What the macro expands to: the module of a machine, and the machine's type beside it.
 ///

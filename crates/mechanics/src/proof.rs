@@ -99,20 +99,22 @@ impl Proved {
         }
     }
 
-    /// This program with one function only, as [`Program::restricted`]; proved to give the values that it gave here.
+    /// This program with some functions only, as [`Program::restricted`]; proved to give the values that they gave here.
     ///
     /// # Errors
     /// If it does not.
-    pub fn restricted(&self, role: Role) -> Result<Proved, Unproved> {
-        let part = self.0.restricted(role);
-        match same_results(&self.0, &part, role) {
-            Ok(()) => Ok(Proved(part)),
-            Err(disagreement) => Err(Unproved {
-                what: told(&disagreement, &self.0),
-                disagreement,
-                witness: Witness::Field,
-            }),
+    pub fn restricted(&self, roles: &[Role]) -> Result<Proved, Unproved> {
+        let part = self.0.restricted(roles);
+        for &role in roles {
+            if let Err(disagreement) = same_results(&self.0, &part, role) {
+                return Err(Unproved {
+                    what: told(&disagreement, &self.0),
+                    disagreement,
+                    witness: Witness::Field,
+                });
+            }
         }
+        Ok(Proved(part))
     }
 
     /// The program.
@@ -483,7 +485,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         let parameters = vec![R::ONE; program.parameters.len()];
         let slopes = (!program.derivatives.is_empty()).then(|| {
             let parameters = vec![Dual::<R>::ONE; program.parameters.len()];
-            Interpreter::new(&program.restricted(Role::Accelerations), &parameters)
+            Interpreter::new(&program.restricted(&[Role::Accelerations]), &parameters)
         });
         Prover {
             interpreter: Interpreter::new(program, &parameters),

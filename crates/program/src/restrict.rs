@@ -4,14 +4,14 @@ use super::{Function, Op, Program, Role, Shape, Source, Value};
 use lagrangian_units::Stages;
 
 impl Program {
-    /// This machine with one function, beside [`prepare`](Program::prepare) and
-    /// [`start`](Program::start), and with those prepared values that this one reads.
+    /// This machine with some functions, beside [`prepare`](Program::prepare) and
+    /// [`start`](Program::start), and with those prepared values that these read.
     ///
     /// A mass matrix of n coordinates has n² prepared values; accelerations that are eliminated
     /// along a chain read a few for each link.
-    pub fn restricted(&self, role: Role) -> Program {
+    pub fn restricted(&self, roles: &[Role]) -> Program {
         let mut functions: Vec<Function> = self.functions.clone();
-        functions.retain(|function| function.role == role);
+        functions.retain(|function| roles.contains(&function.role));
         let mut slots: Vec<Option<u32>> = vec![None; self.prepare.results.len()];
         for op in functions.iter().flat_map(|function| &function.code) {
             if let Op::Read(Source::Prepared(slot)) = op {
@@ -35,7 +35,7 @@ impl Program {
             ..self.prepare.clone()
         };
         let mut choices = self.choices.clone();
-        choices.retain(|choice| choice.role() == role);
+        choices.retain(|choice| roles.contains(&choice.role()));
         Program {
             prepared: formulas.map(|(_, formula)| formula.clone()).collect(),
             prepare: without_the_unused(prepare),

@@ -1,14 +1,14 @@
 //! What a library that is called from C holds of a machine: its parameters, what is prepared of them, and the
 //! accelerations, with the numbers in a row as C passes them.
 
-use super::Emitter;
 use super::kernel::with_lifetime;
 use super::language::number;
 use super::types::{Group, Types, literal};
+use super::{Emitter, OF_CONTACTS};
 use crate::body::Binding;
 use crate::layout::Layout;
 use crate::names::Field;
-use lagrangian_program::{Function, Role, Slot, early_angles};
+use lagrangian_program::{Function, Role, Shape, Slot, Unilateral, early_angles};
 
 impl Emitter<'_> {
     /// The content of the module: of the runtime it needs `Scalar`, `Number`, `Singular`, `Pivots` and `scalar::Kernel` only.
@@ -38,8 +38,78 @@ impl Emitter<'_> {
         if let Some(function) = self.program.function(Role::Accelerations) {
             self.evaluate(function, &inputs);
         }
+        if !self.program.unilateral.is_empty() {
+            self.table_of_contacts();
+            for role in OF_CONTACTS {
+                self.of_contacts(role);
+            }
+        }
         self.pivots();
         self.writer.finish()
+    }
+
+    /// Of each contact its name, its law, and how it leans on the contact before it.
+    fn table_of_contacts(&mut self) {
+        let contacts = &self.program.unilateral;
+        let row = |contact: &Unilateral| {
+            let law = match contact.compliance {
+                Some(law) => law.name(),
+                None => contact.law.name(),
+            };
+            let leans = match (contact.rolls, contact.across) {
+                (true, _) => 1,
+                (_, true) => 2,
+                _ => 0,
+            };
+            Layout::Atom(format!("(c{:?}, c{law:?}, {leans})", contact.name))
+        };
+        self.writer.gap();
+        self.docs("Names, laws, and how each leans on the one before it: 0 not at all, 1 as its rolling, 2 as its second tangent.");
+        let head = format!(
+            "pub const CONTACTS: [(&::core::ffi::CStr, &::core::ffi::CStr, ::core::ffi::c_int); {}] = ",
+            contacts.len()
+        );
+        self.writer
+            .expression(&head, &Layout::nested(contacts.iter().map(row)), ";");
+    }
+
+    /// A function of the description, and one that calls it with all that a library is given and puts its numbers in a row.
+    fn of_contacts(&mut self, role: Role) {
+        let function = self.emitted(role);
+        if let Some(function) = function {
+            self.function(function);
+        }
+        let prepared = self.types.prepared.clone();
+        let (f64, n) = (self.types.known("f64"), self.program.dimension());
+        self.writer.gap();
+        self.docs("The same, with its numbers where they go; 0 where the description has none.");
+        self.writer.line("#[allow(unused_variables)]");
+        self.writer.signature(
+            &format!("pub fn {}_of", self.function_name(role)),
+            &[
+                format!("p: &{prepared}<{f64}>"),
+                format!("t: {f64}"),
+                format!("q: &[{f64}; {n}]"),
+                format!("v: &[{f64}; {n}]"),
+                format!("result: &mut [{f64}]"),
+            ],
+            None,
+        );
+        match function {
+            None => self.writer.line("result.fill(0.0);"),
+            Some(function) => {
+                let arguments = self.arguments(self.needs(function));
+                let passed: Vec<&str> = arguments.iter().map(|(name, _)| *name).collect();
+                let call = format!("{}({})", self.function_name(role), passed.join(", "));
+                let numbers = match function.shape {
+                    Shape::Symmetric(_) => format!("{call}.as_flattened()"),
+                    _ => format!("&{call}"),
+                };
+                self.writer
+                    .line(format!("result.copy_from_slice({numbers});"));
+            }
+        }
+        self.writer.close("}");
     }
 
     /// Names, units and values of everything that has them.
