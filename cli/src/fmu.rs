@@ -540,6 +540,71 @@ mod tests {
         }
     }
 
+    /// The motion within a step is of its order: what makes it at a fraction x of the step, as weights of slopes, obeys the conditions of
+    /// bushy and of tall trees there, with x in the place of 1. *Solving Ordinary Differential Equations I*, section II.6.
+    #[test]
+    fn dense_output_has_its_order() {
+        for (method, order, end) in [(UnitMethod::Dop853, 7, 12), (UnitMethod::Dopri5, 4, 6)] {
+            let text = method.tableau();
+            let mut nodes = array(text, "NODES").remove(0);
+            let mut rows = array(text, "COEFFICIENTS");
+            let slopes = array(text, "DENSE").iter().map(Vec::len).max();
+            let slopes = slopes.expect("rows");
+            if end == nodes.len() {
+                nodes.push(1.0);
+            }
+            rows.truncate(nodes.len());
+            nodes.extend(array(text, "FURTHER_NODES").remove(0));
+            rows.extend(array(text, "FURTHER_COEFFICIENTS"));
+            nodes.truncate(slopes);
+            rows.truncate(slopes);
+            for (row, node) in rows.iter().zip(&nodes) {
+                assert!((row.iter().sum::<f64>() - node).abs() < 1e-13, "{node}");
+            }
+            let weight_at = |x: f64, slope: usize| {
+                let unit = |k: usize| f64::from(u8::from(k == slope));
+                let rise = array(text, "COEFFICIENTS")
+                    .pop()
+                    .and_then(|row| row.get(slope).copied())
+                    .unwrap_or_default();
+                let bend = unit(0) - rise;
+                let mut all = vec![rise, bend, rise - unit(end) - bend];
+                let dense = array(text, "DENSE");
+                all.extend(
+                    dense
+                        .iter()
+                        .map(|row| row.get(slope).copied().unwrap_or(0.0)),
+                );
+                let of = |power: usize| if power % 2 == 0 { x } else { 1.0 - x };
+                let all = all.iter().enumerate().rev();
+                all.fold(0.0, |sum, (power, c)| of(power) * (c + sum))
+            };
+            for x in [0.2, 0.55, 0.9, 1.0] {
+                let weights: Vec<f64> = (0..slopes).map(|k| weight_at(x, k)).collect();
+                let along = |row: &[f64], values: &[f64]| -> f64 {
+                    row.iter().zip(values).map(|(a, x)| a * x).sum()
+                };
+                let (mut tall, mut factorial) = (vec![1.0; slopes], 1.0);
+                for power in 1..=order {
+                    let values: Vec<f64> = nodes.iter().map(|c| c.powi(power - 1)).collect();
+                    let known = x.powi(power) / f64::from(power);
+                    // Sixteen roundings of numbers up to 530.
+                    assert!(
+                        (along(&weights, &values) - known).abs() < 2e-12,
+                        "{x} {power}"
+                    );
+                    factorial *= f64::from(power);
+                    let known = x.powi(power) / factorial;
+                    assert!(
+                        (along(&weights, &tall) - known).abs() < 2e-12,
+                        "{x} {power}"
+                    );
+                    tall = rows.iter().map(|row| along(row, &tall)).collect();
+                }
+            }
+        }
+    }
+
     #[test]
     fn a_file_name_becomes_an_identifier() {
         for (path, name) in [

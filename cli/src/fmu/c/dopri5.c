@@ -4,6 +4,9 @@
  */
 enum { STAGES = 7, ERROR_ORDER = 5 };
 
+/* Dense output, of order 4, has no further stages: L. F. Shampine, Some practical Runge-Kutta formulas, Math. Comp. 46 (1986) 135-150. */
+enum { END = 6, FURTHER = 0, BENDS = 1 };
+
 static const double NODES[STAGES] = {0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0};
 
 /* A row for each stage, and one for the new point. */
@@ -24,3 +27,15 @@ static const double ERROR_WEIGHTS[STAGES] = {
 
 /* There is one estimate of the error. */
 static const double COARSE_ERROR_WEIGHTS[STAGES] = {0.0};
+
+static const double FURTHER_NODES[FURTHER + 1] = {0.0};
+
+static const double FURTHER_COEFFICIENTS[FURTHER + 1][STAGES + 1 + FURTHER] = {{0.0}};
+
+/* What the polynomial of dense output has beyond the cubic through both ends and their slopes. */
+static const double DENSE[BENDS][STAGES + 1 + FURTHER] = {
+    {
+        -12715105075.0 / 11282082432.0, 0.0, 87487479700.0 / 32700410799.0, -10690763975.0 / 1880347072.0,
+        701980252875.0 / 199316789632.0, -1453857185.0 / 822651844.0, 69997945.0 / 29380423.0,
+    },
+};

@@ -16,6 +16,8 @@ enum {
     /* The formulas of events are outputs of the program behind those of the spec. */
     SHOWN = OUTPUTS - EVENTS,
     INDICATORS = FACTS + EVENTS,
+    /* What co-simulation looks for within steps: formulas of events, then facts. */
+    WATCHED = EVENTS + FACTS,
     /* References of values: a number for each, in this order. */
     AT_TIME = 0,
     AT_STATES = 1,
@@ -62,12 +64,16 @@ typedef struct {
        co-simulation and is not counted yet, or 0; and how often it happened. */
     signed char side[EVENTS + 1], passed[EVENTS + 1];
     int count[EVENTS + 1];
-    /* What the formula must exceed before its sign counts, where the run starts at its zero; else 0. */
-    double leave[EVENTS + 1];
+    /* What a formula or a fact must exceed before its sign counts, where the run starts at its zero, or where what holds the
+       constraints moved it back behind one; else 0. */
+    double leave[WATCHED + 1];
     /* Whether signs are to be looked at before the next step: something was set, or a step ended at an event. */
     unsigned char is_unsettled;
     Mode mode;
 } State;
+
+/* So many coefficients has a polynomial of the motion within a step, that of the method or one of degree five; so many slopes it is made of. */
+enum { MOST_BENDS = 4 + BENDS > 6 ? 4 + BENDS : 6, SLOPES = STAGES + 1 + FURTHER };
 
 typedef struct Unit Unit;
 
@@ -87,10 +93,13 @@ struct Unit {
     int singular;
     int is_prepared, is_evaluated;
     /* A step of co-simulation. */
-    double slopes[STAGES][STATES + 1];
-    double point[STATES + 1], fine[STATES + 1], coarse[STATES + 1];
+    double slopes[SLOPES][STATES + 1];
+    double point[STATES + 1];
     /* The length of the step that was tried last. */
     double tried;
+    /* The motion within a step, as polynomials, and its end: what is looked for events in. */
+    double curve[MOST_BENDS][STATES + 1], end[STATES + 1];
+    int bends;
     /* For whom it runs; whether the importer handles events, whether a step may end there, and whether the last one did. */
     int is_co_simulation, is_logging, has_event_mode, may_stop, has_stopped;
     Report *report;
@@ -186,6 +195,15 @@ static void watch(const Unit *unit, double t, const double *states, double *to) 
     for (int i = 0; i < INPUTS; ++i) inputs[i] = unit->now.inputs[i] + (t - unit->now.time) * unit->now.input_rates[i];
     unitOutputs(&unit->prepared, t, states, states + COORDINATES, inputs, unit->accelerations, all);
     for (int k = 0; k < EVENTS; ++k) to[k] = all[SHOWN + k];
+}
+
+/* These, and behind them what facts say is positive; facts depend on no accelerations either. */
+static void watchAll(const Unit *unit, double t, const double *states, double *to) {
+    double inputs[INPUTS + 1];
+    watch(unit, t, states, to);
+    if (FACTS == 0) return;
+    for (int i = 0; i < INPUTS; ++i) inputs[i] = unit->now.inputs[i] + (t - unit->now.time) * unit->now.input_rates[i];
+    unitFacts(&unit->prepared, t, states, states + COORDINATES, inputs, unit->accelerations, to + EVENTS);
 }
 
 /* Numbers by reference. */
@@ -320,6 +338,27 @@ static int signOfEvent(Unit *unit, int k, double value) {
     return signOf(value);
 }
 
+/* Whether what a fact says is positive is so. What is no number is not. */
+static int holds(int fact, double value) { return FACT_IS_STRICT[fact] ? value > 0.0 : value >= 0.0; }
+
+/* The same of whatever is watched: the sign of a fact is whether it holds. */
+static int signOfWatched(Unit *unit, int k, double value) {
+    if (k < EVENTS) return signOfEvent(unit, k, value);
+    if (sizeOf(value) <= unit->now.leave[k]) return 0;
+    unit->now.leave[k] = 0.0;
+    return holds(k - EVENTS, value) ? 1 : -1;
+}
+
+/* The sign that it had last; 0 where it has none yet. */
+static int sideOf(const Unit *unit, int k) {
+    return k < EVENTS ? unit->now.side[k] : unit->now.is_broken[k - EVENTS] ? -1 : 1;
+}
+
+/* Whether a value stands behind a change to a sign. */
+static int isBehind(int k, int sign, double value) {
+    return k < EVENTS ? sign * value > 0.0 : holds(k - EVENTS, value) == (sign > 0);
+}
+
 static Outcome withoutEvent(Unit *unit, int k, double t) {
     snprintf(unit->message, sizeof unit->message, "at t = %.17g s the formula of event %s is no number", t, EVENT_NAMES[k]);
     return say(unit, FAILED, unit->message);
@@ -409,19 +448,22 @@ static void settleEvents(Unit *unit) {
     now->is_unsettled = 0;
 }
 
-/* Warns of each fact that does not hold any more. */
+/* Notes that a fact changes at a time: that it does not hold any more is a warning, that it holds again nothing to tell. */
+static void changeFact(Unit *unit, int fact, double t, int is_broken) {
+    unit->now.is_broken[fact] = (unsigned char)is_broken;
+    if (!is_broken) return;
+    snprintf(unit->message, sizeof unit->message, "at t = %.17g s it does not hold any more that %s", t, FACT_TEXTS[fact]);
+    say(unit, WARNED, unit->message);
+}
+
+/* Looks at all facts at the state as it is. */
 static void checkFacts(Unit *unit) {
     double all[FACTS + 1];
     if (FACTS == 0) return;
     getFacts(unit, all);
     for (int i = 0; i < FACTS; ++i) {
-        const int is_broken = !(FACT_IS_STRICT[i] ? all[i] > 0.0 : all[i] >= 0.0);
-        if (is_broken && !unit->now.is_broken[i]) {
-            snprintf(unit->message, sizeof unit->message, "at t = %.17g s it does not hold any more that %s",
-                     unit->now.time, FACT_TEXTS[i]);
-            say(unit, WARNED, unit->message);
-        }
-        unit->now.is_broken[i] = (unsigned char)is_broken;
+        const int is_broken = !holds(i, all[i]);
+        if (is_broken != unit->now.is_broken[i]) changeFact(unit, i, unit->now.time, is_broken);
     }
 }
 
@@ -794,116 +836,345 @@ static double tryStep(Unit *unit, double h) {
     return isFinite(error) ? error : -1.0;
 }
 
-/* Where in a step the signs of events are looked at: what comes and goes between two of these is missed. */
-enum { LOOKS = 4 };
-static const double LOOKS_AT[LOOKS] = {0.25, 0.5, 0.75, 1.0};
+/*
+ * Events and facts within a step: where a formula changes its sign along the motion there. A formula is as smooth as the motion, so its
+ * interpolant in Chebyshev's polynomials is as good as the formula, and the coefficients bound it: where the first is greater than the
+ * sum of the others there is no zero, and where that is so of the derivative there is one at most. Where neither holds the interval is
+ * halved. L. N. Trefethen, Approximation Theory and Approximation Practice, 2013, chapters 3, 8 and 18.
+ */
+enum {
+    /* Degrees of interpolants: the first two are only asked whether a formula is far from zero. */
+    COARSE = 4,
+    MIDDLE = 8,
+    FINE = 16,
+    FINEST = 64,
+    /* So often an interval is halved whose formula no interpolant has: what has a kink there is looked at in all nodes. */
+    HALVINGS = 2,
+    MOST_LOOKS = 4 * FINEST + 4
+};
 
-/* The formulas of events along the step that was tried: at its end, and before by polynomials through the state at both ends and the
-   accelerations at the first, which cost no evaluation. */
-static void lookAlong(Unit *unit, double h, double seen[LOOKS][EVENTS + 1]) {
-    const State *now = &unit->now;
-    double states[STATES + 1];
-    for (int look = 0; look < LOOKS - 1; ++look) {
-        const double x = LOOKS_AT[look];
-        for (int i = 0; i < COORDINATES; ++i) {
-            const double v = now->states[COORDINATES + i], a = unit->slopes[0][COORDINATES + i];
-            const double moved = unit->point[i] - now->states[i] - h * (v + 0.5 * h * a);
-            const double sped = h * (unit->point[COORDINATES + i] - v - h * a);
-            const double cubic = 4.0 * moved - sped, quartic = sped - 3.0 * moved;
-            states[i] = now->states[i] + x * (h * (v + 0.5 * x * h * a) + x * x * (cubic + x * quartic));
-            states[COORDINATES + i] = v + x * (h * a + x * (3.0 * cubic + 4.0 * x * quartic) / h);
-        }
-        watch(unit, now->time + x * h, states, seen[look]);
-    }
-    watch(unit, now->time + h, unit->point, seen[LOOKS - 1]);
+/* Fractions of a step, the last of which is 1: between two of them, and between 0 and the first, a formula changes its sign no more
+   than once. */
+typedef struct {
+    int count;
+    double at[MOST_LOOKS];
+} Looks;
+
+static void lookAt(Looks *looks, double x) {
+    const int count = looks->count;
+    /* There is always a place for the end. */
+    if (!(x > 0.0) || (count > 0 && x <= looks->at[count - 1]) || (count == MOST_LOOKS - 1 && x < 1.0)) return;
+    looks->at[looks->count++] = x;
 }
 
-/* The formula of an event at the end of a step of the length h, by the method itself; 0 where there is no such step. */
+/* The motion within a step is y = c0 + x (c1 + (1 - x) (c2 + x (c3 + (1 - x) (c4 + ...)))) at the fraction x of it: the cubic through
+   both ends and their slopes, which are times the length here, and what bends it further. */
+static void curveCubic(Unit *unit, int i, double start, double end, double slope, double slope_at_end) {
+    const double rise = end - start, bend = slope - rise;
+    unit->curve[0][i] = start;
+    unit->curve[1][i] = rise;
+    unit->curve[2][i] = bend;
+    unit->curve[3][i] = rise - slope_at_end - bend;
+}
+
+/* Of degree 5, through coordinates, rates and accelerations of both ends; rates are its derivative. It costs no evaluation, since the last
+   stage is near the acceleration at the end. Without that, of degree 4. */
+static void curveThroughEnds(Unit *unit, double h, int is_quartic) {
+    unit->bends = 6;
+    for (int i = 0; i < COORDINATES; ++i) {
+        const int k = COORDINATES + i;
+        const double v = unit->now.states[k], w = unit->end[k], a = unit->slopes[0][k];
+        curveCubic(unit, i, unit->now.states[i], unit->end[i], h * v, h * w);
+        const double rise = unit->curve[1][i], bend = unit->curve[2][i], twist = unit->curve[3][i];
+        /* The second derivatives of the cubic at both ends are 2 (twist - bend) and -2 (bend + 2 twist). */
+        const double of_start = 0.5 * h * h * a + bend - twist;
+        const double of_end = is_quartic ? of_start : 0.5 * h * h * unit->slopes[STAGES - 1][k] + bend + 2.0 * twist;
+        const double b = 2.0 * (of_end - bend - 2.0 * twist) / (h * h);
+        unit->curve[4][i] = of_start;
+        unit->curve[5][i] = of_end - of_start;
+        curveCubic(unit, k, v, w, h * a, h * b);
+        /* The integral of rates is the rise; that of x^2 (1 - x)^2 is 1/30. */
+        unit->curve[4][k] = 30.0 * (rise / h - 0.5 * (v + w) - h * (a - b) / 12.0);
+        unit->curve[5][k] = 0.0;
+    }
+}
+
+/* The dense output of the method, in the step that was tried last. 0 where there are no accelerations for it. */
+static int curveOfMethod(Unit *unit, double h) {
+    double states[STATES + 1];
+    const double t = unit->now.time;
+    if (END == STAGES && differentiate(unit, t + h, unit->end, unit->slopes[STAGES])) return 0;
+    for (int further = 0; further < FURTHER; ++further) {
+        const int stage = STAGES + 1 + further;
+        for (int i = 0; i < STATES; ++i) {
+            double sum = 0.0;
+            for (int k = 0; k < stage; ++k) sum += FURTHER_COEFFICIENTS[further][k] * unit->slopes[k][i];
+            states[i] = unit->now.states[i] + h * sum;
+        }
+        if (differentiate(unit, t + FURTHER_NODES[further] * h, states, unit->slopes[stage])) return 0;
+    }
+    for (int i = 0; i < STATES; ++i) {
+        curveCubic(unit, i, unit->now.states[i], unit->end[i], h * unit->slopes[0][i], h * unit->slopes[END][i]);
+        for (int bend = 0; bend < BENDS; ++bend) {
+            double sum = 0.0;
+            for (int k = 0; k < SLOPES; ++k) sum += DENSE[bend][k] * unit->slopes[k][i];
+            unit->curve[4 + bend][i] = h * sum;
+        }
+    }
+    unit->bends = 4 + BENDS;
+    return 1;
+}
+
+/* Everything that is watched at a fraction of the step. */
+static void watchAlong(const Unit *unit, double h, double x, double *to) {
+    double states[STATES + 1];
+    if (x == 1.0) {
+        watchAll(unit, unit->now.time + h, unit->end, to);
+        return;
+    }
+    for (int i = 0; i < STATES; ++i) {
+        double sum = 0.0;
+        for (int bend = unit->bends; --bend > 0;) sum = (bend % 2 ? x : 1.0 - x) * (unit->curve[bend][i] + sum);
+        states[i] = unit->curve[0][i] + sum;
+    }
+    watchAll(unit, unit->now.time + x * h, states, to);
+}
+
+/* Node number `node` of so many between two fractions: the first is at the end, the last at the beginning. */
+static double nodeOf(int node, int degree, double a, double b) {
+    if (node == 0) return b;
+    if (node == degree) return a;
+    return a + (b - a) * 0.5 * (1.0 + cos(3.14159265358979323846 * node / degree));
+}
+
+/* The coefficients of the interpolant through values at the nodes. */
+static void interpolate(const double *values, int degree, double *to) {
+    double cosines[FINEST + 1];
+    for (int m = 0; m <= degree; ++m) cosines[m] = cos(3.14159265358979323846 * m / degree);
+    for (int k = 0; k <= degree; ++k) {
+        double sum = 0.0;
+        for (int j = 0; j <= degree; ++j) {
+            const int turn = j * k % (2 * degree), m = turn > degree ? 2 * degree - turn : turn;
+            sum += (j == 0 || j == degree ? 0.5 : 1.0) * values[j] * cosines[m];
+        }
+        to[k] = (k == 0 || k == degree ? 1.0 : 2.0) / degree * sum;
+    }
+}
+
+static double sumOfSizes(const double *c, int from, int degree) {
+    double sum = 0.0;
+    for (int k = from; k <= degree; ++k) sum += sizeOf(c[k]);
+    return sum;
+}
+
+/* Whether a formula is certainly not zero, by values at the nodes, each of which may be wrong by `margin`. Coefficients of what is smooth fall
+   like powers of the last two, so that what an interpolant leaves out is a small multiple of these. */
+static int isFarFromZero(const double *values, int degree, double margin) {
+    double c[MIDDLE + 1];
+    interpolate(values, degree, c);
+    const double last = sizeOf(c[degree]) > sizeOf(c[degree - 1]) ? sizeOf(c[degree]) : sizeOf(c[degree - 1]);
+    return sizeOf(c[0]) > sumOfSizes(c, 1, degree) + 4.0 * (degree + 1) * last + margin;
+}
+
+/* Adds the ends of intervals with a zero of an interpolant. */
+static void isolate(const double *c, int degree, double a, double b, double noise, Looks *looks) {
+    double slopes[FINEST + 3], values[FINEST + 1], half[FINEST + 1];
+    while (degree > 0 && sizeOf(c[degree]) <= noise) --degree;
+    const double rest = sumOfSizes(c, 1, degree);
+    if (sizeOf(c[0]) > rest + noise || rest + sizeOf(c[0]) <= noise) return;
+    slopes[degree + 1] = slopes[degree] = 0.0;
+    for (int k = degree; k >= 1; --k) slopes[k - 1] = slopes[k + 1] + 2.0 * k * c[k];
+    slopes[0] *= 0.5;
+    /* Zeros nearer to each other than this share of the step are one that does not change the sign. */
+    if (degree == 0 || sizeOf(slopes[0]) > sumOfSizes(slopes, 1, degree - 1) || b - a <= 0x1p-40) {
+        lookAt(looks, a);
+        lookAt(looks, b);
+        return;
+    }
+    const double middle = 0.5 * (a + b);
+    for (int side = 0; side < 2; ++side) {
+        for (int node = 0; node <= degree; ++node) {
+            /* By Clenshaw's recurrence. */
+            const double x = nodeOf(node, degree, side - 1.0, side);
+            double one = 0.0, two = 0.0;
+            for (int k = degree; k >= 1; --k) {
+                const double next = c[k] + 2.0 * x * one - two;
+                two = one, one = next;
+            }
+            values[node] = c[0] + x * one - two;
+        }
+        interpolate(values, degree, half);
+        isolate(half, degree, side ? middle : a, side ? b : middle, noise, looks);
+    }
+}
+
+/* Looks at what is watched between two fractions of a step. */
+static void lookBetween(const Unit *unit, double h, int which, double a, double b, int halvings, Looks *looks) {
+    double all[WATCHED + 1], values[FINEST + 1], c[FINEST + 1];
+    for (int degree = MIDDLE; degree <= FINEST; degree *= 2) {
+        for (int node = 0; node <= degree; ++node) {
+            watchAlong(unit, h, nodeOf(node, degree, a, b), all);
+            values[node] = all[which];
+        }
+        if (degree < FINE) {
+            if (isFarFromZero(values, degree, 0.0)) return;
+            continue;
+        }
+        double greatest = 0.0, last = 0.0;
+        interpolate(values, degree, c);
+        for (int k = 0; k <= degree; ++k) {
+            const double size = sizeOf(c[k]);
+            if (!(size <= greatest)) greatest = size;
+            if (k > degree - 3 && !(size <= last)) last = size;
+        }
+        if (isFinite(greatest) && last <= 1e-12 * greatest) {
+            isolate(c, degree, a, b, 1e-14 * greatest, looks);
+            return;
+        }
+    }
+    if (halvings == 0) {
+        for (int node = FINEST - 1; node >= 0; --node) lookAt(looks, nodeOf(node, FINEST, a, b));
+        return;
+    }
+    const double middle = 0.5 * (a + b);
+    lookBetween(unit, h, which, a, middle, halvings - 1, looks);
+    lookAt(looks, middle);
+    lookBetween(unit, h, which, middle, b, halvings - 1, looks);
+}
+
+/* What is watched at the end of a step of the length h, by the method itself; no number where there is no such step. */
 static double atEndOf(Unit *unit, double h, int k) {
-    double values[EVENTS + 1];
-    if (tryStep(unit, h) < 0.0) return 0.0;
-    watch(unit, unit->now.time + h, unit->point, values);
+    double values[WATCHED + 1];
+    if (tryStep(unit, h) < 0.0) return NAN;
+    watchAll(unit, unit->now.time + h, unit->point, values);
     return values[k];
 }
 
 /*
  * The length of the step that ends just behind a change of sign, found by steps of the method itself: as exact as the end of
- * any step. Behind a step of the length `late` the formula has another sign, which `sign` is, and the value `value`.
+ * any step. Behind a step of the length `late` stands another sign, which `sign` is, and the value `at_late`; before it `at_early`, which
+ * is 0 where nobody knows.
  */
-static double locate(Unit *unit, int k, double early, double late, int sign, double value) {
+static double locate(Unit *unit, int k, double early, double at_early, double late, double at_late, int sign) {
     const double instant = sizeOf(unit->now.time) + late;
     /* To 1e-13 s, or the rounding of time. */
     const double nearest = 1e-13 > 1e-15 * instant ? 1e-13 : 1e-15 * instant;
-    double at_early = 0.0, at_late = sign * value;
     for (int tries = 0; tries < 200 && late - early > nearest; ++tries) {
         double middle = 0.5 * (early + late);
         /* Where the chord is 0, beside that by half of what is asked for, so that the interval closes from both sides; each third time its
            half, whatever the formula is. */
-        if (tries % 3 != 2 && at_early < 0.0) {
+        if (tries % 3 != 2 && sign * at_early < 0.0) {
             const double chord = early + (late - early) * (at_early / (at_early - at_late));
             const double beside = chord - early < late - chord ? chord + 0.5 * nearest : chord - 0.5 * nearest;
             if (beside > early && beside < late) middle = beside;
         }
         if (!(middle > early && middle < late)) break;
-        const double there = sign * atEndOf(unit, middle, k);
-        if (there > 0.0) late = middle, at_late = there;
+        const double there = atEndOf(unit, middle, k);
+        if (isBehind(k, sign, there)) late = middle, at_late = there;
         else early = middle, at_early = there;
     }
     return late;
 }
 
-/* The length of the step up to the next change of sign of a formula, behind a step of the length `early` and from a look on; 0 if there
+/* The length of the step up to the next change of sign of what is watched, behind a step of the length `early` and from a look on; 0 if there
    is none. */
-static double nextCrossing(Unit *unit, double h, int k, double seen[LOOKS][EVENTS + 1], int *look, double early, int *sign) {
+static double nextCrossing(Unit *unit, double h, int k, const Looks *looks, int *look, double early, int *sign) {
     State *now = &unit->now;
-    for (; *look < LOOKS; ++*look) {
-        double value = seen[*look][k];
-        *sign = signOfEvent(unit, k, value);
-        if (!now->side[k]) now->side[k] = (signed char)*sign;
-        if (!*sign || *sign == now->side[k]) continue;
+    double all[WATCHED + 1];
+    for (; *look < looks->count; ++*look) {
+        const double x = looks->at[*look], late = x * h;
+        watchAlong(unit, h, x, all);
+        *sign = signOfWatched(unit, k, all[k]);
+        const int side = sideOf(unit, k);
+        if (k < EVENTS && !side) now->side[k] = (signed char)*sign;
+        if (!*sign || !side || *sign == side) continue;
         /* What the polynomial says is not certain. */
-        const double late = LOOKS_AT[*look] * h;
-        if (*look < LOOKS - 1) value = atEndOf(unit, late, k);
-        if (late <= early || signOf(value) != *sign) continue;
+        const double value = x < 1.0 ? atEndOf(unit, late, k) : all[k];
+        if (late <= early || !isBehind(k, *sign, value)) continue;
+        double from = *look > 0 ? looks->at[*look - 1] * h : 0.0, before = 0.0;
+        if (from > early) before = atEndOf(unit, from, k);
+        if (!(from > early) || isBehind(k, *sign, before)) from = early, before = 0.0;
         ++*look;
-        return locate(unit, k, early, late, *sign, value);
+        return locate(unit, k, from, before, late, value, *sign);
     }
     return 0.0;
 }
 
+/* Where in the step that was tried a sign may change, of each that is watched: at the end alone, or, where `is_near` says so, wherever the
+   motion within the step has a zero. 0 where an event's formula is no number at the end. */
+static int lookAlong(Unit *unit, double h, int *is_near) {
+    State *now = &unit->now;
+    double seen[COARSE + 1][WATCHED + 1], margin[WATCHED + 1], one[WATCHED + 1], values[COARSE + 1];
+    int is_any_near = 0;
+    memcpy(unit->end, unit->point, sizeof unit->end);
+    memset(margin, 0, sizeof margin);
+    int is_of_method = END < STAGES;
+    if (is_of_method) {
+        curveOfMethod(unit, h);
+    } else {
+        /* By how much the one polynomial is better than the other is more than what it is wrong by. */
+        curveThroughEnds(unit, h, 1);
+        watchAlong(unit, h, 0.5, one);
+        curveThroughEnds(unit, h, 0);
+        watchAlong(unit, h, 0.5, margin);
+        for (int k = 0; k < WATCHED; ++k) margin[k] = sizeOf(margin[k] - one[k]);
+    }
+    for (int node = 0; node <= COARSE; ++node) watchAlong(unit, h, nodeOf(node, COARSE, 0.0, 1.0), seen[node]);
+    for (int k = 0; k < WATCHED; ++k) {
+        const double start = seen[COARSE][k];
+        if (k < EVENTS && seen[0][k] != seen[0][k]) {
+            withoutEvent(unit, k, now->time + h);
+            return 0;
+        }
+        /* A step that ended behind a change was moved back before it, by what holds the constraints: that is none. */
+        const int side = sideOf(unit, k), is_before = k < EVENTS ? side * start < 0.0 : (side > 0) != holds(k - EVENTS, start);
+        if (is_before && 2.0 * sizeOf(start) > now->leave[k]) now->leave[k] = 2.0 * sizeOf(start);
+        for (int node = 0; node <= COARSE; ++node) values[node] = seen[node][k];
+        is_near[k] = !isFarFromZero(values, COARSE, margin[k]);
+        is_any_near |= is_near[k];
+    }
+    /* The polynomial of higher order, or the one that there is where it has no accelerations. */
+    if (is_any_near && !is_of_method && !curveOfMethod(unit, h)) curveThroughEnds(unit, h, 0);
+    return 1;
+}
+
 /*
- * Looks for events in the step that was tried. Where a step may not end there they are counted, and the step stays; where it may, the
- * step is tried again up to the first of them. The length of the step that stands in `point`; 0 where a formula is no number.
+ * Looks for events and facts in the step that was tried. Where a step may not end at events they are counted, and the step stays; where it
+ * may, the step is tried again up to the first of them. Facts that do not hold any more are warnings, with their instants. The length of the
+ * step that stands in `point`; 0 where a formula is no number.
  */
 static double lookForEvents(Unit *unit, double h) {
     State *now = &unit->now;
-    double seen[LOOKS][EVENTS + 1], first = h;
-    int which = -1, sign_of_first = 0;
-    lookAlong(unit, h, seen);
-    for (int k = 0; k < EVENTS; ++k) {
-        if (seen[LOOKS - 1][k] == seen[LOOKS - 1][k]) continue;
-        withoutEvent(unit, k, now->time + h);
-        return 0.0;
-    }
-    for (int k = 0; k < EVENTS; ++k) {
+    double first = h, values[WATCHED + 1];
+    int is_near[WATCHED + 1], which = -1, sign_of_first = 0;
+    Looks looks;
+    if (!lookAlong(unit, h, is_near)) return 0.0;
+    for (int k = 0; k < WATCHED; ++k) {
         int look = 0, sign = 0;
         double at = 0.0;
-        while ((at = nextCrossing(unit, h, k, seen, &look, at, &sign)) > 0.0) {
-            if (!unit->may_stop) {
+        looks.count = 0;
+        if (is_near[k]) lookBetween(unit, h, k, 0.0, 1.0, HALVINGS, &looks);
+        lookAt(&looks, 1.0);
+        while ((at = nextCrossing(unit, h, k, &looks, &look, at, &sign)) > 0.0) {
+            if (k >= EVENTS) {
+                /* Behind the end of the step nothing has happened yet. */
+                if (at > first) break;
+                changeFact(unit, k - EVENTS, now->time + at, sign < 0);
+            } else if (!unit->may_stop) {
                 countEvent(unit, k, now->time + at, sign);
-                continue;
+            } else {
+                if (which < 0 || at < first) first = at, which = k, sign_of_first = sign;
+                break;
             }
-            if (which < 0 || at < first) first = at, which = k, sign_of_first = sign;
-            break;
         }
     }
     /* The search leaves another step in `point`. */
     if (unit->tried != first) tryStep(unit, first);
     if (which < 0) return h;
     /* Others that happen at the same time, to rounding. */
-    watch(unit, now->time + first, unit->point, seen[0]);
+    watch(unit, now->time + first, unit->point, values);
     for (int k = 0; k < EVENTS; ++k) {
-        const int sign = signOfEvent(unit, k, seen[0][k]);
+        const int sign = signOfEvent(unit, k, values[k]);
         if (sign && now->side[k] && sign != now->side[k]) now->passed[k] = (signed char)sign;
     }
     now->passed[which] = (signed char)sign_of_first;
@@ -923,7 +1194,10 @@ static Outcome integrate(Unit *unit, double until) {
     if (!isFinite(until)) return say(unit, FAILED, "the end of the step is not finite");
     if (until < now->time) return say(unit, FAILED, "a step ends before it begins");
     prepare(unit);
-    if (now->is_unsettled) settleEvents(unit);
+    if (now->is_unsettled) {
+        settleEvents(unit);
+        checkFacts(unit);
+    }
     unit->is_evaluated = 0;
     unit->has_stopped = 0;
     int is_new = 1;
@@ -940,7 +1214,7 @@ static Outcome integrate(Unit *unit, double until) {
         const double h = is_last ? left : now->step;
         const double error = tryStep(unit, h);
         if (error >= 0.0 && error <= 1.0) {
-            const double gone = EVENTS > 0 ? lookForEvents(unit, h) : h;
+            const double gone = WATCHED > 0 ? lookForEvents(unit, h) : h;
             if (!(gone > 0.0)) return FAILED;
             memcpy(now->states, unit->point, STATES * sizeof *now->states);
             for (int i = 0; i < INPUTS; ++i) now->inputs[i] += gone * now->input_rates[i];
@@ -956,7 +1230,6 @@ static Outcome integrate(Unit *unit, double until) {
             const double next = h * (factor > 6.0 ? 6.0 : factor < 0.333 ? 0.333 : factor);
             if (!is_last || next > now->step) now->step = next;
             is_new = 1;
-            checkFacts(unit);
         } else {
             const double factor = error > 0.0 ? 0.9 * pow(error, -1.0 / ERROR_ORDER) : 0.25;
             now->step = h * (factor > 0.333 ? factor < 0.9 ? factor : 0.9 : factor > 0.1 ? factor : 0.1);

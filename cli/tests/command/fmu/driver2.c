@@ -35,17 +35,99 @@ static void write_all(fmi2Component unit, unsigned first, int count, const doubl
     must(fmi2SetReal(unit, references, count, values) == fmi2OK, 10);
 }
 
-static fmi2Component unit_of(fmi2Type kind) {
+static fmi2Component instance_of(fmi2Type kind) {
     static const fmi2CallbackFunctions callbacks = {hear, calloc, free, NULL, NULL};
     fmi2Component unit = fmi2Instantiate("one", kind, TOKEN, "", &callbacks, fmi2False, fmi2False);
     must(unit != NULL, 5);
+    return unit;
+}
+
+static void initialize(fmi2Component unit, const double *start) {
     must(fmi2SetupExperiment(unit, fmi2True, 1e-11, t, fmi2False, 0.0) == fmi2OK, 6);
     must(fmi2EnterInitializationMode(unit) == fmi2OK, 7);
     write_all(unit, 1 + 3 * n, parameters, p);
     write_all(unit, 1 + 3 * n + parameters, inputs, u);
-    write_all(unit, 1, 2 * n, y);
+    write_all(unit, 1, 2 * n, start);
     must(fmi2ExitInitializationMode(unit) == fmi2OK, 8);
+}
+
+static fmi2Component unit_of(fmi2Type kind) {
+    fmi2Component unit = instance_of(kind);
+    initialize(unit, y);
     return unit;
+}
+
+enum { STEPS = 20 };
+
+static void step(fmi2Component unit, int k) {
+    const double from = t + (until - t) * k / STEPS;
+    must(fmi2DoStep(unit, from, (until - t) / STEPS, fmi2True) == fmi2OK, 15);
+}
+
+typedef fmi2Component Unit;
+
+/* Units that start apart from each other. */
+static Unit begin_unit(int k) {
+    double start[MOST];
+    memcpy(start, y, sizeof start);
+    start[0] += 1e-3 * k;
+    Unit unit = instance_of(fmi2CoSimulation);
+    initialize(unit, start);
+    return unit;
+}
+
+static void step_unit(Unit unit, int k) { step(unit, k); }
+
+static void state_of(Unit unit, double *to) { read_all(unit, 1, 2 * n, to); }
+
+static void end_unit(Unit unit) { fmi2FreeInstance(unit); }
+
+#include "many.h"
+
+/* Two units side by side, one of which is saved, goes on, and is brought back, into a third as bytes; and a unit that is reset is as new. */
+static void check_states(void) {
+    fmi2Component one = unit_of(fmi2CoSimulation), two = unit_of(fmi2CoSimulation);
+    fmi2FMUstate saved = NULL, copied = NULL;
+    double first[2 * MOST], half[2 * MOST], other[2 * MOST];
+    static char bytes[1 << 16];
+    size_t size = 0;
+    for (int k = 0; k < STEPS; ++k) {
+        if (k == STEPS / 2) {
+            must(fmi2GetFMUstate(one, &saved) == fmi2OK, 30);
+            read_all(one, 1, 2 * n, half);
+        }
+        step(one, k);
+        step(two, k);
+    }
+    read_all(one, 1, 2 * n, first);
+    read_all(two, 1, 2 * n, other);
+    must(!memcmp(first, other, 2 * n * sizeof *first) && memcmp(first, half, 2 * n * sizeof *first), 32);
+    must(fmi2SetFMUstate(one, saved) == fmi2OK, 33);
+    read_all(one, 1, 2 * n, other);
+    must(!memcmp(half, other, 2 * n * sizeof *first), 33);
+    for (int k = STEPS / 2; k < STEPS; ++k) step(one, k);
+    read_all(one, 1, 2 * n, other);
+    must(!memcmp(first, other, 2 * n * sizeof *first), 34);
+    must(fmi2SerializedFMUstateSize(one, saved, &size) == fmi2OK && size > 0 && size <= sizeof bytes, 35);
+    must(fmi2SerializeFMUstate(one, saved, bytes, size) == fmi2OK, 35);
+    must(fmi2SerializeFMUstate(one, saved, bytes, size - 1) == fmi2Error, 35);
+    fmi2Component three = instance_of(fmi2CoSimulation);
+    must(fmi2DeSerializeFMUstate(three, bytes, size, &copied) == fmi2OK, 36);
+    must(fmi2SetFMUstate(three, copied) == fmi2OK, 36);
+    for (int k = STEPS / 2; k < STEPS; ++k) step(three, k);
+    read_all(three, 1, 2 * n, other);
+    must(!memcmp(first, other, 2 * n * sizeof *first), 37);
+    bytes[3] ^= 1;
+    must(fmi2DeSerializeFMUstate(three, bytes, size, &copied) == fmi2Error, 38);
+    must(fmi2Reset(two) == fmi2OK, 39);
+    initialize(two, y);
+    for (int k = 0; k < STEPS; ++k) step(two, k);
+    read_all(two, 1, 2 * n, other);
+    must(!memcmp(first, other, 2 * n * sizeof *first), 40);
+    must(fmi2FreeFMUstate(one, &saved) == fmi2OK && fmi2FreeFMUstate(one, &copied) == fmi2OK && !saved && !copied, 41);
+    fmi2FreeInstance(one);
+    fmi2FreeInstance(two);
+    fmi2FreeInstance(three);
 }
 
 int main(void) {
@@ -83,5 +165,7 @@ int main(void) {
         for (int i = 0; i < 2 * n; ++i) printf("%.17g\n", numbers[i]);
         fmi2FreeInstance(unit);
     }
+    check_states();
+    check_many();
     return 0;
 }

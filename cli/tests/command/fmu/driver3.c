@@ -53,11 +53,11 @@ static unsigned at_parameters(void) { return 1 + 3 * n; }
 static unsigned at_inputs(void) { return at_parameters() + parameters; }
 static unsigned at_outputs(void) { return at_inputs() + inputs; }
 
-static void initialize(fmi3Instance unit, double tolerance) {
+static void initialize(fmi3Instance unit, double tolerance, const double *start) {
     well(fmi3EnterInitializationMode(unit, true, tolerance, t, false, 0.0), 12);
     write_all(unit, at_parameters(), parameters, p);
     write_all(unit, at_inputs(), inputs, u);
-    write_all(unit, 1, 2 * n, y);
+    write_all(unit, 1, 2 * n, start);
     well(fmi3ExitInitializationMode(unit), 13);
 }
 
@@ -139,6 +139,28 @@ static void check_adjoint(fmi3Instance unit) {
     must(size > 0.0 && fabs(one - other) <= 1e-12 * size, 27);
 }
 
+enum { STEPS = 20 };
+
+typedef fmi3Instance Unit;
+
+/* Units that start apart from each other. */
+static Unit begin_unit(int k) {
+    double start[MOST];
+    memcpy(start, y, sizeof start);
+    start[0] += 1e-3 * k;
+    Unit unit = slave();
+    initialize(unit, 1e-11, start);
+    return unit;
+}
+
+static void step_unit(Unit unit, int k) { step(unit, k, STEPS); }
+
+static void state_of(Unit unit, double *to) { read_all(unit, 1, 2 * n, to); }
+
+static void end_unit(Unit unit) { fmi3FreeInstance(unit); }
+
+#include "many.h"
+
 int main(void) {
     if (scanf("%d %d %d %d", &n, &parameters, &inputs, &outputs) != 4) return 2;
     for (int i = 0; i < parameters; ++i)
@@ -154,7 +176,7 @@ int main(void) {
     must(!fmi3InstantiateModelExchange("x", "another", NULL, false, false, NULL, hear), 4);
     fmi3Instance unit = fmi3InstantiateModelExchange("one", TOKEN, NULL, false, false, NULL, hear);
     must(unit != NULL, 5);
-    initialize(unit, 1e-9);
+    initialize(unit, 1e-9, y);
     double a[MOST], derivatives[2 * MOST], numbers[MOST];
     read_all(unit, 1 + 2 * n, n, a);
     for (int i = 0; i < n; ++i) printf("%.17g\n", a[i]);
@@ -177,10 +199,9 @@ int main(void) {
     fmi3FreeInstance(unit);
 
     /* Co-simulation: two units side by side, one of which is saved, goes on, and is brought back. */
-    enum { STEPS = 20 };
     fmi3Instance one = slave(), two = slave();
-    initialize(one, 1e-11);
-    initialize(two, 1e-11);
+    initialize(one, 1e-11, y);
+    initialize(two, 1e-11, y);
     fmi3FMUState saved = NULL, copied = NULL;
     double first[2 * MOST], other[2 * MOST];
     static unsigned char bytes[1 << 16];
@@ -218,7 +239,7 @@ int main(void) {
     must(fmi3DeserializeFMUState(three, bytes, size, &copied) == fmi3Error, 38);
     /* As new. */
     well(fmi3Reset(two), 39);
-    initialize(two, 1e-11);
+    initialize(two, 1e-11, y);
     for (int k = 0; k < STEPS; ++k) step(two, k, STEPS);
     read_all(two, 1, 2 * n, other);
     must(!memcmp(first, other, 2 * n * sizeof *first), 40);
@@ -228,5 +249,6 @@ int main(void) {
     fmi3FreeInstance(one);
     fmi3FreeInstance(two);
     fmi3FreeInstance(three);
+    check_many();
     return 0;
 }
