@@ -19,6 +19,7 @@ use lagrangian::methods::Method;
 use lagrangian::{ContactEvent, EnergyBalance, Event, Solution, State, Statistics, Warning};
 use lagrangian_mechanics::Compiled;
 use lagrangian_symbolic::Symbol;
+use lagrangian_units::state_of;
 use serde_json::{Value, json};
 
 use crate::collisions;
@@ -215,8 +216,15 @@ impl Report<'_, '_> {
                 let values = samples::encoded(points.iter().map(|(_, value)| *value));
                 let mut curve = json!({ "name": column.name, "times": times, "values": values });
                 if is_live {
+                    // States of first order stand before the outputs of the spec.
+                    let slots = self.compiled.program.coordinates.iter();
+                    let states = slots.filter(|slot| state_of(&slot.name.to_string()).is_some());
+                    let states = states.count();
                     curve["live"] = match kind {
-                        Kind::Output => json!({ "output": index }),
+                        Kind::Output if index.is_some_and(|index| index < states) => {
+                            json!({ "state": index })
+                        }
+                        Kind::Output => json!({ "output": index.map(|index| index - states) }),
                         Kind::Multiplier => json!({ "multiplier": index }),
                         Kind::Energy => json!({ "energy": column.name.split(' ').next() }),
                         _ => Value::Null,

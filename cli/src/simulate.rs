@@ -300,9 +300,14 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
                 false => report.page(),
             };
             match redundant.filter(|_| call.live) {
-                Some(warning) => trouble.other.push(format!(
-                    "--live: {warning}; the page solves for the multipliers of all constraints"
-                )),
+                Some(warning) => {
+                    let spec = call.spec.path.file_name().unwrap_or_default();
+                    trouble.other.push(report::live::without_constraint(
+                        warning,
+                        machine.name(),
+                        &spec.to_string_lossy(),
+                    ));
+                }
                 None => {
                     let written = file.write_text(&page);
                     trouble.other.extend(written.err().map(Failure::message));

@@ -267,7 +267,8 @@ class Live {
         (x) => { this.parameters[i] = x; })),
       ...machine.inputs.map((name, i) => add('input', name, machine.input_units[i], data.inputs[i],
         (x) => { this.inputs[i] = x; })),
-      ...data.states.map(({ name, unit, value }, i) => add('start', name, unit, value, (x) => { this.said[i] = x; })),
+      ...data.states.flatMap(({ name, unit, value, hidden }, i) => (
+        hidden ? [] : [add('start', name, unit, value, (x) => { this.said[i] = x; })])),
     ];
     byId('again').addEventListener('click', () => {
       this.parameters.set(data.parameters);
@@ -290,7 +291,9 @@ class Live {
 
   run() {
     const { motion, data, player } = this;
-    const { n } = motion;
+    // Behind the coordinates stand the integrals of states of first order, which are not drawn.
+    const n = machine.coordinates.length;
+    const drawn = motion.n;
     const before = performance.now();
     const integrator = new Integrator(data.method, data.tolerance, data.steps);
     const status = byId('live-status');
@@ -313,7 +316,10 @@ class Live {
       const constraints = new Constraints(p, data.constraints, n);
       constraints.hold(times[0], y, true);
       integrator.run(f, y, times, (state, k) => states.set(state, 2 * n * k), (t, state) => constraints.hold(t, state, false));
-      motion.states = states;
+      motion.states = n === drawn ? states : Float64Array.from({ length: 2 * drawn * times.length }, (_, i) => {
+        const [k, j] = [Math.floor(i / (2 * drawn)), i % (2 * drawn)];
+        return states[2 * n * k + (j < drawn ? j : n + j - drawn)];
+      });
       motion.parameters.set(this.parameters);
       player.plots.forEach((plot) => plot.curves.forEach((curve) => this.refresh(curve, p, times, states)));
       player.drawing.weigh();
@@ -332,13 +338,14 @@ class Live {
   /** What a curve with points of its own is now; nothing, where the page cannot say. */
   refresh(curve, p, times, states) {
     if (!curve.times) return;
-    const { n } = this.motion;
+    const n = machine.coordinates.length;
     const u = this.inputs;
     const { live } = curve;
     const value = (k) => {
       const q = states.subarray(2 * n * k, 2 * n * k + n);
       const v = states.subarray(2 * n * k + n, 2 * n * (k + 1));
       const t = times[k];
+      if (live?.state !== undefined) return v[this.motion.n + live.state];
       if (live?.output !== undefined) {
         const a = machine.accelerations(p, t, q, v, u);
         return machine.functions_of_outputs[live.output](p, t, q, v, u, a);

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use lagrangian::methods::Method;
-use lagrangian::{Machine, System};
+use lagrangian::{Machine, System, Warning};
 use lagrangian_emit::script::{self, Dialect};
 use lagrangian_program::Program;
 use lagrangian_units::{rate_name, state_of};
@@ -40,25 +40,22 @@ pub fn objection(
     is_driven: bool,
     kept: &[String],
 ) -> Option<String> {
+    let without = "leave out --live, and the page shows the run of the command; of other values, by --set, another";
     let what = if let Some(contact) = program.contacts.first() {
-        format!("`{contact}` of `sliding` sticks or slides, which the page does not decide")
+        format!("`{contact}` of `sliding` sticks or slides, which the page does not decide: {without}")
     } else if let Some(contact) = program.unilateral.first() {
         format!(
-            "whether `{}` of `contacts` is closed is nothing that the page decides",
+            "whether `{}` of `contacts` is closed is nothing that the page decides: {without}",
             contact.name
         )
-    } else if let Some(state) = program
-        .coordinates
-        .iter()
-        .find_map(|slot| state_of(&slot.name.to_string()))
-    {
-        format!("`{state}` of `states` is of first order, which the page does not show")
     } else if let Some(name) = kept.first() {
         format!(
             "the page keeps start values that the spec keeps: write `keep {{ {name} }}` in place of --keep"
         )
     } else if is_driven {
-        "the page holds inputs at constant values: leave out --input".to_owned()
+        "the page holds inputs at constant values, which it has sliders for: leave out --input, or leave out --live, and the page shows \
+         the run with these inputs"
+            .to_owned()
     } else if !EXPLICIT.contains(&method.tableau.name) {
         format!(
             "the page has explicit methods with control of the step, and `{}` is none: --method dop853",
@@ -68,6 +65,18 @@ pub fn objection(
         return None;
     };
     Some(format!("--live: {what}"))
+}
+
+/// What to do where constraints depend on each other: the page solves for the multipliers of all of them.
+pub fn without_constraint(warning: &Warning, machine: &str, file: &str) -> String {
+    let help = match warning {
+        Warning::RedundantConstraint { constraint, .. } => format!(
+            ", so where the others imply it everywhere, leave it out in a variant: \
+             `machine {machine}Page extends \"{file}\" {{ remove constraints.{constraint}; }}`"
+        ),
+        _ => String::new(),
+    };
+    format!("--live: {warning}; the page solves for the multipliers of all constraints{help}")
 }
 
 /// How a page integrates.
@@ -113,7 +122,11 @@ impl Live {
         let states: Vec<Value> = names
             .chain(rates)
             .zip(pairs())
-            .map(|((name, unit), (value, _))| json!({ "name": name, "unit": unit, "value": value }))
+            .map(|((name, unit), (value, _))| {
+                // On the integral of a state of first order nothing depends.
+                let is_hidden = state_of(&name).is_some();
+                json!({ "name": name, "unit": unit, "value": value, "hidden": is_hidden })
+            })
             .collect();
         let kept = states.iter().map(|state| {
             let name = state["name"].as_str().unwrap_or_default();

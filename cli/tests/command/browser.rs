@@ -455,6 +455,13 @@ fn a_page_runs_its_machine_again() {
             "1",
             &[("J", 0.09), ("der(phi)", 1.4)],
         ),
+        // With a state of first order, and turned by four numbers.
+        (
+            "machines/dc_motor.machine",
+            "0.05",
+            &[("R", 0.8), ("U", 10.0), ("i", 2.0), ("der(phi)", 20.0)],
+        ),
+        ("machines/upright_top.machine", "1", &[("spin", 50.0)]),
     ] {
         let page = Page::of(spec, &["--tolerance", "1e-11", "--until", until, "--live"]);
         let table = |names: &[&str]| -> Vec<String> {
@@ -464,7 +471,8 @@ fn a_page_runs_its_machine_again() {
             let all = names
                 .iter()
                 .flat_map(|name| data[*name].as_array().expect("a list").clone());
-            all.filter_map(|one| Some(one["name"].as_str()?.to_owned()))
+            all.filter(|one| one["hidden"] == false)
+                .filter_map(|one| Some(one["name"].as_str()?.to_owned()))
                 .collect()
         };
         let states = table(&["states"]);
@@ -496,13 +504,14 @@ fn a_page_runs_its_machine_again() {
             let list = of.as_array().expect("numbers").iter();
             list.map(|x| x.as_f64().expect("a number")).collect()
         };
-        let n = states.len() / 2;
+        // Behind the rates of the coordinates stand states of first order.
+        let n = numbers(&run["states"]).len() / numbers(&run["times"]).len() / 2;
         let options: Vec<String> = changes
             .iter()
             .flat_map(|(name, x)| {
                 let option = match states.iter().position(|state| state == name) {
                     None => format!("--set\n{name}={x:?}"),
-                    Some(i) if i < n => format!("--start\n{name}={x:?}"),
+                    Some(i) if i < n || i >= 2 * n => format!("--start\n{name}={x:?}"),
                     Some(i) => format!("--rate\n{}={x:?}", states[i - n]),
                 };
                 option.split('\n').map(str::to_owned).collect::<Vec<_>>()
@@ -584,6 +593,16 @@ fn pages_that_compute_are_of_machines_that_they_can_run() {
             &["--report", "x.html", "--live", "--method", "radau5"],
             "the page has explicit methods",
         ),
+        (
+            "machines/cart_pole.machine",
+            &["--report", "x.html", "--live", "--input", "push=1*N"],
+            "which it has sliders for: leave out --input",
+        ),
+        (
+            "machines/contacts/bouncing_ball.machine",
+            &["--report", "x.html", "--live"],
+            "leave out --live, and the page shows the run",
+        ),
     ] {
         let all = [&["simulate", spec, "--until", "0.1"], options].concat();
         let output = crate::support::lagrangian(&all);
@@ -606,6 +625,8 @@ fn pages_that_compute_are_of_machines_that_they_can_run() {
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{said}");
     assert!(said.contains("is redundant beside"), "{said}");
+    let help = "`machine BricardPage extends \"bricard.machine\" { remove constraints.";
+    assert!(said.contains(help), "{said}");
     assert_eq!(std::fs::read_to_string(&at.0).expect("a file"), "older");
     let page = Page::of("machines/simple_pendulum.machine", &["--until", "0.1"]);
     assert!(!page.html.contains("sliders") && !page.html.contains("Integrator"));
