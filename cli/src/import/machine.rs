@@ -1,9 +1,11 @@
 //! A robot as a machine: coordinates for joints, frames and bodies for links.
 
+use nalgebra::Matrix3;
+
 use super::faults::Faults;
 use super::names::{self, Names, quoted};
 use super::number::{Angle, Number};
-use super::robot::{Drive, Inertial, Joint, Kind, Law, Robot, Start, TieKind};
+use super::robot::{Anchor, Drive, Inertial, Joint, Kind, Law, Robot, Start, TieKind};
 use super::steps::{self, AXES, conjugated, slide, straightened, turn};
 use super::tensor;
 use super::text::{self, Text};
@@ -252,7 +254,7 @@ impl<'a> Writer<'a> {
                 }
                 Kind::Spherical => {
                     let ball = self.call.ball.unwrap_or(Ball::Xyz);
-                    self.ball(&joint.name, comment, ball, None)
+                    self.ball(&joint.name, comment, ball, joint.start.as_ref())
                 }
                 Kind::Planar => self.planar(joint, comment),
                 Kind::Revolute | Kind::Continuous | Kind::Prismatic => {
@@ -433,8 +435,17 @@ impl<'a> Writer<'a> {
             _ => None,
         };
         let reference = (from != 0.0).then(|| measured(joint, &joint.reference));
-        let start = start.or(reference).map(|start| format!(" = {start}"));
-        let entry = format!("{name}: {unit}{}", start.unwrap_or_default());
+        // What the file says of its start goes before.
+        let home = joint.home.as_ref().map(|home| measured(joint, home));
+        let start = home.or(start).or(reference);
+        let start = start.map(|start| format!(" = {start}"));
+        let mut entry = format!("{name}: {unit}{}", start.unwrap_or_default());
+        if let Some(rate) = joint.home_rate.as_ref().filter(|rate| !rate.is_zero()) {
+            entry.push_str(&format!(
+                ", der({name}): {unit}/s = {}",
+                measured(joint, rate)
+            ));
+        }
         self.text.add("coordinates", Some(comment), vec![entry]);
     }
 
@@ -928,19 +939,29 @@ impl<'a> Writer<'a> {
         };
         let comment = format!("Drive{shown} of joint {}.", quoted(&joint.name));
         self.text.add("parameters", Some(comment.clone()), entries);
-        self.text
-            .add("inputs", Some(comment), vec![format!("{input}: {unit}")]);
+        let usual = match drive.usual.is_zero() {
+            true => String::new(),
+            false => format!(" = {}", drive.usual),
+        };
+        let entry = format!("{input}: {unit}{usual}");
+        self.text.add("inputs", Some(comment), vec![entry]);
     }
 
     /// Equations between coordinates.
     fn ties(&mut self) {
         let mut names = Names::default();
         for tie in &self.robot.ties {
-            let TieKind::Polynomial {
-                follower,
-                leader,
-                coefficients,
-            } = &tie.kind;
+            let (follower, leader, coefficients) = match &tie.kind {
+                TieKind::Polynomial {
+                    follower,
+                    leader,
+                    coefficients,
+                } => (follower, leader, coefficients),
+                TieKind::Closing { anchors, axes } => {
+                    self.closing(&tie.name, anchors, axes.as_ref(), &mut names);
+                    continue;
+                }
+            };
             let name = names.take(&tie.name, "constraint");
             let relative = |writer: &Self, joint: usize| match writer.reference_of[joint].as_str() {
                 "" => writer.value_of[joint].clone(),
@@ -990,6 +1011,78 @@ impl<'a> Writer<'a> {
                 vec![format!("{name}: {left} = {sum}")],
             );
         }
+    }
+
+    /// A point of a link that is one of another, and axes that are the other's.
+    fn closing(
+        &mut self,
+        name: &str,
+        anchors: &[Anchor; 2],
+        axes: Option<&Matrix3<f64>>,
+        names: &mut Names,
+    ) {
+        let frame = |writer: &Self, anchor: &Anchor| {
+            let links = writer.robot.links.iter();
+            let place = links
+                .map(|link| &link.name)
+                .position(|it| *it == anchor.link);
+            place.map(|place| writer.frame_of[place].clone())
+        };
+        let [one, other] = anchors.each_ref().map(|anchor| frame(self, anchor));
+        let (Some(one), Some(other)) = (
+            one.filter(|frame| !frame.is_empty()),
+            other.filter(|frame| !frame.is_empty()),
+        ) else {
+            let name = quoted(name);
+            let message = format!("constraint {name} is left out with its body");
+            return self.warnings.push(message);
+        };
+        let comment = format!("Constraint {}.", quoted(name));
+        let mut entries = Vec::new();
+        let [first, second] = [(0, &one), (1, &other)].map(|(index, frame)| {
+            let called = format!("{name}_anchor_{}", index + 1);
+            let [x, y, z] = self.lengths(&mut entries, &called, &anchors[index].xyz);
+            match frame.as_str() {
+                "ground" => format!("({x}, {y}, {z})"),
+                _ if [&x, &y, &z].iter().all(|x| *x == "0") => format!("{frame}.origin"),
+                frame => format!("{frame}.point({x}, {y}, {z})"),
+            }
+        });
+        self.text.add("parameters", Some(comment.clone()), entries);
+        let is_zero = |point: &str| point == "(0, 0, 0)";
+        let apart = match (is_zero(&first), is_zero(&second)) {
+            (true, _) => second.clone(),
+            (_, true) => first.clone(),
+            _ => format!("{first} - {second}"),
+        };
+        let mut lines = Vec::new();
+        for (axis, along) in AXES.iter().zip(["(1, 0, 0)", "(0, 1, 0)", "(0, 0, 1)"]) {
+            let name = names.take(&format!("{name}_{axis}"), "constraint");
+            lines.push(format!("{name}: dot({apart}, {along}) = 0"));
+        }
+        if let Some(axes) = axes {
+            let vector = |frame: &str, xyz: [f64; 3]| {
+                let [x, y, z] = xyz.map(|x| match x.abs() <= 4.0 * f64::EPSILON {
+                    true => "0".to_owned(),
+                    false => Number::computed(x).to_string(),
+                });
+                match frame {
+                    "ground" => format!("({x}, {y}, {z})"),
+                    frame => format!("{frame}.vector({x}, {y}, {z})"),
+                }
+            };
+            // About each axis: two others stay across.
+            for (about, axis) in AXES.iter().enumerate() {
+                let (next, last) = ((about + 1) % 3, (about + 2) % 3);
+                let held = vector(&one, axes.column(next).into_owned().into());
+                let mut unit = [0.0; 3];
+                unit[last] = 1.0;
+                let own = vector(&other, unit);
+                let name = names.take(&format!("{name}_about_{axis}"), "constraint");
+                lines.push(format!("{name}: dot({held}, {own}) = 0"));
+            }
+        }
+        self.text.add("constraints", Some(comment), lines);
     }
 
     /// Gravity, as a vector or as what says that there is none.

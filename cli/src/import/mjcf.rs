@@ -4,6 +4,7 @@
 
 mod bodies;
 mod drives;
+mod loops;
 mod mesh;
 mod scene;
 mod solid;
@@ -42,7 +43,7 @@ const WITHOUT_PART: [&str; 9] = [
 const ORIENTATIONS: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
 
 /// What is read of each element, and what of it changes no motion of a tree without contacts.
-const ATTRIBUTES: [(&str, &[&str]); 15] = [
+const ATTRIBUTES: [(&str, &[&str]); 17] = [
     (
         "compiler",
         &[
@@ -264,6 +265,30 @@ const ATTRIBUTES: [(&str, &[&str]); 15] = [
             "name", "class", "joint1", "joint2", "polycoef", "active", "solref", "solimp",
         ],
     ),
+    (
+        "equality.connect",
+        &[
+            "name", "class", "body1", "body2", "anchor", "site1", "site2", "active", "solref",
+            "solimp",
+        ],
+    ),
+    (
+        "equality.weld",
+        &[
+            "name",
+            "class",
+            "body1",
+            "body2",
+            "anchor",
+            "relpose",
+            "torquescale",
+            "site1",
+            "site2",
+            "active",
+            "solref",
+            "solimp",
+        ],
+    ),
     ("flag", &[]),
 ];
 
@@ -402,6 +427,7 @@ pub fn read(
         joints: HashMap::new(),
         given: names(&root),
         counts: Vec::new(),
+        actuators: 0,
     };
     reader.model(&root);
     let Reader {
@@ -437,6 +463,8 @@ struct Reader<'r, 'f, 'e> {
     given: HashSet<String>,
     /// The kinds of elements that are left out, with their numbers.
     counts: Vec<(String, usize)>,
+    /// How many actuators there are, those that are left out too.
+    actuators: usize,
 }
 
 /// The names of bodies and joints in a file.
@@ -501,6 +529,14 @@ impl<'e> Reader<'_, '_, 'e> {
         for element in is("actuator").flat_map(|part| &part.children) {
             self.actuator(element);
         }
+        let keys = is("keyframe").flat_map(|part| &part.children);
+        let is_home = |key: &&Element| key.own("name").is_some_and(|name| name.value == "home");
+        let mut homes: Vec<&Element> = keys.filter(is_home).collect();
+        if self.ignored.iter().any(|ignored| ignored == "keyframe") && !homes.is_empty() {
+            self.count("keyframe");
+            homes.clear();
+        }
+        homes.into_iter().for_each(|key| self.home(key));
         self.settle_mass();
     }
 

@@ -94,8 +94,11 @@ pub struct Joint {
     pub armature: Number,
     /// The value at which the joint moves nothing, and with which it starts.
     pub reference: Number,
-    /// Where a floating joint starts: a place, and three angles for given axes.
+    /// Where a floating joint starts: a place, and three angles for given axes; of a spherical one the axes.
     pub start: Option<Start>,
+    /// The value and the rate with which the file lets a joint with one coordinate start.
+    pub home: Option<Number>,
+    pub home_rate: Option<Number>,
     /// The least and the greatest value.
     pub range: Option<[Number; 2]>,
     /// Bounds of velocity and effort, soft limits: what a comment says.
@@ -132,6 +135,9 @@ pub struct Drive {
     pub law: Law,
     /// The inertia of what turns with the drive.
     pub inertia: Number,
+    /// Its place among all actuators of the file, and what its input is as long as nobody sets it.
+    pub number: usize,
+    pub usual: Number,
 }
 
 /// The force of a drive, by its input u, and by s, which is the gear times the joint's value.
@@ -168,4 +174,16 @@ pub enum TieKind {
         leader: Option<usize>,
         coefficients: Vec<Number>,
     },
+    /// A point of a link is one of another; with `axes` the second link's axes are these, as columns, in those of the first.
+    Closing {
+        anchors: Box<[Anchor; 2]>,
+        axes: Option<nalgebra::Matrix3<f64>>,
+    },
+}
+
+/// A point in a link's frame.
+#[derive(Debug)]
+pub struct Anchor {
+    pub link: String,
+    pub xyz: [Number; 3],
 }

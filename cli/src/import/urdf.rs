@@ -259,6 +259,8 @@ impl Reader<'_, '_> {
                 gear,
                 law: Law::Force,
                 inertia,
+                number: 0,
+                usual: Number::zero(),
             },
         ));
     }

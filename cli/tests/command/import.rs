@@ -367,6 +367,76 @@ fn models_move_as_mujoco_moves_them() {
     }
 }
 
+/// Loops that `connect` and `weld` close, with an offset and an angle between the bodies; and the state called `home` is the start.
+/// `import/mujoco/loops/by_mujoco.py` says how the numbers were made: to some 1e-10 of the largest, of which derivatives of the gradients by
+/// differences are the worst.
+#[test]
+fn loops_move_as_mujoco_says() {
+    let folder = "cli/tests/command/import/mujoco/loops";
+    let stored = std::fs::read_to_string(root().join(folder).join("loops.json")).expect("a file");
+    let stored: Value = serde_json::from_str(&stored).expect("JSON");
+    let machine = imported(&format!("{folder}/arms.xml"), &[]);
+    let states = stored["arms"].as_array().expect("states");
+    let points: Vec<Value> = states
+        .iter()
+        .map(|state| {
+            let u = numbers(&state["inputs"]);
+            let inputs = json!({ "drive": u[0], "hold": u[1] });
+            json!({ "q": state["q"], "v": state["v"], "inputs": inputs })
+        })
+        .collect();
+    let found = evaluated(&machine, &json!(points));
+    assert_eq!(found.len(), 3);
+    for (found, truth) in found.iter().zip(states) {
+        let truth = numbers(&truth["accelerations"]);
+        let found = numbers(&found["accelerations"]);
+        assert_eq!(found.len(), 12);
+        for (a, b) in found.iter().zip(&truth) {
+            let off = (a - b).abs() / largest(&truth);
+            assert!(off <= 1e-10, "{a:?}, not {b:?}, off by {off:.1e}");
+        }
+    }
+    let text = std::fs::read_to_string(&machine.0).expect("a file");
+    for line in [
+        "qa1: rad = 0.1,",
+        "qa3: rad = 0.25,",
+        "der(qa2): rad/s = 0.5,",
+        "der(c3): rad/s = -0.25,",
+        "drive: N*m = 0.5,",
+        "hold: rad = 0.125,",
+    ] {
+        assert!(text.contains(line), "{line}: {text}");
+    }
+    // Without it the machine starts where the joints move nothing.
+    let machine = imported(&format!("{folder}/arms.xml"), &["--ignore", "keyframe"]);
+    let text = std::fs::read_to_string(&machine.0).expect("a file");
+    assert!(text.contains("qa3: rad = 0.15,") && text.contains("1 element `keyframe`"));
+}
+
+/// A free body starts where `home` has it, turned by any of the angles or by four numbers.
+#[test]
+fn a_free_body_starts_where_home_says() {
+    let text = "<mujoco><worldbody><body name=\"brick\" pos=\"0 0 3\"><freejoint/>\
+                <inertial pos=\"0 0 0\" mass=\"2\" diaginertia=\"1 2 3\"/></body></worldbody>\
+                <keyframe><key name=\"home\" qpos=\"1 2 0.5 2 0 0 2\"/></keyframe></mujoco>";
+    for (ball, starts) in [
+        ("zyx", &["brick_joint_yaw: rad = pi/2,"][..]),
+        (
+            "quaternion",
+            &["e0: 1 = 0.7071067811865475", "e3: 1 = 0.7071067811865475"],
+        ),
+    ] {
+        let machine = imported_model(text, &[], &["--ball", ball]);
+        let spec = std::fs::read_to_string(&machine.0).expect("a file");
+        for start in ["x: m = 1,", "y: m = 2,", "z: m = 0.5,"]
+            .iter()
+            .chain(starts)
+        {
+            assert!(spec.contains(start), "{start}: {spec}");
+        }
+    }
+}
+
 #[test]
 fn specs_are_whole_and_always_the_same() {
     for name in ROBOTS {
@@ -1048,8 +1118,30 @@ fn what_is_wrong_with_a_model_is_told_with_its_place() {
             "`dyntype` of a general without a name is \"filter\"",
         ),
         (
-            model(&swing, "<equality><weld body1=\"bob\"/></equality>"),
-            "3:11: `weld` of the equality constraints is not read",
+            model(&swing, "<equality><flex flex=\"bob\"/></equality>"),
+            "3:11: `flex` of the equality constraints is not read",
+        ),
+        (
+            model(&swing, "<equality><connect body1=\"bob\"/></equality>"),
+            "a connect without a name lacks `anchor`",
+        ),
+        (
+            model(&swing, "<equality><weld body1=\"bib\"/></equality>"),
+            "`body1` of a weld without a name is \"bib\", and there is no such body",
+        ),
+        (
+            model(
+                &swing,
+                "<equality><weld site1=\"a\" site2=\"b\"/></equality>",
+            ),
+            "write `body1`, `body2` and `anchor`; --ignore weld leaves it out",
+        ),
+        (
+            model(
+                &swing,
+                "<keyframe><key name=\"home\" qpos=\"1 2\"/></keyframe>",
+            ),
+            "`qpos` of key \"home\": 1 numbers are expected, and there are 2",
         ),
         (
             model(&swing, "<equality><joint joint1=\"q\"/></equality>"),

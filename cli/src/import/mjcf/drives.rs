@@ -62,6 +62,8 @@ impl<'e> Reader<'_, '_, 'e> {
         if !DRIVES.contains(&kind) {
             return self.unknown(element, "the actuators");
         }
+        let number = self.actuators;
+        self.actuators += 1;
         if self.ignored.iter().any(|ignored| ignored == kind) {
             return self.count(kind);
         }
@@ -104,6 +106,8 @@ impl<'e> Reader<'_, '_, 'e> {
             gear,
             law,
             inertia: Number::zero(),
+            number,
+            usual: Number::zero(),
         });
     }
 
@@ -221,6 +225,12 @@ impl<'e> Reader<'_, '_, 'e> {
 
     pub(super) fn equality(&mut self, element: &'e Element) {
         let kind = element.name.as_str();
+        if self.ignored.iter().any(|ignored| ignored == kind) {
+            return self.count(kind);
+        }
+        if matches!(kind, "connect" | "weld") {
+            return self.closing(element);
+        }
         if kind != "joint" {
             return self.unknown(element, "the equality constraints");
         }

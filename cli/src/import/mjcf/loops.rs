@@ -1,0 +1,271 @@
+//! What closes loops of bodies, and the state in which a model begins.
+
+use super::*;
+use crate::import::robot::Anchor;
+
+/// Axes as columns, and a place.
+#[derive(Clone, Copy)]
+struct Rest {
+    axes: Matrix3<f64>,
+    origin: Vector3<f64>,
+}
+
+/// Below this share of the lengths in a place it is rounding.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+impl<'e> Reader<'_, '_, 'e> {
+    /// Where a body is as long as its joints move nothing; none of that name.
+    fn at_rest(&self, body: &str) -> Option<Rest> {
+        let mut rests = HashMap::from([(
+            "world",
+            Rest {
+                axes: Matrix3::identity(),
+                origin: Vector3::zeros(),
+            },
+        )]);
+        // Each joint stands behind the one that it hangs on.
+        for joint in &self.robot.joints {
+            let above = *rests.get(joint.parent.as_str())?;
+            let number = |number: &Number| number.value;
+            let mut rest = Rest {
+                origin: above.origin + above.axes * Vector3::from(joint.xyz.each_ref().map(number)),
+                axes: above.axes * steps::axes(&joint.turns),
+            };
+            if let Some(start) = &joint.start {
+                rest.origin += rest.axes * Vector3::from(start.xyz.each_ref().map(number));
+                rest.axes *= start.axes;
+            }
+            rests.insert(&joint.child, rest);
+        }
+        rests.get(body).copied()
+    }
+
+    /// The body that an attribute names, or the world.
+    fn body_of(&mut self, item: &Item<'e>, name: &str) -> Option<(String, Rest)> {
+        let (body, at) = match self.said(item, name) {
+            Some(said) => (said.value.clone(), said.at),
+            None => ("world".to_owned(), item.element.at),
+        };
+        let rest = self.at_rest(&body);
+        if rest.is_none() {
+            let message = format!(
+                "`{name}` of {} is {}, and there is no such body",
+                item.owner,
+                quoted(&body)
+            );
+            self.faults.add(at, message);
+        }
+        Some((body, rest?))
+    }
+
+    /// A point of one body that is one of another, and for `weld` axes that are the other's: as they are where joints move nothing, or as
+    /// `relpose` says.
+    pub(super) fn closing(&mut self, element: &'e Element) {
+        let kind = element.name.as_str();
+        let item = self.item(element, 0);
+        let is_weld = kind == "weld";
+        self.only(
+            element,
+            &item.owner,
+            match is_weld {
+                true => "equality.weld",
+                false => "equality.connect",
+            },
+        );
+        if self.flag(&item, "active") == Some(false) {
+            return self.count(&format!("inactive `equality` of {kind}"));
+        }
+        for name in ["site1", "site2"] {
+            if let Some(said) = self.said(&item, name) {
+                let message = format!(
+                    "`{name}` of {} is not read: write `body1`, `body2` and `anchor`",
+                    item.owner
+                );
+                return self.refuse(said.at, kind, &message);
+            }
+        }
+        let needed = match is_weld {
+            true => &["body1"][..],
+            false => &["body1", "anchor"],
+        };
+        for name in needed {
+            if self.said(&item, name).is_none() {
+                let message = format!("{} lacks `{name}`", item.owner);
+                return self.faults.add(element.at, message);
+            }
+        }
+        let (Some(one), Some(other)) = (self.body_of(&item, "body1"), self.body_of(&item, "body2"))
+        else {
+            return;
+        };
+        let anchor = self.numbers::<3>(&item, "anchor").unwrap_or_default();
+        let place = Vector3::from(anchor.each_ref().map(|number| number.value));
+        let between = Rest {
+            axes: one.1.axes.transpose() * other.1.axes,
+            origin: one.1.axes.transpose() * (other.1.origin - one.1.origin),
+        };
+        let size = place.amax() + one.1.origin.amax() + other.1.origin.amax();
+        let numbers = |place: Vector3<f64>| -> [Number; 3] {
+            let clean = |x: f64| match x.abs() <= ROUNDING * size {
+                true => Number::zero(),
+                false => Number::computed(x),
+            };
+            place.map(clean).into()
+        };
+        let (anchors, axes) = match is_weld {
+            false => {
+                let there = between.axes.transpose() * (place - between.origin);
+                ([anchor, numbers(there)], None)
+            }
+            true => {
+                let mut axes = between.axes;
+                let mut there = between.origin + between.axes * place;
+                if let Some(pose) = self.numbers::<7>(&item, "relpose") {
+                    let [x, y, z, turn @ ..] = pose.map(|number| number.value);
+                    // Its place is that of the anchor.
+                    if turn.iter().any(|x| *x != 0.0) {
+                        axes = of_quaternion(turn);
+                        there = Vector3::new(x, y, z);
+                    }
+                }
+                ([numbers(there), anchor], Some(axes))
+            }
+        };
+        let [first, second] = anchors;
+        self.robot.ties.push(Tie {
+            name: match element.own("name") {
+                Some(name) => name.value.clone(),
+                None => format!("{kind}_{}_{}", one.0, other.0),
+            },
+            kind: TieKind::Closing {
+                anchors: Box::new([
+                    Anchor {
+                        link: one.0,
+                        xyz: first,
+                    },
+                    Anchor {
+                        link: other.0,
+                        xyz: second,
+                    },
+                ]),
+                axes,
+            },
+        });
+    }
+
+    /// The state called `home`, in which the machine starts.
+    pub(super) fn home(&mut self, key: &'e Element) {
+        let item = self.item(key, 0);
+        if let Some((q, at)) = self.list(&item, "qpos") {
+            self.home_places(&item, &q, at);
+        }
+        if let Some((v, at)) = self.list(&item, "qvel") {
+            self.home_rates(&item, &v, at);
+        }
+        if let Some((u, at)) = self.list(&item, "ctrl") {
+            if u.len() != self.actuators {
+                return self.miscounted(&item, "ctrl", [self.actuators, u.len()], at);
+            }
+            for drive in &mut self.robot.drives {
+                drive.usual = u.get(drive.number).cloned().unwrap_or_default();
+            }
+        }
+    }
+
+    fn miscounted(&mut self, item: &Item<'e>, name: &str, [wanted, found]: [usize; 2], at: usize) {
+        let message = format!(
+            "`{name}` of {}: {wanted} numbers are expected, and there are {found}",
+            item.owner
+        );
+        self.faults.add(at, message);
+    }
+
+    fn home_places(&mut self, item: &Item<'e>, q: &[Number], at: usize) {
+        let length = |kind: Kind| match kind {
+            Kind::Fixed => 0,
+            Kind::Floating => 7,
+            Kind::Spherical => 4,
+            _ => 1,
+        };
+        let wanted = self.robot.joints.iter().map(|joint| length(joint.kind));
+        let wanted = wanted.sum();
+        if q.len() != wanted {
+            return self.miscounted(item, "qpos", [wanted, q.len()], at);
+        }
+        let mut rest = q;
+        for joint in &mut self.robot.joints {
+            let (own, after) = rest.split_at(length(joint.kind));
+            rest = after;
+            let (place, turn) = match own {
+                [] => continue,
+                [value] => {
+                    joint.home = Some(value.clone());
+                    continue;
+                }
+                [x, y, z, turn @ ..] if joint.kind == Kind::Floating => {
+                    ([x, y, z].map(Clone::clone), turn)
+                }
+                turn => (<[Number; 3]>::default(), turn),
+            };
+            let turn: Vec<f64> = turn.iter().map(|number| number.value).collect();
+            let Ok(turn) = <[f64; 4]>::try_from(turn) else {
+                continue;
+            };
+            joint.start = Some(Start {
+                xyz: place,
+                axes: of_quaternion(turn),
+            });
+        }
+    }
+
+    fn home_rates(&mut self, item: &Item<'e>, v: &[Number], at: usize) {
+        let length = |kind: Kind| match kind {
+            Kind::Fixed => 0,
+            Kind::Floating => 6,
+            Kind::Spherical => 3,
+            _ => 1,
+        };
+        let wanted = self.robot.joints.iter().map(|joint| length(joint.kind));
+        let wanted = wanted.sum();
+        if v.len() != wanted {
+            return self.miscounted(item, "qvel", [wanted, v.len()], at);
+        }
+        let mut rest = v;
+        let mut is_turning = false;
+        for joint in &mut self.robot.joints {
+            let (own, after) = rest.split_at(length(joint.kind));
+            rest = after;
+            match own {
+                [value] => joint.home_rate = Some(value.clone()),
+                several => is_turning |= several.iter().any(|number| !number.is_zero()),
+            }
+        }
+        if is_turning {
+            let message = format!(
+                "`qvel` of {} moves a free or a ball joint, whose rates are not read",
+                item.owner
+            );
+            self.refuse(at, "qvel", &message);
+        }
+    }
+}
+
+/// The axes, as columns, that a quaternion leads to; those of no turn where it is zero.
+fn of_quaternion([w, x, y, z]: [f64; 4]) -> Matrix3<f64> {
+    let square = w * w + x * x + y * y + z * z;
+    if square == 0.0 {
+        return Matrix3::identity();
+    }
+    let s = 2.0 / square;
+    Matrix3::new(
+        1.0 - s * (y * y + z * z),
+        s * (x * y - w * z),
+        s * (x * z + w * y),
+        s * (x * y + w * z),
+        1.0 - s * (x * x + z * z),
+        s * (y * z - w * x),
+        s * (x * z - w * y),
+        s * (y * z + w * x),
+        1.0 - s * (x * x + y * y),
+    )
+}
