@@ -900,3 +900,85 @@ fn files_hold_what_is_printed() {
     assert!((first[1] - last[1]).abs() < CLOSE && (first[2] - last[2]).abs() < CLOSE);
     assert!(std::fs::read_to_string(&plot).unwrap().contains("</svg>"));
 }
+
+/// A body that hangs from a fixed point and turns about the vertical once in each period: its four numbers come back with the other sign. Its
+/// tilts in the ground's axes, as one complex number η, obey A η'' − i C ω η' + m g l η = 0, so multipliers are e^{i s T} with
+/// A s² − C ω s − m g l = 0, and twice 1, for the turn and the rate of the turn; as complex pairs.
+#[test]
+fn a_top_that_turns_round_comes_back_with_the_other_sign() {
+    let spec = "machine Hanging in space {
+        parameters { m: kg = 2, l: m = 0.3, A: kg*m^2 = 0.25, C: kg*m^2 = 0.1, g: m/s^2 = 9.81 }
+        coordinates { e[0]: 1 = 2, e[1..3]: 1, der(e[3]): 1/s = 7 }
+        frames { top = ground.turn(e[0], e[1], e[2], e[3]) }
+        bodies { top { mass: m, inertia: (A - m*l^2, A - m*l^2, C), frame: top, at: top.point(0, 0, -l) } }
+        gravity (0, 0, -g);
+    }";
+    let spec = Scratch::new("hanging.machine", spec);
+    let omega = 7.0; // twice 7/s over the length of 2
+    let period = TAU / omega;
+    let found = orbit(&[spec.path(), "--period", &format!("{period:?}")]);
+    assert!((number(&found["period"]) - period).abs() <= 1e-9);
+    let (a, c, stiffness) = (0.25, 0.1, 2.0 * 9.81 * 0.3);
+    let root = (c * c * omega * omega + 4.0 * a * stiffness).sqrt();
+    let mut known: Vec<(f64, f64)> = Vec::new();
+    for s in [
+        (c * omega + root) / (2.0 * a),
+        (c * omega - root) / (2.0 * a),
+    ] {
+        let (sin, cos) = (s * period).sin_cos();
+        known.extend([(cos, sin), (cos, -sin)]);
+    }
+    known.extend([(1.0, 0.0); 2]);
+    let all = multipliers(&found);
+    assert_eq!(all.len(), 6, "{found:#}");
+    for (re, im) in known {
+        let near = all.iter().map(|(x, y, ..)| (x - re).hypot(y - im));
+        let least = near.fold(f64::INFINITY, f64::min);
+        // 1 is there twice, and the root of an error of 1e-9 is what is left of it where it is no trivial one.
+        let bound = if im == 0.0 { 1e-4 } else { CLOSE };
+        assert!(least <= bound, "{re} + {im}i: {least:e}\n{found:#}");
+    }
+}
+
+/// The same motion by four numbers and by three angles has the same period and multipliers: a body with three moments of inertia that swings far
+/// about one of its axes.
+#[test]
+fn a_body_swings_by_four_numbers_as_by_angles() {
+    let machine = |coordinates: &str, turns: &str| {
+        let text = format!(
+            "machine Swinging in space {{
+                parameters {{ m: kg = 2, l: m = 0.3, A: kg*m^2 = 0.05, B: kg*m^2 = 0.03, C: kg*m^2 = 0.06, g: m/s^2 = 9.81 }}
+                coordinates {{ {coordinates} }}
+                frames {{ body = ground{turns} }}
+                bodies {{ body {{ mass: m, inertia: (A, B, C), frame: body, at: body.point(0, 0, -l) }} }}
+                gravity (0, 0, -g);
+            }}"
+        );
+        Scratch::new("swinging.machine", &text)
+    };
+    let (sin, cos) = 0.6_f64.sin_cos();
+    let four = machine(
+        &format!("e[0]: 1 = {cos:?}, e[1]: 1 = {sin:?}, e[2..3]: 1"),
+        ".turn(e[0], e[1], e[2], e[3])",
+    );
+    let three = machine(
+        "a: rad = 1.2, b: rad, c: rad",
+        ".turn(x, a).turn(y, b).turn(z, c)",
+    );
+    let [four, three] = [four, three].map(|spec| orbit(&[spec.path()]));
+    let [period, known] = [&four, &three].map(|found| number(&found["period"]));
+    assert!((period - known).abs() <= 1e-9 * known, "{period} {known}");
+    let [found, known] = [&four, &three].map(multipliers);
+    assert_eq!(found.len(), known.len());
+    let largest = known
+        .iter()
+        .fold(1.0_f64, |most, (x, y, ..)| most.max(x.hypot(*y)));
+    for (re, im, _, trivial) in &known {
+        let near = found.iter().map(|(x, y, ..)| (x - re).hypot(y - im));
+        let least = near.fold(f64::INFINITY, f64::min);
+        // Near 1, where it is there twice, the root of an error of 1e-9.
+        let is_double = *trivial || (re - 1.0).hypot(*im) < 1e-3;
+        let bound = if is_double { 1e-4 } else { CLOSE * largest };
+        assert!(least <= bound, "{re} + {im}i: {least:e}\n{four:#}{three:#}");
+    }
+}

@@ -379,7 +379,6 @@ fn what_depends_on_the_length_is_refused() {
         assert!(!output.status.success() && said.contains(words), "{said}");
     };
     let top = "machines/upright_top.machine";
-    refused(&["orbit", top, "--period", "1"], "turn it by angles");
     refused(
         &["brachistochrone", top, "--to", "e[0]=0,e[1]=1"],
         "turn it by angles",

@@ -351,13 +351,6 @@ pub fn find(machine: &InterpretedMachine, sought: &Sought) -> Result<Orbit, NoOr
             "the machine has friction that sticks, which has no variational equations".into(),
         ));
     }
-    if let Some([first, ..]) = machine.program().quaternions.first() {
-        let name = &machine.program().coordinates[*first].name;
-        return Err(NoOrbit::Refused(format!(
-            "a frame is turned by four numbers, `{name}` the first of them, and turns that come back may leave them with the other sign: \
-             turn it by angles"
-        )));
-    }
     let n = sought.start.q.values.len();
     if n == 0 {
         return Err(NoOrbit::Rest);
@@ -575,7 +568,7 @@ impl Search<'_> {
         };
         let system = self.machine.prepare();
         if system.constraints().len() == 0 {
-            return Ok(all(start));
+            return Ok(self.with_lengths(all(start)));
         }
         let mut run = Simulation::new(self.machine).until(start.t);
         let kept = &self.sought.kept;
@@ -592,7 +585,50 @@ impl Search<'_> {
         }
         let run = run.run_interpreted(start.clone());
         let run = run.map_err(|error| NoOrbit::Start(error.to_string()))?;
-        Ok(all(run.start()))
+        Ok(self.with_lengths(all(run.start())))
+    }
+
+    /// The same state with four numbers of length 1 that stays. Only their ratios are part of the motion.
+    fn with_lengths(&self, mut x: DVector<f64>) -> DVector<f64> {
+        for four in &self.machine.program().quaternions {
+            let square: f64 = four.iter().map(|i| x[*i] * x[*i]).sum();
+            let along: f64 = four.iter().map(|i| x[*i] * x[self.n + i]).sum();
+            let length = square.sqrt();
+            for i in four {
+                x[self.n + i] = (x[self.n + i] - x[*i] * along / square) / length;
+                x[*i] /= length;
+            }
+        }
+        x
+    }
+
+    /// The signs with which the four numbers of each frame are nearest to those of the start. A frame that has turned once has the
+    /// other sign, and is where it was: so the state comes back up to these signs, and its derivatives with it.
+    fn signs(&self, x: &DVector<f64>, there: &DVector<f64>) -> DVector<f64> {
+        let mut signs = DVector::repeat(2 * self.n, 1.0);
+        for four in &self.machine.program().quaternions {
+            let along: f64 = four.iter().map(|i| x[*i] * there[*i]).sum();
+            if along < 0.0 {
+                for i in four {
+                    (signs[*i], signs[self.n + i]) = (-1.0, -1.0);
+                }
+            }
+        }
+        signs
+    }
+
+    /// A passage whose end has these signs.
+    fn signed(&self, chart: &Chart, passage: Passage, signs: &DVector<f64>) -> Passage {
+        let own = chart.of(signs);
+        let mut monodromy = passage.monodromy;
+        for (mut row, sign) in monodromy.row_iter_mut().zip(own.iter()) {
+            row *= *sign;
+        }
+        Passage {
+            rate: passage.rate.component_mul(&own),
+            x: passage.x.component_mul(signs),
+            monodromy,
+        }
     }
 
     /// The numbers that tell states near `x`.
@@ -657,11 +693,26 @@ impl Search<'_> {
         let run = run.map_err(|error| NoOrbit::Run(error.to_string()))?;
         let end = run.end();
         let all = end.q.values.iter().chain(&end.v.values).copied();
-        Ok(DVector::from_iterator(2 * self.n, all))
+        let there = DVector::from_iterator(2 * self.n, all);
+        let signs = self.signs(x, &there);
+        Ok(there.component_mul(&signs))
     }
 
     /// The state a period later, with derivatives.
     fn passage(
+        &self,
+        chart: &Chart,
+        x: &DVector<f64>,
+        period: f64,
+        tolerance: f64,
+    ) -> Result<Passage, NoOrbit> {
+        let passage = self.unsigned_passage(chart, x, period, tolerance)?;
+        let signs = self.signs(x, &passage.x);
+        Ok(self.signed(chart, passage, &signs))
+    }
+
+    /// The same with the four numbers of frames as the run has them.
+    fn unsigned_passage(
         &self,
         chart: &Chart,
         x: &DVector<f64>,
@@ -708,7 +759,9 @@ impl Search<'_> {
         });
         if chart.rank() > 0 {
             // The motion itself is that of a run that is kept on the constraints.
-            there = self.end(x, period, tolerance)?;
+            let end = self.end(x, period, tolerance)?;
+            let signs = self.signs(&end, &there);
+            there = end.component_mul(&signs);
         }
         let none = || NoOrbit::Run(format!("there are no accelerations at t = {t} s"));
         Ok(Passage {
@@ -850,10 +903,17 @@ impl Search<'_> {
         let distance = {
             let (normal, place) = (normal.clone(), place.clone());
             let picked = chart.picked().to_vec();
+            let fours = self.machine.program().quaternions.clone();
             move |state: &State<Named>| -> f64 {
+                let sign = |k: usize| {
+                    let four = fours.iter().find(|four| four.contains(&k));
+                    let terms = four.into_iter().flatten();
+                    let along: f64 = terms.map(|i| state.q.values[*i] * place[*i]).sum();
+                    if along < 0.0 { -1.0 } else { 1.0 }
+                };
                 let number = |k: usize| match k < n {
-                    true => state.q.values[k],
-                    false => state.v.values[k - n],
+                    true => sign(k) * state.q.values[k],
+                    false => sign(k - n) * state.v.values[k - n],
                 };
                 let terms = picked.iter().zip(normal.iter());
                 terms
@@ -876,6 +936,7 @@ impl Search<'_> {
             .map(|event| {
                 let all = event.state.q.values.iter().chain(&event.state.v.values);
                 let there = DVector::from_iterator(2 * n, all.copied());
+                let there = there.component_mul(&self.signs(&place, &there));
                 let off = chart.of(&(there - &place));
                 ((&scale * off).norm(), event.state.t - t)
             })
