@@ -220,19 +220,15 @@ impl InterpretedMachine {
     }
 
     /// Whether [`run_interpreted_in_lanes`](crate::Simulation::run_interpreted_in_lanes) makes runs of this machine, with
-    /// any parameters, in lanes, by an explicit method and with inputs that stay as they are: where it has machine code, no
-    /// constraints and no contacts. Of [`Engine::Auto`] that is so as soon as code has paid for one run.
+    /// any parameters, in lanes, by an explicit method and with inputs that stay as they are: where it has machine code
+    /// and no contacts. Of [`Engine::Auto`] that is so as soon as code has paid for one run.
     pub fn may_run_in_lanes(&self) -> bool {
         let Program {
-            constraints,
             contacts,
             unilateral,
             ..
         } = &*self.program;
-        constraints.is_empty()
-            && contacts.is_empty()
-            && unilateral.is_empty()
-            && self.machine_code.pays_in_lanes()
+        contacts.is_empty() && unilateral.is_empty() && self.machine_code.pays_in_lanes()
     }
 
     /// The program that is interpreted.

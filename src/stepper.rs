@@ -847,6 +847,23 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             model.take_rates(quadratures, i, (t, q, v, &k[i]));
         }
         attempt::arrive(method, (before, h), k, now, (self.end, &[last]));
+        self.finish(h)
+    }
+
+    /// Ends a try whose stages are done and whose new point stands in `now`: brings that onto the constraints and finds the error, 1 being
+    /// just tolerable.
+    #[inline(always)]
+    fn finish(&mut self, h: f64) -> Result<f64, StepError> {
+        let Self {
+            method,
+            model,
+            quadratures,
+            now,
+            k,
+            control: Control { work, .. },
+            ..
+        } = self;
+        let stages = method.tableau.stages;
         let mut moved = false;
         if method.scheme.error_needs_end {
             moved = model.project(now)?;

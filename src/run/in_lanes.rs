@@ -44,7 +44,7 @@ pub(crate) fn run_all<'a, 'l, M: Machine>(
     let mut lanes: [Option<Lane<'_, 'a, 'l, M>>; WIDTH] = std::array::from_fn(|_| None);
     let mut tries: Option<Tries> = None;
     loop {
-        let mut which: LaneMask = 0;
+        let mut is_any_under_way = false;
         for (number, lane) in lanes.iter_mut().enumerate() {
             while lane.is_none()
                 && let Some((index, prepared)) = queue.next()
@@ -78,23 +78,24 @@ pub(crate) fn run_all<'a, 'l, M: Machine>(
                     None => *lane = Some(lane_begun),
                 }
             }
-            which |= LaneMask::from(lane.is_some()) << number;
+            is_any_under_way |= lane.is_some();
         }
-        let Some(tries) = tries.as_mut().filter(|_| which != 0) else {
+        let Some(tries) = tries.as_mut().filter(|_| is_any_under_way) else {
             break;
         };
-        match which.count_ones() < FEWEST {
-            true => tries.skip(),
-            false => {
-                for (number, lane) in lanes.iter().enumerate() {
-                    if let Some(Lane { run, next, .. }) = lane
-                        && let Some(next) = next
-                    {
-                        tries.put(number, &run.stepper, *next);
-                    }
-                }
-                tries.attempt(which, machines);
+        let mut together: LaneMask = 0;
+        for (number, lane) in lanes.iter().enumerate() {
+            if let Some(Lane { run, next, .. }) = lane
+                && let Some(next) = next
+                && run.stepper.may_try_in_lanes()
+            {
+                tries.put(number, &run.stepper, *next);
+                together |= 1 << number;
             }
+        }
+        match together.count_ones() < FEWEST {
+            true => tries.skip(),
+            false => tries.attempt(together, machines),
         }
         for (number, lane) in lanes.iter_mut().enumerate() {
             let ending = lane

@@ -4,6 +4,8 @@
 //! for all of them together, by the sums that a stepper alone adds up. So each has the bits that it has alone. A lane in which
 //! anything is out of the ordinary, accelerations without a value or an error without measure, is tried again alone, which
 //! then says what it is.
+//!
+//! Where constraints hold a machine, each new point is brought onto them alone, and its error found there.
 
 use std::vec::Vec;
 
@@ -60,6 +62,8 @@ pub(crate) struct Tries {
     end: Wide,
     is_last: [bool; WIDTH],
     errors: [f64; WIDTH],
+    /// Whether constraints hold the machines: then a try in lanes ends at the new point, which each brings onto them.
+    are_held: bool,
     /// Where the last try went as it should.
     went_well: LaneMask,
 }
@@ -68,14 +72,17 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// Whether its steps are made by explicit stages and nothing else, with inputs that stay as they are.
     pub(crate) fn may_run_in_lanes(&self) -> bool {
         let system = self.model.system.get();
-        let held = system.constraints().len()
-            + system.contacts().len()
-            + system.unilateral_contacts().len();
-        held == 0
+        system.contacts().len() + system.unilateral_contacts().len() == 0
             && self.method.kind == Kind::RungeKutta
             && self.implicit.is_none()
             && self.taylor.is_none()
             && self.model.law.is_constant()
+    }
+
+    /// Whether its next try may be made in lanes: not while constraints depend on each other, which asks for other equations.
+    pub(crate) fn may_try_in_lanes(&self) -> bool {
+        let constraints = self.model.constraints.as_ref();
+        constraints.is_none_or(|constraints| !constraints.redundant && !constraints.at_fork)
     }
 
     /// Begins a step: its first try.
@@ -100,6 +107,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         tries: &Tries,
     ) -> Result<Option<Try>, StepError> {
         let tried = match tries.take(lane, self) {
+            Some(_) if tries.are_held => self.finish(of.h),
             Some(error) => Ok(error),
             None => self.attempt(of.h, of.last),
         };
@@ -134,6 +142,7 @@ impl Tries {
             end: Lanes::splat(of.now.t),
             is_last: [false; WIDTH],
             errors: [0.0; WIDTH],
+            are_held: is_held(of),
             went_well: 0,
         }
     }
@@ -144,6 +153,7 @@ impl Tries {
             && self.tolerance.relative.to_bits() == of.tolerance.relative.to_bits()
             && self.before.q.len() == of.now.q.as_slice().len()
             && self.powers.is_some() == of.quadratures.integrals().is_some()
+            && self.are_held == is_held(of)
     }
 
     /// Puts the beginning of a step and the length of its try into a lane.
@@ -176,8 +186,8 @@ impl Tries {
         <Wide as Number>::run(Attempt(self, machines));
     }
 
-    /// Gives a stepper what a try of its step came to, and returns the error of the step, 1 being just tolerable. None if it is
-    /// to be tried alone.
+    /// Gives a stepper what a try of its step came to, and returns the error of the step, 1 being just tolerable, which says nothing where
+    /// constraints hold it. None if it is to be tried alone.
     fn take<S: System, L: InputLaw<S>, A: Quadratures<S>>(
         &self,
         lane: usize,
@@ -188,7 +198,7 @@ impl Tries {
         }
         let stages = self.method.tableau.stages;
         let error = self.errors[lane];
-        let at_end = self.method.scheme.error_needs_end || error <= 1.0;
+        let at_end = !self.are_held && (self.method.scheme.error_needs_end || error <= 1.0);
         let known = if at_end { stages + 1 } else { stages };
         for (to, from) in to.k.iter_mut().zip(&self.k).take(known).skip(1) {
             take(to, lane, from);
@@ -224,6 +234,7 @@ impl Tries {
             end,
             is_last,
             errors,
+            are_held,
             went_well,
         } = self;
         let stages = method.tableau.stages;
@@ -236,6 +247,9 @@ impl Tries {
             }
         }
         attempt::arrive(method, (before, *h), k, now, (*end, is_last));
+        if *are_held {
+            return;
+        }
         if method.scheme.error_needs_end {
             let at = (now.t, &*now.q, &*now.v);
             *went_well &= look(
@@ -266,6 +280,11 @@ impl Tries {
             *went_well &= fine | !good;
         }
     }
+}
+
+/// Whether constraints hold a machine.
+fn is_held<S: System, L, A>(stepper: &Stepper<'_, S, L, A>) -> bool {
+    stepper.model.system.get().constraints().len() != 0
 }
 
 /// Accelerations of a stage, and where they are kept the powers; in which lanes they have values.

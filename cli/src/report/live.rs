@@ -42,7 +42,9 @@ pub fn objection(
 ) -> Option<String> {
     let without = "leave out --live, and the page shows the run of the command; of other values, by --set, another";
     let what = if let Some(contact) = program.contacts.first() {
-        format!("`{contact}` of `sliding` sticks or slides, which the page does not decide: {without}")
+        format!(
+            "`{contact}` of `sliding` sticks or slides, which the page does not decide: {without}"
+        )
     } else if let Some(contact) = program.unilateral.first() {
         format!(
             "whether `{}` of `contacts` is closed is nothing that the page decides: {without}",

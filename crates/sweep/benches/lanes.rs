@@ -62,6 +62,7 @@ fn main() {
             "theta2",
         ),
         ("vibrating_crusher", 1.0, ("start(x)", 0.0, 0.01), "x"),
+        ("four_bar", 2.0, ("omega", 4.0, 8.0), "rocker"),
     ] {
         for (tolerance, reduces) in [(1e-6, false), (1e-9, false), (1e-9, true)] {
             let mut plan = plan(machine, until, [varied], tolerance);

@@ -358,7 +358,7 @@ impl Sweep {
         self.plan.chunk = chunk;
     }
 
-    /// Whether its machine has code for several runs at once in the lanes of the processor: machine code, no constraints and no
+    /// Whether its machine has code for several runs at once in the lanes of the processor: machine code and no
     /// contacts. Of [`Engine::Auto`] only as soon as code has paid for one run.
     pub fn may_run_in_lanes(&self) -> bool {
         self.machine.may_run_in_lanes()

@@ -116,6 +116,34 @@ fn library_machines_by_every_explicit_method() {
     }
 }
 
+/// Constraints of positions and of rates; some that follow from others, which go alone; mechanisms that pass poses in which they come to do so.
+#[test]
+fn constraints_hold_in_lanes() {
+    for (name, varied, until) in [
+        ("four_bar", grid("omega", 1.0, 8.0, 19), 0.6),
+        ("slider_crank", grid("omega", 5.0, 20.0, 18), 0.3),
+        ("closed_pendulum", grid("rate(q[1])", -0.5, 0.5, 17), 0.5),
+        (
+            "andrews_squeezer",
+            grid("start(beta)", -0.07, -0.05, 9),
+            0.01,
+        ),
+        ("chaplygin_sleigh", grid("rate(phi)", 1.0, 6.0, 19), 1.0),
+        ("rattleback", grid("rate(psi)", -6.0, -4.0, 10), 0.2),
+        ("rolling_coin", grid("rate(roll)", 7.0, 9.0, 18), 0.3),
+        ("bricard", grid("start(q[1])", 0.1, 1.0, 9), 0.3),
+        ("four_bars", grid("v0", -1.5, -0.5, 9), 2.5),
+    ] {
+        for method in ["dop853", "dopri5"] {
+            let mut plan = plan(&library(name), until, vec![varied.clone()]);
+            plan.method = method.into();
+            plan.tolerance = 1e-7;
+            plan.at = vec![0.3 * until, until];
+            compare(&plan);
+        }
+    }
+}
+
 #[test]
 fn what_is_recorded_on_the_way() {
     let text = library("double_pendulum");
