@@ -48,10 +48,10 @@ pub fn unilateral_forces<S: System>(
     let (touches, _) = touching.near(system, (t, q, v), true);
     let closed = touching.lasting(system, (t, q, v), &touches, true);
     let resting = touching.resting(system, t, q, v);
-    let modes = touching.settled(system, at, &closed, &resting, None)?;
+    let (modes, shares) = touching.settled_by_forces(system, at, &closed, &resting, None)?;
     touching.set_modes(modes);
     touching.load_layers(system, t, q, v);
-    touching.forces(system, at, a)
+    touching.forces_shared(system, at, a, Some(&shares))
 }
 
 impl Touching {
@@ -62,11 +62,25 @@ impl Touching {
         at: (f64, &S::Vector, &S::Vector, &S::Inputs),
         a: &mut S::Vector,
     ) -> Result<Vec<UnilateralForce>, StepError> {
+        self.forces_shared(system, at, a, None)
+    }
+
+    /// The same, with the forces of contacts that may share their load in several ways.
+    fn forces_shared<S: System>(
+        &self,
+        system: &S,
+        at: (f64, &S::Vector, &S::Vector, &S::Inputs),
+        a: &mut S::Vector,
+        shares: Option<&[[f64; 2]]>,
+    ) -> Result<Vec<UnilateralForce>, StepError> {
         use crate::Vector;
         let (t, q, v, _) = at;
         let here = Here::of(system, t, q, v);
-        let reaction = self.reaction(system, at)?;
+        let mut reaction = self.reaction(system, at)?;
         a.as_mut_slice().copy_from_slice(&reaction.a);
+        if let (false, Some(shares)) = (reaction.is_only, shares) {
+            reaction.forces.copy_from_slice(shares);
+        }
         let of_contact = |(k, mode): (usize, &Mode)| UnilateralForce {
             gap: here.gaps[k],
             gap_rate: here.rates[2 * k],

@@ -795,15 +795,30 @@ impl Touching {
         resting: &[bool],
         known: Option<(usize, Mode)>,
     ) -> Result<Vec<Mode>, StepError> {
+        let settled = self.settled_by_forces(system, at, closed, resting, known);
+        settled.map(|(modes, _)| modes)
+    }
+
+    /// The same, with the forces by which they do it, along normal and tangent: where a load may be shared in several ways, in one that
+    /// every contact allows.
+    pub fn settled_by_forces<S: System>(
+        &self,
+        system: &S,
+        at: At<'_, S>,
+        closed: &[bool],
+        resting: &[bool],
+        known: Option<(usize, Mode)>,
+    ) -> Result<(Vec<Mode>, Vec<[f64; 2]>), StepError> {
         let (t, q, v, _) = at;
         let mut modes = vec![Mode::Open; closed.len()];
+        let mut forces = vec![[0.0; 2]; closed.len()];
         let asked_of: Vec<usize> = (0..closed.len())
             .filter(|k| closed[*k] && known != Some((self.leans[*k].unwrap_or(*k), Mode::Open)))
             .collect();
         // Where among them what a contact leans on stands: before it.
         let leans = |place: usize| self.leans[asked_of[place]].map(|_| place - 1);
         if asked_of.is_empty() {
-            return Ok(modes);
+            return Ok((modes, forces));
         }
         let free = Self::free(system, at)?;
         let here = Here::of(system, t, q, v);
@@ -1012,7 +1027,11 @@ impl Touching {
                 };
             }
             if !breaks_away {
-                return Ok(modes);
+                let parts = known.iter().zip(&answer.forces);
+                for (&k, (known, found)) in asked_of.iter().zip(parts) {
+                    forces[k] = [known[0] + found[0], known[1] + found[1]];
+                }
+                return Ok((modes, forces));
             }
         }
         Err(StepError::Contact {

@@ -1,5 +1,6 @@
 //! The machines of the library run, and are held against closed forms, publications and more digits.
 
+mod collisions;
 mod crushers;
 mod emitted_series;
 mod friction;

@@ -1,0 +1,223 @@
+//! Very many impacts in one run, with the books of energy closed: kinetic and potential energy, and what impacts and friction took, are start and
+//! work of the drive to what tolerance and rounding of all steps explain.
+
+use lagrangian::interpreted::InterpretedMachine;
+use lagrangian::{
+    ContactEventKind, Machine, Method, Simulation, Solution, System, Vector, unilateral_forces,
+};
+
+/// Of a step, relative and absolute.
+const TOLERANCE: f64 = 1e-9;
+
+fn machine(name: &str, settings: &[(&str, f64)]) -> InterpretedMachine {
+    let path = format!(
+        "{}/machines/contacts/{name}.machine",
+        env!("CARGO_MANIFEST_DIR")
+    );
+    let mut machine = InterpretedMachine::from_file(path).expect("a good spec");
+    for (parameter, value) in settings {
+        machine.set(parameter, *value).expect("a parameter");
+    }
+    machine
+}
+
+/// A run whose steps are forgotten, by a method that never hands over to time stepping.
+fn run(machine: &InterpretedMachine, until: f64) -> Solution<InterpretedMachine> {
+    Simulation::new(machine)
+        .method(Method::named("dop853").expect("the default method"))
+        .tolerance(TOLERANCE)
+        .until(until)
+        .max_steps(usize::MAX)
+        .forget_steps()
+        .energy_balance(true)
+        .run_interpreted(machine.start())
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn impacts(run: &Solution<InterpretedMachine>) -> usize {
+    let all = run.contact_events().iter();
+    all.filter(|event| event.kind == ContactEventKind::Impact)
+        .count()
+}
+
+/// The books: the residual is what a tolerance of all steps and rounding explain, and the contacts took what they took together. The residual.
+fn is_booked(run: &Solution<InterpretedMachine>) -> f64 {
+    let balance = run.energy_balance().expect("a balance");
+    let residual = balance.residual();
+    assert!(
+        residual.abs() <= balance.explained,
+        "{residual:e} of {:e}",
+        balance.explained
+    );
+    // The tolerance in each step, of all that was turned over.
+    let of_steps = TOLERANCE * run.statistics().steps as f64 * balance.turned_over;
+    assert!(residual.abs() <= of_steps, "{residual:e} of {of_steps:e}");
+    assert_eq!(run.warnings(), []);
+    residual
+}
+
+/// A ball that falls from h keeps e of its speed in each impact, so the k-th is at √(2h/g) (1 + 2e(1 − e^(k−1))/(1 − e)), and n of them
+/// take m g h (1 − e^(2n)); e is such that this is 1 − 1/e² of all, Euler's number.
+///
+/// Each flight is a step or a few, exact but for rounding: of some 300 operations (of 12 stages, each a sum of the ones before), which change
+/// energy by no more than half a unit in the last place each.
+fn ball(n: i32) {
+    let e = 1.0 - 1.0 / f64::from(n);
+    let machine = machine("bouncing_ball", &[("e", e)]);
+    let (energy, fall) = (0.1 * 9.81, (2.0_f64 / 9.81).sqrt());
+    let of_n = e.powi(n);
+    // 1 − e is 1/n. Half a flight after the n-th impact.
+    let last = fall * (1.0 + 2.0 * e * (1.0 - e.powi(n - 1)) * f64::from(n));
+    let run = run(&machine, last + fall * of_n);
+    assert_eq!(impacts(&run), n as usize);
+    let residual = is_booked(&run);
+    let lost: f64 = run.impact_losses().iter().sum();
+    let truth = energy * (1.0 - of_n * of_n);
+    let rounding = 300.0 * f64::from(n) * 0.5 * f64::EPSILON * energy;
+    assert!(
+        (lost - truth).abs() <= rounding,
+        "{lost}, not {truth}: {rounding:e}"
+    );
+    assert!(residual.abs() <= rounding, "{residual:e}: {rounding:e}");
+    println!(
+        "{n} impacts of a ball: {} steps, {:.1} s, {lost:.12} J lost, off by {:.1e}, residual {residual:.1e} J",
+        run.statistics().steps,
+        run.statistics().seconds,
+        lost - truth
+    );
+}
+
+#[test]
+fn ten_thousand_impacts_of_a_ball_are_booked() {
+    ball(10_000);
+}
+
+#[test]
+#[ignore = "a million impacts take minutes"]
+fn a_million_impacts_of_a_ball_are_booked() {
+    ball(1_000_000);
+}
+
+/// A crusher whose debalance turns at 40 rad/s, slowly enough that its parts never come to roll on each other for good: its impacts
+/// go on, in sequences that accumulate, with stretches of rolling and slipping between them.
+fn crusher(until: f64, least: usize) {
+    let run = run(&machine("colliding_crusher", &[("w", 40.0)]), until);
+    let count = impacts(&run);
+    assert!(count >= least, "{count}");
+    let residual = is_booked(&run);
+    let balance = run.energy_balance().expect("a balance");
+    let taken: f64 = run.contact_energies().iter().map(|of| of.lost()).sum();
+    println!(
+        "{count} impacts of the crusher in {until} s: {} steps, {:.1} s, work {:.6e} J, contacts took {taken:.6e} J, residual {residual:.1e} J, {:.1e} explained",
+        run.statistics().steps,
+        run.statistics().seconds,
+        balance.work,
+        balance.explained
+    );
+    // All that is lost is lost in contacts and in the suspension; neither is negative.
+    assert!(taken > 0.0 && taken < balance.dissipated);
+}
+
+#[test]
+fn hundreds_of_impacts_of_the_crusher_are_booked() {
+    crusher(3.0, 400);
+}
+
+#[test]
+#[ignore = "ten thousand impacts take minutes"]
+fn ten_thousand_impacts_of_the_crusher_are_booked() {
+    crusher(200.0, 10_000);
+}
+
+/// What is compiled collides as what is interpreted, event by event, to the last bit.
+#[test]
+fn compiled_machines_collide_as_interpreted_ones_do() {
+    fn check<M: Machine>(compiled: &M, name: &str, until: f64) {
+        let interpreted = machine(name, &[]);
+        let run = |machine: &InterpretedMachine| run(machine, until);
+        let expected = run(&interpreted);
+        let found = Simulation::new(compiled)
+            .method(Method::named("dop853").expect("the default method"))
+            .tolerance(TOLERANCE)
+            .until(until)
+            .run(compiled.start())
+            .unwrap_or_else(|error| panic!("{error}"));
+        let (ours, theirs) = (found.contact_events(), expected.contact_events());
+        assert_eq!(ours.len(), theirs.len(), "{name}");
+        assert!(!ours.is_empty(), "{name}");
+        for (ours, theirs) in ours.iter().zip(theirs) {
+            assert_eq!(ours.contact, theirs.contact);
+            assert_eq!(ours.kind, theirs.kind);
+            assert_eq!(ours.state.t.to_bits(), theirs.state.t.to_bits());
+            assert_eq!(ours.impact, theirs.impact);
+        }
+        let bits = |state: &[f64]| state.iter().map(|x| x.to_bits()).collect::<Vec<u64>>();
+        let system = compiled.prepare();
+        let q = system.to_vector(&found.end().q);
+        assert_eq!(bits(q.as_slice()), bits(&expected.end().q.values), "{name}");
+    }
+    check(
+        &lagrangian_machines::BowlingBall::default(),
+        "bowling_ball",
+        3.0,
+    );
+    check(&lagrangian_machines::CueBall::default(), "cue_ball", 1.0);
+    check(
+        &lagrangian_machines::CollidingCrusher::default(),
+        "colliding_crusher",
+        0.3,
+    );
+}
+
+/// Two square plates on each other, on ground that slopes: their corners may share the load in many ways, and the forces that are told are one
+/// that every corner allows. Together they carry the weight.
+#[test]
+fn forces_that_may_be_shared_in_several_ways_are_ones_that_contacts_allow() {
+    const FRICTION: f64 = 0.5;
+    let corners =
+        "corners: ((-0.5, -0.5, -0.01), (0.5, -0.5, -0.01), (0.5, 0.5, -0.01), (-0.5, 0.5, -0.01))";
+    let law = format!("restitution: 0, friction: {FRICTION}");
+    let machine = InterpretedMachine::from_text(format!(
+        "machine Plates in space {{
+            constants {{ N = 2 }}
+            coordinates {{
+                x[i in 1..N]: m, y[i in 1..N]: m, z[i in 1..N]: m = (2*i - 1)/100, a[i in 1..N]: rad, b[i in 1..N]: rad, c[i in 1..N]: rad,
+            }}
+            frames {{ held[i in 1..N] = ground.shift(x[i], y[i], z[i]).turn(x, a[i]).turn(y, b[i]).turn(z, c[i]), top = held[1].shift(0, 0, 0.01) }}
+            bodies {{ plate[i in 1..N] {{ mass: 1, inertia: (1.0004/12, 1.0004/12, 1/6), frame: held[i] }} }}
+            gravity (0.8, 0.6, -9.81);
+            contacts {{ floor {{ {corners}, on: held[1], along: ground, {law} }}, seat {{ {corners}, on: held[2], along: top, {law} }} }}
+        }}"
+    ));
+    let machine = machine.build().unwrap_or_else(|error| panic!("{error}"));
+    let (system, start) = (machine.prepare(), machine.start());
+    let (q, v) = (&start.q.values, &start.v.values);
+    let mut a = vec![0.0; q.len()];
+    let inputs = system.default_inputs();
+    let forces = unilateral_forces(&system, (0.0, q, v, &inputs), &mut a).expect("forces");
+    // What the problem of the contacts is solved to, of the weight.
+    let rounding = 1e-10 * 2.0 * 9.81;
+    assert!(a.iter().all(|a| a.abs() < rounding), "{a:?}");
+    let mut carried = [[0.0; 3]; 2];
+    for (k, pair) in forces.chunks(2).enumerate() {
+        let [first, across] = [pair[0], pair[1]];
+        assert!(first.normal > -rounding, "{first:?}");
+        let friction = first.friction.hypot(across.friction);
+        assert!(
+            friction < FRICTION * first.normal + rounding,
+            "{first:?} {across:?}"
+        );
+        let sum = &mut carried[k / 4];
+        for (sum, part) in sum
+            .iter_mut()
+            .zip([first.friction, across.friction, first.normal])
+        {
+            *sum += part;
+        }
+    }
+    for (sum, plates) in carried.iter().zip([2.0, 1.0]) {
+        for (sum, pull) in sum.iter().zip([-0.8, -0.6, 9.81]) {
+            assert!((sum - plates * pull).abs() < 8.0 * rounding, "{carried:?}");
+        }
+    }
+}
