@@ -1074,26 +1074,14 @@ fn along_the_machine<'d>(
         _ => Order::Short,
     };
     // What four numbers turn moves with three velocities.
-    let turned = turned::turned(source.model, machine);
-    let (model, machine) = match &turned {
-        Some(turned) => (&turned.model, &turned.machine),
-        None => (source.model, machine),
-    };
-    let Some(articulated::Solution {
+    let Some(turned::Along {
         accelerations,
         pivots,
-        names,
+        solution: articulated::Solution { names, .. },
         ..
-    }) = articulated::solve(model, machine, order)
+    }) = turned::solve(source.model, machine, order)
     else {
         return Some(Vec::new());
-    };
-    let (accelerations, pivots) = match &turned {
-        Some(turned) => (
-            turned.accelerations(source.model, accelerations),
-            turned.pivots(source.model, pivots),
-        ),
-        None => (accelerations, pivots),
     };
     let values: Vec<Expr<'d>> = pivots.iter().map(|(_, pivot)| *pivot).collect();
     if has_other {

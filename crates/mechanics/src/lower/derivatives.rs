@@ -9,8 +9,8 @@
 use lagrangian_symbolic::Expr;
 
 use crate::Unprojected;
-use crate::lower::articulated::{self, Order};
-use crate::lower::{Draft, Lowering, Planned};
+use crate::lower::articulated::Order;
+use crate::lower::{Draft, Lowering, Planned, turned};
 use lagrangian_program::graph::{Graph, Scaled};
 use lagrangian_program::solve::{self, Elimination, Pivot, System};
 use lagrangian_program::{Basis, Role, Shape};
@@ -24,11 +24,21 @@ struct Step {
     parts: Vec<(usize, Scaled)>,
 }
 
+/// Four coordinates that turn a frame, and whose rates ė = ½ e∘ω + e u̇ have left the equations for ω and u̇.
+struct Turn {
+    places: [usize; 4],
+    e: [Scaled; 4],
+    /// ½ e.
+    halves: [Scaled; 4],
+}
+
 /// The accelerations, and how they were found.
 pub(super) struct Solved {
     pub accelerations: Vec<Scaled>,
     pub multipliers: Vec<Scaled>,
     steps: Vec<Step>,
+    /// In whose velocities the steps are.
+    turns: Vec<Turn>,
     pub pivots: Vec<Pivot>,
     /// How many unknowns there are; the first are the accelerations.
     unknowns: usize,
@@ -117,6 +127,7 @@ pub(super) fn of_elimination(solution: solve::Solution, system: &System) -> Solv
         accelerations: solution.accelerations,
         multipliers: solution.multipliers,
         steps: steps.map(step).collect(),
+        turns: Vec::new(),
         pivots: solution.pivots,
         unknowns: system.forces.len(),
     }
@@ -129,9 +140,14 @@ pub(super) fn along_the_machine<'d>(
     system: &System,
     machine: &Unprojected<'d>,
 ) -> Option<Solved> {
-    let solution = articulated::solve(model, machine, Order::Short)?;
+    let turned::Along {
+        accelerations,
+        pivots: own_pivots,
+        solution,
+        fours,
+    } = turned::solve(model, machine, Order::Short)?;
     lowering.name(&solution.names);
-    lowering.lower(&solution.accelerations);
+    lowering.lower(&accelerations);
     let mut unknowns = system.forces.len();
     let mut numbers = solution.coordinates;
     let mut number = |id| {
@@ -158,18 +174,32 @@ pub(super) fn along_the_machine<'d>(
         let diagonal = system.matrix[Shape::index(coordinate, coordinate)];
         if diagonal.is_known() { diagonal } else { pivot }
     };
-    let eliminated = steps.iter().filter_map(|step| step.pivot);
-    let pivots = solution.pivots.iter().zip(eliminated);
+    let values: Vec<Expr<'d>> = own_pivots.iter().map(|(_, pivot)| *pivot).collect();
+    lowering.lower(&values);
+    let pivots = own_pivots.iter().zip(lowering.values(&values));
     let pivots = pivots.map(|(&(coordinate, _), pivot)| Pivot {
         coordinate,
         pivot,
         scale: scale(coordinate, pivot),
     });
+    let pivots = pivots.collect();
+    let mut turns = Vec::with_capacity(fours.len());
+    for (places, e) in fours {
+        let all: Vec<Expr<'d>> = e.into_iter().chain(e.map(|e| e / 2)).collect();
+        lowering.lower(&all);
+        let values = lowering.values(&all);
+        turns.push(Turn {
+            places,
+            e: std::array::from_fn(|i| values[i]),
+            halves: std::array::from_fn(|i| values[4 + i]),
+        });
+    }
     Some(Solved {
-        accelerations: lowering.values(&solution.accelerations),
+        accelerations: lowering.values(&accelerations),
         multipliers: Vec::new(),
-        pivots: pivots.collect(),
+        pivots,
         steps,
+        turns,
         unknowns,
     })
 }
@@ -259,6 +289,7 @@ pub(super) fn respond(
     right: Vec<Scaled>,
 ) -> Vec<Scaled> {
     let n = right.len();
+    let right = onto_turns(graph, solved, right);
     let mut loads: Vec<Vec<Scaled>> = right.into_iter().map(|load| vec![load]).collect();
     loads.resize(solved.unknowns, Vec::new());
     let mut totals = Vec::with_capacity(solved.steps.len());
@@ -278,6 +309,55 @@ pub(super) fn respond(
         answers[step.of] = total(graph, &terms);
     }
     answers.truncate(n);
+    of_turns(graph, solved, answers)
+}
+
+/// How the rates of four numbers follow from the velocities of a turn, a row for each: which of ½ e or e goes with which velocity, and
+/// whether it is subtracted. The last velocity is the growth.
+const OF_TURN: [[(usize, bool); 4]; 4] = [
+    [(1, true), (2, true), (3, true), (0, false)],
+    [(0, false), (3, true), (2, false), (1, false)],
+    [(3, false), (0, false), (1, true), (2, false)],
+    [(2, true), (1, false), (0, false), (3, false)],
+];
+
+impl Turn {
+    /// The entry of a row and a column of [`OF_TURN`].
+    fn entry(&self, row: usize, column: usize) -> Scaled {
+        let (which, is_negative) = OF_TURN[row][column];
+        let value = match column {
+            3 => self.e[which],
+            _ => self.halves[which],
+        };
+        if is_negative { value.negated() } else { value }
+    }
+}
+
+/// Loads on the rates of four numbers as loads on the velocities of their turns.
+fn onto_turns(graph: &mut Graph, solved: &Solved, mut loads: Vec<Scaled>) -> Vec<Scaled> {
+    for turn in &solved.turns {
+        let own = turn.places.map(|i| loads[i]);
+        for (column, place) in turn.places.into_iter().enumerate() {
+            let terms: Vec<Scaled> = (0..4)
+                .map(|row| graph.product(&[(turn.entry(row, column), 1), (own[row], 1)]))
+                .collect();
+            loads[place] = total(graph, &terms);
+        }
+    }
+    loads
+}
+
+/// What answers loads, of the four numbers in the place of the velocities of their turns.
+fn of_turns(graph: &mut Graph, solved: &Solved, mut answers: Vec<Scaled>) -> Vec<Scaled> {
+    for turn in &solved.turns {
+        let own = turn.places.map(|i| answers[i]);
+        for (row, place) in turn.places.into_iter().enumerate() {
+            let terms: Vec<Scaled> = (0..4)
+                .map(|column| graph.product(&[(turn.entry(row, column), 1), (own[column], 1)]))
+                .collect();
+            answers[place] = total(graph, &terms);
+        }
+    }
     answers
 }
 

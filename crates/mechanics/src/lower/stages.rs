@@ -1,7 +1,7 @@
 //! The accelerations in stages, from whichever elimination leaves the least to do again.
 
-use crate::lower::articulated;
 use crate::lower::{Candidate, Choice, Draft, Lowering, Origin, Planned, roundings};
+use crate::lower::{articulated, turned};
 use lagrangian_program::rounding::States;
 use lagrangian_program::solve::{self, Elimination, Pivot, Solution};
 use lagrangian_program::{Basis, Form, Function, Role, Shape, stages};
@@ -97,13 +97,13 @@ fn solutions<'d>(
     }
     let along = match (source.unprojected, systems.first()) {
         (Some(machine), Some(_)) => {
-            articulated::solve(lowering.model, machine, articulated::Order::Short)
+            turned::solve(lowering.model, machine, articulated::Order::Short)
         }
         _ => None,
     };
     let has_along = along.is_some();
     if let Some(along) = along {
-        lowering.name(&along.names);
+        lowering.name(&along.solution.names);
         let values: Vec<_> = along.pivots.iter().map(|(_, pivot)| *pivot).collect();
         lowering.lower(&along.accelerations);
         lowering.lower(&values);

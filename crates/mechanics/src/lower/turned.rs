@@ -13,21 +13,60 @@
 use lagrangian_symbolic::{Dag, Expr, Id, Node, Symbol, Tangent, reachable, substitute};
 use rustc_hash::FxHashMap;
 
+use crate::lower::articulated::{self, Order, Solution};
 use crate::{InertialPair, Unprojected};
 use lagrangian_spec::model::quaternion;
 use lagrangian_spec::model::{Model, stage};
 
 /// A machine whose velocities are those of turns.
-pub(super) struct Turned<'d> {
+struct Turned<'d> {
     /// The machine, with the velocities of turns as those of its coordinates.
-    pub model: Model<'d>,
-    pub machine: Unprojected<'d>,
+    model: Model<'d>,
+    machine: Unprojected<'d>,
     /// What the velocities of turns are.
     meanings: Vec<(Symbol, Expr<'d>)>,
 }
 
+/// The accelerations of the coordinates along a machine, in the velocities of its turns where it has any.
+pub(super) struct Along<'d> {
+    pub accelerations: Vec<Expr<'d>>,
+    /// The pivots of the mass matrix, each with its coordinate.
+    pub pivots: Vec<(usize, Expr<'d>)>,
+    /// What was done, in those velocities.
+    pub solution: Solution<'d>,
+    /// The fours whose rates have left it: their coordinates, and the numbers.
+    pub fours: Vec<([usize; 4], [Expr<'d>; 4])>,
+}
+
+/// [`articulated::solve`], for machines with turns by four numbers too.
+pub(super) fn solve<'d>(
+    model: &Model<'d>,
+    machine: &Unprojected<'d>,
+    order: Order,
+) -> Option<Along<'d>> {
+    let Some(turned) = turned(model, machine) else {
+        let solution = articulated::solve(model, machine, order)?;
+        return Some(Along {
+            accelerations: solution.accelerations.clone(),
+            pivots: solution.pivots.clone(),
+            solution,
+            fours: Vec::new(),
+        });
+    };
+    let solution = articulated::solve(&turned.model, &turned.machine, order)?;
+    let fours = model.quaternions.iter();
+    Some(Along {
+        accelerations: turned.accelerations(model, solution.accelerations.clone()),
+        pivots: turned.pivots(model, solution.pivots.clone()),
+        solution,
+        fours: fours
+            .map(|four| (four.coordinates(model), four.e))
+            .collect(),
+    })
+}
+
 /// The machine in the velocities of its turns; `None` if it has none by four numbers, or something moves with their rates otherwise.
-pub(super) fn turned<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option<Turned<'d>> {
+fn turned<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option<Turned<'d>> {
     if model.quaternions.is_empty() || machine.drifts {
         return None;
     }
@@ -134,7 +173,7 @@ fn rewritten<'d>(
 
 impl<'d> Turned<'d> {
     /// The accelerations of the coordinates of the machine from those of its turns, without what they are where neither accelerates.
-    pub fn accelerations(&self, model: &Model<'d>, mut of: Vec<Expr<'d>>) -> Vec<Expr<'d>> {
+    fn accelerations(&self, model: &Model<'d>, mut of: Vec<Expr<'d>>) -> Vec<Expr<'d>> {
         let dag = model.dag;
         for four in &model.quaternions {
             let places = four.coordinates(model);
@@ -156,11 +195,7 @@ impl<'d> Turned<'d> {
     }
 
     /// The pivots of the mass matrix from those of the turns, each with its coordinate.
-    pub fn pivots(
-        &self,
-        model: &Model<'d>,
-        mut of: Vec<(usize, Expr<'d>)>,
-    ) -> Vec<(usize, Expr<'d>)> {
+    fn pivots(&self, model: &Model<'d>, mut of: Vec<(usize, Expr<'d>)>) -> Vec<(usize, Expr<'d>)> {
         for four in &model.quaternions {
             let s = quaternion::square(&four.e);
             let places = four.coordinates(model);
