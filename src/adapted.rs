@@ -267,6 +267,7 @@ where
         gaps,
         contact_rates,
         contact_matrix,
+        contact_faces,
         contact_drift,
         contact_coefficients,
         kept_at_start,

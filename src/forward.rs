@@ -172,6 +172,7 @@ macro_rules! forward {
     (@ constraint_rates) => { crate::forward::forward!(@ of_state constraint_rates); };
     (@ constraint_drift) => { crate::forward::forward!(@ of_state constraint_drift); };
     (@ contact_rates) => { crate::forward::forward!(@ of_state contact_rates); };
+    (@ contact_faces) => { crate::forward::forward!(@ of_state contact_faces); };
     (@ contact_drift) => { crate::forward::forward!(@ of_state contact_drift); };
     (@ contact_coefficients) => { crate::forward::forward!(@ of_state contact_coefficients); };
     (@ of_state $method:ident) => {

@@ -699,11 +699,16 @@ impl System for InterpretedSystem {
                 rubs: contact.rubs,
                 rolls: contact.rolls,
                 across: contact.across,
+                faced: contact.faced,
             })
     }
 
     fn gaps(&self, t: f64, q: &Vec<f64>, gaps: &mut [f64]) {
         self.fill(Role::Gaps, at(t, q, &[], &[]), gaps);
+    }
+
+    fn contact_faces(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, faces: &mut [f64]) {
+        self.fill(Role::ContactFaces, at(t, q, v, &[]), faces);
     }
 
     fn contact_rates(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, rates: &mut [f64]) {

@@ -124,7 +124,7 @@ impl<V> Phase<V> {
             loaded: self.touching.loaded().collect(),
             cause: match self.change.cause {
                 Some(Cause::Asked) => PhaseCause::Asked,
-                Some(Cause::Lifts(k)) => PhaseCause::Lifts(k),
+                Some(Cause::Lifts(k) | Cause::Leaves(k)) => PhaseCause::Lifts(k),
                 Some(Cause::Stops(k)) => PhaseCause::Stops(k),
                 Some(Cause::Breaks(k)) => PhaseCause::Breaks(k),
                 Some(Cause::Presses(k)) => PhaseCause::Presses(k),

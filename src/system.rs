@@ -500,6 +500,12 @@ pub trait System {
     #[inline(always)]
     fn gaps(&self, _t: f64, _q: &Self::Vector, _gaps: &mut [f64]) {}
 
+    /// Of each unilateral contact that is [with a face](UnilateralContact::faced) of a polygon, three numbers: how far its corner is
+    /// outside of that face, how far it is beyond the ends of it, negative between them, both in m, and how fast the second grows,
+    /// in m/s. The [gap](Self::gaps) is the greater one of the first two; [rates](Self::contact_rates) are those of the face.
+    #[inline(always)]
+    fn contact_faces(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _faces: &mut [f64]) {}
+
     /// For each unilateral contact the rate `dg/dt` at which its gap opens and the rate at which it slips, in
     /// m/s.
     #[inline(always)]

@@ -23,6 +23,8 @@ pub struct UnilateralContact<'a> {
     /// the coefficients of that contact; its slip and its friction are those along the second tangent. Both together obey Coulomb's
     /// law, `|λₜ| ≤ μ λₙ`.
     pub across: bool,
+    /// Whether it is a corner on a face of a polygon, which has ends: [`System::contact_faces`](crate::System::contact_faces) says where.
+    pub faced: bool,
 }
 
 /// Whether contacts that are closed take part in one impact.

@@ -21,6 +21,7 @@ pub use crate::unit::{Compliance, ImpactLaw, ImpactOrder, Name, Painleve, Stages
 pub mod bounds;
 pub mod circles;
 pub mod element;
+pub mod polygons;
 mod published;
 pub mod quaternion;
 pub mod spheres;
@@ -29,6 +30,7 @@ pub use published::*;
 
 use bounds::Bound;
 use element::Element;
+use polygons::Corner;
 use quaternion::Quaternion;
 
 /// When a value becomes known: the order in which work can be done once and kept.
@@ -472,6 +474,7 @@ impl Contact<'_> {
     pub fn slips_across(&self, space: Space) -> bool {
         let has_two = match &self.geometry {
             ContactGeometry::Circles(_) | ContactGeometry::Point { .. } => space == Space::Space,
+            ContactGeometry::Corner(_) => false,
             ContactGeometry::Expressions { across, .. } => across.is_some(),
         };
         has_two && self.friction.is_some()
@@ -555,6 +558,8 @@ pub enum ContactGeometry<'d> {
         /// What it touches.
         surface: Surface,
     },
+    /// By a corner of a convex polygon and another such polygon, in the plane.
+    Corner(Corner<'d>),
     /// By expressions.
     Expressions {
         /// The gap, which stays ≥ 0.

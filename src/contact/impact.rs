@@ -69,7 +69,10 @@ impl Touching {
     ) -> (Vec<bool>, Vec<bool>) {
         let here = Here::of(system, t, q, v);
         let touches: Vec<bool> = (0..here.gaps.len())
-            .map(|k| self.modes()[k] != Mode::Open || here.gaps[k] <= here.gap_rounding[k])
+            .map(|k| {
+                let touches = self.modes()[k] != Mode::Open || here.gaps[k] <= here.gap_rounding[k];
+                touches && here.is_within(k, q.as_slice())
+            })
             .collect();
         let closes = touches
             .iter()
@@ -417,7 +420,7 @@ impl Touching {
     ) -> Vec<bool> {
         let here = Here::of(system, t, q, v);
         let rests = |k: usize| {
-            let least = 1e-12 * self.speed;
+            let least = 1e-12 * self.speed.max(self.slip);
             if self.has_two_tangents(k) {
                 let [slip, rounding] = self.slip(&here, k);
                 return slip[0].hypot(slip[1]) <= rounding[0].hypot(rounding[1]).max(least);
@@ -425,6 +428,20 @@ impl Touching {
             here.rates[2 * k + 1].abs() <= here.rate_rounding[2 * k + 1].max(least)
         };
         (0..here.gaps.len()).map(rests).collect()
+    }
+
+    /// Takes note of how fast what is closed slips: slips that are rounding of it are rest, and several that stop at one instant stop
+    /// together.
+    pub fn note_slips<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
+        let slides = |mode: &Mode| matches!(mode, Mode::Slides(sign) if *sign != 0.0);
+        if !self.modes().iter().any(slides) {
+            return;
+        }
+        let here = Here::of(system, t, q, v);
+        let own = self.modes().iter().enumerate();
+        let own = own.filter(|(k, mode)| slides(mode) && self.leans(*k).is_none());
+        let slips = own.map(|(k, _)| here.rates[2 * k + 1].abs());
+        self.slip = slips.fold(self.slip, f64::max);
     }
 
     /// Whether the slip of a contact is rounding, if that has two directions.
@@ -482,6 +499,9 @@ impl Touching {
                 if self.yields(k) {
                     let deep = -self.clearance(&here, k).value > here.gap_rounding[k];
                     return self.modes()[k] != Mode::Open || deep;
+                }
+                if !here.is_within(k, q.as_slice()) {
+                    return false;
                 }
                 if as_held && self.modes()[k] != Mode::Open {
                     return true;

@@ -90,7 +90,10 @@ impl Touching {
         // What was closed stays so until it opens, though a disc that rolls over a hump is beside it in the middle of a
         // step, by the square of its length: it may come back by as much.
         let lasts = |k: usize| self.modes()[k] != Mode::Open;
-        let is_active = |k: &usize| lasts(*k) || here.gaps[*k] <= here.gap_rounding[*k];
+        let is_active = |k: &usize| {
+            let touches = lasts(*k) || here.gaps[*k] <= here.gap_rounding[*k];
+            touches && here.is_within(*k, q.as_slice())
+        };
         let way_back = |k: usize| match lasts(k) {
             true => 2.0 / h * here.gaps[k].max(0.0),
             false => 0.0,
@@ -251,6 +254,7 @@ impl Touching {
             let touching: Vec<usize> = (0..here.gaps.len())
                 .filter(|k| self.leans(*k).is_none())
                 .filter(|k| here.gaps[*k] <= here.gap_rounding[*k].max(NEAR * deepest))
+                .filter(|k| here.is_within(*k, q.as_slice()))
                 .collect();
             let singular = |singular: Singular| StepError::Singular { singular, t };
             let inertia = Inertia::new(system, t, q).map_err(singular)?;
@@ -259,7 +263,10 @@ impl Touching {
             let images: Vec<Vec<f64>> = (touching.iter())
                 .flat_map(|k| [inertia.image(here.row(2 * k)), none.clone()])
                 .collect();
-            let gaps: Vec<f64> = touching.iter().flat_map(|k| [here.gaps[*k], 0.0]).collect();
+            let gaps: Vec<f64> = touching
+                .iter()
+                .flat_map(|k| [here.height(*k), 0.0])
+                .collect();
             let asked = vec![Asked::Normal { share: 0.0 }; touching.len()];
             let unsolved = |_| StepError::Contact {
                 contact: touching[0],

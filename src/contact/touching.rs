@@ -77,6 +77,8 @@ pub(crate) struct Touching {
     held: Vec<usize>,
     /// The greatest rate at which any gap closed so far.
     pub(super) speed: f64,
+    /// The greatest slip with which anything began to slip so far.
+    pub(super) slip: f64,
     /// How fast each contact opened after its last impact.
     pub openings: Vec<f64>,
     /// Whether a direction is followed through rest, within a step: see [`Mode::Skids`].
@@ -96,6 +98,43 @@ pub(super) struct Here {
     /// Below which a gap is closed, and a rate is rest.
     pub gap_rounding: Vec<f64>,
     pub rate_rounding: Vec<f64>,
+    /// Where contacts with faces of polygons are on these; empty where no contact is one.
+    pub faces: Vec<Option<OnFace>>,
+}
+
+/// Where a corner is on a face of a polygon.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OnFace {
+    /// How far it is outside of the face, in m.
+    pub height: f64,
+    /// How far it is beyond the ends of that, in m, and how fast that grows.
+    pub beyond: f64,
+    pub beyond_rate: f64,
+}
+
+/// Where the contacts that are with faces of polygons are on these; nothing where no contact is one.
+pub(super) fn faces<S: System>(
+    system: &S,
+    (t, q, v): (f64, &S::Vector, &S::Vector),
+) -> Vec<Option<OnFace>> {
+    let count = system.unilateral_contacts().filter(|one| one.faced).count();
+    if count == 0 {
+        return Vec::new();
+    }
+    let mut numbers = vec![0.0; 3 * count];
+    system.contact_faces(t, q, v, &mut numbers);
+    let mut all = numbers.chunks_exact(3);
+    let mut next = || {
+        let own = all.next()?;
+        Some(OnFace {
+            height: own[0],
+            beyond: own[1],
+            beyond_rate: own[2],
+        })
+    };
+    (system.unilateral_contacts())
+        .map(|contact| if contact.faced { next() } else { None })
+        .collect()
 }
 
 impl Here {
@@ -110,6 +149,7 @@ impl Here {
             coefficients: vec![0.0; 4 * m],
             gap_rounding: Vec::new(),
             rate_rounding: Vec::new(),
+            faces: faces(system, (t, q, v)),
         };
         system.gaps(t, q, &mut here.gaps);
         system.contact_rates(t, q, v, &mut here.rates);
@@ -129,7 +169,36 @@ impl Here {
             ROUNDING * terms + 8.0 * f64::EPSILON * (t * rate).abs()
         };
         here.gap_rounding = gaps.map(placed).collect();
+        for (k, face) in here.faces.iter().enumerate() {
+            // A face that lies on another one turns by rounding, and what slides along it has so much of a rate.
+            if let Some(face) = face {
+                here.rate_rounding[2 * k] += ROUNDING * face.beyond_rate.abs();
+            }
+        }
         here
+    }
+
+    /// Where a corner is on a face of a polygon, if it is one.
+    pub fn on_face(&self, contact: usize) -> Option<OnFace> {
+        self.faces.get(contact).copied().flatten()
+    }
+
+    /// Whether a contact is where it may touch. A corner on the end of a face, within rounding, is on that face unless it leaves it.
+    pub fn is_within(&self, contact: usize, q: &[f64]) -> bool {
+        let Some(face) = self.on_face(contact) else {
+            return true;
+        };
+        // The coordinate along the face need not be one of those that move the corner off it.
+        let size = q.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let rounding = self.gap_rounding[contact] + ROUNDING * size;
+        let stays = face.beyond_rate <= self.rate_rounding[2 * contact];
+        face.beyond < -rounding || (face.beyond <= rounding && stays)
+    }
+
+    /// How far a contact is outside of what it touches: of a corner of a polygon outside of its face, wherever that ends.
+    pub fn height(&self, contact: usize) -> f64 {
+        let face = self.on_face(contact);
+        face.map_or(self.gaps[contact], |face| face.height)
     }
 
     pub fn row(&self, direction: usize) -> &[f64] {
@@ -195,8 +264,8 @@ impl Reaction {
 /// By how much the states of closed contacts hold.
 pub(crate) struct Margins {
     /// For each contact: that it presses, that it slips as it does or sticks, and that a layer is loaded or unloaded
-    /// as it is.
-    pub each: Vec<[Margin; 3]>,
+    /// as it is; that a corner of a polygon is on its face.
+    pub each: Vec<[Margin; 4]>,
     /// Whether the forces that they are taken from are the only ones.
     pub is_only: bool,
 }
@@ -245,6 +314,7 @@ impl Touching {
             yielding,
             held: Vec::new(),
             speed: 0.0,
+            slip: 0.0,
             openings: vec![0.0; rubs.len()],
             leans,
             across,
@@ -690,7 +760,7 @@ impl Touching {
     /// By how much the states of closed contacts hold: whether they press, and whether what slips does so still,
     /// or what sticks has friction left.
     pub fn margins<S: System>(&self, system: &S, at: At<'_, S>) -> Result<Margins, StepError> {
-        let mut margins = vec![[Margin::ENDLESS; 3]; self.modes.len()];
+        let mut margins = vec![[Margin::ENDLESS; 4]; self.modes.len()];
         if self.is_free() {
             return Ok(Margins {
                 each: margins,
@@ -710,6 +780,13 @@ impl Touching {
                 false => reaction.sizes[k].max(here.friction(k)[1] * reaction.sizes[pressed]),
             };
             let rounding = ROUNDING_OF_FORCES * size;
+            let stays = match here.on_face(k) {
+                None => Margin::ENDLESS,
+                Some(face) => Margin {
+                    value: -face.beyond,
+                    rounding: here.gap_rounding[k],
+                },
+            };
             let [presses, loads] = match pressed == k {
                 false => [Margin::ENDLESS; 2],
                 true => self.margins_of_yielding(&here, k).unwrap_or([
@@ -730,17 +807,17 @@ impl Touching {
                         value: heading[0] * slip[0] + heading[1] * slip[1],
                         rounding: rounding[0].hypot(rounding[1]),
                     };
-                    [presses, slips, loads]
+                    [presses, slips, loads, stays]
                 }
-                Mode::Slides(0.0) => [presses, Margin::ENDLESS, loads],
+                Mode::Slides(0.0) => [presses, Margin::ENDLESS, loads, stays],
                 Mode::Slides(sign) => {
                     let slips = Margin {
                         value: sign * here.rates[2 * k + 1],
                         rounding: here.rate_rounding[2 * k + 1],
                     };
-                    [presses, slips, loads]
+                    [presses, slips, loads, stays]
                 }
-                Mode::Sticks if !self.rubs[k] => [presses, Margin::ENDLESS, loads],
+                Mode::Sticks if !self.rubs[k] => [presses, Margin::ENDLESS, loads, stays],
                 Mode::Sticks => {
                     let friction = here.friction(k)[1];
                     let used = match self.second(k) {
@@ -751,11 +828,11 @@ impl Touching {
                         value: friction * normal - used,
                         rounding: rounding * (1.0 + friction),
                     };
-                    [presses, reserve, loads]
+                    [presses, reserve, loads, stays]
                 }
             };
         }
-        let is_doubtful = |(k, margin): (usize, &[Margin; 3])| {
+        let is_doubtful = |(k, margin): (usize, &[Margin; 4])| {
             let shared = if self.yields(k) { 1..2 } else { 0..2 };
             margin[shared].iter().any(|m| m.value < -m.rounding)
         };

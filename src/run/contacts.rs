@@ -509,7 +509,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 };
                 let seen = margins(&looked)?;
                 let doubtful = |k: usize, kind: usize| seen.each[k][kind].value < 0.0;
-                for (k, kind) in (0..seen.each.len()).flat_map(|k| [(k, 0), (k, 1), (k, 2)]) {
+                for (k, kind) in (0..seen.each.len()).flat_map(|k| [(k, 0), (k, 1), (k, 2), (k, 3)])
+                {
                     if !doubtful(k, kind) {
                         continue;
                     }
@@ -529,9 +530,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     let margin = |theta| exactly(theta).map(|(margin, _)| margin.value);
                     let mut found =
                         event::last_positive([theta_before, theta], roundoff, &mut &margin)?;
-                    let is_shared = !is_only && (kind == 1 || !touching.yields(k));
+                    let is_shared = !is_only && kind != 3 && (kind == 1 || !touching.yields(k));
                     let mut cause = match (is_shared, touching.modes()[k], kind) {
                         (true, ..) => Cause::Asked,
+                        (_, _, 3) => Cause::Leaves(k),
                         (_, _, 0) => Cause::Lifts(k),
                         (_, _, 2) => Cause::Turns(k),
                         (_, Mode::Slides(_) | Mode::Skids(_), _) => Cause::Stops(k),

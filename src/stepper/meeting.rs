@@ -25,6 +25,8 @@ pub(crate) enum Cause {
     Asked,
     /// The force of a contact has vanished.
     Lifts(usize),
+    /// A corner of a polygon has come to the end of the face that it was on.
+    Leaves(usize),
     /// The slip of a contact has stopped.
     Stops(usize),
     /// The friction of a contact is used up.
@@ -91,7 +93,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         };
         let known = match cause {
             Cause::Breaks(k) if touching.second(k).is_some() => Some((k, Mode::Skids([0.0; 2]))),
-            Cause::Lifts(k) => Some((k, Mode::Open)),
+            Cause::Lifts(k) | Cause::Leaves(k) => Some((k, Mode::Open)),
             Cause::Breaks(k) => {
                 let at = (t, &now.q, &now.v, &model.inputs);
                 let friction = touching.reaction(model.system.get(), at)?.forces[k][1];
@@ -140,6 +142,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             touching.lasting(model.system.get(), (t, &now.q, &now.v), &touches, as_held);
         match cause {
             Cause::Lifts(k) if touching.yields(k) => closed[k] = false,
+            Cause::Leaves(k) => closed[k] = false,
             Cause::Presses(k) => closed[k] = true,
             Cause::Turns(k) => {
                 touching.turn_layer(model.system.get(), (t, &now.q, &now.v), k);
@@ -230,6 +233,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             known,
         )?;
         touching.set_modes(modes);
+        touching.note_slips(model.system.get(), t, &now.q, &now.v);
         if !matches!(cause, Cause::Turns(_)) || !happened.impacts.is_empty() {
             touching.load_layers(model.system.get(), t, &now.q, &now.v);
         }

@@ -121,3 +121,62 @@ fn a_ball_of_a_macro_slips_in_two_directions() {
         );
     }
 }
+
+lagrangian::machine! {
+    /// A box that falls flat on a polygon of the ground.
+    machine Landing in plane {
+        parameters { m: kg = 2, b: m = 0.1, h: m = 0.05, drop: m = 0.2, speed: m/s = 0.5, g: m/s^2 = 9.81 }
+        coordinates { x: m, y: m = h + drop, theta: rad, der(x): m/s = speed }
+        frames { held = ground.shift(x, y).turn(theta) }
+        bodies {
+            box { mass: m, inertia: m*(b^2 + h^2)/3, frame: held, outline: ((b, h), (-b, h), (-b, -h), (b, -h)) },
+        }
+        gravity (0, -g);
+        contacts {
+            plate {
+                corners: outline, on: box, against: ((-1, -1), (1, -1), (1, 0), (-1, 0)), of: ground,
+                restitution: 0, friction: 0.5,
+            },
+        }
+    }
+}
+
+/// It lands with two corners at once after √(2 d/g), and its friction, of at most half of what stops the fall, stops it there: by
+/// every method.
+#[test]
+fn a_box_of_a_macro_lands_on_a_polygon() {
+    let machine = Landing::default();
+    let system = machine.prepare();
+    assert_eq!(system.unilateral_contacts().len(), 8);
+    assert!(system.unilateral_contacts().all(|contact| contact.faced));
+    let lands = (2.0 * 0.2_f64 / 9.81).sqrt();
+    for method in &METHODS {
+        let run = Simulation::new(&machine)
+            .method(method)
+            .tolerance(1e-10)
+            .energy_balance(true)
+            .until(0.4)
+            .run(machine.start())
+            .expect("it runs");
+        let name = method.tableau.name;
+        let impacts = run.contact_events().iter();
+        let impacts: Vec<_> = impacts
+            .filter(|event| event.kind == ContactEventKind::Impact)
+            .collect();
+        let names: Vec<&str> = impacts.iter().map(|event| event.contact.as_str()).collect();
+        assert_eq!(names, ["plate[3]", "plate[4]"], "{name}");
+        // At most 10⁴ steps, each within the tolerance.
+        assert!((impacts[0].state.t - lands).abs() < 1e-6, "{name}");
+        let (q, v) = (run.end().q, run.end().v);
+        assert!(
+            (q.x - 0.5 * lands).abs() < 1e-6 && (q.y - 0.05).abs() < 1e-6,
+            "{name}: {q:?}"
+        );
+        assert!(
+            q.theta.abs() < 1e-6 && v.x.abs() < 1e-6,
+            "{name}: {q:?} {v:?}"
+        );
+        let balance = run.energy_balance().expect("it was kept");
+        assert!(balance.residual().abs() < 1e-6, "{name}: {balance:?}");
+    }
+}

@@ -210,6 +210,7 @@ fn quantities() -> String {
             Kind::Constraint => "constraint",
             Kind::Contact => "contact",
             Kind::Unilateral => "contact",
+            Kind::Face => "number of a corner on a face",
             Kind::Direction => "direction",
             Kind::Coefficient => "coefficient",
         };
@@ -230,6 +231,7 @@ fn quantities() -> String {
             (_, Needs::Constraints) => "with constraints",
             (_, Needs::Contacts) => "with guided contacts",
             (_, Needs::Unilateral) => "with unilateral contacts",
+            (_, Needs::Faces) => "with contacts of polygons",
             (Role::Derivatives, _) => "with `derivatives`",
             (Role::Adjoint, _) => "in functional mock-up units",
             (Role::Gradient(_), _) => "one for each output, in functional mock-up units",

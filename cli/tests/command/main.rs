@@ -24,6 +24,7 @@ mod map;
 mod modes;
 mod orbit;
 mod parts;
+mod polygons;
 mod precise;
 mod quaternions;
 mod report;

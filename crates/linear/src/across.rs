@@ -196,6 +196,13 @@ pub fn run<'m>(wanted: &Wanted<'m>, start: &State<Vec<f64>>) -> Result<Across<'m
             why: "slips in two directions, and how that changes with the start is not known across changes of contacts",
         });
     }
+    if let Some(contact) = system.unilateral_contacts().find(|contact| contact.faced) {
+        return Err(NoDerivatives::Broken {
+            t: start.t,
+            contact: contact.name.to_owned(),
+            why: "is of two polygons, and how that changes with the start is not known where a corner comes to the end of a face",
+        });
+    }
     let n = system.coordinates().len();
     let mut own = machine.start();
     own.t = start.t;

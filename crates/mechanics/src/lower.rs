@@ -128,6 +128,7 @@ pub fn lower_by<'d>(
         rubs: u.rubs,
         rolls: u.rolls,
         across: u.across,
+        faced: u.face.is_some(),
     });
     program.unilateral = unilateral.collect();
     debug_assert_eq!(program.verify(), Ok(()));
@@ -400,6 +401,9 @@ fn quantity<'d>(model: &Model<'d>, equations: &Equations<'d>, role: Role) -> Opt
         contacts: equations.sliding.len(),
         reaction_axes: model.space.reaction_axes(),
         unilateral: equations.unilateral.len(),
+        faced: (equations.unilateral.iter())
+            .filter(|u| u.face.is_some())
+            .count(),
         derivatives: model.derivatives.len(),
         stores: model.energies_of_states().next().is_some(),
     };
@@ -429,6 +433,7 @@ fn quantity<'d>(model: &Model<'d>, equations: &Equations<'d>, role: Role) -> Opt
         Role::SlipMatrix => sliding.flat_map(|s| s.row.iter().copied()).collect(),
         Role::SlipDrift => sliding.map(|s| s.drift).collect(),
         Role::Gaps => unilateral.iter().map(|u| u.gap).collect(),
+        Role::ContactFaces => unilateral.iter().filter_map(|u| u.face).flatten().collect(),
         Role::ContactRates => directions.map(|d| d.rate).collect(),
         Role::ContactMatrix => directions.flat_map(|d| d.row.iter().copied()).collect(),
         Role::ContactDrift => directions.map(|d| d.drift).collect(),

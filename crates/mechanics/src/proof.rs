@@ -216,7 +216,7 @@ fn told(disagreement: &Disagreement, program: &Program) -> String {
             Kind::Coordinate => format!("`{name}`"),
             Kind::Constraint => format!("the constraint `{name}`"),
             Kind::Contact => format!("the guide `{name}`"),
-            Kind::Unilateral | Kind::Direction | Kind::Coefficient => {
+            Kind::Unilateral | Kind::Face | Kind::Direction | Kind::Coefficient => {
                 format!("the contact `{name}`")
             }
         }
@@ -918,9 +918,23 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         let rows = self.call(Role::ContactMatrix, at, 2 * count * n)?;
         let drifts = self.call(Role::ContactDrift, at, 2 * count)?;
         let coefficients = self.call(Role::ContactCoefficients, at, 4 * count)?;
+        let of_faces: Vec<R> = (literal.unilateral.iter())
+            .filter_map(|contact| contact.face)
+            .flatten()
+            .collect();
+        if self.parts.program.sizes().faced * 3 != of_faces.len() {
+            return Err(self.wrong(Role::ContactFaces, 0));
+        }
+        if !of_faces.is_empty() {
+            let faces = self.call(Role::ContactFaces, at, of_faces.len())?;
+            for (i, (&found, &expected)) in faces.iter().zip(&of_faces).enumerate() {
+                self.compare(Role::ContactFaces, i, found, expected)?;
+            }
+        }
         for (k, contact) in literal.unilateral.iter().enumerate() {
-            self.compare(Role::Gaps, k, gaps[k], contact.gap.position)?;
+            self.compare(Role::Gaps, k, gaps[k], contact.open.position)?;
             // What is said of positions must not depend on rates.
+            self.compare(Role::Gaps, k, contact.open.by_rates, R::ZERO)?;
             self.compare(Role::Gaps, k, contact.gap.by_rates, R::ZERO)?;
             for (i, direction) in [contact.gap, contact.slip].into_iter().enumerate() {
                 let i = 2 * k + i;

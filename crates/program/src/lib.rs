@@ -207,6 +207,8 @@ pub struct Unilateral {
     /// Whether it is the second tangent of the contact before it, in space: it has the gap, the normal and the coefficients of
     /// that contact, and a slip and a friction of its own. Of both together friction is no more than `μ` times the normal force.
     pub across: bool,
+    /// Whether it is a corner on a face of a polygon, which has ends: [`Role::ContactFaces`] says where.
+    pub faced: bool,
 }
 
 /// How the results of [`Role::Friction`] are arranged.

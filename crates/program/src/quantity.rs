@@ -19,6 +19,8 @@ pub enum Kind {
     Contact,
     /// The unilateral contacts.
     Unilateral,
+    /// Numbers of those unilateral contacts that are with faces of polygons, three for each.
+    Face,
     /// The directions of unilateral contacts: for each its normal, then its tangent.
     Direction,
     /// The coefficients of unilateral contacts: for each its restitution along the normal and along the tangent,
@@ -86,6 +88,8 @@ pub enum Needs {
     Contacts,
     /// Those with unilateral contacts.
     Unilateral,
+    /// Those with unilateral contacts of polygons.
+    Faces,
     /// Those whose states of first order store energy.
     Stores,
     /// Those that are asked for it.
@@ -100,6 +104,7 @@ impl Needs {
             Needs::Constraints => sizes.constraints > 0,
             Needs::Contacts => sizes.contacts > 0,
             Needs::Unilateral => sizes.unilateral > 0,
+            Needs::Faces => sizes.faced > 0,
             Needs::Stores => sizes.stores,
         }
     }
@@ -152,6 +157,8 @@ pub struct Sizes {
     pub reaction_axes: usize,
     /// Unilateral contacts.
     pub unilateral: usize,
+    /// Those of them that are with faces of polygons.
+    pub faced: usize,
     /// Variables that accelerations are differentiated by.
     pub derivatives: usize,
     /// Whether states of first order store energy.
@@ -202,7 +209,7 @@ macro_rules! quantities {
 }
 
 use Extent::{Chosen, Differentials, Each, Number, Responses, Rows, State, Symmetric};
-use Kind::{Coefficient, Constraint, Contact, Coordinate, Direction, Unilateral};
+use Kind::{Coefficient, Constraint, Contact, Coordinate, Direction, Face, Unilateral};
 
 quantities! {
     /// Prepared values: what parameters alone decide.
@@ -280,6 +287,11 @@ quantities! {
     /// friction.
     ContactCoefficients => {
         "contact_coefficients", "", "c*", Each(Coefficient), [Time Coordinates Velocities], Unilateral, Seldom, ""
+    }
+    /// Of each unilateral contact that is with a face of a polygon: how far its corner is outside of that face, how far it is
+    /// beyond the ends of it, negative between them, both in m, and how fast the second grows, in m/s.
+    ContactFaces => {
+        "contact_faces", "", "face*", Each(Face), [Time Coordinates Velocities], Faces, Seldom, "E77"
     }
     /// Accelerations `a` with their derivatives by each `x` that is asked for, the solutions of
     /// `M da/dx = d(f - M a)/dx` with `a` held.
@@ -367,6 +379,7 @@ impl Sizes {
             Kind::Constraint => self.constraints,
             Kind::Contact => self.contacts,
             Kind::Unilateral => self.unilateral,
+            Kind::Face => 3 * self.faced,
             Kind::Direction => 2 * self.unilateral,
             Kind::Coefficient => 4 * self.unilateral,
         }
@@ -429,6 +442,7 @@ impl Program {
             contacts: self.contacts.len(),
             reaction_axes: self.reaction_axes,
             unilateral: self.unilateral.len(),
+            faced: self.unilateral.iter().filter(|one| one.faced).count(),
             derivatives: self.derivatives.len(),
             stores: self.function(Role::StateEnergy).is_some(),
         }
@@ -472,6 +486,15 @@ impl Program {
             Constraint => self.constraints.get(index).map(|one| one.name.clone()),
             Contact => self.contacts.get(index).cloned(),
             Unilateral => self.unilateral.get(index).map(|one| one.name.clone()),
+            Face => {
+                let part = ["height", "beyond", "beyond_rate"][index % 3];
+                let one = self
+                    .unilateral
+                    .iter()
+                    .filter(|one| one.faced)
+                    .nth(index / 3);
+                one.map(|one| format!("{}.{part}", one.name))
+            }
             Direction => {
                 let part = ["gap", "slip"][index % 2];
                 let one = self.unilateral.get(index / 2);

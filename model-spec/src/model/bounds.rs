@@ -30,6 +30,9 @@ pub enum BoundKind<'d> {
     Moment,
     /// A radius, which is positive.
     Radius,
+    /// How far a corner of a polygon lies to the left of a face that it is not on, times the length of that: positive where the
+    /// polygon is convex and its corners go round it to the left.
+    Convex,
     /// A coefficient of friction, which is not negative.
     Friction,
     /// A coefficient of rolling resistance, which is not negative.
@@ -70,6 +73,10 @@ impl BoundKind<'_> {
                 "a moment of inertia is not negative",
             ),
             BoundKind::Radius => (value <= 0.0, Code::NotPositive, "a radius is positive"),
+            BoundKind::Convex => {
+                let message = "these are not the corners of a convex polygon, listed so that it lies to the left of every face";
+                return (value <= 0.0).then(|| (Code::OutsideDomain, message.to_owned()));
+            }
             BoundKind::Friction => (
                 value < 0.0,
                 Code::NotPositive,

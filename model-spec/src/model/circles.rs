@@ -34,7 +34,7 @@ pub fn outline<'d>(model: &Model<'d>, body: usize) -> Vec<Vec<Expr<'d>>> {
 }
 
 /// A point that is fixed to a frame or a body, given along its axes, and these axes; both in ground axes.
-fn fixed<'d>(
+pub(super) fn fixed<'d>(
     model: &Model<'d>,
     on: Place,
     point: &[Expr<'d>],

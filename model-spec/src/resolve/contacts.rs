@@ -1,9 +1,12 @@
 //! Unilateral contacts: what touches what, how it bounces and how it rubs.
 
+use std::rc::Rc;
+
 use super::Resolver;
 use super::value::{MemberId, Vector, is_linear, limits};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::bounds::BoundKind;
+use crate::model::polygons::{Corner, MOST_CORNERS, Polygon};
 use crate::model::{
     Circle, Compliance, Contact, ContactGeometry, ImpactLaw, ImpactOrder, MOST_UNILATERAL, Name,
     Painleve, Place, Response, Space, Surface, Touching,
@@ -81,12 +84,29 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
         let geometries: Option<Vec<(Name, ContactGeometry<'d>)>> = if record.field(family).is_some()
         {
-            for field in ["gap", "slip", "corners"].iter().chain(&GEOMETRY) {
+            for field in ["gap", "slip", "corners", "against", "of"]
+                .iter()
+                .chain(&GEOMETRY)
+            {
                 self.conflict(record, field, family);
             }
             self.pairs(member, record, family)
+        } else if record.field("against").is_some() {
+            for field in [
+                "gap",
+                "slip",
+                one,
+                "point",
+                "inside",
+                "outside",
+                "along",
+                "compliance",
+            ] {
+                self.conflict(record, field, "against");
+            }
+            self.polygons(member, record)
         } else if record.field("corners").is_some() {
-            for field in ["gap", "slip", one, "point"] {
+            for field in ["gap", "slip", one, "point", "of"] {
                 self.conflict(record, field, "corners");
             }
             self.corners(member, record)
@@ -94,17 +114,19 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             .iter()
             .any(|field| record.field(field).is_some())
         {
-            for field in GEOMETRY {
+            for field in GEOMETRY.iter().chain(&["of"]) {
                 self.conflict(record, field, "gap");
             }
             let geometry = self.gap_and_slip(member, record);
             geometry.map(|geometry| vec![(name, geometry)])
         } else if record.field("point").is_some() {
             self.conflict(record, one, "point");
+            self.conflict(record, "of", "point");
             let geometry = self.touching_point(member, record);
             geometry.map(|geometry| vec![(name, geometry)])
         } else {
             self.conflict(record, "on", one);
+            self.conflict(record, "of", one);
             let touching = self.touching(member, record);
             touching.map(|touching| vec![(name, ContactGeometry::Circles(touching))])
         };
@@ -136,7 +158,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             sticking
         });
         let rolling = record.get("rolling_resistance").map(|said| {
-            for other in ["gap", "slip", "point", "corners", "sphere", "spheres"] {
+            for other in [
+                "gap", "slip", "point", "corners", "against", "sphere", "spheres",
+            ] {
                 if record.field(other).is_some() {
                     self.conflict(record, "rolling_resistance", other);
                 }
@@ -259,6 +283,107 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             (name, geometry)
         });
         Some(named.collect())
+    }
+
+    /// `corners` of a convex polygon that is fixed to what is named by `on`, `against` those of another, on what is named by `of`:
+    /// each corner of either is a contact with the other polygon.
+    fn polygons(
+        &mut self,
+        member: MemberId,
+        record: &'a Record,
+    ) -> Option<Vec<(Name, ContactGeometry<'d>)>> {
+        if self.space == Space::Space {
+            let field = record.field("against")?;
+            let message = "polygons touch each other only in the plane";
+            let diagnostic = Diagnostic::new(Code::WrongSpace, field.name.span, message);
+            self.push(diagnostic.help(
+                "in space `corners` touch planes and spheres: `along`, `inside` or `outside`",
+            ));
+            return None;
+        }
+        let first = self.polygon(member, record, ["corners", "on"]);
+        let second = self.polygon(member, record, ["against", "of"]);
+        let (first, second) = (first?, second?);
+        if let (Some(of), true) = (record.get("of"), first.on == second.on) {
+            let message = "a polygon does not touch what is fixed to the same body or frame";
+            self.error(Code::ConflictingFields, of.span, message);
+            return None;
+        }
+        let base = self.name(member).to_string();
+        let corners_of = |own: &Rc<Polygon<'d>>, other: &Rc<Polygon<'d>>| {
+            let corner = |corner| {
+                ContactGeometry::Corner(Corner {
+                    corner,
+                    own: own.clone(),
+                    other: other.clone(),
+                })
+            };
+            (0..own.corners.len()).map(corner).collect::<Vec<_>>()
+        };
+        let mut all = corners_of(&first, &second);
+        all.extend(corners_of(&second, &first));
+        let named = all.into_iter().zip(1..).map(|(geometry, k)| {
+            let name = Name {
+                base: base.clone(),
+                index: Some(k),
+            };
+            (name, geometry)
+        });
+        Some(named.collect())
+    }
+
+    /// A convex polygon: its corners, and what it is fixed to.
+    fn polygon(
+        &mut self,
+        member: MemberId,
+        record: &'a Record,
+        [corners, field]: [&str; 2],
+    ) -> Option<Rc<Polygon<'d>>> {
+        let said = self.field(member, record, corners);
+        let place = self.field(member, record, field);
+        let place = place.and_then(|on| self.place(member, on));
+        let (said, on) = (said?, place?);
+        let corners: Vec<Vec<Expr<'d>>> = match &said.kind {
+            ExpressionKind::Tuple(points) => {
+                let scope = self.scope(member, &limits::OUTLINE);
+                let points: Vec<_> = (points.iter())
+                    .map(|at| self.vector_in(at, "a point", Unit::METRE, "a point is in m", scope))
+                    .collect();
+                let points = points.into_iter().map(|point| Some(point?.components));
+                points.collect::<Option<_>>()?
+            }
+            ExpressionKind::Name(name) if name.index.is_none() && name.base.text == "outline" => {
+                self.outline_at(on, field, said.span)?
+            }
+            ExpressionKind::Error => return None,
+            _ => {
+                let message = "corners are a list of points, `((-b, -h), (b, -h), (0, h))`, or `outline`, those of the body";
+                self.error(Code::WrongKind, said.span, message);
+                return None;
+            }
+        };
+        if corners.len() < 3 {
+            let message = format!(
+                "a polygon has three corners at least, found {}",
+                corners.len()
+            );
+            let diagnostic = Diagnostic::new(Code::WrongKind, said.span, message);
+            self.push(diagnostic.help("what is fixed to a body may touch as a `point` too"));
+            return None;
+        }
+        if corners.len() > MOST_CORNERS {
+            let message = format!("a polygon with {} corners is too large", corners.len());
+            let diagnostic = Diagnostic::new(Code::TooLarge, said.span, message);
+            self.push(diagnostic.help(format!(
+                "it may have {MOST_CORNERS}: what is rounder is a circle"
+            )));
+            return None;
+        }
+        let polygon = Polygon { on, corners };
+        for turn in polygon.turns() {
+            self.bound(BoundKind::Convex, turn, said.span);
+        }
+        Some(Rc::new(polygon))
     }
 
     /// `point`, fixed to what is named by `on`, with `inside`, `outside` or `along`.

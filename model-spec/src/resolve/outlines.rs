@@ -78,28 +78,32 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let on = on.and_then(|on| self.place(member, on));
         let surface = self.surface(member, record, None)?;
         let on = on?;
+        let corners = self.outline_at(on, "on", span)?.into_iter();
+        let points = corners.map(|corner| self.point_on(member, on, corner, surface));
+        Some(points.collect())
+    }
+
+    /// The corners of the outline of the body that stands at a place.
+    pub fn outline_at(&mut self, on: Place, field: &str, span: Span) -> Option<Vec<Vec<Expr<'d>>>> {
         let outlines = self.outlines.iter();
         let mut own = outlines.filter(|outline| outline.is_of(on));
         let (corners, message, help) = match [own.next(), own.next()] {
-            [Some(outline), None] => (Some(outline.corners.clone()), "", ""),
+            [Some(outline), None] => (Some(outline.corners.clone()), String::new(), ""),
             [None, _] => (
                 None,
-                "what `on` names is no body with an `outline`",
+                format!("what `{field}` names is no body with an `outline`"),
                 "give the body `outline: ((0, 0), (b, 0), (0, h))`, or write the corners here",
             ),
             _ => (
                 None,
-                "several bodies on this frame have an `outline`",
+                "several bodies on this frame have an `outline`".to_owned(),
                 "write the corners here, or give each body a frame of its own",
             ),
         };
-        let Some(corners) = corners else {
+        if corners.is_none() {
             let diagnostic = Diagnostic::new(Code::WrongKind, span, message);
             self.push(diagnostic.help(help));
-            return None;
-        };
-        let corners = corners.into_iter();
-        let points = corners.map(|corner| self.point_on(member, on, corner, surface));
-        Some(points.collect())
+        }
+        corners
     }
 }

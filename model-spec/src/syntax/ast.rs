@@ -256,6 +256,8 @@ impl SectionKind {
                 "point",
                 "corners",
                 "on",
+                "against",
+                "of",
                 "gap",
                 "slip",
                 "restitution",

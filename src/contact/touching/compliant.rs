@@ -134,8 +134,11 @@ impl Touching {
 
     /// How far a contact is from closing, or how far it is closed.
     pub(in crate::contact) fn clearance(&self, here: &Here, contact: usize) -> Clearance {
-        let rate = here.rates[2 * contact];
         let gap = here.gaps[contact];
+        let rate = match here.on_face(contact) {
+            Some(face) if face.beyond > face.height => face.beyond_rate,
+            _ => here.rates[2 * contact],
+        };
         let Some(own) = self.yielding[contact] else {
             return Clearance {
                 value: gap,
@@ -168,7 +171,13 @@ impl Touching {
                 rate: rates[0],
                 is_of_gap: true,
             };
-            return pairs.map(of_gap).collect();
+            let mut all: Vec<Clearance> = pairs.map(of_gap).collect();
+            for (own, face) in all.iter_mut().zip(super::faces(system, (t, q, v))) {
+                if let Some(face) = face.filter(|face| face.beyond > face.height) {
+                    own.rate = face.beyond_rate;
+                }
+            }
+            return all;
         }
         let here = Here::of(system, t, q, v);
         (0..here.gaps.len())

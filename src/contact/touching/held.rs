@@ -3,9 +3,9 @@
 use std::vec;
 use std::vec::Vec;
 
-use super::{Mode, Touching};
+use super::{Mode, Touching, faces};
 use crate::forward::forward;
-use crate::{Constraint, System, UnilateralContact};
+use crate::{Constraint, System, UnilateralContact, Vector};
 
 /// A machine whose closed contacts are constraints: a gap that stays 0, and where a contact sticks, a slip that does.
 #[derive(Clone, Copy)]
@@ -140,6 +140,11 @@ impl<S: System> System for Held<'_, S> {
         let gaps = |to: &mut [f64]| {
             let mut gaps = vec![0.0; to.len() / 2];
             self.system.gaps(t, q, &mut gaps);
+            // A corner stays on the line of its face, wherever that ends: that it does is for the run to see.
+            let faces = faces(self.system, (t, q, &q.zeros_like()));
+            for (gap, face) in gaps.iter_mut().zip(faces) {
+                *gap = face.map_or(*gap, |face| face.height);
+            }
             for (to, gap) in to.chunks_exact_mut(2).zip(gaps) {
                 to[0] = gap;
             }
@@ -154,7 +159,6 @@ impl<S: System> System for Held<'_, S> {
     }
 
     fn constraint_matrix(&self, t: f64, q: &S::Vector, matrix: &mut [f64]) {
-        use crate::Vector;
         let own = |to: &mut [f64]| self.system.constraint_matrix(t, q, to);
         let contacts = |to: &mut [f64]| self.system.contact_matrix(t, q, to);
         self.with_contacts(q.as_slice().len(), matrix, own, contacts, 1.0);

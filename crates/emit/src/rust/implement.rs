@@ -410,6 +410,7 @@ impl Emitter<'_> {
                 ("rubs", contact.rubs.to_string()),
                 ("rolls", contact.rolls.to_string()),
                 ("across", contact.across.to_string()),
+                ("faced", contact.faced.to_string()),
             ];
             let fields = fields.map(|(name, value)| (name.to_owned(), Layout::Atom(value)));
             Layout::Struct(format!("{runtime}::UnilateralContact"), fields.to_vec())

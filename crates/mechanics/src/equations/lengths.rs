@@ -118,7 +118,8 @@ impl<'d> Longer<'d> {
         }
         for contact in &model.contacts {
             let moves = match &contact.geometry {
-                ContactGeometry::Circles(_) => false,
+                // Polygons are in the plane, where nothing turns by four numbers.
+                ContactGeometry::Circles(_) | ContactGeometry::Corner(_) => false,
                 ContactGeometry::Point { point, .. } => point.center.iter().any(|&x| self.moves(x)),
                 ContactGeometry::Expressions { gap, slip, across } => {
                     let slips = [Some(*slip), *across];

@@ -42,6 +42,7 @@ use rustc_hash::FxHashMap;
 
 use frozen::Frozen;
 use lagrangian_spec::model::element::{Energy, Load, Sliding};
+use lagrangian_spec::model::polygons::{Corner, Polygon};
 use lagrangian_spec::model::{
     ApproximationKind, Body, Circle, Contact, ContactGeometry, Inertia, Model, Place, PoseId,
     Rotation, Space, Surface, Touching, quaternion,
@@ -87,8 +88,12 @@ pub(crate) struct Literal<R> {
 /// A unilateral contact at a state.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LiteralUnilateral<R> {
-    /// The gap, as a constraint of positions would hold it at 0.
+    /// How far it is open.
+    pub open: LiteralConstraint<R>,
+    /// The gap, as a constraint of positions would hold it at 0: of a polygon that of the face which touches.
     pub gap: LiteralConstraint<R>,
+    /// Of a polygon, how far the corner is outside of the face, how far beyond its ends, and how fast that grows.
+    pub face: Option<[R; 3]>,
     /// The slip, as a constraint of velocities would.
     pub slip: LiteralConstraint<R>,
     /// `e`, `eₜ`, `μ` and `μ₀`.
@@ -529,7 +534,13 @@ impl<'m, 'd> Lagrange<'m, 'd> {
                 (gap, slip, Some(across))
             }
         };
+        let mut of_face = None;
         let (gap, slip, across) = match &contact.geometry {
+            ContactGeometry::Corner(corner) => {
+                let found = on_polygon(model, corner, x);
+                of_face = Some((found.open, found.beyond));
+                (found.height, found.slip, None)
+            }
             ContactGeometry::Circles(touching) => {
                 touch(&model.circles[touching.circle], touching.surface)
             }
@@ -545,7 +556,12 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         let friction = contact.friction;
         let nothing = Varied::<R>::ZERO;
         let mut all = vec![LiteralUnilateral {
+            open: of_position(of_face.map_or(gap, |(open, _)| open)),
             gap: of_position(gap),
+            face: of_face.map(|(_, beyond)| {
+                let rate = beyond.derivative.value.value;
+                [gap.value.value.value, beyond.value.value.value, rate]
+            }),
             // Without friction nobody looks at the slip.
             slip: of_rate(friction.map_or(nothing, |_| slip)),
             coefficients: [
@@ -572,7 +588,9 @@ impl<'m, 'd> Lagrange<'m, 'd> {
                 Surface::Along(pose) => x(model.poses[pose.index()].angle).derivative,
             };
             all.push(LiteralUnilateral {
+                open: of_position(gap),
                 gap: of_position(gap),
+                face: None,
                 slip: of_rate(own - other),
                 coefficients: [R::ZERO, R::ZERO, here(resistance), here(resistance)],
             });
@@ -911,6 +929,12 @@ fn geometry<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
                 surface: Surface::Along(frame),
                 ..
             } => pose(*frame, &mut roots),
+            ContactGeometry::Corner(Corner { own, other, .. }) => {
+                for polygon in [own, other] {
+                    place(polygon.on, &mut roots);
+                    roots.extend(polygon.corners.iter().flatten());
+                }
+            }
             ContactGeometry::Expressions { gap, slip, across } => {
                 roots.extend([*gap, *slip]);
                 roots.extend(across);
@@ -1036,6 +1060,17 @@ fn placed<'d, R: Scalar>(
     circle: &Circle<'d>,
     x: &impl Fn(Expr<'d>) -> Moving<R>,
 ) -> ([Moving<R>; 2], Varied<R>) {
+    let [c, d] = [0, 1].map(|k| circle.center[k]);
+    fixed(model, circle.on, [c, d], x)
+}
+
+/// Where a point is that is fixed to a frame or a body, and how fast that turns.
+fn fixed<'d, R: Scalar>(
+    model: &Model<'d>,
+    on: Place,
+    point: [Expr<'d>; 2],
+    x: &impl Fn(Expr<'d>) -> Moving<R>,
+) -> ([Moving<R>; 2], Varied<R>) {
     let of_pose = |pose: PoseId| {
         let pose = &model.poses[pose.index()];
         [0, 1].map(|k| [0, 1].map(|l| x(pose.axes[k][l])))
@@ -1044,7 +1079,7 @@ fn placed<'d, R: Scalar>(
         [Moving::<R>::ONE, Moving::<R>::ZERO],
         [Moving::<R>::ZERO, Moving::<R>::ONE],
     ];
-    let (origin, axes, turned) = match circle.on {
+    let (origin, axes, turned) = match on {
         Place::Frame(pose) => {
             let frame = &model.poses[pose.index()];
             (&frame.origin, of_pose(pose), Some(frame.angle))
@@ -1062,10 +1097,109 @@ fn placed<'d, R: Scalar>(
             (&body.at, axes, angle(model, body))
         }
     };
-    let [c, d] = [0, 1].map(|k| x(circle.center[k]));
+    let [c, d] = point.map(x);
     let centre = [0, 1].map(|l| x(origin[l]) + c * axes[0][l] + d * axes[1][l]);
     let turning = turned.map_or(Varied::<R>::ZERO, |angle| x(angle).derivative);
     (centre, turning)
+}
+
+/// How a corner of a polygon stands to another polygon.
+struct OnPolygon<R> {
+    /// How far it is outside of the polygon.
+    open: Moving<R>,
+    /// How far it is outside of the face that separates best.
+    height: Moving<R>,
+    /// How far it is beyond the ends of that.
+    beyond: Moving<R>,
+    /// How fast it slides along the face, in the direction that turned left points outwards.
+    slip: Varied<R>,
+}
+
+/// How a corner of a polygon stands to another: distances from lines through two corners of that, as the ground sees them all.
+fn on_polygon<'d, R: Scalar>(
+    model: &Model<'d>,
+    corner: &Corner<'d>,
+    x: &impl Fn(Expr<'d>) -> Moving<R>,
+) -> OnPolygon<R> {
+    let Corner { corner, own, other } = corner;
+    let corners = |polygon: &Polygon<'d>| -> Vec<[Moving<R>; 2]> {
+        let place = |at: &Vec<Expr<'d>>| fixed(model, polygon.on, [at[0], at[1]], x).0;
+        polygon.corners.iter().map(place).collect()
+    };
+    let (points, ends) = (corners(own), corners(other));
+    let (_, turning) = fixed(
+        model,
+        other.on,
+        [other.corners[0][0], other.corners[0][1]],
+        x,
+    );
+    let faces = ends.len();
+    // Along each face, of length 1.
+    let edges: Vec<[Moving<R>; 2]> = (0..faces)
+        .map(|k| {
+            let [a, b] = [0, 1].map(|i| ends[(k + 1) % faces][i] - ends[k][i]);
+            let scale = Moving::<R>::ONE / (a * a + b * b).sqrt();
+            [a * scale, b * scale]
+        })
+        .collect();
+    let distance = |k: usize, point: [Moving<R>; 2]| {
+        let arm = [0, 1].map(|i| point[i] - ends[k][i]);
+        arm[0] * edges[k][1] - arm[1] * edges[k][0]
+    };
+    let fold = |mut all: Vec<Moving<R>>, pick: fn(Moving<R>, Moving<R>) -> Moving<R>| {
+        let first = all.pop().unwrap_or(Moving::<R>::ZERO);
+        all.into_iter().rev().fold(first, pick)
+    };
+    let separations: Vec<Moving<R>> = (0..faces)
+        .map(|k| {
+            fold(
+                points.iter().map(|at| distance(k, *at)).collect(),
+                Moving::min,
+            )
+        })
+        .collect();
+    let half = Moving::<R>::from_ratio(1, 2);
+    // From the last face to the first: what is left for it where none behind it separates better than all before.
+    let mut so_far: Vec<Moving<R>> = Vec::with_capacity(faces);
+    for &separation in &separations {
+        let best = so_far
+            .last()
+            .map_or(separation, |&best| best.max(separation));
+        so_far.push(best);
+    }
+    let mut left = Moving::<R>::ONE;
+    let mut weights = vec![Moving::<R>::ZERO; faces];
+    for k in (1..faces).rev() {
+        let is_better = half * (Moving::<R>::ONE + (separations[k] - so_far[k - 1]).sign());
+        weights[k] = left * is_better;
+        left = left * (Moving::<R>::ONE - is_better);
+    }
+    weights[0] = left;
+    let place = points[*corner];
+    let mut found = OnPolygon {
+        open: fold(
+            (0..faces).map(|k| distance(k, place)).collect(),
+            Moving::max,
+        ),
+        height: Moving::<R>::ZERO,
+        beyond: Moving::<R>::ZERO,
+        slip: Varied::<R>::ZERO,
+    };
+    for (k, &weight) in weights.iter().enumerate() {
+        let others = (0..faces).filter(|j| *j != k);
+        found.height = found.height + weight * distance(k, place);
+        found.beyond =
+            found.beyond + weight * fold(others.map(|j| distance(j, place)).collect(), Moving::max);
+        // The polygon's own point under the corner moves with its end, and turns about it.
+        let arm = [0, 1].map(|i| (place[i] - ends[k][i]).value);
+        let carried = [-(turning * arm[1]), turning * arm[0]];
+        let along = [0, 1].map(|i| {
+            let velocity = place[i].derivative - ends[k][i].derivative - carried[i];
+            -edges[k][i].value * velocity
+        });
+        found.slip = found.slip + weight.value * (along[0] + along[1]);
+    }
+    found
 }
 
 /// How far a circle is from touching a surface, and how fast the points that touch slide past each

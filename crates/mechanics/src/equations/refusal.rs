@@ -10,6 +10,7 @@ use super::sliding::MOST_CONTACTS;
 use super::symmetric::Symmetric;
 use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
 use lagrangian_spec::identity;
+use lagrangian_spec::model::polygons::Corner;
 use lagrangian_spec::model::{
     Circle, ContactGeometry, ImpactLaw, MOST_UNILATERAL, Model, Painleve, Place, Rotation, Space,
     Surface, Touching, circles,
@@ -243,7 +244,31 @@ pub(super) fn refuse_unturned(model: &Model<'_>, report: &mut Report) -> bool {
             }
             // Where a point of a body is depends on how that is turned, friction or not.
             ContactGeometry::Point { point, surface } => refuse(point, *surface, contact.span),
-            ContactGeometry::Circles(_) | ContactGeometry::Expressions { .. } => {}
+            ContactGeometry::Circles(_)
+            | ContactGeometry::Corner(_)
+            | ContactGeometry::Expressions { .. } => {}
+        }
+    }
+    refuse_unturned_polygons(model, report) || refused
+}
+
+/// Refuses polygons on bodies without a word on how these turn, once for each pair. True if anything is refused.
+fn refuse_unturned_polygons(model: &Model<'_>, report: &mut Report) -> bool {
+    let mut refused = false;
+    for contact in &model.contacts {
+        let ContactGeometry::Corner(Corner { corner, own, .. }) = &contact.geometry else {
+            continue;
+        };
+        // Each polygon is asked where its own first corner is.
+        let (0, Place::Body(body)) = (*corner, own.on) else {
+            continue;
+        };
+        let body = &model.bodies[body];
+        if matches!(body.rotation, Rotation::Unspecified) {
+            let message = format!("nothing says how the body `{}` turns", body.name);
+            let help = "corners are on it: give it an `angle` or a `frame`";
+            report.push(Diagnostic::new(Code::MissingRotation, contact.span, message).help(help));
+            refused = true;
         }
     }
     refused

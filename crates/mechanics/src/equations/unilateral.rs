@@ -5,6 +5,7 @@
 //! slip       γₜ = wₜ v + b(q, t),                     wₜ = ∂γₜ/∂v                      (E52)
 //! rates      dγ/dt = w a + δ,                         δ = Dγ at a = 0                  (E53)
 //! rolling    γ = ω − ω′, of circles that resist it
+//! polygons   g = maxₖ dₖ(p),   γ of the face that separates best                      (E77)
 //! across     γₜ along a second tangent, in space
 //! motion     M a = f + Gᵀλ + Σ wₙᵀ λₙ + Σ wₜᵀ λₜ
 //! ```
@@ -20,7 +21,7 @@ use lagrangian_spec::identity;
 use lagrangian_spec::model::circles::{self, Contact};
 use lagrangian_spec::model::{
     self, Circle, Compliance, ContactGeometry, ImpactLaw, ImpactOrder, Model, Painleve, Space,
-    Surface, spheres,
+    Surface, polygons, spheres,
 };
 
 /// The most terms of a gap that is multiplied out, to see what cancels.
@@ -51,6 +52,8 @@ pub struct UnilateralEquation<'d> {
     pub rolls: bool,
     /// Whether it is the second tangent of the contact before it, in space: see [`Unilateral`](lagrangian_program::Unilateral).
     pub across: bool,
+    /// Of a corner on a face of a polygon, how far it is outside of that face, how far beyond its ends, and how fast that grows.
+    pub face: Option<[Expr<'d>; 3]>,
 }
 
 /// A direction of a contact.
@@ -80,7 +83,17 @@ pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
                 (gap, slip[0], Some(slip[1]))
             }
         };
+        let mut of_face = None;
         let (gap, slip, across) = match &contact.geometry {
+            ContactGeometry::Corner(corner) => {
+                let touching = polygons::touch(model, corner, &mut x.coasting(model));
+                let beyond_rate = x.coasting(model).of(touching.beyond);
+                of_face = Some((
+                    touching.rate,
+                    [touching.height, touching.beyond, beyond_rate],
+                ));
+                (touching.gap, touching.slip, None)
+            }
             ContactGeometry::Circles(touching) => {
                 touch(&model.circles[touching.circle], touching.surface)
             }
@@ -91,11 +104,17 @@ pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
             Some(expanded) => normal::readable(expanded.to_expr(), TERMS),
             None => e,
         };
-        let gap = plain(gap);
-        let rubs = contact.friction.is_some();
-        let slip = if rubs { plain(slip) } else { model.dag.zero() };
-        let rate = x.coasting(model).of(gap);
         let zero = model.dag.zero();
+        let rubs = contact.friction.is_some();
+        let (gap, rate, slip) = match of_face {
+            // These choose between features, and multiplied out they would be long.
+            Some((rate, _)) => (gap, rate, if rubs { slip } else { zero }),
+            None => {
+                let gap = plain(gap);
+                let slip = if rubs { plain(slip) } else { zero };
+                (gap, x.coasting(model).of(gap), slip)
+            }
+        };
         let friction = contact.friction.unwrap_or(zero);
         let [first, second] = contact.response.coefficients();
         let own = UnilateralEquation {
@@ -115,6 +134,7 @@ pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
             rubs,
             rolls: false,
             across: false,
+            face: of_face.map(|(_, face)| face),
         };
         if let (true, Some(across)) = (rubs, across) {
             // What it leans on has its gap and its normal; all that is its own is the other component of the slip.

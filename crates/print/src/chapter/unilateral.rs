@@ -24,6 +24,13 @@ impl Chapter<'_, '_> {
             if contact.across {
                 continue;
             }
+            if contact.face.is_some() {
+                blocks.push(Block::Heading(words!["Contact ", contact.name.clone()]));
+                blocks.push(Block::Paragraph(words![
+                    "A corner of a polygon and another polygon: which face it touches depends on where both are, (E77).",
+                ]));
+                continue;
+            }
             let [normal, tangent] = &contact.directions;
             let rate = |index: &'static str| Math::letter('γ').with_index(Math::text(index));
             let mut rows = self.equality(Math::letter('g'), contact.gap, "gap");

@@ -1,0 +1,501 @@
+//! Convex polygons against convex polygons, against closed forms, what is written corner by corner, and a test of overlap that
+//! shares nothing with the compiler.
+
+use serde_json::Value;
+
+use crate::collisions::{close, events, is_good, number, simulate};
+use crate::support::{Scratch, lagrangian};
+
+const BOXES: &str = "machines/contacts/box_on_box.machine";
+const G: f64 = 9.81;
+
+/// A run, and the table that it writes: its columns and its rows.
+struct Table {
+    run: Value,
+    names: Vec<String>,
+    rows: Vec<Vec<f64>>,
+}
+
+impl Table {
+    fn column(&self, name: &str) -> usize {
+        let found = self.names.iter().position(|known| known == name);
+        found.unwrap_or_else(|| panic!("no {name} in {:?}", self.names))
+    }
+}
+
+fn table(spec: &str, until: &str, every: &str, settings: &[&str]) -> Table {
+    let table = Scratch::new("polygons.csv", "");
+    let mut call = vec![
+        "simulate", spec, "--until", until, "--every", every, "--json",
+    ];
+    call.extend(["--tolerance", "1e-12", "--out", table.path()]);
+    for setting in settings {
+        call.extend(["--set", setting]);
+    }
+    let output = lagrangian(&call);
+    let run: Value = serde_json::from_slice(&output.stdout).expect("a document");
+    assert_eq!(run["error"], Value::Null, "{run:#}");
+    let text = std::fs::read_to_string(table.path()).expect("a table");
+    let mut lines = text.lines().filter(|line| !line.starts_with('#'));
+    let names = lines.next().expect("names").split(',');
+    // Without their units.
+    let names = names.map(|name| name.split(" [").next().unwrap_or_default().to_owned());
+    let names = names.collect();
+    let numbers = |line: &str| {
+        line.split(',')
+            .map(|x| x.parse().expect("a number"))
+            .collect()
+    };
+    let rows = lines.map(numbers).collect();
+    Table { run, names, rows }
+}
+
+/// A box on a slope of a polygon stays where it is up to tan α = μ, and beyond slides down with g (sin α − μ cos α).
+#[test]
+fn a_box_slides_down_a_polygon_beyond_its_angle_of_friction() {
+    let spec = Scratch::new(
+        "slope.machine",
+        "machine Slope in plane {
+            parameters { alpha: rad = 0.3, mu: 1 = 0.4, m: kg = 2, b: m = 0.1, h: m = 0.05, g: m/s^2 = 9.81 }
+            coordinates {
+                x: m = -h*sin(alpha), y: m = h*cos(alpha), theta: rad = alpha,
+            }
+            frames { slope = ground.turn(alpha), held = ground.shift(x, y).turn(theta) }
+            bodies { box { mass: m, inertia: m*(b^2 + h^2)/3, frame: held, outline: ((b, h), (-b, h), (-b, -h), (b, -h)) } }
+            gravity (0, -g);
+            contacts {
+                lies {
+                    corners: outline, on: box, against: ((-9, -1), (9, -1), (9, 0), (-9, 0)), of: slope,
+                    restitution: 0, friction: mu,
+                },
+            }
+        }",
+    );
+    let critical = 0.4_f64.atan();
+    for alpha in [0.3, critical - 1e-9, critical + 1e-3, 0.5] {
+        let run = simulate(spec.path(), 0.5, &[&format!("alpha={alpha:?}")]);
+        is_good(&run);
+        let (sin, cos) = alpha.sin_cos();
+        let a = if alpha > critical {
+            G * (sin - 0.4 * cos)
+        } else {
+            0.0
+        };
+        let way = -0.5 * a * 0.25;
+        close(number(&run["q"]["x"]), way * cos - 0.05 * sin, 1e-13);
+        close(number(&run["q"]["y"]), way * sin + 0.05 * cos, 1e-13);
+        close(number(&run["q"]["theta"]), alpha, 1e-14);
+        close(
+            number(&run["dissipated"]),
+            2.0 * G * 0.4 * cos * -way,
+            1e-12,
+        );
+        assert!(events(&run, "impact").is_empty(), "{run:#}");
+    }
+}
+
+/// On a lower box that slides freely friction brings both to one velocity after v/(μ g (1 + m/M)), and takes what they lose by
+/// that.
+#[test]
+fn a_box_is_braked_on_another() {
+    let (m, mu) = (1.0, 0.3);
+    for big in [4.0, 10.0] {
+        let share = m / big;
+        let run = simulate(BOXES, 0.8, &[&format!("M={big:?}")]);
+        is_good(&run);
+        let brakes = mu * G * (1.0 + share);
+        let sticks = events(&run, "sticks");
+        // Both corners of what touches come to rest at once.
+        let mut of_stack = sticks.iter().filter(|event| {
+            let contact = event["contact"].as_str();
+            contact.is_some_and(|contact| contact.starts_with("stack"))
+        });
+        for k in [1, 4] {
+            let event = of_stack.next().expect("it sticks");
+            assert_eq!(event["contact"], format!("stack[{k}]"));
+            close(number(&event["t"]), 1.0 / brakes, 1e-11);
+        }
+        let together = share / (1.0 + share);
+        close(number(&run["v"]["x"]), together, 1e-12);
+        close(number(&run["v"]["X"]), together, 1e-12);
+        let apart = number(&run["q"]["x"]) - number(&run["q"]["X"]);
+        close(apart, 0.5 / brakes, 1e-12);
+        close(number(&run["dissipated"]), 0.5 * m / (1.0 + share), 1e-12);
+        close(number(&run["q"]["theta"]), 0.0, 1e-13);
+        assert!(events(&run, "impact").is_empty());
+    }
+}
+
+/// A box lies across the end of another on its own corner and on that of the other, each of which carries its share by the law of the
+/// lever; aligned boxes share a load as they like, and stay where they are.
+#[test]
+fn a_box_lies_on_the_ends_of_what_both_have_in_common() {
+    for start in [0.32_f64, 0.36, -0.36] {
+        let told = table(
+            BOXES,
+            "0.1",
+            "0.05",
+            &["speed=0", &format!("start={start:?}")],
+        );
+        is_good(&told.run);
+        let last = told.rows.last().expect("rows");
+        let of = |name: &str| last[told.column(name)];
+        let normal = |k: usize| of(&format!("normal(stack[{k}])"));
+        // Corners 1 and 4 of the upper box are below, 6 and 7 of the lower one above: right and left.
+        let (own, end) = if start > 0.0 { (4, 6) } else { (1, 7) };
+        let lever = (0.4 - start.abs()) / (0.5 - start.abs());
+        close(normal(own), G * lever, 1e-11);
+        close(normal(end), G * (1.0 - lever), 1e-11);
+        for k in (1..=8).filter(|k| *k != own && *k != end) {
+            assert_eq!(normal(k), 0.0, "{k}");
+            assert!(of(&format!("gap(stack[{k}])")) > 0.01, "{k}");
+        }
+        close(of("x"), start, 1e-15);
+        close(of("theta"), 0.0, 1e-15);
+    }
+    let run = simulate(BOXES, 0.5, &["speed=0", "b=0.4"]);
+    is_good(&run);
+    close(number(&run["q"]["x"]), 0.0, 1e-13);
+    close(number(&run["q"]["theta"]), 0.0, 1e-13);
+}
+
+/// A box that slides over the end of another hands over from its corner to that of the other, without an impact: x = v t − ½ μ g t²
+/// until its centre, less what friction shifts the load by, is over the end; then it tips about that.
+#[test]
+fn a_box_slides_over_the_end_of_another_without_an_impact() {
+    let (mu, v) = (0.1, 3.0_f64);
+    let run = simulate(BOXES, 0.33, &["speed=3", "mu=0.1", "mu_floor=0.9"]);
+    is_good(&run);
+    let time_at = |x: f64| (v - (v * v - 2.0 * mu * G * x).sqrt()) / (mu * G);
+    let of = |kind: &str, contact: &str| -> Vec<f64> {
+        let own = events(&run, kind).into_iter();
+        let own = own.filter(|event| event["contact"] == contact);
+        own.map(|event| number(&event["t"])).collect()
+    };
+    // Its corner in front leaves the face where that of the other comes under it.
+    let passes = time_at(0.3);
+    close(of("lifts", "stack[1]")[0], passes, 1e-11);
+    close(of("closes", "stack[6]")[0], passes, 1e-11);
+    // The load is ahead of the centre by μ h.
+    let tips = time_at(0.4 - mu * 0.05);
+    close(of("lifts", "stack[4]")[0], tips, 1e-10);
+    let first = events(&run, "impact")
+        .first()
+        .map_or(f64::INFINITY, |event| number(&event["t"]));
+    assert!(first > tips + 1e-3, "{first}");
+    // And it goes down beside the other box, turned to the right.
+    assert!(
+        number(&run["q"]["theta"]) < -0.1
+            && number(&run["q"]["x"]) > 0.5
+            && number(&run["q"]["y"]) < 0.2,
+        "{run:#}"
+    );
+}
+
+/// A box that falls flat touches with two corners at once, and bounces as a ball does: it lies still after √(2 d/g) (1 + e)/(1 − e).
+#[test]
+fn a_box_lands_flat_on_another_with_two_corners_at_once() {
+    for (drop, e) in [(0.2_f64, 0.5_f64), (0.05, 0.0), (0.3, 0.7)] {
+        let falls = (2.0 * drop / G).sqrt();
+        let settings = [format!("drop={drop:?}"), format!("e={e:?}")];
+        let mut all: Vec<&str> = settings.iter().map(String::as_str).collect();
+        all.push("speed=0");
+        let rests = falls * (1.0 + e) / (1.0 - e);
+        let run = simulate(BOXES, rests + 0.1, &all);
+        is_good(&run);
+        let impacts = events(&run, "impact");
+        let stack: Vec<_> = impacts
+            .iter()
+            .filter(|event| {
+                event["contact"]
+                    .as_str()
+                    .is_some_and(|c| c.starts_with("stack"))
+            })
+            .collect();
+        for (impact, k) in stack.iter().zip([1, 4]) {
+            assert_eq!(impact["contact"], format!("stack[{k}]"));
+            close(number(&impact["t"]), falls, 1e-14);
+            close(number(&impact["gap_rate"][1]), e * G * falls, 1e-12);
+            // Each carries half of it.
+            close(
+                number(&impact["impulse"][0]),
+                0.5 * (1.0 + e) * G * falls,
+                1e-12,
+            );
+        }
+        let closes = events(&run, "closes");
+        let own = closes
+            .iter()
+            .find(|event| event["contact"] == "stack[1]")
+            .expect("it closes");
+        close(number(&own["t"]), rests, 1e-8);
+        close(number(&run["q"]["y"]), 0.25, 1e-12);
+        close(number(&run["q"]["theta"]), 0.0, 1e-12);
+        close(number(&run["impact_loss"]), G * drop, 1e-10);
+        close(number(&run["energy_residual"]), 0.0, 1e-11);
+    }
+}
+
+/// What is written as corners along a line, or as edges of a stair with what touches them, moves as polygons do: a box that
+/// falls on a floor, and one that tumbles down a step.
+#[test]
+fn polygons_move_as_what_is_written_corner_by_corner() {
+    let stair =
+        std::fs::read_to_string("../machines/contacts/box_on_stair.machine").expect("the machine");
+    let begins = stair.find("    contacts {").expect("contacts");
+    let head = stair[..begins].replace("N = 3", "N = 1");
+    let polygons = Scratch::new(
+        "step.machine",
+        &format!(
+            "{head}
+            contacts {{
+                floor {{ corners: outline, on: box, along: ground, restitution: e, friction: mu }},
+                step {{
+                    corners: outline, on: box, against: ((-9, 0), (0, 0), (0, rise), (-9, rise)), of: ground,
+                    restitution: e, friction: mu,
+                }},
+            }}
+        }}"
+        ),
+    );
+    let lines = Scratch::new("lines.machine", &stair.replace("N = 3", "N = 1"));
+    let by = |spec: &str, settings: &[&str]| simulate(spec, 1.0, settings);
+    for settings in [
+        &["start=-0.03", "speed=0", "tilt=-0.3"],
+        &["start=0.02", "speed=0.8", "tilt=-0.2"],
+        &["start=0.06", "speed=0.5", "tilt=-0.4"],
+    ] {
+        let [found, expected] = [polygons.path(), lines.path()].map(|spec| by(spec, settings));
+        is_good(&found);
+        for name in ["x", "y", "theta"] {
+            // Impacts follow each other, and each makes of an error some ten times as much.
+            close(
+                number(&found["q"][name]),
+                number(&expected["q"][name]),
+                1e-9,
+            );
+            close(
+                number(&found["v"][name]),
+                number(&expected["v"][name]),
+                1e-8,
+            );
+        }
+        let count = |run: &Value| events(run, "impact").len();
+        assert_eq!(count(&found), count(&expected), "{settings:?}");
+        assert!(count(&found) > 10);
+    }
+    let floor = |contacts: &str| {
+        let spec = format!(
+            "machine Falls in plane {{
+                coordinates {{ x: m, y: m = 1, theta: rad = 0.4, der(x): m/s = 0.7, der(theta): rad/s = -2 }}
+                frames {{ held = ground.shift(x, y).turn(theta) }}
+                bodies {{ box {{ mass: 2, inertia: 0.03, frame: held, outline: ((0.2, 0.1), (-0.1, 0.15), (-0.2, -0.1), (0.15, -0.1)) }} }}
+                gravity (0, -9.81);
+                contacts {{ floor {{ corners: outline, on: box, {contacts}, restitution: 0.4, friction: 0.3 }} }}
+            }}"
+        );
+        Scratch::new("falls.machine", &spec)
+    };
+    let line = floor("along: ground");
+    let plate = floor("against: ((-50, -3), (50, -3), (50, 0), (-50, 0)), of: ground");
+    let [line, plate] = [line.path(), plate.path()].map(|spec| simulate(spec, 1.2, &[]));
+    is_good(&plate);
+    assert!(events(&line, "impact").len() > 3);
+    assert_eq!(
+        events(&plate, "impact").len(),
+        events(&line, "impact").len()
+    );
+    for name in ["x", "y", "theta"] {
+        close(number(&plate["q"][name]), number(&line["q"][name]), 1e-10);
+    }
+}
+
+/// Corners of a convex polygon: on an ellipse, turned left.
+fn polygon(random: &mut impl FnMut() -> f64) -> Vec<[f64; 2]> {
+    let count = 3 + (random() * 3.0) as usize;
+    // Some are as thin as needles.
+    let thin = if random() < 0.4 {
+        0.01
+    } else {
+        0.4 + 0.6 * random()
+    };
+    let turn = 6.0 * random();
+    (0..count)
+        .map(|k| {
+            let angle = (k as f64 + 0.5 * random()) * std::f64::consts::TAU / count as f64;
+            let [x, y] = [angle.cos(), thin * angle.sin()];
+            [
+                turn.cos() * x - turn.sin() * y,
+                turn.sin() * x + turn.cos() * y,
+            ]
+            .map(|x| 0.3 * x)
+        })
+        .collect()
+}
+
+/// How deep polygons overlap: the least way along the normal of any edge that takes them apart; negative where they do not.
+fn overlap(polygons: [&[[f64; 2]]; 2]) -> f64 {
+    let mut least = f64::INFINITY;
+    for polygon in polygons {
+        for (k, a) in polygon.iter().enumerate() {
+            let b = polygon[(k + 1) % polygon.len()];
+            let [x, y] = [b[1] - a[1], a[0] - b[0]];
+            let length = x.hypot(y);
+            let range = |polygon: &[[f64; 2]]| {
+                let along = polygon.iter().map(|p| (p[0] * x + p[1] * y) / length);
+                along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], s| {
+                    [low.min(s), high.max(s)]
+                })
+            };
+            let [one, other] = polygons.map(range);
+            least = least.min(one[1].min(other[1]) - one[0].max(other[0]));
+        }
+    }
+    least
+}
+
+/// Random polygons, needles among them, that a spring pulls against each other again and again: they never overlap, elastic ones keep
+/// their energy, and momenta stay as they were, whatever touches what.
+#[test]
+fn polygons_never_overlap_and_keep_their_momenta() {
+    let seed: u64 = std::env::var("SEED")
+        .ok()
+        .and_then(|s| s.parse().ok())
+        .unwrap_or(20_261_127);
+    println!("SEED={seed}");
+    let mut state = seed;
+    let mut random = move || {
+        // Xorshift* of G. Marsaglia and S. Vigna.
+        state ^= state >> 12;
+        state ^= state << 25;
+        state ^= state >> 27;
+        (state.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let mut impacts = 0;
+    for round in 0..10 {
+        let shapes = [polygon(&mut random), polygon(&mut random)];
+        let corners = |shape: &[[f64; 2]]| {
+            let all: Vec<String> = shape
+                .iter()
+                .map(|[x, y]| format!("({x:?}, {y:?})"))
+                .collect();
+            format!("({})", all.join(", "))
+        };
+        let (e, mu) = if round % 2 == 0 {
+            (1.0, 0.0)
+        } else {
+            (0.6, 0.5)
+        };
+        let [spin, turn, past] = [0, 1, 2].map(|_| 2.0 * random() - 1.0);
+        let spec = format!(
+            "machine Thrown in plane {{
+                coordinates {{
+                    x: m = -1, y: m = {:?}, a: rad = {:?}, X: m = 1, Y: m, A: rad,
+                    der(x): m/s = 2, der(a): rad/s = {:?}, der(A): rad/s = {:?},
+                }}
+                frames {{ one = ground.shift(x, y).turn(a), two = ground.shift(X, Y).turn(A) }}
+                bodies {{
+                    one {{ mass: 1, inertia: 0.02, frame: one, outline: {} }},
+                    two {{ mass: 2, inertia: 0.05, frame: two, outline: {} }},
+                }}
+                springs {{ pull {{ stiffness: 3, from: one.at, to: two.at }} }}
+                contacts {{ hit {{ corners: outline, on: one, against: outline, of: two, restitution: {e:?}, friction: {mu:?} }} }}
+            }}",
+            0.3 * past,
+            3.0 * turn,
+            9.0 * spin,
+            4.0 * turn,
+            corners(&shapes[0]),
+            corners(&shapes[1]),
+        );
+        let spec = Scratch::new("thrown.machine", &spec);
+        let told = table(spec.path(), "3", "0.002", &[]);
+        close(number(&told.run["energy_residual"]), 0.0, 1e-9);
+        impacts += events(&told.run, "impact").len();
+        if e == 1.0 {
+            close(number(&told.run["dissipated"]), 0.0, 1e-9);
+        }
+        let Table { rows, .. } = &told;
+        let column = |name: &str| told.column(name);
+        let [x, y, a] = ["x", "y", "a"].map(column);
+        let [xx, yy, aa] = ["X", "Y", "A"].map(column);
+        let rate = |name: &str| column(&format!("der({name})"));
+        let momenta = |row: &[f64]| {
+            let [vx, vy, w] = ["x", "y", "a"].map(|name| row[rate(name)]);
+            let [ux, uy, o] = ["X", "Y", "A"].map(|name| row[rate(name)]);
+            let own = row[x] * vy - row[y] * vx + 0.02 * w;
+            let other = 2.0 * (row[xx] * uy - row[yy] * ux) + 0.05 * o;
+            [vx + 2.0 * ux, vy + 2.0 * uy, own + other]
+        };
+        let begins = momenta(&rows[0]);
+        for row in rows {
+            let placed = |shape: &[[f64; 2]], [x, y, a]: [usize; 3]| -> Vec<[f64; 2]> {
+                let (sin, cos) = row[a].sin_cos();
+                let place = |p: &[f64; 2]| {
+                    [
+                        row[x] + cos * p[0] - sin * p[1],
+                        row[y] + sin * p[0] + cos * p[1],
+                    ]
+                };
+                shape.iter().map(place).collect()
+            };
+            let [one, two] = [
+                placed(&shapes[0], [x, y, a]),
+                placed(&shapes[1], [xx, yy, aa]),
+            ];
+            let deep = overlap([&one, &two]);
+            // The tolerance of the run, and what dense output adds to it.
+            assert!(deep < 1e-9, "round {round}: {deep:e} at {row:?}");
+            for (now, then) in momenta(row).iter().zip(begins) {
+                close(*now, then, 1e-8);
+            }
+        }
+    }
+    assert!(impacts > 30, "{impacts}");
+}
+
+/// By time stepping a box stops where it should, to the first order in the step, and is not pressed into the other.
+#[test]
+fn boxes_are_stepped_too() {
+    for h in [1e-3, 2.5e-4] {
+        let step = format!("{h:e}");
+        let call = [
+            "simulate",
+            BOXES,
+            "--until",
+            "0.6",
+            "--json",
+            "--method",
+            "moreau",
+            "--longest-step",
+            &step,
+        ];
+        let run: Value = serde_json::from_slice(&lagrangian(&call).stdout).expect("a document");
+        assert_eq!(run["error"], Value::Null, "{run:#}");
+        let apart = number(&run["q"]["x"]) - number(&run["q"]["X"]);
+        close(apart, 0.5 / (0.3 * G * 1.25), 2.0 * h);
+        close(number(&run["q"]["y"]), 0.25, 1e-12);
+    }
+}
+
+/// Where a corner comes to the end of a face the motion has no derivative that is known: so that is refused by name.
+#[test]
+fn derivatives_across_polygons_are_refused() {
+    let call = [
+        "sensitivities",
+        BOXES,
+        "--by",
+        "mu",
+        "--of",
+        "x",
+        "--until",
+        "0.1",
+    ];
+    let output = lagrangian(&call);
+    assert!(!output.status.success());
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        said.contains("`stack[1]`") && said.contains("two polygons"),
+        "{said}"
+    );
+}

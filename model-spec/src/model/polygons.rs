@@ -1,0 +1,175 @@
+//! Convex polygons in the plane: how the corners of one touch the faces of another.
+//!
+//! Two convex polygons are apart if, and only if, one of their faces separates them: all corners of the other polygon are outside of
+//! its line. (S. Gottschalk, M. C. Lin, D. Manocha, *OBBTree*, Proc. SIGGRAPH 1996, 171–180.) Where they touch, a corner of one of
+//! them lies on the other; so what touches is said corner by corner, and of a face on a face two corners touch, the ends of
+//! what both have in common.
+//!
+//! A corner `p` is as far from the line of the face `k` of the other polygon as `dₖ(p)`, positive outside. It is outside of the
+//! polygon if it is outside of any face, and its gap is `maxₖ dₖ(p)`: whichever feature is nearest, that is negative inside and
+//! nowhere else, so nothing slips in between two features. The face that it touches is the one that separates best,
+//!
+//! ```text
+//! k* = argmaxₖ min_c dₖ(c)        over all corners c of the polygon that p is a corner of
+//! ```
+//!
+//! as corners that pass the end of a face are on it and on the next one, and neither way of being there is to be taken for a
+//! collision. `p` is on the face as long as it is outside of no other one: as far as it is beyond its ends, `max dⱼ(p)` over the
+//! other faces `j`, is negative there. (Faces and corners as features: M. C. Lin, J. F. Canny, *A fast algorithm for incremental
+//! distance calculation*, Proc. IEEE ICRA 1991, 1008–1014.)
+
+use std::rc::Rc;
+
+use lagrangian_symbolic::{Expr, Tangent};
+
+use super::circles::{difference, fixed};
+use crate::model::{Model, Place};
+
+/// The most corners of a polygon that touches another: each is held against every face, and choices among them are written out.
+pub const MOST_CORNERS: usize = 24;
+
+/// A convex polygon.
+#[derive(Clone)]
+pub struct Polygon<'d> {
+    /// What it is fixed to.
+    pub on: Place,
+    /// Its corners, along the axes of that: in their order it lies to the left.
+    pub corners: Vec<Vec<Expr<'d>>>,
+}
+
+/// A corner of a polygon that may touch another polygon.
+#[derive(Clone)]
+pub struct Corner<'d> {
+    /// Which of the corners of the first.
+    pub corner: usize,
+    /// The polygon that it is a corner of.
+    pub own: Rc<Polygon<'d>>,
+    /// The polygon that it may touch.
+    pub other: Rc<Polygon<'d>>,
+}
+
+/// How a corner stands to a polygon.
+pub struct Contact<'d> {
+    /// How far it is outside of the polygon, in m.
+    pub gap: Expr<'d>,
+    /// How far it is outside of the face that it touches, in m: the gap, where it touches.
+    pub height: Expr<'d>,
+    /// How fast that grows.
+    pub rate: Expr<'d>,
+    /// How far it is beyond the ends of that face, in m; negative between them.
+    pub beyond: Expr<'d>,
+    /// The velocity of the corner less that of the polygon's point that it touches, along the face: turned left this
+    /// points outwards.
+    pub slip: Expr<'d>,
+}
+
+/// The faces of a polygon: outward normals of length 1 along its axes, and how far along them the faces are.
+struct Faces<'d> {
+    normals: Vec<[Expr<'d>; 2]>,
+    offsets: Vec<Expr<'d>>,
+}
+
+impl<'d> Polygon<'d> {
+    /// How far each corner is to the left of each face that it is not on, times the length of that.
+    pub fn turns(&self) -> Vec<Expr<'d>> {
+        let count = self.corners.len();
+        let mut turns = Vec::new();
+        for k in 0..count {
+            let next = (k + 1) % count;
+            let face = self.edge(k);
+            for other in (0..count).filter(|other| *other != k && *other != next) {
+                let to = |i: usize| self.corners[other][i] - self.corners[k][i];
+                turns.push(face[0] * to(1) - face[1] * to(0));
+            }
+        }
+        turns
+    }
+
+    /// From a corner to the next one.
+    fn edge(&self, k: usize) -> [Expr<'d>; 2] {
+        let next = (k + 1) % self.corners.len();
+        [0, 1].map(|i| self.corners[next][i] - self.corners[k][i])
+    }
+
+    fn faces(&self) -> Faces<'d> {
+        let normals: Vec<[Expr<'d>; 2]> = (0..self.corners.len())
+            .map(|k| {
+                let [x, y] = self.edge(k);
+                let length = (x.square() + y.square()).sqrt();
+                [y / length, -x / length]
+            })
+            .collect();
+        let offsets = normals.iter().zip(&self.corners);
+        let offsets = offsets.map(|(n, at)| n[0] * at[0] + n[1] * at[1]).collect();
+        Faces { normals, offsets }
+    }
+}
+
+/// How a corner touches the polygon that it may touch.
+pub fn touch<'d>(model: &Model<'d>, corner: &Corner<'d>, rate: &mut Tangent<'d>) -> Contact<'d> {
+    let dag = model.dag;
+    let Corner { corner, own, other } = corner;
+    // All corners along the axes of the other polygon, from the origin of these.
+    let zeros = vec![dag.zero(); 2];
+    let (origin, axes) = fixed(model, other.on, &zeros);
+    let along = |point: &[Expr<'d>]| {
+        let (at, _) = fixed(model, own.on, point);
+        let arm: Vec<Expr<'d>> = (at.iter().zip(&origin))
+            .map(|(&a, &b)| difference(a, b))
+            .collect();
+        [0, 1].map(|k| dag.sum(axes[k].iter().zip(&arm).map(|(&e, &r)| e * r)))
+    };
+    let corners: Vec<[Expr<'d>; 2]> = own.corners.iter().map(|at| along(at)).collect();
+    let Faces { normals, offsets } = other.faces();
+    let faces = normals.len();
+    let outside =
+        |k: usize, [x, y]: [Expr<'d>; 2]| normals[k][0] * x + normals[k][1] * y - offsets[k];
+    let least = |k: usize| {
+        let mut all = corners.iter().map(|at| outside(k, *at));
+        let first = all.next();
+        all.fold(first.unwrap_or(dag.zero()), Expr::min)
+    };
+    let greatest = |all: &mut dyn Iterator<Item = Expr<'d>>| {
+        let first = all.next();
+        all.fold(first.unwrap_or(dag.zero()), Expr::max)
+    };
+
+    // 1 for the face that separates best, 0 for all others.
+    let mut best = least(0);
+    let mut chosen = vec![dag.one()];
+    for k in 1..faces {
+        let separation = least(k);
+        let is_better = (dag.one() + (separation - best).sign()) / 2;
+        for earlier in &mut chosen {
+            *earlier = *earlier * (dag.one() - is_better);
+        }
+        chosen.push(is_better);
+        best = best.max(separation);
+    }
+    let of_chosen = |value: &dyn Fn(usize) -> Expr<'d>| {
+        dag.sum(
+            chosen
+                .iter()
+                .enumerate()
+                .map(|(k, &weight)| weight * value(k)),
+        )
+    };
+    let normal = [0, 1].map(|i| of_chosen(&|k| normals[k][i]));
+    let offset = of_chosen(&|k| offsets[k]);
+
+    let place = corners[*corner];
+    let distances: Vec<Expr<'d>> = (0..faces).map(|k| outside(k, place)).collect();
+    let beyond = of_chosen(&|k| {
+        let others = distances.iter().enumerate().filter(|(j, _)| *j != k);
+        greatest(&mut others.map(|(_, &distance)| distance))
+    });
+    // As seen by the polygon, which may turn: so these are velocities relative to its own points.
+    let velocity = place.map(|x| rate.of(x));
+    Contact {
+        gap: greatest(&mut distances.iter().copied()),
+        height: normal[0] * place[0] + normal[1] * place[1] - offset,
+        rate: normal[0] * velocity[0] + normal[1] * velocity[1],
+        beyond,
+        slip: normal[1] * velocity[0] - normal[0] * velocity[1],
+    }
+}
