@@ -530,8 +530,11 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     let margin = |theta| exactly(theta).map(|(margin, _)| margin.value);
                     let mut found =
                         event::last_positive([theta_before, theta], roundoff, &mut &margin)?;
-                    let is_shared = !is_only && kind != 3 && (kind == 1 || !touching.yields(k));
-                    let mut cause = match (is_shared, touching.modes()[k], kind) {
+                    // Where a face ends and when a slip stops is seen in the motion itself, however a load is shared.
+                    let mode = touching.modes()[k];
+                    let is_of_motion = kind == 3 || kind == 1 && matches!(mode, Mode::Slides(_));
+                    let is_shared = !is_only && !is_of_motion && (kind == 1 || !touching.yields(k));
+                    let mut cause = match (is_shared, mode, kind) {
                         (true, ..) => Cause::Asked,
                         (_, _, 3) => Cause::Leaves(k),
                         (_, _, 0) => Cause::Lifts(k),

@@ -126,6 +126,31 @@ fn a_box_is_braked_on_another() {
     }
 }
 
+/// On a rough floor everything is at rest after v/(μ g), though four corners share what holds it in more than one way; as polygons
+/// and as corners along a line of the lower box.
+#[test]
+fn boxes_that_share_a_load_come_to_rest() {
+    let text = std::fs::read_to_string("../machines/contacts/box_on_box.machine").expect("a spec");
+    let lines = text
+        .replace("over = ground", "top = under.shift(0, H), over = ground")
+        .replace("against: outline, of: lower", "along: top");
+    let lines = Scratch::new("lines.machine", &lines);
+    for spec in [BOXES, lines.path()] {
+        for floor in ["mu_floor=0.4", "mu_floor=0.5"] {
+            let run = simulate(spec, 0.8, &[floor]);
+            is_good(&run);
+            let stops = 1.0 / (0.3 * G);
+            for event in events(&run, "sticks") {
+                close(number(&event["t"]), stops, 1e-11);
+            }
+            assert!(events(&run, "reverses").is_empty());
+            close(number(&run["q"]["x"]), 0.5 * stops, 1e-12);
+            close(number(&run["v"]["x"]), 0.0, 1e-14);
+            close(number(&run["friction_loss"]), 0.5, 1e-12);
+        }
+    }
+}
+
 /// A box lies across the end of another on its own corner and on that of the other, each of which carries its share by the law of the
 /// lever; aligned boxes share a load as they like, and stay where they are.
 #[test]
