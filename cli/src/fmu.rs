@@ -575,7 +575,7 @@ mod tests {
                         .iter()
                         .map(|row| row.get(slope).copied().unwrap_or(0.0)),
                 );
-                let of = |power: usize| if power % 2 == 0 { x } else { 1.0 - x };
+                let of = |power: usize| if power.is_multiple_of(2) { x } else { 1.0 - x };
                 let all = all.iter().enumerate().rev();
                 all.fold(0.0, |sum, (power, c)| of(power) * (c + sum))
             };
