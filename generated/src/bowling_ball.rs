@@ -305,6 +305,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
                 rubs: true,
                 rolls: false,
                 across: false,
+                faced: false,
             },
         ];
     }

@@ -1219,6 +1219,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
                 rubs: true,
                 rolls: false,
                 across: false,
+                faced: false,
             },
             ::lagrangian::emitted::UnilateralContact {
                 name: "inner",
@@ -1229,6 +1230,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
                 rubs: true,
                 rolls: false,
                 across: false,
+                faced: false,
             },
         ];
     }

@@ -511,6 +511,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
                 rubs: true,
                 rolls: false,
                 across: false,
+                faced: false,
             },
             ::lagrangian::emitted::UnilateralContact {
                 name: "cloth.across",
@@ -521,6 +522,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
                 rubs: true,
                 rolls: false,
                 across: true,
+                faced: false,
             },
         ];
     }
