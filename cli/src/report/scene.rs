@@ -300,8 +300,8 @@ impl Points {
             Site::At(point) => SitePoints::At(places.of(point)),
         });
         let sites = sites.collect();
-        let mut touch = |circle, surface| {
-            let touching::Site { point, directions } = touching::site(model, circle, surface);
+        let mut touch = |site: touching::Site<'d>| {
+            let touching::Site { point, directions } = site;
             let directions = directions.iter().map(|along| places.of(along));
             let directions = directions.collect();
             Some((places.of(&point), directions))
@@ -310,15 +310,20 @@ impl Points {
         for contact in &model.contacts {
             touching.push(match &contact.geometry {
                 ContactGeometry::Circles(circles) => {
-                    touch(&model.circles[circles.circle], circles.surface)
+                    let circle = &model.circles[circles.circle];
+                    touch(touching::site(model, circle, circles.surface))
                 }
-                ContactGeometry::Point { point, surface } => touch(point, *surface),
+                ContactGeometry::Point { point, surface } => {
+                    touch(touching::site(model, point, *surface))
+                }
+                ContactGeometry::Corner(corner) => touch(touching::site_of_corner(model, corner)),
                 ContactGeometry::Expressions { .. } => None,
             });
         }
         for rolling in model.rolling() {
             let circles = rolling.circles;
-            touching.push(touch(&model.circles[circles.circle], circles.surface));
+            let circle = &model.circles[circles.circle];
+            touching.push(touch(touching::site(model, circle, circles.surface)));
         }
         Points {
             dimension,

@@ -1,6 +1,7 @@
 //! Where forces of contact act: the point at which a circle, a sphere or a point touches, and the directions there.
 
 use lagrangian_spec::model::circles::{distance, placed};
+use lagrangian_spec::model::polygons::{self, Corner};
 use lagrangian_spec::model::{Circle, Model, Surface, spheres};
 use lagrangian_symbolic::Expr;
 
@@ -49,6 +50,15 @@ pub fn site<'d>(model: &Model<'d>, circle: &Circle<'d>, surface: Surface) -> Sit
     Site {
         point: rim.map(|(&c, &e)| c + other.radius * e).collect(),
         directions: [normal].into_iter().chain(tangents).collect(),
+    }
+}
+
+/// Where a corner of a polygon touches another polygon.
+pub fn site_of_corner<'d>(model: &Model<'d>, corner: &Corner<'d>) -> Site<'d> {
+    let polygons::Site { point, directions } = polygons::site(model, corner);
+    Site {
+        point,
+        directions: directions.into(),
     }
 }
 
@@ -102,13 +112,15 @@ mod tests {
                 site(model, &model.circles[circles.circle], circles.surface)
             }
             ContactGeometry::Point { point, surface } => site(model, point, *surface),
+            ContactGeometry::Corner(corner) => site_of_corner(model, corner),
             ContactGeometry::Expressions { .. } => panic!("no place"),
         };
-        assert_eq!(site.directions.len(), rows.len());
+        // Other contacts follow.
+        let rows = &rows[..site.directions.len()];
         let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-13, "{a}, not {b}: {text}");
-        gaps.iter().for_each(|gap| near(*gap, 0.0));
+        near(gaps[0], 0.0);
         let point = numbers(&site.point);
-        for (direction, row) in site.directions.iter().zip(&rows) {
+        for (direction, row) in site.directions.iter().zip(rows) {
             let direction = numbers(direction);
             for (body, sign) in model.bodies.iter().zip([1.0, -1.0]) {
                 let centre = numbers(&body.at);
@@ -163,6 +175,23 @@ mod tests {
         // The centre of the circle is 0.1 further along x, a corner 0.2 further along x and 0.3 below.
         touching("circle: rim", "0.5 + 0.1*4/5");
         touching("point: (0.2, -0.3), on: one", "0.2*4/5 + 0.3*3/5");
+    }
+
+    /// A corner of a triangle on the upper face of a box that is turned by the angle whose sine is 4/5.
+    #[test]
+    fn forces_act_where_a_corner_touches_a_face() {
+        assert_forces_act(
+            "machine Polygons in plane {
+                coordinates { x: m = 2 - 4/5*0.5 + 3/5*0.1, y: m = -1 + 3/5*0.5 + 4/5*0.1, a: rad = asin(4/5), u: m = 2, w: m = -1, b: rad = asin(4/5) }
+                bodies { one { mass: 1, inertia: 1, at: (x, y), angle: a }, other { mass: 2, inertia: 3, at: (u, w), angle: b } }
+                contacts {
+                    touch {
+                        corners: ((0, 0), (0.3, 1), (-0.4, 1.2)), on: one, against: ((-1, -0.5), (1, -0.5), (1, 0.5), (-1, 0.5)), of: other,
+                        restitution: 0, friction: 0.3,
+                    },
+                }
+            }",
+        );
     }
 
     #[test]

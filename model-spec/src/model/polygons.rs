@@ -105,71 +105,127 @@ impl<'d> Polygon<'d> {
     }
 }
 
+/// Where a corner is, and the directions of the face that it touches, all in ground axes.
+pub struct Site<'d> {
+    /// The corner.
+    pub point: Vec<Expr<'d>>,
+    /// Unit vectors: out of the face, and along it, as the slip is counted.
+    pub directions: [Vec<Expr<'d>>; 2],
+}
+
+/// Where a corner touches the polygon that it may touch.
+pub fn site<'d>(model: &Model<'d>, corner: &Corner<'d>) -> Site<'d> {
+    let dag = model.dag;
+    let (_, axes) = fixed(model, corner.other.on, &vec![dag.zero(); 2]);
+    let [x, y] = Face::of(model, corner).normal;
+    let in_ground = |along: [Expr<'d>; 2]| -> Vec<Expr<'d>> {
+        let both = axes[0].iter().zip(&axes[1]);
+        both.map(|(&e, &f)| along[0] * e + along[1] * f).collect()
+    };
+    Site {
+        point: fixed(model, corner.own.on, &corner.own.corners[corner.corner]).0,
+        directions: [in_ground([x, y]), in_ground([y, -x])],
+    }
+}
+
+/// The face that a corner touches, along the axes of the polygon whose face it is.
+struct Face<'d> {
+    /// Outwards, of length 1.
+    normal: [Expr<'d>; 2],
+    /// How far along that the face is.
+    offset: Expr<'d>,
+    /// The corner.
+    place: [Expr<'d>; 2],
+    /// How far the corner is outside of the polygon.
+    gap: Expr<'d>,
+    /// How far it is beyond the ends of the face.
+    beyond: Expr<'d>,
+}
+
 /// How a corner touches the polygon that it may touch.
 pub fn touch<'d>(model: &Model<'d>, corner: &Corner<'d>, rate: &mut Tangent<'d>) -> Contact<'d> {
-    let dag = model.dag;
-    let Corner { corner, own, other } = corner;
-    // All corners along the axes of the other polygon, from the origin of these.
-    let zeros = vec![dag.zero(); 2];
-    let (origin, axes) = fixed(model, other.on, &zeros);
-    let along = |point: &[Expr<'d>]| {
-        let (at, _) = fixed(model, own.on, point);
-        let arm: Vec<Expr<'d>> = (at.iter().zip(&origin))
-            .map(|(&a, &b)| difference(a, b))
-            .collect();
-        [0, 1].map(|k| dag.sum(axes[k].iter().zip(&arm).map(|(&e, &r)| e * r)))
-    };
-    let corners: Vec<[Expr<'d>; 2]> = own.corners.iter().map(|at| along(at)).collect();
-    let Faces { normals, offsets } = other.faces();
-    let faces = normals.len();
-    let outside =
-        |k: usize, [x, y]: [Expr<'d>; 2]| normals[k][0] * x + normals[k][1] * y - offsets[k];
-    let least = |k: usize| {
-        let mut all = corners.iter().map(|at| outside(k, *at));
-        let first = all.next();
-        all.fold(first.unwrap_or(dag.zero()), Expr::min)
-    };
-    let greatest = |all: &mut dyn Iterator<Item = Expr<'d>>| {
-        let first = all.next();
-        all.fold(first.unwrap_or(dag.zero()), Expr::max)
-    };
-
-    // 1 for the face that separates best, 0 for all others.
-    let mut best = least(0);
-    let mut chosen = vec![dag.one()];
-    for k in 1..faces {
-        let separation = least(k);
-        let is_better = (dag.one() + (separation - best).sign()) / 2;
-        for earlier in &mut chosen {
-            *earlier = *earlier * (dag.one() - is_better);
-        }
-        chosen.push(is_better);
-        best = best.max(separation);
-    }
-    let of_chosen = |value: &dyn Fn(usize) -> Expr<'d>| {
-        dag.sum(
-            chosen
-                .iter()
-                .enumerate()
-                .map(|(k, &weight)| weight * value(k)),
-        )
-    };
-    let normal = [0, 1].map(|i| of_chosen(&|k| normals[k][i]));
-    let offset = of_chosen(&|k| offsets[k]);
-
-    let place = corners[*corner];
-    let distances: Vec<Expr<'d>> = (0..faces).map(|k| outside(k, place)).collect();
-    let beyond = of_chosen(&|k| {
-        let others = distances.iter().enumerate().filter(|(j, _)| *j != k);
-        greatest(&mut others.map(|(_, &distance)| distance))
-    });
+    let Face {
+        normal,
+        offset,
+        place,
+        gap,
+        beyond,
+    } = Face::of(model, corner);
     // As seen by the polygon, which may turn: so these are velocities relative to its own points.
     let velocity = place.map(|x| rate.of(x));
     Contact {
-        gap: greatest(&mut distances.iter().copied()),
+        gap,
         height: normal[0] * place[0] + normal[1] * place[1] - offset,
         rate: normal[0] * velocity[0] + normal[1] * velocity[1],
         beyond,
         slip: normal[1] * velocity[0] - normal[0] * velocity[1],
+    }
+}
+
+impl<'d> Face<'d> {
+    fn of(model: &Model<'d>, corner: &Corner<'d>) -> Self {
+        let dag = model.dag;
+        let Corner { corner, own, other } = corner;
+        // All corners along the axes of the other polygon, from the origin of these.
+        let zeros = vec![dag.zero(); 2];
+        let (origin, axes) = fixed(model, other.on, &zeros);
+        let along = |point: &[Expr<'d>]| {
+            let (at, _) = fixed(model, own.on, point);
+            let arm: Vec<Expr<'d>> = (at.iter().zip(&origin))
+                .map(|(&a, &b)| difference(a, b))
+                .collect();
+            [0, 1].map(|k| dag.sum(axes[k].iter().zip(&arm).map(|(&e, &r)| e * r)))
+        };
+        let corners: Vec<[Expr<'d>; 2]> = own.corners.iter().map(|at| along(at)).collect();
+        let Faces { normals, offsets } = other.faces();
+        let faces = normals.len();
+        let outside =
+            |k: usize, [x, y]: [Expr<'d>; 2]| normals[k][0] * x + normals[k][1] * y - offsets[k];
+        let least = |k: usize| {
+            let mut all = corners.iter().map(|at| outside(k, *at));
+            let first = all.next();
+            all.fold(first.unwrap_or(dag.zero()), Expr::min)
+        };
+        let greatest = |all: &mut dyn Iterator<Item = Expr<'d>>| {
+            let first = all.next();
+            all.fold(first.unwrap_or(dag.zero()), Expr::max)
+        };
+
+        // 1 for the face that separates best, 0 for all others.
+        let mut best = least(0);
+        let mut chosen = vec![dag.one()];
+        for k in 1..faces {
+            let separation = least(k);
+            let is_better = (dag.one() + (separation - best).sign()) / 2;
+            for earlier in &mut chosen {
+                *earlier = *earlier * (dag.one() - is_better);
+            }
+            chosen.push(is_better);
+            best = best.max(separation);
+        }
+        let of_chosen = |value: &dyn Fn(usize) -> Expr<'d>| {
+            dag.sum(
+                chosen
+                    .iter()
+                    .enumerate()
+                    .map(|(k, &weight)| weight * value(k)),
+            )
+        };
+        let normal = [0, 1].map(|i| of_chosen(&|k| normals[k][i]));
+        let offset = of_chosen(&|k| offsets[k]);
+
+        let place = corners[*corner];
+        let distances: Vec<Expr<'d>> = (0..faces).map(|k| outside(k, place)).collect();
+        let beyond = of_chosen(&|k| {
+            let others = distances.iter().enumerate().filter(|(j, _)| *j != k);
+            greatest(&mut others.map(|(_, &distance)| distance))
+        });
+        Face {
+            normal,
+            offset,
+            place,
+            gap: greatest(&mut distances.iter().copied()),
+            beyond,
+        }
     }
 }
