@@ -37,7 +37,7 @@ pub(crate) fn rough_log2(x: f64) -> f64 {
     exponent - shift + (low + (x * x * x) * high)
 }
 
-/// 2 to a power, to 1e-5; 0 and infinity where that is beyond `f64`.
+/// 2 to a power, to 6e-5; 0 and infinity where that is beyond `f64`.
 #[inline(always)]
 pub(crate) fn rough_exp2(x: f64) -> f64 {
     /// Makes all exponents positive.
@@ -55,7 +55,7 @@ pub(crate) fn rough_exp2(x: f64) -> f64 {
     series * power(half) * power(whole - half)
 }
 
-/// `x` to a real power, `x ≥ 0`, to some 2e-5 times the power: more than the choice of a step needs, at a tenth of the time of a
+/// `x` to a real power, `x ≥ 0`, to a ten thousandth for powers of at most 1: more than the choice of a step needs, at a tenth of the time of a
 /// function that is right in the last digit. 0 and infinity stay what they are, or become each other.
 #[inline]
 pub(crate) fn rough_power(x: f64, exponent: f64) -> f64 {
@@ -87,7 +87,7 @@ mod tests {
             let x = f64::from(i) * 0.1 + 0.03;
             let exact = x.exp2();
             // A denormal number has its own rounding.
-            let bound = 1e-5 * exact + 5e-324;
+            let bound = 6e-5 * exact + 5e-324;
             assert!((rough_exp2(x) - exact).abs() <= bound, "exp2 {x}");
         }
         assert_eq!([-5e3, 5e3].map(rough_exp2), [0.0, f64::INFINITY]);

@@ -16,6 +16,7 @@ use std::vec::Vec;
 
 use crate::balance::{Energies, EnergyBalance, EnergyIntegrals, Quadratures};
 use crate::constraints::{Constraints, Miss, closest};
+use crate::contact::Mode;
 use crate::equations::check_equations;
 use crate::error::{KeptContradiction, constraint_name};
 use crate::event::{self, Crossing, Event, Terminal, Triple, made, state};
@@ -38,8 +39,8 @@ use crate::step_error::StepError;
 use crate::stepper::{Stepper, Whose};
 use crate::tolerance::{LEAST_RELATIVE_TOLERANCE, Tolerance};
 use crate::{
-    Coordinates, Error, Inputs, Machine, Pivot, Singular, State, StepMotion, System, Vector,
-    Warning,
+    ContactTrouble, Coordinates, Error, Inputs, Machine, Pivot, Singular, State, StepMotion,
+    System, Vector, Warning,
 };
 use choosing::{CANDIDATES, Choosing};
 use contacts::Meeting;
@@ -571,6 +572,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             if self.leave_series(&error) {
                 return Ok(None);
             }
+            let error = self.unheld(&error).unwrap_or(error);
             return Err(self
                 .model
                 .explain(error, self.stepper.q(), self.stepper.v()));
@@ -639,6 +641,39 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             return Ok(Some(ending));
         }
         Ok(None)
+    }
+
+    /// What stops a run where the gap of something closed has come to hardly change with the coordinates: then steps shrink, since the
+    /// force that holds it shut has no bound.
+    fn unheld(&self, error: &StepError) -> Option<StepError> {
+        let StepError::StepTooSmall { t, .. } = *error else {
+            return None;
+        };
+        let (touching, system) = (self.stepper.touching().as_ref()?, self.model.system);
+        let (begun, start) = self.model.start;
+        let n = start.as_slice().len();
+        let rows = |t, q| {
+            let mut rows = std::vec![0.0; 2 * touching.modes().len() * n];
+            system.contact_matrix(t, q, &mut rows);
+            rows
+        };
+        let (before, now) = (rows(begun, start), rows(t, self.stepper.q()));
+        let length = |rows: &[f64], contact: usize| {
+            let row = &rows[2 * contact * n..][..n];
+            row.iter().map(|w| w * w).sum::<f64>().sqrt()
+        };
+        let closed = (touching.modes().iter().enumerate())
+            .filter(|(_, mode)| **mode != Mode::Open)
+            .map(|(contact, _)| contact);
+        let weak = |contact: &usize| length(&now, *contact) < NEAR_FORK * length(&before, *contact);
+        closed
+            .filter(weak)
+            .map(|contact| StepError::Contact {
+                contact,
+                trouble: ContactTrouble::NotHeld,
+                t,
+            })
+            .next()
     }
 
     /// When the state of a contact ended in the last step, and which.

@@ -103,7 +103,9 @@ fn said(none: &NoOrbit, call: &call::Orbit, left_in: &[String]) -> Failure {
         _ => "",
     };
     let shift = match none {
-        NoOrbit::Lost(..) | NoOrbit::NoReturn | NoOrbit::Refused(_) if !left_in.is_empty() => {
+        NoOrbit::Lost(..) | NoOrbit::NoReturn | NoOrbit::Refused(_) | NoOrbit::Rest
+            if !left_in.is_empty() =>
+        {
             format!(
                 "; nothing depends on `{}`: with --shift {} it need not come back",
                 left_in.join("`, `"),

@@ -132,12 +132,14 @@ fn a_pendulum_has_the_period_that_gauss_gave() {
             let bottoms = run.events().iter().filter(|event| event.name == "bottom");
             // At the end the rate is 0 again and its sign chance: nine turns, or ten.
             assert!([9, 10].contains(&turns.clone().count()));
-            assert_eq!(bottoms.clone().count(), 20);
             // An error of the state counts for the time by one over acceleration or rate; at 3 rad,
             // near the upper position, the acceleration is a seventh of the greatest and the period
             // depends on the energy as strongly.
             let growth = if amplitude > 2.0 { 100.0 } else { 10.0 };
             let limit = limit(&run, tolerance, growth);
+            // The last is a quarter of a period before the end, and may be as late as all of them.
+            let missing = 20 - bottoms.clone().count();
+            assert!(missing == 0 || (missing == 1 && limit > 0.25 * period));
             for (i, turn) in turns.enumerate() {
                 let exact = (i + 1) as f64 * period;
                 assert!(

@@ -116,7 +116,7 @@ pub struct Site<'d> {
 /// Where a corner touches the polygon that it may touch.
 pub fn site<'d>(model: &Model<'d>, corner: &Corner<'d>) -> Site<'d> {
     let dag = model.dag;
-    let (_, axes) = fixed(model, corner.other.on, &vec![dag.zero(); 2]);
+    let (_, axes) = fixed(model, corner.other.on, &[dag.zero(); 2]);
     let [x, y] = Face::of(model, corner).normal;
     let in_ground = |along: [Expr<'d>; 2]| -> Vec<Expr<'d>> {
         let both = axes[0].iter().zip(&axes[1]);
