@@ -271,12 +271,7 @@ impl Tries {
         good &= *went_well;
         if !method.scheme.error_needs_end && good != 0 {
             let at = (now.t, &*now.q, &*now.v);
-            let fine = look(
-                (machines, powers.as_deref_mut()),
-                stages,
-                at,
-                &mut k[stages],
-            );
+            let fine = look((machines, powers), stages, at, &mut k[stages]);
             *went_well &= fine | !good;
         }
     }
