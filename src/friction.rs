@@ -584,7 +584,8 @@ impl Contacts {
         .map_err(|singular| StepError::Singular { singular, t })
     }
 
-    /// Decides anew after the state of a contact has ended, and stops what has come to rest.
+    /// Decides anew after the state of a contact has ended, and stops what has come to rest. Says whether the slip has only veered: then
+    /// everything goes on as it did.
     #[cfg(feature = "std")]
     pub fn change<S: System>(
         &mut self,
@@ -593,7 +594,7 @@ impl Contacts {
         v: [&mut S::Vector; 2],
         change: Change,
         is_at_once: bool,
-    ) -> Result<(), StepError> {
+    ) -> Result<bool, StepError> {
         let now = slips(system, t, q, v[0]);
         let k = change.contact;
         let veers = match (self.mode.motion[k], change.cause) {
@@ -602,7 +603,7 @@ impl Contacts {
         };
         if veers {
             self.take_headings(system, t, q, v[0]);
-            return Ok(());
+            return Ok(true);
         }
         let mut resting = [false; MOST_CONTACTS];
         for (k, rests) in resting[..self.count].iter_mut().enumerate() {
@@ -665,7 +666,7 @@ impl Contacts {
             question.answer(parts).map_err(Paradox::singular)
         });
         (self.mode, _) = decided.map_err(at)?;
-        Ok(())
+        Ok(false)
     }
 
     /// Keeps what sticks at rest, after a step.

@@ -15,7 +15,7 @@ pub(crate) fn power(x: f64, exponent: f64) -> f64 {
 /// 2⁵², whose last digit is 1: in front of it stand the digits of a whole number.
 const WHOLE: f64 = 4_503_599_627_370_496.0;
 
-/// The binary logarithm of a positive number, to 2e-5: more than the root of a high order needs.
+/// The binary logarithm of a positive number, to 1e-7: more than the root of a high order needs.
 ///
 /// Here and in [`rough_exp2`] are only sums, products and digits moved, which lanes have as well, and the same bits everywhere.
 #[inline(always)]
@@ -30,14 +30,19 @@ pub(crate) fn rough_log2(x: f64) -> f64 {
     let bits = (x * scale).to_bits();
     let exponent = f64::from_bits(((bits >> 52) & 0x7ff) | WHOLE.to_bits()) - WHOLE;
     let mantissa = f64::from_bits((bits & ((1 << 52) - 1)) | (1023 << 52));
-    // The interpolant of degree 5 in Chebyshev's nodes between 1 and 2: no division to wait for.
+    // The interpolant of degree 8 in Chebyshev's nodes between 1 and 2, whose error is 5.7e-8: no division to wait for, and pairs of
+    // terms that do not wait for each other.
     let x = 2.0 * (mantissa - 1.5);
-    let low = 0.584_950_50 + x * (0.480_910_61 - x * 0.079_937_27);
-    let high = 0.017_714_77 + x * (x * 0.001_372_77 - 0.005_000_68);
-    exponent - shift + (low + (x * x * x) * high)
+    let square = x * x;
+    let fourth = square * square;
+    let low = (0.584_962_500_721 + x * 0.480_897_992_692)
+        + square * (x * 0.017_815_741_053_9 - 0.080_149_617_794_2);
+    let high = (x * 0.001_170_827_821_25 - 0.004_454_175_193_17)
+        + square * (x * 0.000_115_395_087_159 - 0.000_324_844_268_652);
+    exponent - shift + (low + fourth * (high - fourth * 0.000_033_850_387_969_1))
 }
 
-/// 2 to a power, to 6e-5; 0 and infinity where that is beyond `f64`.
+/// 2 to a power, to 2e-7 of it; 0 and infinity where that is beyond `f64`.
 #[inline(always)]
 pub(crate) fn rough_exp2(x: f64) -> f64 {
     /// Makes all exponents positive.
@@ -47,7 +52,9 @@ pub(crate) fn rough_exp2(x: f64) -> f64 {
     // The last digits of this sum are the nearest whole number.
     let whole = x + (WHOLE + BIAS);
     let y = (x - (whole - (WHOLE + BIAS))) * core::f64::consts::LN_2;
-    let series = 1.0 + y * (1.0 + y * (0.5 + y * (1.0 / 6.0 + y * (1.0 / 24.0))));
+    let square = y * y;
+    let high = (1.0 / 24.0 + y * (1.0 / 120.0)) + square * (1.0 / 720.0);
+    let series = (1.0 + y) + square * ((0.5 + y * (1.0 / 6.0)) + square * high);
     // In two factors, each of which has an exponent.
     let whole = whole.to_bits() & 0xffff;
     let half = whole >> 1;
@@ -55,7 +62,7 @@ pub(crate) fn rough_exp2(x: f64) -> f64 {
     series * power(half) * power(whole - half)
 }
 
-/// `x` to a real power, `x ≥ 0`, to a ten thousandth for powers of at most 1: more than the choice of a step needs, at a tenth of the time of a
+/// `x` to a real power, `x ≥ 0`, to six digits for exponents of at most 1: more than the choice of a step needs, at a tenth of the time of a
 /// function that is right in the last digit. 0 and infinity stay what they are, or become each other.
 #[inline]
 pub(crate) fn rough_power(x: f64, exponent: f64) -> f64 {
@@ -80,14 +87,14 @@ mod tests {
         let mut x = 5e-324_f64;
         while x.is_finite() {
             let error = rough_log2(x) - x.log2();
-            assert!(error.abs() < 2e-5, "log2 {x:e}: {error:e}");
+            assert!(error.abs() < 1e-7, "log2 {x:e}: {error:e}");
             x *= if x < 1e-300 { 2.0 } else { 1.37 };
         }
         for i in -10_700..10_230 {
             let x = f64::from(i) * 0.1 + 0.03;
             let exact = x.exp2();
             // A denormal number has its own rounding.
-            let bound = 6e-5 * exact + 5e-324;
+            let bound = 2e-7 * exact + 5e-324;
             assert!((rough_exp2(x) - exact).abs() <= bound, "exp2 {x}");
         }
         assert_eq!([-5e3, 5e3].map(rough_exp2), [0.0, f64::INFINITY]);
@@ -95,6 +102,16 @@ mod tests {
             [f64::NEG_INFINITY, f64::INFINITY].map(rough_exp2),
             [0.0, f64::INFINITY]
         );
+        for i in 1..400 {
+            let x = f64::from(i) * 0.37;
+            for exponent in [-0.125, -0.2, 0.04, 0.8] {
+                let exact = x.powf(exponent);
+                assert!(
+                    (rough_power(x, exponent) - exact).abs() < 3e-7 * exact,
+                    "{x} {exponent}"
+                );
+            }
+        }
         let ends = [0.0, f64::INFINITY];
         assert_eq!(ends.map(|x| rough_power(x, 0.125)), ends);
         assert_eq!(ends.map(|x| rough_power(x, -0.125)), [ends[1], ends[0]]);

@@ -452,7 +452,14 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         {
             let place = now.place();
             let at = (place.t, &*place.q[0], &model.inputs);
-            contacts.change(model.system.get(), at, place.v, change, is_at_once)?;
+            let system = model.system.get();
+            let has_veered = contacts.change(system, at, place.v, change, is_at_once)?;
+            if has_veered && is_at_once {
+                // The slip cannot turn in no time: it is the tangents that jump here, as every field of them does somewhere on a sphere.
+                // The next step is to begin behind that.
+                move_by_rounding(&mut now.q, &now.v);
+                contacts.take_headings(system, now.t, &now.q, &now.v);
+            }
         }
         let newest = self.newest;
         let work = &mut self.control.work;
@@ -1312,6 +1319,23 @@ pub(crate) fn accelerations<S: System>(
     system
         .accelerations(t, q, v, u, a)
         .map_err(|singular| StepError::Singular { singular, t })
+}
+
+/// Moves coordinates along their rates by some roundings of the greatest of them.
+#[cfg(feature = "std")]
+fn move_by_rounding<V: Vector>(q: &mut V, v: &V) {
+    const ROUNDINGS: f64 = 64.0;
+    let greatest = |of: &V| {
+        of.as_slice()
+            .iter()
+            .fold(0.0_f64, |most, x| most.max(x.abs()))
+    };
+    let time = ROUNDINGS * f64::EPSILON * greatest(q) / greatest(v);
+    if time.is_finite() {
+        for (q, v) in q.as_mut_slice().iter_mut().zip(v.as_slice()) {
+            *q += time * v;
+        }
+    }
 }
 
 /// Projects a state within a run onto the constraints.

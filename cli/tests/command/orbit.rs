@@ -934,7 +934,7 @@ fn a_top_that_turns_round_comes_back_with_the_other_sign() {
     for (re, im) in known {
         let near = all.iter().map(|(x, y, ..)| (x - re).hypot(y - im));
         let least = near.fold(f64::INFINITY, f64::min);
-        // 1 is there twice, and the root of an error of 1e-9 is what is left of it where it is no trivial one.
+        // 1 is there twice, and where the second is no trivial one an error of 1e-9 in the matrix moves both by its root.
         let bound = if im == 0.0 { 1e-4 } else { CLOSE };
         assert!(least <= bound, "{re} + {im}i: {least:e}\n{found:#}");
     }

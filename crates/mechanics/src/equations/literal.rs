@@ -1159,7 +1159,7 @@ fn on_polygon<'d, R: Scalar>(
         })
         .collect();
     let half = Moving::<R>::from_ratio(1, 2);
-    // From the last face to the first: what is left for it where none behind it separates better than all before.
+    // From the last face to the first: `left` is 1 as long as no face behind separates better than all before it, else 0.
     let mut so_far: Vec<Moving<R>> = Vec::with_capacity(faces);
     for &separation in &separations {
         let best = so_far
