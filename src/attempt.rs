@@ -2,7 +2,8 @@
 
 use crate::control;
 use crate::methods::{MAX_STAGES, Method};
-use crate::stages::{Point, advance_state, squared_errors, stage_state, weigh};
+use crate::scalar::Scalar;
+use crate::stages::{Point, advance_state, squared_errors, stage_state, weigh_one};
 use crate::step_number::StepNumber;
 use crate::tolerance::Tolerance;
 use crate::{Vector, math};
@@ -12,7 +13,7 @@ use crate::{Vector, math};
 /// Whoever calls it goes through the stages by a loop of its own: a closure that evaluates them would not be compiled into its caller for
 /// wide registers.
 #[inline(always)]
-pub(crate) fn go_to_stage<N: StepNumber, V: Vector<N>>(
+pub(crate) fn go_to_stage<R: Scalar<Stored = N>, N: StepNumber, V: Vector<N>>(
     (method, stage): (&Method, usize),
     (before, h): (&Point<V, N>, N),
     k: &[V; MAX_STAGES],
@@ -21,13 +22,13 @@ pub(crate) fn go_to_stage<N: StepNumber, V: Vector<N>>(
     let (tableau, scheme) = (&method.tableau, &method.scheme);
     let ch = h.weighted(tableau.c[stage], scheme.c_beyond[stage]);
     let from = [&before.q, &before.v];
-    stage_state((&scheme.rows[stage], ch, h), from, k, to);
+    stage_state::<R, V>((&scheme.rows[stage], ch, h), from, k, to);
     before.t + (before.t_low + ch)
 }
 
 /// The new point of a step of length `h` from `before`, which is at `end` where `is_last` holds.
 #[inline(always)]
-pub(crate) fn arrive<N: StepNumber, V: Vector<N>>(
+pub(crate) fn arrive<R: Scalar<Stored = N>, N: StepNumber, V: Vector<N>>(
     method: &Method,
     (before, h): (&Point<V, N>, N),
     k: &[V; MAX_STAGES],
@@ -35,7 +36,7 @@ pub(crate) fn arrive<N: StepNumber, V: Vector<N>>(
     to: (N, &N::Each<bool>),
 ) {
     let new_point = &method.scheme.rows[method.tableau.stages];
-    advance_state((new_point, h), before, k, now);
+    advance_state::<R, V>((new_point, h), before, k, now);
     now.set_time(before, h, to);
 }
 
@@ -43,7 +44,7 @@ pub(crate) fn arrive<N: StepNumber, V: Vector<N>>(
 ///
 /// With a coarser estimate: *Solving Ordinary Differential Equations I*, eq. (II.10.17).
 #[inline(always)]
-pub(crate) fn errors<N: StepNumber, V: Vector<N>>(
+pub(crate) fn errors<R: Scalar<Stored = N>, N: StepNumber, V: Vector<N>>(
     method: &Method,
     h: N,
     ends: [&Point<V, N>; 2],
@@ -52,10 +53,15 @@ pub(crate) fn errors<N: StepNumber, V: Vector<N>>(
 ) -> N::Each<f64> {
     let scheme = &method.scheme;
     let of = (tolerance.relative, &tolerance.absolute);
-    let fine = squared_errors((&scheme.error, h), ends, k, of);
-    let coarse = match method.tableau.coarse_error {
-        Some(_) => squared_errors((&scheme.coarse_error, h), ends, k, of),
-        None => N::each(|_| 0.0),
+    let [fine, coarse] = match method.tableau.coarse_error {
+        Some(_) => {
+            let rows = [&scheme.error, &scheme.coarse_error];
+            squared_errors::<2, R, N, V>((rows, h), ends, k, of)
+        }
+        None => {
+            let [fine] = squared_errors::<1, R, N, V>(([&scheme.error], h), ends, k, of);
+            [fine, N::each(|_| 0.0)]
+        }
     };
     let numbers = 2 * N::PARTS * ends[0].q.as_slice().len();
     // A loop, not a closure for each: that would not be compiled into its caller for wide registers.
@@ -77,13 +83,14 @@ pub(crate) fn worst<N: StepNumber, V: Vector<N>>(
     let Tolerance { relative, absolute } = tolerance;
     let mut worst = (0, 0.0);
     for (i, absolute) in absolute.as_slice().iter().enumerate() {
-        let [[position], [velocity]] = weigh::<1, N, V>(&method.scheme.error, k, i);
+        let [position, velocity] = weigh_one(&method.scheme.error, k, i);
         let sizes = |[before, now]: [&V; 2]| [before.as_slice()[i], now.as_slice()[i]];
-        let squares = [
-            (h * h * position).squared_error(sizes([&before.q, &now.q]), *absolute, *relative),
-            (h * velocity).squared_error(sizes([&before.v, &now.v]), *absolute, *relative),
+        let errors = [
+            (h * h * position, sizes([&before.q, &now.q])),
+            (h * velocity, sizes([&before.v, &now.v])),
         ];
-        for square in squares {
+        for (error, sizes) in errors {
+            let [square] = N::squared_errors([error], sizes, *absolute, *relative);
             if square.as_ref()[lane] > worst.1 {
                 worst = (i, square.as_ref()[lane]);
             }
@@ -112,7 +119,7 @@ pub(crate) fn first_step<N: StepNumber, V: Vector<N>>(
             let sizes = [now.q.as_slice()[i], now.v.as_slice()[i]];
             let square = |level: usize| {
                 let size = [sizes[level]; 2];
-                let square = of(i)[level].squared_error(size, *absolute, relative);
+                let [square] = N::squared_errors([of(i)[level]], size, *absolute, relative);
                 square.as_ref()[0]
             };
             sum += square(0) + square(1);

@@ -16,7 +16,8 @@ use crate::attempt::{self, not_finite};
 use crate::control::{self, Control, Work};
 use crate::interpolant::{Ends, Interpolant, hermite};
 use crate::methods::{Kind, MAX_STAGES, Method};
-use crate::stages::Point;
+use crate::scalar::{Kernel, Scalar};
+use crate::stages::{Point, are_all_finite};
 use crate::step_error::StepError;
 use crate::step_number::{Real, StepNumber};
 use crate::tolerance::Tolerance;
@@ -77,6 +78,19 @@ fn check<N: StepNumber>(method: &Method, t: f64) -> Result<(), StepError> {
         return Err(StepError::FewDigits { t });
     }
     Ok(())
+}
+
+/// One try of every trajectory, in the fastest arithmetic that there is for such numbers.
+struct Attempt<'a, N: StepNumber, V, M>(&'a mut Track<N, V>, &'a M);
+
+impl<N: StepNumber, V: Vector<N>, M: Accelerate<N, V>> Kernel<N> for Attempt<'_, N, V, M> {
+    type Output = N::Each<Outcome>;
+
+    #[inline(always)]
+    fn run<R: Scalar<Stored = N>>(self) -> N::Each<Outcome> {
+        let Self(track, machine) = self;
+        track.attempt::<R>(machine)
+    }
 }
 
 impl<N: StepNumber, V: Vector<N>> Track<N, V> {
@@ -264,12 +278,15 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
     /// One try of every trajectory that is not at its end. Inlined with all that is done for each of them, since a caller may be
     /// compiled for wide registers.
     #[inline(always)]
-    pub fn attempt(&mut self, machine: &impl Accelerate<N, V>) -> N::Each<Outcome> {
+    pub fn attempt<R: Scalar<Stored = N>>(
+        &mut self,
+        machine: &impl Accelerate<N, V>,
+    ) -> N::Each<Outcome> {
         let mut outcomes = N::each(|_| Outcome::Idle);
         self.begin_steps();
         let (h, is_last) = self.choose_lengths(&mut outcomes);
         let mut failed = N::each(|_| None);
-        let errors = self.try_steps((h, &is_last), machine, &mut failed);
+        let errors = self.try_steps::<R>((h, &is_last), machine, &mut failed);
         let h = h.rounded();
         // For all at once, whatever becomes of them, and in a loop, not by a closure: in wide registers that costs what one alone costs.
         let mut growth = N::each(|lane| self.lanes.as_ref()[lane].control.error_before);
@@ -338,7 +355,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
     /// Tries steps of lengths `h` from `before`, to `now`, which stays at `before` where a step is not good. Returns their errors,
     /// 1 being just tolerable.
     #[inline(always)]
-    fn try_steps(
+    fn try_steps<R: Scalar<Stored = N>>(
         &mut self,
         (h, is_last): (N, &N::Each<bool>),
         machine: &impl Accelerate<N, V>,
@@ -368,8 +385,10 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         let mut tries = trying.as_ref().contains(&true);
         for i in 1..stages {
             if tries {
-                let t = attempt::go_to_stage((method, i), (before, h), k, [&mut *q, &mut *v]);
-                ask::<N, V>(
+                let from = (&*before, h);
+                let to = [&mut *q, &mut *v];
+                let t = attempt::go_to_stage::<R, N, V>((method, i), from, k, to);
+                ask::<R, V>(
                     (machine, &mut asked),
                     (t, &*q, &*v),
                     &mut k[i],
@@ -385,11 +404,11 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
             return N::each(|_| f64::INFINITY);
         }
 
-        attempt::arrive(method, (before, h), k, now, (*end, is_last));
+        attempt::arrive::<R, N, V>(method, (before, h), k, now, (*end, is_last));
         if scheme.error_needs_end && trying.as_ref().contains(&true) {
             keep_where(&trying, now, before);
             let at = (now.t, &now.q, &now.v);
-            ask::<N, V>(
+            ask::<R, V>(
                 (machine, &mut asked),
                 at,
                 &mut k[stages],
@@ -397,7 +416,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
                 failed,
             );
         }
-        let found = attempt::errors(method, h, [before, now], k, tolerance);
+        let found = attempt::errors::<R, N, V>(method, h, [before, now], k, tolerance);
         // Where the state has left the range of numbers, the error says nothing.
         let are_numbers = attempt::are_finite(&now.q, &now.v);
         let errors = N::each(|lane| {
@@ -419,7 +438,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         if !scheme.error_needs_end && good.as_ref().contains(&true) {
             keep_where(&good, now, before);
             let at = (now.t, &now.q, &now.v);
-            ask::<N, V>((machine, &mut asked), at, &mut k[stages], &mut good, failed);
+            ask::<R, V>((machine, &mut asked), at, &mut k[stages], &mut good, failed);
         }
         keep_where(&good, now, before);
         count(asked);
@@ -513,9 +532,7 @@ impl<N: Real, V: Vector<N>> Track<N, V> {
     }
 }
 
-/// Accelerations of the trajectories that are trying. One that has none tries no more; its accelerations are 0, so that those of
-/// others are not disturbed by what is no number.
-#[inline(always)]
+/// Accelerations of one trajectory, outside of kernels.
 fn evaluate<N: StepNumber, V: Vector<N>>(
     machine: &impl Accelerate<N, V>,
     (t, q, v): (N, &V, &V),
@@ -524,13 +541,21 @@ fn evaluate<N: StepNumber, V: Vector<N>>(
     failed: &mut N::Each<Option<StepError>>,
 ) {
     let none = machine.accelerate(t, q, v, a).err();
-    // The sum of what is not finite is not finite, and one test is cheaper than many.
+    give_up(none, t, a, trying, failed);
+}
+
+/// Trajectories that have no accelerations try no more; these are 0 then, so that those of others are not disturbed by what is no
+/// number.
+fn give_up<N: StepNumber, V: Vector<N>>(
+    none: Option<N::Each<Option<Singular>>>,
+    t: N,
+    a: &mut V,
+    trying: &mut N::Each<bool>,
+    failed: &mut N::Each<Option<StepError>>,
+) {
     let mut sum = N::NOTHING;
     for a in a.as_slice() {
         sum = sum + *a;
-    }
-    if none.is_none() && sum.are_all_finite() {
-        return;
     }
     let mut fine = sum.are_finite();
     for (lane, fine) in fine.as_mut().iter_mut().enumerate() {
@@ -556,18 +581,27 @@ fn evaluate<N: StepNumber, V: Vector<N>>(
 ///
 /// A function, not a closure: that would not be compiled into its caller for wide registers.
 #[inline(always)]
-fn ask<N: StepNumber, V: Vector<N>>(
-    (machine, asked): (&impl Accelerate<N, V>, &mut N::Each<usize>),
-    at: (N, &V, &V),
+fn ask<R, V>(
+    (machine, asked): (&impl Accelerate<R::Stored, V>, &mut Each<R, usize>),
+    at: (R::Stored, &V, &V),
     a: &mut V,
-    trying: &mut N::Each<bool>,
-    failed: &mut N::Each<Option<StepError>>,
-) {
+    trying: &mut Each<R, bool>,
+    failed: &mut Each<R, Option<StepError>>,
+) where
+    R: Scalar<Stored: StepNumber>,
+    V: Vector<R::Stored>,
+{
     for (asked, trying) in asked.as_mut().iter_mut().zip(trying.as_ref()) {
         *asked += usize::from(*trying);
     }
-    evaluate(machine, at, a, trying, failed);
+    let none = machine.accelerate(at.0, at.1, at.2, a).err();
+    if none.is_some() || !are_all_finite::<R, V>(a) {
+        give_up(none, at.0, a, trying, failed);
+    }
 }
+
+/// Something for each trajectory of those in a register.
+type Each<R, T> = <<R as Scalar>::Stored as StepNumber>::Each<T>;
 
 /// Copies a vector, in the trajectories for which `condition` holds.
 #[inline(always)]

@@ -27,7 +27,7 @@ mod newton;
 use crate::compensated::Sum;
 use crate::math::{rough_power, sqrt};
 use crate::methods::{Conjugates, MAX_STAGES, Method, Row, Spectrum};
-use crate::stages::{Point, weigh};
+use crate::stages::{Point, weigh_one};
 use crate::step_error::StepError;
 use crate::tolerance::{SAFETY, Tolerance};
 use crate::{System, Vector};
@@ -309,7 +309,7 @@ impl Implicit {
     fn estimate_again<V: Vector>(&mut self, row: &Row, h: f64, k: &[V; MAX_STAGES]) {
         let [positions, rates] = &mut self.error;
         for i in 0..self.n {
-            let [[position], [velocity]] = weigh::<1, _, _>(row, k, i);
+            let [position, velocity] = weigh_one(row, k, i);
             positions[i] = h * h * position + self.change[0][i];
             rates[i] = h * velocity + self.change[1][i];
         }

@@ -1,7 +1,8 @@
 //! The motion within a step: dense output.
 
 use crate::methods::{MAX_STAGES, Method};
-use crate::stages::{stage_state, weigh};
+use crate::scalar::Scalar;
+use crate::stages::{stage_state, weigh_one};
 use crate::step_error::StepError;
 use crate::step_number::{Real, StepNumber};
 use crate::{Vector, compensated::Sum};
@@ -55,7 +56,7 @@ pub(crate) struct Ends<'a, V, N = f64> {
     pub v: [&'a V; 2],
 }
 
-impl<N: StepNumber, V: Vector<N>> Interpolant<V, N> {
+impl<N: StepNumber + Scalar<Stored = N>, V: Vector<N>> Interpolant<V, N> {
     /// The polynomials of a step of `method` with the accelerations `k`. `accelerations(t, q, v,
     /// a)` is called for the stages beyond the step that they need, whose accelerations go into
     /// `k`.
@@ -84,7 +85,7 @@ impl<N: StepNumber, V: Vector<N>> Interpolant<V, N> {
             let ch = h.weighted(tableau.c[stage], scheme.c_beyond[stage]);
             // The stages are kept where coefficients are not yet set.
             let (q, v) = (&mut interpolant.q[0], &mut interpolant.v[0]);
-            stage_state((&scheme.rows[stage], ch, h), [q0, v0], k, [q, v]);
+            stage_state::<N, _>((&scheme.rows[stage], ch, h), [q0, v0], k, [q, v]);
             accelerations(start.high + (start.low + ch), q, v, &mut k[stage])?;
         }
 
@@ -98,7 +99,7 @@ impl<N: StepNumber, V: Vector<N>> Interpolant<V, N> {
                 interpolant.v[power].as_mut_slice()[i] = v[power];
             }
             for (row, power) in scheme.dense[..scheme.dense_length].iter().zip(4..) {
-                let [[position], [velocity]] = weigh::<1, _, _>(row, k, i);
+                let [position, velocity] = weigh_one(row, k, i);
                 interpolant.q[power].as_mut_slice()[i] = h * h * position;
                 interpolant.v[power].as_mut_slice()[i] = h * velocity;
             }

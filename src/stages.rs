@@ -8,6 +8,7 @@ use crate::Vector;
 use crate::compensated::{Sum, two_sum};
 use crate::constraints::Place;
 use crate::methods::{MAX_STAGES, Row};
+use crate::scalar::Scalar;
 use crate::step_number::StepNumber;
 
 /// A state, with what rounding took from it.
@@ -96,32 +97,80 @@ macro_rules! in_blocks {
 pub(crate) use in_blocks;
 
 /// `Σⱼ w̄ⱼ kⱼ` and `Σⱼ wⱼ kⱼ` for `B` coordinates from `start`: what positions and velocities take
-/// from the stages.
+/// from the stages. In registers `R`, so that a term is rounded once where these multiply and add at once.
 #[inline(always)]
-pub(crate) fn weigh<const B: usize, N: StepNumber, V: Vector<N>>(
+pub(crate) fn weigh<const B: usize, R, V>(
     row: &Row,
     k: &[V; MAX_STAGES],
     start: usize,
-) -> [[N; B]; 2] {
-    let (mut position, mut velocity) = ([N::NOTHING; B], [N::NOTHING; B]);
-    if N::IS_WIDE {
+) -> [[R; B]; 2]
+where
+    R: Scalar<Stored: StepNumber>,
+    V: Vector<R::Stored>,
+{
+    let (mut position, mut velocity) = ([R::ZERO; B], [R::ZERO; B]);
+    if R::Stored::IS_WIDE {
         for (term, beyond) in row.wide_terms() {
-            let k = block::<B, N, V>(&k[term.stage], start);
+            let k = load::<B, R, V>(&k[term.stage], start);
+            let of_position = R::from_f64(term.position) + R::from_f64(beyond.position);
+            let of_velocity = R::from_f64(term.velocity) + R::from_f64(beyond.velocity);
             for i in 0..B {
-                position[i] = position[i] + k[i].weighted(term.position, beyond.position);
-                velocity[i] = velocity[i] + k[i].weighted(term.velocity, beyond.velocity);
+                position[i] = k[i].mul_add(of_position, position[i]);
+                velocity[i] = k[i].mul_add(of_velocity, velocity[i]);
             }
         }
         return [position, velocity];
     }
     for term in row.terms() {
-        let k = block::<B, N, V>(&k[term.stage], start);
+        let k = load::<B, R, V>(&k[term.stage], start);
+        let [of_position, of_velocity] = [R::from_f64(term.position), R::from_f64(term.velocity)];
         for i in 0..B {
-            position[i] = position[i] + k[i].weighted(term.position, 0.0);
-            velocity[i] = velocity[i] + k[i].weighted(term.velocity, 0.0);
+            position[i] = k[i].mul_add(of_position, position[i]);
+            velocity[i] = k[i].mul_add(of_velocity, velocity[i]);
         }
     }
     [position, velocity]
+}
+
+/// [`weigh`] for one coordinate, outside of kernels: each product and each sum is rounded.
+#[inline(always)]
+pub(crate) fn weigh_one<N: StepNumber, V: Vector<N>>(
+    row: &Row,
+    k: &[V; MAX_STAGES],
+    i: usize,
+) -> [N; 2] {
+    let (mut position, mut velocity) = (N::NOTHING, N::NOTHING);
+    for (term, beyond) in row.wide_terms() {
+        let k = k[term.stage].as_slice()[i];
+        position = position + k.weighted(term.position, beyond.position);
+        velocity = velocity + k.weighted(term.velocity, beyond.velocity);
+    }
+    [position, velocity]
+}
+
+/// `B` numbers from `start`, in registers.
+#[inline(always)]
+fn load<const B: usize, R: Scalar, V: Vector<R::Stored>>(vector: &V, start: usize) -> [R; B] {
+    // No closure: what is called for each number is not inlined into code for wide registers.
+    let slice = &vector.as_slice()[start..start + B];
+    let mut block = [R::ZERO; B];
+    for (number, stored) in block.iter_mut().zip(slice) {
+        *number = R::load(*stored);
+    }
+    block
+}
+
+/// Puts `B` numbers where they belong, from `start`.
+#[inline(always)]
+fn store<const B: usize, R: Scalar, V: Vector<R::Stored>>(
+    vector: &mut V,
+    start: usize,
+    numbers: [R; B],
+) {
+    let slice = &mut vector.as_mut_slice()[start..start + B];
+    for (stored, number) in slice.iter_mut().zip(numbers) {
+        *stored = number.store();
+    }
 }
 
 /// `B` numbers from `start`.
@@ -134,85 +183,98 @@ pub(crate) fn block<const B: usize, N: Copy, V: Vector<N>>(vector: &V, start: us
     block
 }
 
-#[inline(always)]
-fn set_block<const B: usize, N: Copy, V: Vector<N>>(vector: &mut V, start: usize, numbers: [N; B]) {
-    vector.as_mut_slice()[start..start + B].copy_from_slice(&numbers);
-}
-
 /// State at a stage, `ch = cᵢ h` of the way: `qᵢ = q + cᵢ h v + h² Σ āᵢⱼ kⱼ`, `vᵢ = v + h Σ aᵢⱼ kⱼ`.
 #[inline(always)]
-pub(crate) fn stage_state<N: StepNumber, V: Vector<N>>(
-    (row, ch, h): (&Row, N, N),
+pub(crate) fn stage_state<R, V>(
+    (row, ch, h): (&Row, R::Stored, R::Stored),
     [q0, v0]: [&V; 2],
     k: &[V; MAX_STAGES],
     [q, v]: [&mut V; 2],
-) {
+) where
+    R: Scalar<Stored: StepNumber>,
+    V: Vector<R::Stored>,
+{
+    let (ch, h) = (R::load(ch), R::load(h));
     in_blocks!(q0.as_slice().len(), |start, B| {
-        let [position, velocity] = weigh::<B, N, V>(row, k, start);
-        let (q0, v0) = (block::<B, N, V>(q0, start), block::<B, N, V>(v0, start));
+        let [position, velocity] = weigh::<B, R, V>(row, k, start);
+        let (q0, v0) = (load::<B, R, V>(q0, start), load::<B, R, V>(v0, start));
         let (mut q_stage, mut v_stage) = (q0, v0);
         for i in 0..B {
             q_stage[i] = q0[i] + (ch * v0[i] + h * h * position[i]);
             v_stage[i] = v0[i] + h * velocity[i];
         }
-        set_block::<B, N, V>(q, start, q_stage);
-        set_block::<B, N, V>(v, start, v_stage);
+        store::<B, R, V>(q, start, q_stage);
+        store::<B, R, V>(v, start, v_stage);
     });
 }
 
 /// State at the end of a step: the sums of [`stage_state`], compensated.
 #[inline(always)]
-pub(crate) fn advance_state<N: StepNumber, V: Vector<N>>(
-    (row, h): (&Row, N),
-    before: &Point<V, N>,
+pub(crate) fn advance_state<R, V>(
+    (row, h): (&Row, R::Stored),
+    before: &Point<V, R::Stored>,
     k: &[V; MAX_STAGES],
-    now: &mut Point<V, N>,
-) {
+    now: &mut Point<V, R::Stored>,
+) where
+    R: Scalar<Stored: StepNumber>,
+    V: Vector<R::Stored>,
+{
+    let h = R::load(h);
     in_blocks!(before.q.as_slice().len(), |start, B| {
-        let [position, velocity] = weigh::<B, N, V>(row, k, start);
+        let [position, velocity] = weigh::<B, R, V>(row, k, start);
         let (q, q_low) = (
-            block::<B, N, V>(&before.q, start),
-            block::<B, N, V>(&before.q_low, start),
+            load::<B, R, V>(&before.q, start),
+            load::<B, R, V>(&before.q_low, start),
         );
         let (v, v_low) = (
-            block::<B, N, V>(&before.v, start),
-            block::<B, N, V>(&before.v_low, start),
+            load::<B, R, V>(&before.v, start),
+            load::<B, R, V>(&before.v_low, start),
         );
-        let zeros = [N::NOTHING; B];
+        let zeros = [R::ZERO; B];
         let (mut q1, mut q1_low, mut v1, mut v1_low) = (zeros, zeros, zeros, zeros);
         for i in 0..B {
             let rise = h * v[i] + (h * v_low[i] + h * h * position[i]);
             (q1[i], q1_low[i]) = two_sum(q[i], q_low[i] + rise);
             (v1[i], v1_low[i]) = two_sum(v[i], v_low[i] + h * velocity[i]);
         }
-        set_block::<B, N, V>(&mut now.q, start, q1);
-        set_block::<B, N, V>(&mut now.q_low, start, q1_low);
-        set_block::<B, N, V>(&mut now.v, start, v1);
-        set_block::<B, N, V>(&mut now.v_low, start, v1_low);
+        store::<B, R, V>(&mut now.q, start, q1);
+        store::<B, R, V>(&mut now.q_low, start, q1_low);
+        store::<B, R, V>(&mut now.v, start, v1);
+        store::<B, R, V>(&mut now.v_low, start, v1_low);
     });
 }
 
-/// The squares of the estimated errors of all coordinates and rates, relative to what is tolerable, added up for each
-/// trajectory; see [`StepNumber::squared_error`].
+/// The squares of the estimated errors of all coordinates and rates by each of these rows, relative to what is tolerable, added up
+/// for each trajectory; see [`StepNumber::squared_errors`].
 #[inline(always)]
-pub(crate) fn squared_errors<N: StepNumber, V: Vector<N>>(
-    (row, h): (&Row, N),
+pub(crate) fn squared_errors<const K: usize, R, N, V>(
+    (rows, h): ([&Row; K], N),
     [before, now]: [&Point<V, N>; 2],
     k: &[V; MAX_STAGES],
     (relative, absolute): (f64, &V),
-) -> N::Each<f64> {
-    let mut sums = N::each(|_| 0.0);
+) -> [N::Each<f64>; K]
+where
+    R: Scalar<Stored = N>,
+    N: StepNumber,
+    V: Vector<N>,
+{
+    let h = R::load(h);
+    let mut sums = [N::each(|_| 0.0); K];
     in_blocks!(now.q.as_slice().len(), |start, B| {
-        let [mut position, mut velocity] = weigh::<B, N, V>(row, k, start);
-        for i in 0..B {
-            position[i] = h * h * position[i];
-            velocity[i] = h * velocity[i];
+        let mut positions = [[N::NOTHING; B]; K];
+        let mut velocities = [[N::NOTHING; B]; K];
+        for (of_row, row) in rows.into_iter().enumerate() {
+            let [position, velocity] = weigh::<B, R, V>(row, k, start);
+            for i in 0..B {
+                positions[of_row][i] = (h * h * position[i]).store();
+                velocities[of_row][i] = (h * velocity[i]).store();
+            }
         }
         let absolute = block::<B, N, V>(absolute, start);
-        let mut of_block = N::each(|_| 0.0);
+        let mut of_block = [N::each(|_| 0.0); K];
         let errors = [
-            (position, [&before.q, &now.q]),
-            (velocity, [&before.v, &now.v]),
+            (positions, [&before.q, &now.q]),
+            (velocities, [&before.v, &now.v]),
         ];
         for (errors, [before, now]) in errors {
             let (before, now) = (
@@ -220,11 +282,20 @@ pub(crate) fn squared_errors<N: StepNumber, V: Vector<N>>(
                 block::<B, N, V>(now, start),
             );
             for i in 0..B {
-                let of_number = errors[i].squared_error([before[i], now[i]], absolute[i], relative);
-                add(&mut of_block, &of_number);
+                let mut of_number = [N::NOTHING; K];
+                for (of_number, errors) in of_number.iter_mut().zip(&errors) {
+                    *of_number = errors[i];
+                }
+                let sizes = [before[i], now[i]];
+                let squares = N::squared_errors(of_number, sizes, absolute[i], relative);
+                for (of_block, square) in of_block.iter_mut().zip(&squares) {
+                    add(of_block, square);
+                }
             }
         }
-        add(&mut sums, &of_block);
+        for (sum, of_block) in sums.iter_mut().zip(&of_block) {
+            add(sum, of_block);
+        }
     });
     sums
 }
@@ -235,4 +306,16 @@ pub(crate) fn add(sums: &mut impl AsMut<[f64]>, terms: &impl AsRef<[f64]>) {
     for (sum, term) in sums.as_mut().iter_mut().zip(terms.as_ref()) {
         *sum += term;
     }
+}
+
+/// Whether all numbers of a vector are finite, in all trajectories.
+#[inline(always)]
+pub(crate) fn are_all_finite<R: Scalar, V: Vector<R::Stored>>(vector: &V) -> bool {
+    // The sum of what is not finite is not finite, and one test is cheaper than many. In registers: of a loop over the lanes of each
+    // number the compiler makes something slower than the evaluation of a small machine.
+    let mut sum = R::ZERO;
+    for number in vector.as_slice() {
+        sum = sum + R::load(*number);
+    }
+    sum.is_finite()
 }

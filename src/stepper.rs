@@ -15,9 +15,11 @@ mod in_impulses;
 pub(crate) mod in_lanes;
 #[cfg(feature = "std")]
 mod in_series;
+mod kernels;
 #[cfg(feature = "std")]
 mod meeting;
 mod of_fixed_length;
+
 mod owned;
 #[cfg(feature = "std")]
 pub(crate) use meeting::{Cause, Happened};
@@ -44,14 +46,16 @@ use crate::math::sqrt;
 #[cfg(doc)]
 use crate::methods::Tableau;
 use crate::methods::{Kind, MAX_STAGES, Method};
+use crate::scalar::Scalar;
 use crate::stages::{Point, in_blocks, weigh};
 use crate::step_error::StepError;
 #[cfg(feature = "std")]
 use crate::taylor::Taylor;
 use crate::tolerance::{LEAST_RELATIVE_TOLERANCE, Tolerance};
-use crate::{ContactTrouble, System, Vector};
+use crate::{ContactTrouble, Number, System, Vector};
 #[cfg(feature = "std")]
 use in_impulses::InImpulses;
+use kernels::{Attempt, Finish};
 #[cfg(feature = "std")]
 use of_fixed_length::Fixed;
 #[cfg(feature = "std")]
@@ -835,6 +839,24 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
     /// Tries a step of length `h` from `before`, to `now`. Returns its error, 1 being just
     /// tolerable.
     fn attempt(&mut self, h: f64, last: bool) -> Result<f64, StepError> {
+        let stepper = self;
+        f64::run(Attempt { stepper, h, last })
+    }
+
+    /// Ends a try whose stages are done and whose new point stands in `now`: brings that onto the constraints and finds the error, 1 being
+    /// just tolerable.
+    fn finish(&mut self, h: f64) -> Result<f64, StepError> {
+        let stepper = self;
+        f64::run(Finish { stepper, h })
+    }
+
+    /// [`attempt`](Self::attempt) within a kernel.
+    #[inline(always)]
+    fn attempt_within<R: Scalar<Stored = f64>>(
+        &mut self,
+        h: f64,
+        last: bool,
+    ) -> Result<f64, StepError> {
         let Self {
             method,
             model,
@@ -849,18 +871,19 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         let stages = method.tableau.stages;
         let (q, v) = (&mut stage.0, &mut stage.1);
         for i in 1..stages {
-            let t = attempt::go_to_stage((method, i), (before, h), k, [&mut *q, &mut *v]);
+            let from = (&*before, h);
+            let to = [&mut *q, &mut *v];
+            let t = attempt::go_to_stage::<R, _, _>((method, i), from, k, to);
             model.accelerations(t, q, v, &mut k[i], work)?;
             model.take_rates(quadratures, i, (t, q, v, &k[i]));
         }
-        attempt::arrive(method, (before, h), k, now, (self.end, &[last]));
-        self.finish(h)
+        attempt::arrive::<R, _, _>(method, (before, h), k, now, (self.end, &[last]));
+        self.finish_within::<R>(h)
     }
 
-    /// Ends a try whose stages are done and whose new point stands in `now`: brings that onto the constraints and finds the error, 1 being
-    /// just tolerable.
+    /// [`finish`](Self::finish) within a kernel.
     #[inline(always)]
-    fn finish(&mut self, h: f64) -> Result<f64, StepError> {
+    fn finish_within<R: Scalar<Stored = f64>>(&mut self, h: f64) -> Result<f64, StepError> {
         let Self {
             method,
             model,
@@ -876,7 +899,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             moved = model.project(now)?;
             model.end(now, quadratures, stages, k, work)?;
         }
-        let mut error = self.error(h);
+        let mut error = self.error_within::<R>(h);
         // Where accelerations say nothing of it, the error of what has left the range of numbers is none.
         let [is_finite] = attempt::are_finite(&self.now.q, &self.now.v);
         if !is_finite {
@@ -968,7 +991,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
 
     /// The error of the step just tried, in the root mean square over coordinates and rates, 1
     /// being just tolerable.
-    fn error(&self, h: f64) -> f64 {
+    #[inline(always)]
+    fn error_within<R: Scalar<Stored = f64>>(&self, h: f64) -> f64 {
         if (S::MAY_BE_CONSTRAINED || S::MAY_COLLIDE)
             && let Some(constraints) = &self.model.constraints
             && constraints.at_fork
@@ -976,7 +1000,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             return self.error_along(constraints, h);
         }
         let ends = [&self.before, &self.now];
-        let [error] = attempt::errors(self.method, h, ends, &self.k, &self.tolerance);
+        let of = &self.tolerance;
+        let [error] = attempt::errors::<R, _, _>(self.method, h, ends, &self.k, of);
         error
     }
 
@@ -993,7 +1018,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             };
             let mut errors = [self.now.q.zeros_like(), self.now.q.zeros_like()];
             in_blocks!(self.now.q.as_slice().len(), |start, B| {
-                let [position, velocity] = weigh::<B, _, _>(row, &self.k, start);
+                let [position, velocity] = weigh::<B, f64, _>(row, &self.k, start);
                 for i in 0..B {
                     errors[0].as_mut_slice()[start + i] = h * h * position[i];
                     errors[1].as_mut_slice()[start + i] = h * velocity[i];

@@ -4,14 +4,13 @@ use lagrangian_native::Lanes;
 
 #[cfg(feature = "std")]
 use super::in_series::InSeries;
-use super::{Accelerate, Outcome, Track, check};
+use super::{Accelerate, Attempt, Outcome, Track, check};
 use crate::control::{MAX_STEPS, Work};
 use crate::methods::{Kind, Method};
-use crate::scalar::Kernel;
 use crate::stages::Point;
 use crate::step_error::StepError;
 use crate::tolerance::Tolerance;
-use crate::{Batch, Batched, LaneVector, Machine, Scalar, Singular, State, System, Vector};
+use crate::{Batch, Batched, LaneVector, Machine, Singular, State, System, Vector};
 
 /// Runs many trajectories of one kind of machine, `W` at a time, in the lanes of the processor's registers: 2, 4 or 8.
 ///
@@ -414,20 +413,6 @@ impl<S: Batched<W>, const W: usize> Steps<S, W> for Track<Lanes<W>, S::Vectors> 
 
     fn count(&self) -> usize {
         self.lanes.iter().filter(|lane| lane.is_running).count()
-    }
-}
-
-/// One try of every trajectory, in the widest registers that there are.
-struct Attempt<'a, V, M, const W: usize>(&'a mut Track<Lanes<W>, V>, &'a M);
-
-impl<V: LaneVector<W>, M: Accelerate<Lanes<W>, V>, const W: usize> Kernel<Lanes<W>>
-    for Attempt<'_, V, M, W>
-{
-    type Output = [Outcome; W];
-
-    #[inline(always)]
-    fn run<N: Scalar<Stored = Lanes<W>>>(self) -> [Outcome; W] {
-        self.0.attempt(self.1)
     }
 }
 

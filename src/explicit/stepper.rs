@@ -1,6 +1,6 @@
 //! Steps of one machine in numbers of any kind.
 
-use super::{Accelerate, Outcome, Track, check};
+use super::{Accelerate, Attempt, Outcome, Track, check};
 use crate::control::{self, MAX_STEPS, Work};
 use crate::inputs::{HeldInputs, InputLawIn};
 use crate::interpolant::Interpolant;
@@ -130,7 +130,7 @@ impl<S: SystemIn<N>, N: Real, L: InputLawIn<S, N>> ExplicitStepper<S, N, L> {
         }
         self.track.choose_first_step(&machine);
         loop {
-            match self.track.attempt(&machine).as_ref()[0] {
+            match N::run(Attempt(&mut self.track, &machine)).as_ref()[0] {
                 Outcome::Idle | Outcome::Taken => return Ok(()),
                 Outcome::GivenUp => {}
                 Outcome::Failed(error) => return Err(error),

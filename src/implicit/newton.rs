@@ -102,7 +102,7 @@ impl<V: Vector> Task<'_, V> {
         } = self;
         let c = method.tableau.c[stage];
         let row = &method.scheme.rows[stage];
-        stage_state((row, c * *h, *h), [&before.q, &before.v], k, [q, v]);
+        stage_state::<f64, _>((row, c * *h, *h), [&before.q, &before.v], k, [q, v]);
         before.t + (before.t_low + c * h)
     }
 }

@@ -44,7 +44,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
 
         let rows = &method.scheme.rows;
         let stages = method.tableau.stages;
-        attempt::arrive(method, (before, h), k, now, (self.end, &[last]));
+        attempt::arrive::<f64, _, _>(method, (before, h), k, now, (self.end, &[last]));
         let again = *is_retry || work.steps == 0;
         let error = implicit.error_of_step(&task, (k, now), [q, v], again, |t, q, v, a| {
             model.accelerations(t, q, v, a, work)
@@ -67,7 +67,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             for i in 1..stages {
                 let c = method.tableau.c[i];
                 let t = before.t + (before.t_low + c * h);
-                stage_state((&rows[i], c * h, h), [&before.q, &before.v], k, [q, v]);
+                stage_state::<f64, _>((&rows[i], c * h, h), [&before.q, &before.v], k, [q, v]);
                 model.set_inputs(t, q, v);
                 model.take_rates(quadratures, i, (t, q, v, &k[i]));
             }

@@ -221,7 +221,7 @@ impl Tries {
     }
 
     #[inline(always)]
-    fn attempt_in_lanes(&mut self, machines: &mut impl Evaluate) {
+    fn attempt_in_lanes<R: Scalar<Stored = Wide>>(&mut self, machines: &mut impl Evaluate) {
         let Self {
             method,
             tolerance,
@@ -240,26 +240,28 @@ impl Tries {
         let stages = method.tableau.stages;
         let mut powers = powers.as_mut();
         for i in 1..stages {
-            let t = attempt::go_to_stage((method, i), (before, *h), k, [&mut *q, &mut *v]);
-            *went_well &= look((machines, powers.as_deref_mut()), i, (t, q, v), &mut k[i]);
+            let from = (&*before, *h);
+            let to = [&mut *q, &mut *v];
+            let t = attempt::go_to_stage::<R, _, _>((method, i), from, k, to);
+            *went_well &= look::<R>((machines, powers.as_deref_mut()), i, (t, q, v), &mut k[i]);
             if *went_well == 0 {
                 return;
             }
         }
-        attempt::arrive(method, (before, *h), k, now, (*end, is_last));
+        attempt::arrive::<R, _, _>(method, (before, *h), k, now, (*end, is_last));
         if *are_held {
             return;
         }
         if method.scheme.error_needs_end {
             let at = (now.t, &*now.q, &*now.v);
-            *went_well &= look(
+            *went_well &= look::<R>(
                 (machines, powers.as_deref_mut()),
                 stages,
                 at,
                 &mut k[stages],
             );
         }
-        *errors = attempt::errors(method, *h, [before, now], k, tolerance);
+        *errors = attempt::errors::<R, _, _>(method, *h, [before, now], k, tolerance);
         *went_well &= bits(&attempt::are_finite(&now.q, &now.v));
         let mut good = 0;
         for (lane, error) in errors.iter().enumerate() {
@@ -271,7 +273,7 @@ impl Tries {
         good &= *went_well;
         if !method.scheme.error_needs_end && good != 0 {
             let at = (now.t, &*now.q, &*now.v);
-            let fine = look((machines, powers), stages, at, &mut k[stages]);
+            let fine = look::<R>((machines, powers), stages, at, &mut k[stages]);
             *went_well &= fine | !good;
         }
     }
@@ -286,25 +288,33 @@ fn is_held<S: System, L, A>(stepper: &Stepper<'_, S, L, A>) -> bool {
 ///
 /// A function, not a closure: that would not be compiled into its caller for wide registers.
 #[inline(always)]
-fn look(
+fn look<R: Scalar<Stored = Wide>>(
     (machines, powers): (&mut impl Evaluate, Option<&mut [[Wide; 2]; MAX_STAGES]>),
     stage: usize,
     at: (Wide, &[Wide], &[Wide]),
     a: &mut [Wide],
 ) -> LaneMask {
     let mut fine = machines.accelerations(at, a);
-    // The sum of what is not finite is not finite, and one test is cheaper than many.
-    let mut sum = Wide::NOTHING;
-    for a in a.iter() {
-        sum = sum + *a;
-    }
-    fine &= bits(&sum.are_finite());
+    fine &= finite::<R>(a);
     if let Some(powers) = powers {
         let (of_stage, known) = machines.powers(at, a);
         powers[stage] = of_stage;
         fine &= known;
     }
     fine
+}
+
+/// In which lanes all of these numbers are finite, or their sum at least.
+#[inline(always)]
+fn finite<R: Scalar<Stored = Wide>>(a: &[Wide]) -> LaneMask {
+    let mut sum = R::ZERO;
+    for a in a {
+        sum = sum + R::load(*a);
+    }
+    match sum.is_finite() {
+        true => LaneMask::MAX,
+        false => bits(&sum.store().are_finite()),
+    }
 }
 
 /// One try of every lane, in the widest registers that there are.
@@ -315,7 +325,7 @@ impl<E: Evaluate> Kernel<Wide> for Attempt<'_, E> {
 
     #[inline(always)]
     fn run<N: Scalar<Stored = Wide>>(self) {
-        self.0.attempt_in_lanes(self.1);
+        self.0.attempt_in_lanes::<N>(self.1);
     }
 }
 

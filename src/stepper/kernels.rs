@@ -1,0 +1,40 @@
+//! Tries of explicit steps as kernels: in arithmetic that multiplies and adds at once where the processor has it, as it is for
+//! several trajectories side by side, so that each of them has the bits that it has alone.
+
+use super::Stepper;
+use crate::System;
+use crate::balance::Quadratures;
+use crate::inputs::InputLaw;
+use crate::scalar::{Kernel, Scalar};
+use crate::step_error::StepError;
+
+/// A whole try: [`Stepper::attempt`].
+pub(super) struct Attempt<'a, 's, S: System, L, A> {
+    pub stepper: &'a mut Stepper<'s, S, L, A>,
+    pub h: f64,
+    pub last: bool,
+}
+
+impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Kernel<f64> for Attempt<'_, '_, S, L, A> {
+    type Output = Result<f64, StepError>;
+
+    #[inline(always)]
+    fn run<R: Scalar<Stored = f64>>(self) -> Result<f64, StepError> {
+        self.stepper.attempt_within::<R>(self.h, self.last)
+    }
+}
+
+/// The end of a try: [`Stepper::finish`].
+pub(super) struct Finish<'a, 's, S: System, L, A> {
+    pub stepper: &'a mut Stepper<'s, S, L, A>,
+    pub h: f64,
+}
+
+impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Kernel<f64> for Finish<'_, '_, S, L, A> {
+    type Output = Result<f64, StepError>;
+
+    #[inline(always)]
+    fn run<R: Scalar<Stored = f64>>(self) -> Result<f64, StepError> {
+        self.stepper.finish_within::<R>(self.h)
+    }
+}
