@@ -514,11 +514,13 @@ impl System for InterpretedSystem {
         let n = q.len();
         let mut lower = vec![0.0; Shape::Symmetric(n).len()];
         self.fill(Role::MassMatrix, at(t, q, &[], &[]), &mut lower);
-        for (index, entry) in lower.iter().enumerate() {
-            let (i, j) = Shape::place(index);
-            for place in [i * n + j, j * n + i] {
-                if let Some(place) = matrix.get_mut(place) {
-                    *place = *entry;
+        let mut entries = lower.iter();
+        for i in 0..n {
+            for (j, entry) in (0..=i).zip(&mut entries) {
+                for place in [i * n + j, j * n + i] {
+                    if let Some(place) = matrix.get_mut(place) {
+                        *place = *entry;
+                    }
                 }
             }
         }

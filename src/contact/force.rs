@@ -47,7 +47,7 @@ pub fn unilateral_forces<S: System>(
     let mut touching = Touching::new(system);
     let (touches, _) = touching.near(system, (t, q, v), true);
     let closed = touching.lasting(system, (t, q, v), &touches, true);
-    let resting = touching.resting(system, t, q, v);
+    let resting = touching.resting(system, (t, q, v), &closed);
     let (modes, shares) = touching.settled_by_forces(system, at, &closed, &resting, None)?;
     touching.set_modes(modes);
     touching.load_layers(system, t, q, v);

@@ -70,7 +70,7 @@ impl Touching {
         let here = Here::of(system, t, q, v);
         let touches: Vec<bool> = (0..here.gaps.len())
             .map(|k| {
-                let touches = self.modes()[k] != Mode::Open || here.gaps[k] <= here.gap_rounding[k];
+                let touches = self.modes()[k] != Mode::Open || here.is_shut(k);
                 touches && here.is_within(k, q.as_slice())
             })
             .collect();
@@ -78,12 +78,12 @@ impl Touching {
             .iter()
             .enumerate()
             .map(|(k, touches)| {
-                let rounding = here.rate_rounding[2 * k].max(LEAST_BOUNCE * 1e-3 * self.speed);
                 let may = *touches
                     && !self.yields(k)
                     && self.leans(k).is_none()
                     && !(as_held && self.modes()[k] != Mode::Open);
-                may && here.rates[2 * k] < -rounding
+                let least = LEAST_BOUNCE * 1e-3 * self.speed;
+                may && here.rates[2 * k] < -here.rate_rounding(2 * k).max(least)
             })
             .collect();
         (touches, closes)
@@ -100,7 +100,8 @@ impl Touching {
         let here = Here::of(system, t, q, v);
         // What yields may be pressed at the start, but for a layer: what it went through is not known.
         let is_free = |k: usize| self.leans(k).is_some() || self.yields(k) && !self.is_layer(k);
-        (0..here.gaps.len()).find(|&k| !is_free(k) && here.gaps[k] < -here.gap_rounding[k])
+        let is_deep = |k: usize| here.gaps[k] < 0.0 && here.gaps[k] < -here.gap_rounding(k);
+        (0..here.gaps.len()).find(|&k| !is_free(k) && is_deep(k))
     }
 
     /// Which of the contacts that touch take part in the next impact: all, or the one that closes fastest.
@@ -211,7 +212,7 @@ impl Touching {
             .filter(|&k| touches[k] && !self.yields(self.leans(k).unwrap_or(k)))
             .filter(|&k| {
                 let is_held = as_held && self.modes()[k] != Mode::Open;
-                is_held || here.rates[2 * k] <= here.rate_rounding[2 * k]
+                is_held || here.rates[2 * k] <= here.rate_rounding(2 * k)
             })
             .collect();
         let directions: Vec<usize> = meets.iter().flat_map(|k| [2 * k, 2 * k + 1]).collect();
@@ -358,7 +359,7 @@ impl Touching {
                         });
                         other != place && pairs.as_flattened().contains(&true)
                     };
-                    if here.rates[2 * k] >= -here.rate_rounding[2 * k] {
+                    if here.rates[2 * k] >= -here.rate_rounding(2 * k) {
                         continue;
                     }
                     if (0..meets.len()).any(is_coupled) {
@@ -394,7 +395,7 @@ impl Touching {
         if opening <= 0.0 || falls >= 0.0 || last <= 0.0 || share >= 1.0 {
             return None;
         }
-        let rounding = here.gap_rounding[contact] * (f64::EPSILON / super::touching::ROUNDING);
+        let rounding = here.gap_rounding(contact) * (f64::EPSILON / super::touching::ROUNDING);
         let least = (2.0 * -falls * LEAST_HEIGHT * rounding).sqrt();
         let limit = least.max(LEAST_BOUNCE * self.speed);
         (opening <= limit).then(|| 2.0 * opening / -falls / (1.0 - share))
@@ -410,22 +411,24 @@ impl Touching {
         Here::of(system, t, q, v).acceleration(2 * contact, a)[0]
     }
 
-    /// Which contacts are at rest along their tangents.
+    /// Which of the contacts that are closed are at rest along their tangents.
     pub fn resting<S: System>(
         &self,
         system: &S,
-        t: f64,
-        q: &S::Vector,
-        v: &S::Vector,
+        (t, q, v): (f64, &S::Vector, &S::Vector),
+        closed: &[bool],
     ) -> Vec<bool> {
         let here = Here::of(system, t, q, v);
         let rests = |k: usize| {
+            if !closed[k] {
+                return false;
+            }
             let least = 1e-12 * self.speed.max(self.slip);
             if self.has_two_tangents(k) {
                 let [slip, rounding] = self.slip(&here, k);
                 return slip[0].hypot(slip[1]) <= rounding[0].hypot(rounding[1]).max(least);
             }
-            here.rates[2 * k + 1].abs() <= here.rate_rounding[2 * k + 1].max(least)
+            here.rates[2 * k + 1].abs() <= here.rate_rounding(2 * k + 1).max(least)
         };
         (0..here.gaps.len()).map(rests).collect()
     }
@@ -497,7 +500,7 @@ impl Touching {
         let mut lasting: Vec<bool> = (touches.iter().enumerate())
             .map(|(k, touches)| {
                 if self.yields(k) {
-                    let deep = -self.clearance(&here, k).value > here.gap_rounding[k];
+                    let deep = -self.clearance(&here, k).value > here.gap_rounding(k);
                     return self.modes()[k] != Mode::Open || deep;
                 }
                 if !here.is_within(k, q.as_slice()) {
@@ -506,8 +509,8 @@ impl Touching {
                 if as_held && self.modes()[k] != Mode::Open {
                     return true;
                 }
-                let rounding = here.rate_rounding[2 * k].max(1e-12 * self.speed);
-                *touches && here.rates[2 * k].abs() <= rounding
+                let rounding = || here.rate_rounding(2 * k).max(1e-12 * self.speed);
+                *touches && here.rates[2 * k].abs() <= rounding()
             })
             .collect();
         self.lean(&mut lasting);

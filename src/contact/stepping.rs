@@ -91,7 +91,7 @@ impl Touching {
         // step, by the square of its length: it may come back by as much.
         let lasts = |k: usize| self.modes()[k] != Mode::Open;
         let is_active = |k: &usize| {
-            let touches = lasts(*k) || here.gaps[*k] <= here.gap_rounding[*k];
+            let touches = lasts(*k) || here.is_shut(*k);
             touches && here.is_within(*k, q.as_slice())
         };
         let way_back = |k: usize| match lasts(k) {
@@ -168,7 +168,7 @@ impl Touching {
             });
             // Of contacts that share a load some may press and some not, from step to step: what does not open is closed.
             let opens =
-                impulse == [0.0; 2] && gap_rate[1] + way_back(k) > here.rate_rounding[2 * k];
+                impulse == [0.0; 2] && gap_rate[1] + way_back(k) > here.rate_rounding(2 * k);
             if self.leans(k).map_or(opens, |on| modes[on] == Mode::Open) {
                 continue;
             }
@@ -200,7 +200,7 @@ impl Touching {
                 false => Mode::Slides(0.0),
                 true if impulse[1].abs() < most * (1.0 - SATURATED) => Mode::Sticks,
                 true if impulse[1] != 0.0 => Mode::Slides(-impulse[1].signum()),
-                true if slip[1].abs() > here.rate_rounding[2 * k + 1] => {
+                true if slip[1].abs() > here.rate_rounding(2 * k + 1) => {
                     Mode::Slides(slip[1].signum())
                 }
                 true => Mode::Sticks,
@@ -240,7 +240,8 @@ impl Touching {
         for _ in 0..CORRECTIONS {
             let here = Here::of(system, t, q, v);
             let is_deep = |k: &usize| {
-                self.leans(*k).is_none() && here.gaps[*k] < -0.5 * here.gap_rounding[*k]
+                let gap = here.gaps[*k];
+                self.leans(*k).is_none() && gap < 0.0 && gap < -0.5 * here.gap_rounding(*k)
             };
             let deep: Vec<usize> = (0..here.gaps.len()).filter(is_deep).collect();
             if deep.is_empty() {
@@ -253,7 +254,7 @@ impl Touching {
             // What is near takes part, lest what is moved out of one penetrates the other.
             let touching: Vec<usize> = (0..here.gaps.len())
                 .filter(|k| self.leans(*k).is_none())
-                .filter(|k| here.gaps[*k] <= here.gap_rounding[*k].max(NEAR * deepest))
+                .filter(|k| here.gaps[*k] <= NEAR * deepest || here.is_shut(*k))
                 .filter(|k| here.is_within(*k, q.as_slice()))
                 .collect();
             let singular = |singular: Singular| StepError::Singular { singular, t };

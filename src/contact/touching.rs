@@ -95,9 +95,8 @@ pub(super) struct Here {
     pub rows: Vec<f64>,
     pub drifts: Vec<f64>,
     pub coefficients: Vec<f64>,
-    /// Below which a gap is closed, and a rate is rest.
-    pub gap_rounding: Vec<f64>,
-    pub rate_rounding: Vec<f64>,
+    /// Time and state, which rounding is relative to.
+    at: (f64, Vec<f64>, Vec<f64>),
     /// Where contacts with faces of polygons are on these; empty where no contact is one.
     pub faces: Vec<Option<OnFace>>,
 }
@@ -147,8 +146,7 @@ impl Here {
             rows: vec![0.0; 2 * m * n],
             drifts: vec![0.0; 2 * m],
             coefficients: vec![0.0; 4 * m],
-            gap_rounding: Vec::new(),
-            rate_rounding: Vec::new(),
+            at: (t, q.as_slice().to_vec(), v.as_slice().to_vec()),
             faces: faces(system, (t, q, v)),
         };
         system.gaps(t, q, &mut here.gaps);
@@ -156,26 +154,32 @@ impl Here {
         system.contact_matrix(t, q, &mut here.rows);
         system.contact_drift(t, q, v, &mut here.drifts);
         system.contact_coefficients(t, q, v, &mut here.coefficients);
-        let size = |row: &[f64], y: &[f64]| row.iter().zip(y).map(|(w, y)| (w * y).abs()).sum();
-        let rows = || here.rows.chunks_exact(n.max(1));
-        let moving = |(row, rate): (&[f64], &f64)| -> f64 {
-            let terms: f64 = size(row, v.as_slice());
-            ROUNDING * (terms + rate.abs())
-        };
-        here.rate_rounding = rows().zip(&here.rates).map(moving).collect();
-        let gaps = rows().step_by(2).zip(here.rates.iter().step_by(2));
-        let placed = |(row, rate): (&[f64], &f64)| -> f64 {
-            let terms: f64 = size(row, q.as_slice());
-            ROUNDING * terms + 8.0 * f64::EPSILON * (t * rate).abs()
-        };
-        here.gap_rounding = gaps.map(placed).collect();
-        for (k, face) in here.faces.iter().enumerate() {
-            // A face that lies on another one turns by rounding, and what slides along it has so much of a rate.
-            if let Some(face) = face {
-                here.rate_rounding[2 * k] += ROUNDING * face.beyond_rate.abs();
-            }
-        }
         here
+    }
+
+    /// Below which the gap of a contact is closed. Asked of few contacts: it takes the whole row of one.
+    pub fn gap_rounding(&self, contact: usize) -> f64 {
+        let (t, q, _) = &self.at;
+        let direction = 2 * contact;
+        let terms = terms(self.row(direction), q);
+        ROUNDING * terms + 8.0 * f64::EPSILON * (t * self.rates[direction]).abs()
+    }
+
+    /// Below which a rate is rest.
+    pub fn rate_rounding(&self, direction: usize) -> f64 {
+        let (_, _, v) = &self.at;
+        let terms = terms(self.row(direction), v);
+        let rounding = ROUNDING * (terms + self.rates[direction].abs());
+        match self.on_face(direction / 2) {
+            // A face that lies on another one turns by rounding, and what slides along it has so much of a rate.
+            Some(face) if direction % 2 == 0 => rounding + ROUNDING * face.beyond_rate.abs(),
+            _ => rounding,
+        }
+    }
+
+    /// Whether the gap of a contact is no more than rounding.
+    pub fn is_shut(&self, contact: usize) -> bool {
+        self.gaps[contact] <= self.gap_rounding(contact)
     }
 
     /// Where a corner is on a face of a polygon, if it is one.
@@ -190,8 +194,8 @@ impl Here {
         };
         // The coordinate along the face need not be one of those that move the corner off it.
         let size = q.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        let rounding = self.gap_rounding[contact] + ROUNDING * size;
-        let stays = face.beyond_rate <= self.rate_rounding[2 * contact];
+        let rounding = self.gap_rounding(contact) + ROUNDING * size;
+        let stays = face.beyond_rate <= self.rate_rounding(2 * contact);
         face.beyond < -rounding || (face.beyond <= rounding && stays)
     }
 
@@ -236,6 +240,11 @@ impl Here {
         let own = &self.coefficients[4 * contact..][..4];
         [own[0], own[1]]
     }
+}
+
+/// How large the terms of a rate, or of a place, are together.
+fn terms(row: &[f64], y: &[f64]) -> f64 {
+    row.iter().zip(y).map(|(w, y)| (w * y).abs()).sum()
 }
 
 /// Accelerations, and the forces in contacts that go with them.
@@ -402,8 +411,11 @@ impl Touching {
     /// The slip of a contact along both of its tangents, and the rounding of each.
     pub(super) fn slip(&self, here: &Here, contact: usize) -> [[f64; 2]; 2] {
         let first = self.first(contact);
-        let of = |values: &[f64]| [values[2 * first + 1], values[2 * first + 3]];
-        [of(&here.rates), of(&here.rate_rounding)]
+        let directions = [2 * first + 1, 2 * first + 3];
+        [
+            directions.map(|direction| here.rates[direction]),
+            directions.map(|direction| here.rate_rounding(direction)),
+        ]
     }
 
     /// The component along this tangent of the direction in which a contact skids. Where it has come through rest since the step
@@ -532,6 +544,19 @@ impl Touching {
     /// Accelerations and forces while everything stays as it is.
     pub fn reaction<S: System>(&self, system: &S, at: At<'_, S>) -> Result<Reaction, StepError> {
         let (t, q, v, _) = at;
+        let is_asked = !self.is_free() && self.stepped.is_none();
+        let here = is_asked.then(|| Here::of(system, t, q, v));
+        self.reaction_here(system, at, here.as_ref())
+    }
+
+    /// The same, with what is known of the contacts at this state: nothing is needed of them where all are open, or in time stepping.
+    fn reaction_here<S: System>(
+        &self,
+        system: &S,
+        at: At<'_, S>,
+        here: Option<&Here>,
+    ) -> Result<Reaction, StepError> {
+        let (t, q, _, _) = at;
         let a = Self::free(system, at)?;
         if let Some(forces) = &self.stepped {
             return Self::reaction_stepped(system, at, a, forces);
@@ -542,10 +567,9 @@ impl Touching {
             is_only: true,
             a,
         };
-        if self.is_free() {
+        let Some(here) = here.filter(|_| !self.is_free()) else {
             return Ok(reaction);
-        }
-        let here = Here::of(system, t, q, v);
+        };
         let singular = |singular: Singular| StepError::Singular { singular, t };
         let inertia = Inertia::new(system, t, q).map_err(singular)?;
         let closed: Vec<usize> = (0..self.modes.len())
@@ -560,12 +584,12 @@ impl Touching {
         // Of what slides the tangential force is a share of the normal one; what sticks has two unknowns.
         let share = |k: usize| match self.modes[k] {
             Mode::Slides(sign) => -sign * here.friction(k)[0],
-            Mode::Skids(_) => -self.course(&here, k) * here.friction(k)[0],
+            Mode::Skids(_) => -self.course(here, k) * here.friction(k)[0],
             _ => 0.0,
         };
         let mut unknowns: Vec<(usize, usize)> = Vec::new();
         for (place, &k) in closed.iter().enumerate() {
-            if let Some(pressed) = self.pressed(&here, k) {
+            if let Some(pressed) = self.pressed(here, k) {
                 let normal = pressed.force;
                 reaction.forces[k] = [normal, share(k) * normal];
                 reaction.sizes[k] = normal.abs();
@@ -712,19 +736,20 @@ impl Touching {
         if self.is_free() || self.stepped.is_some() {
             return Powers::default();
         }
-        let Ok(reaction) = self.reaction(system, at) else {
+        let here = Here::of(system, t, q, v);
+        let Ok(reaction) = self.reaction_here(system, at, Some(&here)) else {
             return Powers {
                 work: f64::NAN,
                 lost: f64::NAN,
                 of_each: Vec::new(),
             };
         };
-        let here = Here::of(system, t, q, v);
         // What the forces do to the coordinates, what they take from both sides of the contacts, and what of that is
         // lost and not stored.
         let (mut on_coordinates, mut taken, mut lost) = (0.0, 0.0, 0.0);
         let mut of_each = vec![PartOfContact::default(); self.modes.len()];
-        for (k, (force, own)) in reaction.forces.iter().zip(&mut of_each).enumerate() {
+        let parts = reaction.forces.iter().zip(&mut of_each).enumerate();
+        for (k, (force, own)) in parts.filter(|(k, _)| self.modes[*k] != Mode::Open) {
             own.work = here.work_of_walls(k, *force, v.as_slice());
             for (part, force) in force.iter().enumerate() {
                 let row = here.row(2 * k + part).iter().zip(v.as_slice());
@@ -768,8 +793,8 @@ impl Touching {
             });
         }
         let (t, q, v, _) = at;
-        let reaction = self.reaction(system, at)?;
         let here = Here::of(system, t, q, v);
+        let reaction = self.reaction_here(system, at, Some(&here))?;
         for (k, margin) in margins.iter_mut().enumerate() {
             let tangential = reaction.forces[k][1];
             // Where a torque resists rolling, the normal force is that of the contact, which says itself whether it presses.
@@ -784,7 +809,7 @@ impl Touching {
                 None => Margin::ENDLESS,
                 Some(face) => Margin {
                     value: -face.beyond,
-                    rounding: here.gap_rounding[k],
+                    rounding: here.gap_rounding(k),
                 },
             };
             let [presses, loads] = match pressed == k {
@@ -813,7 +838,7 @@ impl Touching {
                 Mode::Slides(sign) => {
                     let slips = Margin {
                         value: sign * here.rates[2 * k + 1],
-                        rounding: here.rate_rounding[2 * k + 1],
+                        rounding: here.rate_rounding(2 * k + 1),
                     };
                     [presses, slips, loads, stays]
                 }

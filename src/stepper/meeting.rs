@@ -151,7 +151,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         }
         touching.lean(&mut closed);
         if touching.may_jam() {
-            let mut resting = touching.resting(model.system.get(), t, &now.q, &now.v);
+            let mut resting = touching.resting(model.system.get(), (t, &now.q, &now.v), &closed);
             for (k, resting) in resting.iter_mut().enumerate() {
                 *resting |= stops(k) || cause == Cause::Lifts(k);
             }
@@ -207,7 +207,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         touching.lean(&mut closed);
         // A slip that has stopped is at rest, and so is what was closed at last.
         let mut held = vec![Mode::Open; closed.len()];
-        let rests = touching.resting(model.system.get(), t, &now.q, &now.v);
+        let rests = touching.resting(model.system.get(), (t, &now.q, &now.v), &closed);
         for (k, _) in closed.iter().enumerate().filter(|(_, closed)| **closed) {
             // What yields has no impulse that would stop it again when an impact elsewhere has made it slip.
             let pressed = touching.leans(k).unwrap_or(k);
@@ -221,7 +221,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         }
         touching.set_modes(held);
         hold(model.system.get(), &touching, now)?;
-        let mut resting = touching.resting(model.system.get(), t, &now.q, &now.v);
+        let mut resting = touching.resting(model.system.get(), (t, &now.q, &now.v), &closed);
         for (k, resting) in resting.iter_mut().enumerate() {
             *resting |= stops(k) || touching.modes()[k] == Mode::Sticks;
         }

@@ -150,7 +150,7 @@ impl Touching {
         Clearance {
             value,
             rate,
-            is_of_gap: gap >= -here.gap_rounding[contact] || own.law == Compliance::Layer,
+            is_of_gap: gap >= -here.gap_rounding(contact) || own.law == Compliance::Layer,
         }
     }
 
@@ -267,8 +267,8 @@ impl Touching {
     pub(super) fn margins_of_yielding(&self, here: &Here, contact: usize) -> Option<[Margin; 2]> {
         let own = self.yielding[contact]?;
         let parameters = here.restitution(contact);
-        let (depth, rounding) = (here.depth(contact), here.gap_rounding[contact]);
-        let rate_rounding = here.rate_rounding[2 * contact];
+        let (depth, rounding) = (here.depth(contact), here.gap_rounding(contact));
+        let rate_rounding = here.rate_rounding(2 * contact);
         let of_rate = match own.law {
             Compliance::Linear => parameters[1] / parameters[0] * rate_rounding,
             Compliance::HuntCrossley => depth[0].abs() * parameters[1] * rate_rounding,
@@ -302,8 +302,8 @@ impl Touching {
                 continue;
             };
             let [depth, rate] = here.depth(k);
-            let is_at_its_depth = depth >= own.depth - here.gap_rounding[k];
-            let recedes = rate < -here.rate_rounding[2 * k];
+            let is_at_its_depth = depth >= own.depth - here.gap_rounding(k);
+            let recedes = rate < -here.rate_rounding(2 * k);
             if own.law != Compliance::Layer {
                 continue;
             }

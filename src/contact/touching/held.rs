@@ -116,23 +116,34 @@ impl<S: System> System for Held<'_, S> {
     );
 
     fn constraints(&self) -> impl ExactSizeIterator<Item = Constraint<'_>> {
-        let names: Vec<UnilateralContact<'_>> = self.system.unilateral_contacts().collect();
-        let held = self.directions.iter().map(|direction| Constraint {
-            name: names[direction / 2].name,
-            unit: match direction % 2 {
-                0 => "m",
-                _ if names[direction / 2].rolls => "rad/s",
-                _ => "m/s",
-            },
-            multiplier_unit: if names[direction / 2].rolls {
-                "N*m"
-            } else {
-                "N"
-            },
-            holonomic: direction % 2 == 0,
-        });
-        let all: Vec<Constraint<'_>> = self.system.constraints().chain(held).collect();
-        all.into_iter()
+        // How many there are is asked often, what they are called seldom. Directions are in the order of contacts.
+        let mut own = self.system.constraints();
+        let mut contacts = self.system.unilateral_contacts().enumerate();
+        let mut contact: Option<(usize, UnilateralContact<'_>)> = None;
+        let mut held = self.directions.iter();
+        (0..own.len() + held.len()).map(move |_| {
+            if let Some(constraint) = own.next() {
+                return constraint;
+            }
+            let direction = held.next().copied().unwrap_or(0);
+            while contact.is_none_or(|(number, _)| number < direction / 2) {
+                contact = contacts.next();
+                if contact.is_none() {
+                    break;
+                }
+            }
+            let rolls = contact.is_some_and(|(_, contact)| contact.rolls);
+            Constraint {
+                name: contact.map_or("", |(_, contact)| contact.name),
+                unit: match direction % 2 {
+                    0 => "m",
+                    _ if rolls => "rad/s",
+                    _ => "m/s",
+                },
+                multiplier_unit: if rolls { "N*m" } else { "N" },
+                holonomic: direction % 2 == 0,
+            }
+        })
     }
 
     fn constraint_positions(&self, t: f64, q: &S::Vector, residuals: &mut [f64]) {
