@@ -3,7 +3,7 @@
 use std::vec;
 use std::vec::Vec;
 
-use super::{Model, Stepper};
+use super::{Model, Stepper, move_by_rounding};
 use crate::balance::{PartOfContact, Quadratures};
 use crate::constraints::Constraints;
 use crate::contact::{Impact, Jam, Mode, Touching};
@@ -86,7 +86,12 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 let at = (t, &now.q, &now.v, &model.inputs);
                 match touching.has_stopped(model.system.get(), at, k)? {
                     true => cause,
-                    false => Cause::Asked,
+                    false => {
+                        // So close to where it was seen it cannot turn: its tangents jump here, and what follows is to begin behind that.
+                        move_by_rounding(&mut now.q, &now.v);
+                        model.set_inputs(t, &now.q, &now.v);
+                        Cause::Asked
+                    }
                 }
             }
             cause => cause,
