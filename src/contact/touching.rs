@@ -172,7 +172,9 @@ impl Here {
         let rounding = ROUNDING * (terms + self.rates[direction].abs());
         match self.on_face(direction / 2) {
             // A face that lies on another one turns by rounding, and what slides along it has so much of a rate.
-            Some(face) if direction % 2 == 0 => rounding + ROUNDING * face.beyond_rate.abs(),
+            Some(face) if direction.is_multiple_of(2) => {
+                rounding + ROUNDING * face.beyond_rate.abs()
+            }
             _ => rounding,
         }
     }
