@@ -1,13 +1,14 @@
 //! Events: instants at which a function of the state changes its sign.
 //!
-//! The sign is looked at a few times within each step, along a polynomial that costs no evaluation; where
-//! it changes, the zero is found on the dense output of the step, to the rounding of time. An event that
+//! The function is looked at a few times within each step, along a polynomial that costs no evaluation. These values and how fast the coefficients of
+//! their interpolant fall bound it in between ([`roots::glance`]), so that most steps are known to have no zero. Where there may be some, they are found
+//! on the dense output of the step, to the rounding of time; and where it is not known that there is one at the most, all of them are isolated there
+//! first ([`roots::looks`]): what comes and goes within a step is an event, too. What only touches zero is none. An event that
 //! ends a run is more than that: the step is made again up to there, and its length is corrected until the
 //! function is 0 at the *end of the step*, to rounding. So the end of the run is the state of the event,
 //! and as exact as the end of every other step.
 //!
-//! In a step by Taylor series, where that polynomial is as exact as the step and long, all roots of the function are
-//! isolated ([`roots`]), and none is missed.
+//! A step by Taylor series is long, and its polynomial as exact as the step: there all roots are isolated at once.
 //!
 //! A function that is 0 at the start of a run, to rounding, has no sign there: whoever goes on from an
 //! event is at its zero, or beside it by rounding. Its sign is the one that it has just after, looked for at
@@ -27,8 +28,11 @@ use crate::roots;
 use crate::stepper::Stepper;
 use crate::{Coordinates, Error, Machine, Quadratures, State, System, Vector};
 
-/// Where in a step the sign is looked at: events that come and go between two of these are missed.
+/// Where in a step the sign is looked at if it changes once at the most.
 pub(crate) const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+
+/// What is zero for no longer than this part of a step, and has the same sign before and after, has touched zero.
+const TOUCH: f64 = 1e-6;
 
 /// What is within so many roundings of zero is zero: those of an event's own time, of the step that
 /// ended there, and of a function of some ten operations.
@@ -72,6 +76,8 @@ pub(crate) struct Watch<'a, M: Machine> {
     pub side: f64,
     /// What the function must exceed before its sign counts, after it was zero to rounding.
     pub leave: f64,
+    /// Its value at the end of the last step, if nothing has jumped there.
+    pub latest: Option<f64>,
     /// Whether its sign at the start is known.
     pub begun: bool,
     /// Whether the run starts from this very event.
@@ -144,6 +150,7 @@ impl<M: Machine> Watch<'_, M> {
         let value = self.value(state, observe)?;
         self.at_zero = at_zero;
         self.side = if at_zero { 0.0 } else { sign(value) };
+        self.latest = Some(value);
         self.begun = false;
         Ok(())
     }
@@ -227,6 +234,8 @@ impl<M: Machine> Watch<'_, M> {
         let mut side = self.side;
         let mut leave = self.leave;
         let mut theta_before = 0.0;
+        // Where it has become zero, and how long it was so: that may be a touch.
+        let mut zeros: Option<[f64; 3]> = None;
         // Where it starts from zero, it may leave it and be back long before a quarter of the step.
         let least = match side == 0.0 {
             true => 16.0 * roundoff,
@@ -242,16 +251,66 @@ impl<M: Machine> Watch<'_, M> {
                 leave = 0.0;
                 sign(value)
             };
-            if side != 0.0 && now != side {
-                self.side = side;
-                found(self, theta_before, theta)?;
+            if let Some([before, first, last]) = zeros {
+                if now == 0.0 && theta - first <= TOUCH {
+                    zeros = Some([before, first, theta]);
+                } else {
+                    zeros = None;
+                    if now != side || last - first > TOUCH {
+                        self.side = side;
+                        found(self, before, first)?;
+                        side = now;
+                    }
+                }
+            } else if side != 0.0 && now == 0.0 {
+                zeros = Some([theta_before, theta, theta]);
+            } else {
+                if side != 0.0 && now != side {
+                    self.side = side;
+                    found(self, theta_before, theta)?;
+                }
+                side = now;
             }
-            side = now;
             theta_before = theta;
+        }
+        if let Some([before, first, _]) = zeros {
+            self.side = side;
+            found(self, before, first)?;
+            side = 0.0;
         }
         (self.side, self.leave) = (side, leave);
         Ok(())
     }
+
+    /// Where in the last step to look at the function, by its values at the [nodes](roots::NODES); `None` where it has no event.
+    fn places(&self, values: &[f64; 5]) -> Option<Places> {
+        let changes = roots::glance(values);
+        if self.side == 0.0 {
+            let is_zero = |value: &f64| value.abs() <= self.leave;
+            return match changes {
+                _ if values.iter().all(is_zero) => None,
+                None => Some(Places::All),
+                Some(_) => Some(Places::Few),
+            };
+        }
+        // It may have jumped between two steps.
+        let has_side = |value: f64| sign(value) == self.side;
+        match changes {
+            Some(0) if has_side(values[0]) && has_side(values[4]) => None,
+            Some(0) => Some(Places::Few),
+            Some(1) if has_side(values[0]) => Some(Places::Few),
+            _ => Some(Places::All),
+        }
+    }
+}
+
+/// Where in a step a function is looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Places {
+    /// It has one zero at the most.
+    Few,
+    /// All its zeros are isolated.
+    All,
 }
 
 /// Adds the events of the last step to `events`, in the order in which they happened, up to the first
@@ -266,43 +325,66 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
     let system = sight.system;
     let mut found = Vec::new();
     let roundoff = theta_roundoff(stepper);
+    let is_series = stepper.coefficients().is_some();
+    let mut glanced = None;
     for (index, watch) in watches.iter_mut().enumerate() {
         if !watch.begun {
             watch.settle(sight, stepper)?;
         }
-        let before = (watch.side, watch.leave);
-        let mut suspected = false;
-        let value = |watch: &mut Watch<'_, M>, stepper: &StepperOf<'_, M, L, A>, state| {
-            watch.value(&state, &|| sight.observe::<M, A>(stepper, &state))
+        let value = |watch: &mut Watch<'_, M>,
+                     stepper: &StepperOf<'_, M, L, A>,
+                     at: &State<Coordinates<M>>| {
+            watch.value(at, &|| sight.observe::<M, A>(stepper, at))
         };
-        let look = |watch: &mut Watch<'_, M>, theta: f64| {
-            value(
-                watch,
-                stepper,
-                state(system, interpolated_at(stepper, theta)),
-            )
-        };
-        let is_series = stepper.coefficients().is_some();
+        let mut places = Places::All;
+        let known = watch.latest.take();
         if !is_series {
-            watch.changes(&LOOKS, roundoff, look, |_, _, _| {
-                suspected = true;
-                Ok(())
-            })?;
-            if !suspected {
-                continue;
+            let states = match &glanced {
+                Some(states) => states,
+                None => {
+                    let all = at_nodes(system, stepper, interpolant)?;
+                    &*glanced.insert(all.map(|at| state(system, at)))
+                }
+            };
+            let mut values = [0.0; 5];
+            for (node, (of_node, at)) in values.iter_mut().zip(states).enumerate() {
+                *of_node = match known {
+                    Some(known) if node == 0 => known,
+                    _ => value(watch, stepper, at)?,
+                };
+            }
+            watch.latest = Some(values[4]);
+            match watch.places(&values) {
+                None => continue,
+                Some(of_step) => places = of_step,
+            }
+            if watch.side == 0.0 {
+                let (side, leave) = (watch.side, watch.leave);
+                let mut suspected = false;
+                let look = |watch: &mut Watch<'_, M>, theta: f64| {
+                    let at = state(system, interpolated_at(stepper, theta));
+                    value(watch, stepper, &at)
+                };
+                watch.changes(&LOOKS, roundoff, look, |_, _, _| {
+                    suspected = true;
+                    Ok(())
+                })?;
+                if !suspected && matches!(places, Places::Few) {
+                    continue;
+                }
+                (watch.side, watch.leave) = (side, leave);
             }
         }
 
         // There may be something: look again, exactly.
-        (watch.side, watch.leave) = before;
         let interpolant = made(interpolant, stepper, system)?;
         let exact = |watch: &mut Watch<'_, M>, theta: f64| {
             let at = state_at(system, stepper, interpolant, theta)?;
-            value(watch, stepper, state(system, at))
+            value(watch, stepper, &state(system, at))
         };
-        let looks = match is_series {
-            true => &*roots::looks(|theta| exact(watch, theta))?,
-            false => &LOOKS,
+        let looks = match places {
+            Places::All => &*roots::looks(|theta| exact(watch, theta))?,
+            Places::Few => &LOOKS,
         };
         watch.changes(looks, roundoff, exact, |watch, from, to| {
             let side_before = watch.side;
@@ -402,6 +484,30 @@ pub(crate) fn interpolated_at<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     }
     let (q, v) = stepper.hermite(theta);
     (stepper.t_before() + theta * stepper.last_step(), q, v)
+}
+
+/// Time and state at the [nodes](roots::NODES) of the last step, good enough to see an event: those of implicit methods on their dense output, since
+/// accelerations at the ends of their steps may know of more than the motion.
+pub(crate) fn at_nodes<S: System, L: InputLaw<S>, A: Quadratures<S>>(
+    system: &S,
+    stepper: &mut Stepper<'_, S, L, A>,
+    interpolant: &mut Option<Interpolant<S::Vector>>,
+) -> Result<[Triple<S::Vector>; 5], Error> {
+    if stepper.is_implicit() {
+        made(interpolant, stepper, system)?;
+    }
+    let along = interpolant.as_ref().filter(|_| stepper.is_implicit());
+    Ok(roots::NODES.map(|theta| match along {
+        _ if theta == 0.0 => {
+            let (q, v) = (stepper.q_before().clone(), stepper.v_before().clone());
+            (stepper.t_before(), q, v)
+        }
+        Some(along) if theta != 1.0 => {
+            let (q, v) = along.state_at(theta);
+            (along.time_at(theta), q, v)
+        }
+        _ => interpolated_at(stepper, theta),
+    }))
 }
 
 /// Time and state at a fraction of the last step, on the constraints.

@@ -19,7 +19,7 @@ use crate::constraints::{Constraints, Miss, closest};
 use crate::contact::Mode;
 use crate::equations::check_equations;
 use crate::error::{KeptContradiction, constraint_name};
-use crate::event::{self, Crossing, Event, Terminal, Triple, made, state};
+use crate::event::{self, Crossing, Event, Places, Terminal, Triple, made, state};
 use crate::friction::{Cause, Change, Contacts, Motion};
 use crate::inputs::{Held, InputLaw, Law};
 use crate::interpolant::Interpolant;
@@ -528,6 +528,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
 
     /// Steps to where it is to stop, or to what ends the run before.
     fn go(&mut self) -> Result<Ending, Error> {
+        self.forget_values();
         let mut between = BetweenSteps::new();
         while !self.stepper.is_done() {
             self.check_count()?;
@@ -537,6 +538,13 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             }
         }
         between.ending
+    }
+
+    /// Forgets the values of what is watched: something may have jumped that they depend on.
+    fn forget_values(&mut self) {
+        for watch in &mut self.callbacks.watches {
+            watch.latest = None;
+        }
     }
 
     /// Whether one more step may be taken.
@@ -754,6 +762,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 .explain(error, self.stepper.q(), self.stepper.v()));
         }
         let before = self.stepper.contacts().clone();
+        self.forget_values();
         let changed = self.stepper.change(change, is_at_once, self.stop, step);
         if let Err(error) = changed {
             return Err(self
@@ -802,36 +811,23 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     }
 
     /// When an assumption of the description ended in the last step, and which. It may hold again
-    /// at the end of the step: like events, assumptions are looked at several times within each.
+    /// at the end of the step: they are looked at like events.
     fn assumption_ended(
         &mut self,
         interpolant: &mut LastInterpolant<M>,
     ) -> Result<Option<(f64, String)>, Error> {
         let Self { model, stepper, .. } = self;
-        if model.plainly_holds(stepper) {
+        let Some(looks) = model.looks_at_assumptions(stepper, interpolant)? else {
             return Ok(None);
-        }
-        let looks = match stepper.coefficients() {
-            None => event::LOOKS.to_vec(),
-            Some(_) => {
-                let interpolant = made(interpolant, stepper, model.system)?;
-                let at = |theta| event::state_at(model.system, stepper, interpolant, theta);
-                model.looks_at_assumptions(stepper.inputs(), at)?
-            }
         };
+        let interpolant = made(interpolant, stepper, model.system)?;
+        let at = |theta| event::state_at(model.system, stepper, interpolant, theta);
         for theta in looks {
-            let Some((index, text)) =
-                model.ended_assumption(event::interpolated_at(stepper, theta))
-            else {
+            let Some((index, text)) = model.ended_assumption(at(theta)?) else {
                 continue;
             };
-            let interpolant = made(interpolant, stepper, model.system)?;
-            let at = |theta| event::state_at(model.system, stepper, interpolant, theta);
             let margin = |theta| at(theta).map(|state| model.margin(index, state));
-            // It held at the beginning of the step; the polynomial may see it end where it does not.
-            if theta < 1.0 && margin(theta)? > 0.0 {
-                continue;
-            }
+            // It held at the beginning of the step.
             let roundoff = event::theta_roundoff(stepper);
             let theta = event::root([0.0, theta], roundoff, &mut &margin)?;
             return Ok(Some((at(theta)?.0, text)));
@@ -1212,30 +1208,83 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         self.sight.inputs(t, q, v)
     }
 
-    /// Whether every assumption holds at the end of the last step and at the control points of its
-    /// cubic: then one that is linear in the coordinates holds between them. A machine without
-    /// assumptions pays nothing for looking.
+    /// Where in the last step to look at the assumptions: between two looks none of them fails and holds again. `None` where all are known to hold
+    /// throughout, most of which few values tell. A machine without assumptions pays nothing for looking.
     #[inline]
-    fn plainly_holds<A: Quadratures<S>>(
+    fn looks_at_assumptions<A: Quadratures<S>>(
         &self,
-        stepper: &Stepper<'_, S, Held<'_, L, S::Inputs>, A>,
-    ) -> bool {
-        let holds = |t: f64, q: &S::Vector, v: &S::Vector| {
-            // Facts do not depend on inputs: those of now are as good as any.
-            let mut facts = self.system.assumptions(t, q, v, stepper.inputs());
-            facts.all(|fact| fact.holds())
-        };
+        stepper: &mut Stepper<'_, S, Held<'_, L, S::Inputs>, A>,
+        interpolant: &mut Option<Interpolant<S::Vector>>,
+    ) -> Result<Option<Vec<f64>>, Error> {
         let (t, q, v) = (stepper.t(), stepper.q(), stepper.v());
-        if self.system.assumptions(t, q, v, stepper.inputs()).len() == 0 {
-            return true;
+        let count = self.system.assumptions(t, q, v, stepper.inputs()).len();
+        if count == 0 {
+            return Ok(None);
         }
+        let mut places = std::vec![Some(Places::All); count];
         if let Some(coefficients) = stepper.coefficients() {
-            return self.system.has_linear_assumptions()
+            let holds = |t: f64, q: &S::Vector, v: &S::Vector| {
+                // Facts do not depend on inputs: those of now are as good as any.
+                let mut facts = self.system.assumptions(t, q, v, stepper.inputs());
+                facts.all(|fact| fact.holds())
+            };
+            if self.system.has_linear_assumptions()
                 && holds(t, q, v)
-                && self.hold_along(stepper, coefficients, holds);
+                && self.hold_along(stepper, coefficients, holds)
+            {
+                return Ok(None);
+            }
+        } else {
+            let mut values = std::vec![[0.0; 5]; count];
+            let mut hold = true;
+            let states = event::at_nodes(self.system, stepper, interpolant)?;
+            for (node, (t, q, v)) in states.iter().enumerate() {
+                let facts = self.system.assumptions(*t, q, v, stepper.inputs());
+                for (values, fact) in values.iter_mut().zip(facts) {
+                    values[node] = fact.margin;
+                    hold &= fact.holds();
+                }
+            }
+            for (place, values) in places.iter_mut().zip(&values) {
+                *place = match roots::glance(values) {
+                    Some(0) if hold => None,
+                    Some(0 | 1) => Some(Places::Few),
+                    // What holds at 0 throughout.
+                    None if hold && *values == [0.0; 5] => None,
+                    _ => Some(Places::All),
+                };
+            }
+            if places.iter().all(Option::is_none) {
+                return Ok(None);
+            }
         }
-        let points = stepper.control_points();
-        holds(t, q, v) && points.iter().all(|(t, q, v)| holds(*t, q, v))
+        let interpolant = made(interpolant, stepper, self.system)?;
+        let at = |theta| event::state_at(self.system, stepper, interpolant, theta);
+        let mut looks = match places.contains(&Some(Places::Few)) {
+            true => event::LOOKS.to_vec(),
+            false => Vec::new(),
+        };
+        // All ask for the same fractions first.
+        let mut known: Vec<(f64, Triple<S::Vector>)> = Vec::new();
+        for index in (0..count).filter(|index| places[*index] == Some(Places::All)) {
+            looks.extend(roots::looks(|theta| {
+                let found = known.iter().find(|(other, _)| *other == theta);
+                let state = match found {
+                    Some((_, state)) => state.clone(),
+                    None => {
+                        let state = at(theta)?;
+                        if count > 1 {
+                            known.push((theta, state.clone()));
+                        }
+                        state
+                    }
+                };
+                Ok(self.margin(index, state))
+            })?);
+        }
+        looks.sort_by(f64::total_cmp);
+        looks.dedup();
+        Ok(Some(looks))
     }
 
     /// Whether facts that are linear in time, coordinates and rates hold all along a step by series.
@@ -1269,38 +1318,6 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             power *= h;
         }
         true
-    }
-
-    /// Where in a step by series to look at the assumptions: between two looks none of them fails and holds again.
-    fn looks_at_assumptions(
-        &self,
-        inputs: &S::Inputs,
-        at: impl Fn(f64) -> Result<Triple<S::Vector>, Error>,
-    ) -> Result<Vec<f64>, Error> {
-        let (t, q, v) = at(1.0)?;
-        let count = self.system.assumptions(t, &q, &v, inputs).len();
-        let mut looks = Vec::new();
-        // All ask for the same fractions first.
-        let mut known: Vec<(f64, Triple<S::Vector>)> = Vec::new();
-        for index in 0..count {
-            looks.extend(roots::looks(|theta| {
-                let found = known.iter().find(|(other, _)| *other == theta);
-                let state = match found {
-                    Some((_, state)) => state.clone(),
-                    None => {
-                        let state = at(theta)?;
-                        if count > 1 {
-                            known.push((theta, state.clone()));
-                        }
-                        state
-                    }
-                };
-                Ok(self.margin(index, state))
-            })?);
-        }
-        looks.sort_by(f64::total_cmp);
-        looks.dedup();
-        Ok(looks)
     }
 
     /// The first assumption that does not hold: its number and text.

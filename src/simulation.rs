@@ -510,6 +510,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
             function,
             side: 0.0,
             leave: 0.0,
+            latest: None,
             begun: false,
             at_zero: false,
         });

@@ -367,25 +367,6 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         )
     }
 
-    /// The two inner control points of the last step as a cubic curve in Bézier's form, at a third
-    /// and two thirds of it: the curve stays within the hull of these and its ends. Cheaper than a
-    /// [`hermite`](Self::hermite), of order 3.
-    #[cfg(feature = "std")]
-    pub(crate) fn control_points(&self) -> [(f64, S::Vector, S::Vector); 2] {
-        let third = self.control.last_step / 3.0;
-        let point = |t: f64, q: &S::Vector, v: &S::Vector, third: f64| {
-            let mut ahead = q.clone();
-            for (q, v) in ahead.as_mut_slice().iter_mut().zip(v.as_slice()) {
-                *q += third * v;
-            }
-            (t + third, ahead, v.clone())
-        };
-        [
-            point(self.before.t, &self.before.q, &self.before.v, third),
-            point(self.now.t, &self.now.q, &self.now.v, -third),
-        ]
-    }
-
     /// Beginning of the last step, with what rounding took from it.
     #[cfg(feature = "std")]
     pub(crate) fn beginning(&self) -> Sum {

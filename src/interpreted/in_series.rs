@@ -10,6 +10,7 @@ use super::{InterpretedMachine, InterpretedSystem, where_it_stopped};
 use crate::control::{MAX_STEPS, Work, check_count, least};
 use crate::error::NoNumbers;
 use crate::math::rough_log2;
+use crate::roots;
 use crate::step_error::StepError;
 use crate::taylor::{bound, length, state, worse};
 use crate::{Error, Machine, Real, System};
@@ -20,9 +21,6 @@ const ORDERS: [f64; 2] = [12.0, 40.0];
 /// Coefficients for each factor of e in the tolerance. With more of them steps are longer and cost more: products of series grow with the
 /// square of the order.
 const FOR_EACH_FACTOR: f64 = 0.55;
-
-/// Where within a step the assumptions of the description are looked at.
-const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
 /// Advances an interpreted machine by Taylor series, in numbers of any kind: in double-doubles to some 30 digits.
 ///
@@ -180,7 +178,7 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
     pub fn step(&mut self, end: N) -> Result<(), Error> {
         let (h, is_last) = self.choose(end).map_err(|error| self.said(error))?;
         let t = self.t.to_f64();
-        for theta in LOOKS {
+        for theta in self.looks(h)? {
             let tau = N::from_f64(theta) * h;
             let (q, v) = state(&self.coefficients, tau);
             let mut numbers = q.iter().zip(&v);
@@ -199,6 +197,27 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
         self.t = if is_last { end } else { self.t + h };
         self.work.steps += 1;
         Ok(())
+    }
+
+    /// Where in a step of length `h` to look at the assumptions of the description, the end last: between two looks none of them fails and holds
+    /// again.
+    fn looks(&self, h: N) -> Result<Vec<f64>, Error> {
+        let inputs = self.system.default_inputs();
+        let margin = |theta: f64, index: usize| {
+            let tau = N::from_f64(theta) * h;
+            let (q, v) = state(&self.coefficients, tau);
+            let [q, v] = [q, v].map(|of| of.iter().map(|x| x.to_f64()).collect::<Vec<f64>>());
+            let t = (self.t + tau).to_f64();
+            let margin = self.system.assumptions(t, &q, &v, &inputs).nth(index);
+            margin.map_or(0.0, |assumption| assumption.margin)
+        };
+        let mut looks = vec![1.0];
+        for index in 0..self.system.program.assumptions.len() {
+            looks.extend(roots::looks(|theta| Ok(margin(theta, index)))?);
+        }
+        looks.sort_by(f64::total_cmp);
+        looks.dedup();
+        Ok(looks)
     }
 
     /// The first assumption of the description that does not hold at a state.

@@ -179,6 +179,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         at_start: bool,
     ) -> Result<(), Error> {
         let before = (self.settings.hands_over).then(|| self.stepper.point());
+        self.forget_values();
         let met = self.stepper.meet(cause, self.stop, step);
         let happened = match met {
             Ok(happened) => happened,

@@ -2,8 +2,12 @@
 #![cfg(feature = "std")]
 
 use crate::by_hand::toy::{Toy, ball, oscillator};
-use lagrangian::{Crossing, Ending, Error, METHODS, Simulation, State};
+use lagrangian::{
+    Crossing, Ending, Error, METHODS, Method, RADAU_OF_HIGH_ORDER, Simulation, State,
+};
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A ball that falls may go 490 m in one step of 10 s; its positions are known to the roundoff of
 /// that.
@@ -590,4 +594,209 @@ fn a_jump_that_ends_a_run_ends_it_once() {
         .unwrap();
     assert_eq!(*resumed.ending(), Ending::Event("tock".into()));
     assert!((resumed.end().t - 2.0).abs() <= 4.0 * f64::EPSILON);
+}
+
+/// Thrown up at 5 m/s, or caught so: at its highest after 5/9.81 s, or before.
+fn thrown(v: f64) -> Toy<1> {
+    Toy::new(([0.0], [v]), |_, _, _, _, _| [-9.81])
+}
+
+/// A height below the highest point by a billionth is passed twice within 3·10⁻⁵ s, and one above it never, by every method in one step, wherever in
+/// it that is, forward and backward in time.
+#[test]
+fn what_comes_and_goes_within_a_step_is_an_event() {
+    let (highest, top) = (12.5 / 9.81, 5.0 / 9.81);
+    let excess = 1e-9 * highest;
+    let beside = (2.0 * excess / 9.81_f64).sqrt();
+    let rk4 = Method::named("rk4").unwrap();
+    for method in METHODS.iter().chain(&RADAU_OF_HIGH_ORDER).chain([rk4]) {
+        for i in 0..40 {
+            for direction in [1.0, -1.0] {
+                let end = 0.52 + 0.03 * f64::from(i);
+                let ball = thrown(5.0 * direction);
+                let (below, above) = (highest - excess, highest + excess);
+                let run = Simulation::new(&ball)
+                    .method(method)
+                    .first_step(end)
+                    .longest_step(end)
+                    .until(end * direction)
+                    .event("below", Crossing::Any, move |state| state.q[0] - below)
+                    .event("above", Crossing::Any, move |state| state.q[0] - above)
+                    .run(ball.start())
+                    .unwrap();
+                let name = method.tableau.name;
+                assert_eq!(run.statistics().steps, 1, "{name}");
+                let [one, other] = run.events() else {
+                    panic!("{name} to {end} s: {:?}", run.events())
+                };
+                // A thousand roundings of the longest way, as that of dense output has.
+                let way = highest.max((5.0 * end - 0.5 * 9.81 * end * end).abs());
+                let limit = 1e3 * f64::EPSILON * way / (9.81 * beside);
+                let crossings = match direction > 0.0 {
+                    true => [Crossing::Rising, Crossing::Falling],
+                    false => [Crossing::Falling, Crossing::Rising],
+                };
+                for (event, (at, crossing)) in [one, other]
+                    .into_iter()
+                    .zip([top - beside, top + beside].into_iter().zip(crossings))
+                {
+                    let late = event.state.t - at * direction;
+                    assert!(late.abs() <= limit, "{name} to {end} s: {late:e}");
+                    assert_eq!((&*event.name, event.crossing), ("below", crossing));
+                }
+            }
+        }
+    }
+}
+
+/// A height that ends a run ends it where it is passed first, however little is beyond it.
+#[test]
+fn a_run_ends_at_a_height_that_it_hardly_passes() {
+    let highest = 12.5 / 9.81;
+    let excess = 1e-9 * highest;
+    let at = 5.0 / 9.81 - (2.0 * excess / 9.81_f64).sqrt();
+    for method in &METHODS {
+        let ball = thrown(5.0);
+        let run = Simulation::new(&ball)
+            .method(method)
+            .first_step(1.0)
+            .until(1.0)
+            .until_event("height", Crossing::Any, move |state| {
+                state.q[0] - (highest - excess)
+            })
+            .run(ball.start())
+            .unwrap();
+        assert_eq!(*run.ending(), Ending::Event("height".into()));
+        let late = run.end().t - at;
+        assert!(late.abs() <= 1e-9, "{}: {late:e}", method.tableau.name);
+    }
+}
+
+/// x = cos t is beyond −1 + ε for 2√(2ε) at each turn, a small part of a step, and beyond −1 − ε never.
+#[test]
+fn turning_points_that_hardly_pass_a_level_are_all_seen() {
+    let [_, radau13] = &RADAU_OF_HIGH_ORDER;
+    for (method, tolerance, excess) in [
+        (&METHODS[0], 1e-13, 1e-9),
+        (&METHODS[1], 1e-12, 1e-7),
+        (radau13, 1e-13, 1e-9),
+    ] {
+        let oscillator = oscillator();
+        let run = Simulation::new(&oscillator)
+            .method(method)
+            .tolerance(tolerance)
+            .until(40.0)
+            .event("below", Crossing::Any, move |state| {
+                state.q[0] + 1.0 - excess
+            })
+            .event("above", Crossing::Any, move |state| {
+                state.q[0] + 1.0 + excess
+            })
+            .run(oscillator.start())
+            .unwrap();
+        let name = method.tableau.name;
+        let beside = (1.0 - excess).acos();
+        let steps = run.statistics().steps as f64;
+        assert!(40.0 / steps > 4.0 * beside, "{name}: {steps} steps");
+        assert_eq!(run.events().len(), 12, "{name}");
+        // What steps err by, over the rate there.
+        let limit = 10.0 * (steps + 10.0) * tolerance / beside;
+        assert!(limit < beside, "{name}");
+        for (k, event) in run.events().iter().enumerate() {
+            let turn = PI * (2 * (k / 2) + 1) as f64;
+            let at = [turn - beside, turn + beside][k % 2];
+            let late = event.state.t - at;
+            assert!(late.abs() <= limit, "{name}: {late:e}");
+            let crossing = [Crossing::Falling, Crossing::Rising][k % 2];
+            assert_eq!((&*event.name, event.crossing), ("below", crossing));
+        }
+    }
+}
+
+/// On the way up all heights in their order, on the way down all in reverse, all of them within one step.
+#[test]
+fn heights_are_passed_up_and_down_in_order() {
+    for method in &METHODS {
+        let ball = thrown(30.0);
+        let heights: Vec<f64> = (1..=15).map(|i| 3.0 * f64::from(i)).collect();
+        let mut simulation = Simulation::new(&ball)
+            .method(method)
+            .first_step(6.5)
+            .until(6.5);
+        for (i, &height) in heights.iter().enumerate() {
+            let name = format!("{i}");
+            let function = move |state: &State<[f64; 1]>| state.q[0] - height;
+            simulation = simulation.event(&name, Crossing::Any, function);
+        }
+        let run = simulation.run(ball.start()).unwrap();
+        assert_eq!(run.statistics().steps, 1);
+        let order = (0..15).chain((0..15).rev());
+        assert_eq!(run.events().len(), 30, "{}", method.tableau.name);
+        for (place, (event, i)) in run.events().iter().zip(order).enumerate() {
+            let half = (900.0 - 2.0 * 9.81 * heights[i]).sqrt();
+            let t = if place < 15 { 30.0 - half } else { 30.0 + half } / 9.81;
+            assert_eq!(event.name, format!("{i}"));
+            // At 4 m/s at least.
+            assert!((event.state.t - t).abs() <= ROUNDOFF_OF_FALL);
+        }
+    }
+}
+
+/// What touches zero and goes back has not changed its sign. Rounding may see it beyond zero for a moment: then it is told as both changes.
+#[test]
+fn a_touch_is_no_event() {
+    for method in &METHODS {
+        for i in 0..40 {
+            // (t − 1)².
+            let ball = Toy::new(([1.0], [-2.0]), |_, _, _, _, _| [2.0]);
+            let end = 1.02 + 0.05 * f64::from(i);
+            let run = Simulation::new(&ball)
+                .method(method)
+                .first_step(end)
+                .until(end)
+                .event("touch", Crossing::Any, |state| state.q[0])
+                .event("not quite", Crossing::Any, |state| state.q[0] + 1e-9)
+                .run(ball.start())
+                .unwrap();
+            let crossings: Vec<_> = (run.events().iter())
+                .map(|event| (&*event.name, event.crossing))
+                .collect();
+            let both = [("touch", Crossing::Falling), ("touch", Crossing::Rising)];
+            assert!(
+                crossings.is_empty() || crossings == both,
+                "{} to {end} s: {crossings:?}",
+                method.tableau.name
+            );
+        }
+    }
+}
+
+/// Events that are far away cost no evaluation of the machine and four of their function for each step.
+#[test]
+fn what_is_far_from_zero_is_asked_four_times_a_step() {
+    for method in &METHODS {
+        let oscillator = oscillator();
+        let simulation = || {
+            Simulation::new(&oscillator)
+                .method(method)
+                .tolerance(1e-8)
+                .until(20.0)
+        };
+        let without = simulation().run(oscillator.start()).unwrap();
+        let count = Arc::new(AtomicUsize::new(0));
+        let counted = Arc::clone(&count);
+        let with = simulation()
+            .event("far", Crossing::Any, move |state: &State<[f64; 1]>| {
+                counted.fetch_add(1, Ordering::Relaxed);
+                state.q[0] + 1.5
+            })
+            .run(oscillator.start())
+            .unwrap();
+        assert_eq!(with.end(), without.end());
+        let (with, without) = (with.statistics(), without.statistics());
+        assert_eq!(with.evaluations, without.evaluations);
+        // And at the start three times, and there four times more with each number moved by its rounding.
+        let asked = count.load(Ordering::Relaxed) - 4 * with.steps;
+        assert_eq!(asked, 3 + 3 * 4, "{}", method.tableau.name);
+    }
 }

@@ -493,6 +493,38 @@ fn an_assumption_that_ends_and_holds_again_within_a_step_ends_the_run() {
     }
 }
 
+/// x = 2 + 6 t − ½ 9.81 t² is 3.83486 at the most: what ends a billionth below ends the run, and what ends a billionth above does not.
+#[test]
+fn an_assumption_that_hardly_ends_within_a_step_ends_the_run() {
+    const HIGHEST: f64 = 2.0 + 18.0 / 9.81;
+    let below: fn(&[f64; 1]) -> f64 = |q| HIGHEST - 1e-9 - q[0];
+    let above: fn(&[f64; 1]) -> f64 = |q| HIGHEST + 1e-9 - q[0];
+    let not_linear: fn(&[f64; 1]) -> f64 = |q| (HIGHEST - 1e-9).powi(3) - q[0].powi(3);
+    let at = 6.0 / 9.81 - (2e-9 / 9.81_f64).sqrt();
+    for method in &METHODS {
+        for i in 0..20 {
+            for (fact, ends) in [(below, true), (above, false), (not_linear, true)] {
+                let toy = Toy {
+                    assumption: Some(("x is low", fact)),
+                    ..Toy::new(([2.0], [6.0]), |_, _, _, _, _| [-9.81])
+                };
+                let end = 0.62 + 0.05 * f64::from(i);
+                let (run, error) = Simulation::new(&toy)
+                    .method(method)
+                    .first_step(end)
+                    .until(end)
+                    .run_as_far_as_possible(toy.start())
+                    .unwrap();
+                let name = method.tableau.name;
+                let ended = matches!(error, Some(Error::AssumptionEnded { .. }));
+                assert_eq!(ended, ends, "{name} to {end} s");
+                let late = run.end().t - if ends { at } else { end };
+                assert!(late.abs() < 1e-7, "{name} to {end} s: {late:e}");
+            }
+        }
+    }
+}
+
 #[test]
 fn an_assumption_must_hold_at_the_start() {
     let toy = Toy {

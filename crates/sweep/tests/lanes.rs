@@ -173,6 +173,30 @@ fn what_is_recorded_on_the_way() {
     assert_eq!(compare(&plan), 0);
 }
 
+/// Heights beside the highest point of a throw by less than what a step moves: passed twice, or not at all, alone and in lanes.
+#[test]
+fn what_comes_and_goes_within_a_step_is_the_same_in_lanes() {
+    let text = "machine Throw in plane {
+        parameters { m: kg = 1, g: m/s^2 = 9.81, level: m = 1 }
+        coordinates { y: m = 0 }
+        bodies { ball { mass: m, at: (0, y) } }
+        gravity (0, -g);
+    }";
+    let highest = 12.5 / 9.81;
+    for method in ["dop853", "dopri5"] {
+        let levels = grid("level", highest - 9e-9, highest + 9e-9, 18);
+        let mut plan = plan(text, 2.0, vec![levels]);
+        plan.rate = vec![("y".into(), 5.0)];
+        plan.method = method.into();
+        plan.events = vec![watch("level", "y - level", false)];
+        plan.reduce = vec![
+            reduce("times", Function::Count, "level"),
+            reduce("when", Function::First, "level"),
+        ];
+        assert_eq!(compare(&plan), 0);
+    }
+}
+
 /// The pendulum that is let go from 0.1 swings for a minute, all others turn over within seconds and make room for others.
 #[test]
 fn one_run_is_far_longer_than_the_others() {
