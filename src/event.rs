@@ -289,8 +289,9 @@ impl<M: Machine> Watch<'_, M> {
             let is_zero = |value: &f64| value.abs() <= self.leave;
             return match changes {
                 _ if values.iter().all(is_zero) => None,
-                None => Some(Places::All),
-                Some(_) => Some(Places::Few),
+                // Rounding may have taken the first value to the other side.
+                Some(0 | 1) => Some(Places::Few),
+                _ => Some(Places::All),
             };
         }
         // It may have jumped between two steps.

@@ -1248,7 +1248,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             for (place, values) in places.iter_mut().zip(&values) {
                 *place = match roots::glance(values) {
                     Some(0) if hold => None,
-                    Some(0 | 1) => Some(Places::Few),
+                    Some(0 | 1) if values[4] <= 0.0 => Some(Places::Few),
                     // What holds at 0 throughout.
                     None if hold && *values == [0.0; 5] => None,
                     _ => Some(Places::All),

@@ -771,6 +771,36 @@ fn a_touch_is_no_event() {
     }
 }
 
+/// A function that is 0 at the start, and passes zero twice more between two looks: t ((t − 0.35)² − d²).
+#[test]
+fn what_starts_at_zero_may_come_and_go_as_well() {
+    for method in &METHODS {
+        for half in [0.08, 1e-3, 1e-6] {
+            let ball = ball();
+            let run = Simulation::new(&ball)
+                .method(method)
+                .first_step(1.0)
+                .until(1.0)
+                .event("both", Crossing::Any, move |state: &State<[f64; 1]>| {
+                    state.t * ((state.t - 0.35) * (state.t - 0.35) - half * half)
+                })
+                .run(ball.start())
+                .unwrap();
+            let found: Vec<_> = (run.events().iter())
+                .map(|event| (event.state.t, event.crossing))
+                .collect();
+            let [one, other] = found[..] else {
+                panic!("{} {half}: {found:?}", method.tableau.name)
+            };
+            // The function is known to some roundings of 0.35³, at the rate 0.7 d.
+            let limit = 64.0 * f64::EPSILON / half;
+            assert!((one.0 - (0.35 - half)).abs() <= limit, "{one:?}");
+            assert!((other.0 - (0.35 + half)).abs() <= limit, "{other:?}");
+            assert_eq!([one.1, other.1], [Crossing::Falling, Crossing::Rising]);
+        }
+    }
+}
+
 /// Events that are far away cost no evaluation of the machine and four of their function for each step.
 #[test]
 fn what_is_far_from_zero_is_asked_four_times_a_step() {
