@@ -79,12 +79,13 @@ pub fn run(call: &call::Library) -> Result<(), Failure> {
     let mut lanes = call.lanes.clone();
     lanes.sort_unstable();
     lanes.dedup();
-    let source = source(&program, &lanes, call.straight)?;
+    let is_in_pairs = is_in_pairs(&program);
+    let source = source(&program, &lanes, call.straight, is_in_pairs)?;
     if let Some(file) = &of_source {
         file.write_text(&source)?;
     }
     progress::now("compiling the library");
-    let library = compile(&source, call)?;
+    let library = compile(&source, is_in_pairs, call)?;
     of_library.write_executable(&library)?;
     let text = self::header(&program, &lanes, &file_name(&call.spec.path));
     of_header.write_text(&text)?;
@@ -141,22 +142,48 @@ const EXPORT_OF_CONTACTS: &str = include_str!("library/export_of_contacts.rs");
 /// a tenth, and take rustc ever longer (a chain of 32 links 14 s instead of 3, one of 128 links more than four minutes instead of 10 s).
 const LONGEST_IN_PAIRS: usize = 1000;
 
-/// The whole library as one file of Rust.
-fn source(program: &Proved, lanes: &[u8], is_straight: bool) -> Result<String, Failure> {
-    let options = emit::rust::Options {
+/// How a module of the machine is written.
+fn options(is_straight: bool, is_in_pairs: bool) -> emit::rust::Options {
+    let default = emit::rust::Options::default();
+    emit::rust::Options {
         shortest_rolled: match is_straight {
             true => usize::MAX,
             // What is in the order of time repeats little but its reads, and a loop of these would keep all from being
             // checked at once, at the end.
             false => LONGEST_SCHEDULED + 1,
         },
+        shortest_packed: match is_in_pairs {
+            true => default.shortest_packed,
+            false => usize::MAX,
+        },
         runtime: "crate".into(),
         // Nothing is described to a debugger here, and whole functions compile faster than pieces, which pass hundreds of
         // values through memory: a chain of 32 links in half the time.
         longest_whole: 12_000,
-        ..Default::default()
+        ..default
+    }
+}
+
+/// Whether the accelerations of one state are computed in pairs. In lanes nothing is gained by it: there two limbs at once are
+/// twice the values at hand.
+fn is_in_pairs(program: &Proved) -> bool {
+    let accelerations = program.function(Role::Accelerations);
+    let is_long = |function| emit::rust::in_pairs(function, &options(false, true)).is_some();
+    program.unilateral.is_empty() && accelerations.is_some_and(is_long)
+}
+
+/// The whole library as one file of Rust.
+fn source(
+    program: &Proved,
+    lanes: &[u8],
+    is_straight: bool,
+    is_in_pairs: bool,
+) -> Result<String, Failure> {
+    let module = |is_in_pairs| {
+        let options = options(is_straight, is_in_pairs);
+        emit::rust::library(program, &options).map_err(Failure::run)
     };
-    let machine = emit::rust::library(program, &options).map_err(Failure::run)?;
+    let machine = module(false)?;
     // Of the crate of numbers the trait, behind its list of modules; of the plain numbers `f64`, before `f32`, and with the
     // functions of the C library.
     let after = |text: &'static str, mark: &str| text.find(mark).map_or(text, |at| &text[at..]);
@@ -190,6 +217,10 @@ fn source(program: &Proved, lanes: &[u8], is_straight: bool) -> Result<String, F
         ("x86", X86.to_owned()),
         ("machine", machine),
     ];
+    let alone = match is_in_pairs {
+        true => format!("mod alone {{\n{}}}\n\n", module(true)?),
+        false => "use machine as alone;\n\n".to_owned(),
+    };
     for (name, text) in modules {
         let condition = match name {
             "x86" => "#[cfg(target_arch = \"x86_64\")]\n",
@@ -197,6 +228,7 @@ fn source(program: &Proved, lanes: &[u8], is_straight: bool) -> Result<String, F
         };
         let _ = writeln!(source, "{condition}mod {name} {{\n{text}}}\n"); // writing to a String cannot fail
     }
+    source.push_str(&alone);
     source.push_str(EXPORT);
     if !program.unilateral.is_empty() {
         source.push_str(EXPORT_OF_CONTACTS);
@@ -277,7 +309,7 @@ fn examples<'a>(known: &[&'a str]) -> Vec<&'a str> {
 }
 
 /// Calls the compiler; the bytes of the library.
-fn compile(source: &str, call: &call::Library) -> Result<Vec<u8>, Failure> {
+fn compile(source: &str, is_in_pairs: bool, call: &call::Library) -> Result<Vec<u8>, Failure> {
     let unkept =
         |error: io::Error| Failure::run(format!("cannot keep the library for a while: {error}"));
     let folder = tempfile::tempdir().map_err(unkept)?;
@@ -299,6 +331,10 @@ fn compile(source: &str, call: &call::Library) -> Result<Vec<u8>, Failure> {
         "strip=symbols",
     ] {
         words.args(["-C", option]);
+    }
+    if is_in_pairs {
+        // What is in pairs is found by how the machine is made; a compiler that looks for pairs of its own tears some of these apart.
+        words.args(["-C", "no-vectorize-slp"]);
     }
     words.arg(format!("-Ctarget-cpu={}", call.target_cpu));
     words.arg("-o").arg(&library).arg("-");

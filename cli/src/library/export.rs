@@ -1,5 +1,5 @@
 // What the library exports. This text is no module of the command: `library.rs` puts it at the root of the generated file,
-// beside the module `machine` of the machine and the modules of the crates `lagrangian-scalar` and `lagrangian-native`.
+// beside the module `machine` of the machine, the module `alone` for one state, and the modules of the crates `lagrangian-scalar` and `lagrangian-native`.
 
 use core::cell::UnsafeCell;
 use core::ffi::{CStr, c_char, c_int};
@@ -117,7 +117,7 @@ struct Slot<T>(UnsafeCell<Option<T>>);
 // SAFETY: the header asks that `eval_setup` is not called while another function of the library runs.
 unsafe impl<T> Sync for Slot<T> {}
 
-static ONE: Slot<Prepared<f64>> = Slot(UnsafeCell::new(None));
+static ONE: Slot<alone::Prepared<f64>> = Slot(UnsafeCell::new(None));
 
 /// The numbers of a table.
 fn values<const K: usize>(table: &[(&CStr, &CStr, f64); K]) -> [f64; K] {
@@ -133,11 +133,10 @@ pub unsafe extern "C" fn eval_setup(p: *const f64) {
         Some(row) => *row,
         None => values(&PARAMETERS),
     };
-    let prepared = machine::prepared(&row);
     // SAFETY: nobody else runs.
     unsafe {
-        *ONE.0.get() = Some(prepared);
-        set_up_lanes(&prepared);
+        *ONE.0.get() = Some(alone::prepared(&row));
+        set_up_lanes(&machine::prepared(&row));
     }
 }
 
@@ -163,7 +162,7 @@ pub unsafe extern "C" fn eval(y: *const f64, t: f64, p: *const f64, qdd: *mut f6
     unsafe {
         let ([q, v], a) = (&*y.cast::<[[f64; N]; 2]>(), &mut *qdd.cast::<[f64; N]>());
         let prepared = (*ONE.0.get()).as_ref();
-        if !prepared.is_some_and(|prepared| machine::evaluate(prepared, t, q, v, &given(p), a)) {
+        if !prepared.is_some_and(|prepared| alone::evaluate(prepared, t, q, v, &given(p), a)) {
             *a = [f64::NAN; N];
         }
     }

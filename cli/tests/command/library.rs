@@ -131,7 +131,35 @@ fn answer(mut command: Command, text: &str) -> String {
 /// `angle` is the number of a coordinate whose sine is taken, `distance` of one whose vanishing makes the mass matrix singular.
 fn check(name: &str, constants: &[&str], angle: usize, distance: Option<usize>) {
     let folder = Folder::new(name);
-    let spec = machine(name);
+    let near_one = |k: usize| 1.0 + number(k);
+    let places = [Some(angle), distance];
+    // Written with loops, it is the same operations in the same arithmetic.
+    let is_exact = !constants.is_empty();
+    check_of(
+        &folder,
+        &machine(name),
+        constants,
+        places,
+        &near_one,
+        is_exact,
+    );
+}
+
+/// In no pattern, in [0, 1).
+fn number(k: usize) -> f64 {
+    ((k * 37 + 11) % 101) as f64 / 101.0
+}
+
+/// The same of any spec, whose parameters and inputs are said by their places.
+fn check_of(
+    folder: &Folder,
+    spec: &Path,
+    constants: &[&str],
+    [angle, distance]: [Option<usize>; 2],
+    parameter: &dyn Fn(usize) -> f64,
+    is_exact: bool,
+) {
+    let name = spec.display();
     let spec = spec.to_str().expect("a path in UTF-8");
     let arguments = [
         "library",
@@ -144,7 +172,7 @@ fn check(name: &str, constants: &[&str], angle: usize, distance: Option<usize>) 
     ];
     let arguments = [&arguments, constants].concat();
     let made: Value =
-        serde_json::from_str(&answer(lagrangian(&arguments, &folder), "")).expect("JSON");
+        serde_json::from_str(&answer(lagrangian(&arguments, folder), "")).expect("JSON");
     let names = |list: &str| -> Vec<String> {
         let names = made[list].as_array().expect("a list").iter();
         names
@@ -172,9 +200,8 @@ fn check(name: &str, constants: &[&str], angle: usize, distance: Option<usize>) 
         "",
     );
 
-    let number = |k: usize| ((k * 37 + 11) % 101) as f64 / 101.0; // in no pattern, in [0, 1)
     let p: Vec<f64> = (0..parameters.len() + inputs.len())
-        .map(|k| 1.0 + number(k))
+        .map(parameter)
         .collect();
     let y: Vec<f64> = (0..2 * coordinates.len())
         .map(|k| 0.5 + number(k + 50))
@@ -194,7 +221,7 @@ fn check(name: &str, constants: &[&str], angle: usize, distance: Option<usize>) 
     let expected = answer(
         lagrangian(
             &[&["evaluate", spec, "--at", "-"], constants].concat(),
-            &folder,
+            folder,
         ),
         &point.to_string(),
     );
@@ -211,8 +238,7 @@ fn check(name: &str, constants: &[&str], angle: usize, distance: Option<usize>) 
         .chain(&y)
         .chain([&t])
         .map(|x| format!("{x:e}"))
-        .chain([angle.to_string()])
-        .chain([distance.map_or("-1".to_owned(), |place| place.to_string())])
+        .chain([angle, distance].map(|place| place.map_or("-1".to_owned(), |x| x.to_string())))
         .collect();
     let program = Command::new(folder.0.join("program"));
     let printed = answer(
@@ -232,10 +258,10 @@ fn check(name: &str, constants: &[&str], angle: usize, distance: Option<usize>) 
     let greatest = expected.iter().fold(0.0, |most, a: &f64| a.abs().max(most));
     for (i, (ours, expected)) in printed[..n].iter().zip(&expected).enumerate() {
         // Both are stable; they differ by the rounding of at most 2000 operations in which the condition of these mass
-        // matrices, below 1e3, may show. Written with loops, it is the same operations in the same arithmetic.
-        let limit = match constants {
-            [] => 2000.0 * 1e3 * f64::EPSILON * greatest,
-            _ => 0.0,
+        // matrices, below 1e3, may show.
+        let limit = match is_exact {
+            false => 2000.0 * 1e3 * f64::EPSILON * greatest,
+            true => 0.0,
         };
         assert!(
             (ours - expected).abs() <= limit,
@@ -255,6 +281,47 @@ fn a_driven_machine_is_what_the_interpreter_says() {
 #[test]
 fn a_chain_of_128_links_has_the_bits_of_the_straight_program() {
     check("chain", &["--const", "N=128"], 0, None);
+}
+
+/// Left and right limbs are evaluated two at a time.
+#[test]
+fn a_humanoid_whose_limbs_are_in_pairs_has_the_bits_of_the_program() {
+    use lagrangian::interpreted::InterpretedMachine;
+    let folder = Folder::new("humanoid");
+    let file = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/command/import/real/simple_humanoid.urdf");
+    let file = file.to_str().expect("a path in UTF-8");
+    let import = ["import", file, "--base", "floating", "--ball", "zyx"];
+    let rest = [
+        "--friction",
+        "none",
+        "--drop-massless",
+        "--ignore",
+        "collision_checking",
+    ];
+    let out = ["--out", "humanoid.machine"];
+    answer(
+        lagrangian(&[&import[..], &rest, &out].concat(), &folder),
+        "",
+    );
+    let spec = folder.0.join("humanoid.machine");
+    let source = [
+        "library",
+        "humanoid.machine",
+        "--out",
+        "a.so",
+        "--source",
+        "a.rs",
+    ];
+    answer(lagrangian(&source, &folder), "");
+    let source = fs::read_to_string(folder.0.join("a.rs")).expect("the source");
+    let pairs = source.matches("_each([").count();
+    assert!(pairs > 1000, "{pairs} pairs");
+
+    let machine = InterpretedMachine::from_file(&spec).expect("a good spec");
+    let parameters = &machine.program().parameters;
+    let default = |k: usize| parameters[k].default.as_ref().expect("a value").value;
+    check_of(&folder, &spec, &[], [Some(6), None], &default, true);
 }
 
 #[test]

@@ -10,7 +10,8 @@ use super::layout::{Writer, width};
 use super::names::Scope;
 use lagrangian_program as program;
 use lagrangian_program::{
-    Contracted, Contraction, Contractions, Function, Guard, Op, Source, Value,
+    Contracted, Contraction, Contractions, Function, Guard, Op, Pack, Source, Statement, Value,
+    What,
 };
 
 mod repeats;
@@ -78,6 +79,10 @@ pub trait Language {
     }
     /// Sines and cosines of several angles at once; names for those that are used.
     fn sin_cos_all(&self, _writer: &mut Writer, _angles: &[Angle]) {}
+    /// Two operations of one kind in one statement, of operands slot by slot; `None` where the language writes each by itself.
+    fn pack(&self, _what: What, _operands: &[[Expression; 2]]) -> Option<String> {
+        None
+    }
 }
 
 /// An operation whose rounding error is asked for.
@@ -210,19 +215,22 @@ pub struct Unchecked {
     pub latest: usize,
 }
 
-/// The statements of a function without its guards, which the caller checks after everything else.
+/// The statements of a function without its guards, which the caller checks after everything else; with its operations in
+/// pairs, where it has any.
 pub fn unchecked(
     writer: &mut Writer,
     language: &impl Language,
     function: &Function,
     scope: Scope,
     wanted: &[String],
+    packs: Option<&[Statement]>,
 ) -> Unchecked {
     let mut body = Body::new(writer, language, function, scope, wanted);
     body.read_arguments();
     body.all_angles();
-    for index in 0..function.code.len() {
-        body.operation(Value(index as u32));
+    match packs {
+        Some(statements) => body.in_pairs(statements),
+        None => (0..function.code.len()).for_each(|index| body.operation(Value(index as u32))),
     }
     let results = body.results();
     let guards = function.guards.iter();
@@ -370,6 +378,49 @@ impl<'a, L: Language> Body<'a, L> {
         self.define(value, expression);
     }
 
+    /// The operations of a function in pairs.
+    fn in_pairs(&mut self, statements: &[Statement]) {
+        for (index, op) in self.function.code.iter().enumerate() {
+            if matches!(op, Op::Constant(_) | Op::Pi) {
+                self.operation(Value(index as u32));
+            }
+        }
+        for statement in statements {
+            match statement {
+                Statement::One(value) => self.operation(*value),
+                Statement::Two(pack) => self.pack(pack),
+            }
+        }
+    }
+
+    /// Two operations in one statement.
+    fn pack(&mut self, pack: &Pack) {
+        for value in pack.operands.iter().flatten() {
+            if is_long(&self.text(*value).text) {
+                self.bound(*value);
+            }
+        }
+        let operands = pack.operands.iter();
+        let operands: Vec<[Expression; 2]> = operands
+            .map(|pair| pair.map(|value| self.text(value)))
+            .collect();
+        let Some(text) = self.language.pack(pack.what, &operands) else {
+            return pack
+                .values
+                .into_iter()
+                .for_each(|value| self.operation(value));
+        };
+        let names = pack.values.map(|value| {
+            let name = self.name(value);
+            self.language.identifier(&mut self.scope, &name)
+        });
+        self.language
+            .bind(self.writer, &format!("[{}]", names.join(", ")), &text);
+        for (value, name) in pack.values.into_iter().zip(names) {
+            self.texts[value.index()] = Some(Expression::leaf(name));
+        }
+    }
+
     /// What a value is: a variable, if it is used again.
     fn define(&mut self, value: Value, expression: Expression) {
         let is_cheap = expression.is_leaf || matches!(self.function.op(value), Op::Pi);
@@ -492,17 +543,17 @@ impl<'a, L: Language> Body<'a, L> {
         if expression.is_leaf {
             return expression.text;
         }
-        let wanted = self
-            .wanted
-            .get(value.index())
-            .copied()
-            .flatten()
-            .map(str::to_owned);
-        let name = wanted.unwrap_or_else(|| {
+        let name = self.name(value);
+        self.bind(value, &name, &expression.text)
+    }
+
+    /// What the variable of a value should be called: what is wanted, or the next number.
+    fn name(&mut self, value: Value) -> String {
+        let wanted = self.wanted.get(value.index()).copied().flatten();
+        wanted.map(str::to_owned).unwrap_or_else(|| {
             self.temporaries += 1;
             format!("t{}", self.temporaries - 1)
-        });
-        self.bind(value, &name, &expression.text)
+        })
     }
 
     fn bind(&mut self, value: Value, name: &str, text: &str) -> String {

@@ -26,7 +26,7 @@ use super::names::{Field, Scope, identifier, snake_case};
 use docs::prose;
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_mechanics::{Proved, Unproved};
-use lagrangian_program::{Counts, Function, Op, Program, Role};
+use lagrangian_program::{Counts, Function, Op, Program, Role, Statement, packs};
 use types::{Group, Types};
 
 pub use stub::stub;
@@ -47,6 +47,9 @@ pub struct Options {
     pub longest_whole: usize,
     /// The fewest steps of a function in which what repeats itself is written as a loop.
     pub shortest_rolled: usize,
+    /// The fewest operations of a library's accelerations in which those that parts of the machine have in common are written
+    /// in pairs.
+    pub shortest_packed: usize,
     /// Whether the structs whose fields a description names (parameters, coordinates, inputs, outputs) are marked by an
     /// attribute, [`MARK`], in whose place the macro puts those of its user.
     pub marks: bool,
@@ -61,6 +64,10 @@ pub const MARK: &str = "fields_of_the_description";
 /// repeats itself.
 pub const SHORTEST_ROLLED: usize = 300;
 
+/// The fewest operations of a function that is written in pairs. A shorter one fits the processor's store of decoded
+/// instructions, and waits for its results more than for its instructions.
+pub const SHORTEST_PACKED: usize = 1000;
+
 impl Default for Options {
     fn default() -> Options {
         Options {
@@ -70,6 +77,7 @@ impl Default for Options {
             series: None,
             longest_whole: super::cut::LONGEST_WHOLE,
             shortest_rolled: SHORTEST_ROLLED,
+            shortest_packed: SHORTEST_PACKED,
             marks: false,
         }
     }
@@ -107,6 +115,12 @@ pub fn library(program: &Proved, options: &Options) -> Result<String, Unproved> 
     }
     let program = program.restricted(&roles)?;
     Ok(Emitter::new(&program, options).library())
+}
+
+/// The operations of a library's accelerations in pairs, if that is how they are written.
+pub fn in_pairs(function: &Function, options: &Options) -> Option<Vec<Statement>> {
+    let is_long = function.code.len() >= options.shortest_packed;
+    is_long.then(|| packs(function)).flatten()
 }
 
 /// What a library has of a machine with unilateral contacts, beside the accelerations with all of them open. With M and the rows of

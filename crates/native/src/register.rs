@@ -61,6 +61,17 @@ macro_rules! each {
     };
 }
 
+/// Operations on two numbers each, as the vector has them.
+macro_rules! each_of_two {
+    ($($method:ident($($argument:ident),*)),* $(,)?) => {$(
+        #[inline(always)]
+        fn $method($($argument: [Self; 2]),*) -> [Self; 2] {
+            let [first, second] = V::$method($([$argument[0].0, $argument[1].0]),*);
+            [Register(first), Register(second)]
+        }
+    )*};
+}
+
 impl<V: Sines> Scalar for Register<V> {
     type Stored = V::Stored;
 
@@ -101,6 +112,16 @@ impl<V: Sines> Scalar for Register<V> {
     fn neg_mul_add(self, b: Self, c: Self) -> Self {
         Register(self.0.neg_mul_add(b.0, c.0))
     }
+    each_of_two!(
+        add_each(a, b),
+        sub_each(a, b),
+        mul_each(a, b),
+        div_each(a, b),
+        mul_add_each(a, b, c),
+        mul_sub_each(a, b, c),
+        neg_mul_add_each(a, b, c),
+    );
+
     #[inline(always)]
     fn product_error(self, b: Self) -> Self {
         Register(self.0.mul_sub(b.0, self.0.mul(b.0)))

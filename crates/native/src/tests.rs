@@ -438,3 +438,55 @@ fn no_number_comes_too_near_to_a_multiple_of_a_right_angle() {
     println!("nearest: 2^{:.2}", nearest.log2());
     assert!(nearest > 2.0_f64.powi(-61));
 }
+
+/// All operations on two numbers each, on every pair of the numbers of three lists.
+struct Each<'a, T>([&'a [T]; 3]);
+
+impl<T: Copy> Kernel<T> for Each<'_, T> {
+    type Output = Vec<[[T; 2]; 2]>;
+
+    #[inline(always)]
+    fn run<N: Scalar<Stored = T>>(self) -> Self::Output {
+        let mut all = Vec::new();
+        let store = |pair: [N; 2]| pair.map(N::store);
+        let [first, second, third] = self.0;
+        for ((a, b), c) in first
+            .windows(2)
+            .zip(second.windows(2))
+            .zip(third.windows(2))
+        {
+            let [a, b, c] = [a, b, c].map(|pair| [N::load(pair[0]), N::load(pair[1])]);
+            let alone = |f: fn(N, N) -> N| [f(a[0], b[0]), f(a[1], b[1])];
+            let contracted = |f: fn(N, N, N) -> N| [f(a[0], b[0], c[0]), f(a[1], b[1], c[1])];
+            for (at_once, alone) in [
+                (N::add_each(a, b), alone(N::add)),
+                (N::sub_each(a, b), alone(N::sub)),
+                (N::mul_each(a, b), alone(N::mul)),
+                (N::div_each(a, b), alone(N::div)),
+                (N::mul_add_each(a, b, c), contracted(N::mul_add)),
+                (N::mul_sub_each(a, b, c), contracted(N::mul_sub)),
+                (N::neg_mul_add_each(a, b, c), contracted(N::neg_mul_add)),
+            ] {
+                all.push([store(at_once), store(alone)]);
+            }
+        }
+        all
+    }
+}
+
+#[test]
+fn two_at_once_have_the_bits_of_each_by_itself() {
+    let mut random = Random(11);
+    let lists: [Vec<f64>; 3] = std::array::from_fn(|_| (0..500).map(|_| random.number()).collect());
+    let lists = lists.each_ref().map(Vec::as_slice);
+    let check = |found: Vec<[[f64; 2]; 2]>| {
+        assert_eq!(found.len(), 7 * 499);
+        for (place, [at_once, alone]) in found.into_iter().enumerate() {
+            let is_same = at_once.iter().zip(alone).all(|(a, b)| same(*a, b));
+            assert!(is_same, "{place}: {at_once:?} for {alone:?}");
+        }
+    };
+    check(f64::run(Each(lists)));
+    check(Each(lists).run::<Fused>());
+    check(Each(lists).run::<f64>());
+}

@@ -51,6 +51,48 @@ pub trait Vector: Copy {
     /// Square root.
     fn sqrt(self) -> Self;
 
+    /// Two sums; as those below, in one instruction where two numbers fit a register.
+    #[inline(always)]
+    fn add_each(a: [Self; 2], b: [Self; 2]) -> [Self; 2] {
+        [a[0].add(b[0]), a[1].add(b[1])]
+    }
+
+    /// Two differences.
+    #[inline(always)]
+    fn sub_each(a: [Self; 2], b: [Self; 2]) -> [Self; 2] {
+        [a[0].sub(b[0]), a[1].sub(b[1])]
+    }
+
+    /// Two products.
+    #[inline(always)]
+    fn mul_each(a: [Self; 2], b: [Self; 2]) -> [Self; 2] {
+        [a[0].mul(b[0]), a[1].mul(b[1])]
+    }
+
+    /// Two quotients.
+    #[inline(always)]
+    fn div_each(a: [Self; 2], b: [Self; 2]) -> [Self; 2] {
+        [a[0].div(b[0]), a[1].div(b[1])]
+    }
+
+    /// Two times `mul_add`.
+    #[inline(always)]
+    fn mul_add_each(a: [Self; 2], b: [Self; 2], c: [Self; 2]) -> [Self; 2] {
+        [a[0].mul_add(b[0], c[0]), a[1].mul_add(b[1], c[1])]
+    }
+
+    /// Two times `mul_sub`.
+    #[inline(always)]
+    fn mul_sub_each(a: [Self; 2], b: [Self; 2], c: [Self; 2]) -> [Self; 2] {
+        [a[0].mul_sub(b[0], c[0]), a[1].mul_sub(b[1], c[1])]
+    }
+
+    /// Two times `neg_mul_add`.
+    #[inline(always)]
+    fn neg_mul_add_each(a: [Self; 2], b: [Self; 2], c: [Self; 2]) -> [Self; 2] {
+        [a[0].neg_mul_add(b[0], c[0]), a[1].neg_mul_add(b[1], c[1])]
+    }
+
     /// Absolute value.
     #[inline(always)]
     fn abs(self) -> Self {

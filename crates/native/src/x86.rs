@@ -387,6 +387,42 @@ macro_rules! plain {
     )*};
 }
 
+/// Operations on two numbers at once. A compiler keeps results that go on as a pair in their register, and the moves that stand
+/// here are not there.
+macro_rules! in_one_register {
+    ($($each:ident($($argument:ident),*)),* $(,)?) => {$(
+        #[inline(always)]
+        fn $each($($argument: [Self; 2]),*) -> [Self; 2] {
+            $(let $argument = Two::of($argument);)*
+            in_one_register!(@ $each $($argument),*).numbers()
+        }
+    )*};
+    (@ add_each $a:ident, $b:ident) => { $a.add($b) };
+    (@ sub_each $a:ident, $b:ident) => { $a.sub($b) };
+    (@ mul_each $a:ident, $b:ident) => { $a.mul($b) };
+    (@ div_each $a:ident, $b:ident) => { $a.div($b) };
+    (@ mul_add_each $a:ident, $b:ident, $c:ident) => { $a.mul_add($b, $c) };
+    (@ mul_sub_each $a:ident, $b:ident, $c:ident) => { $a.mul_sub($b, $c) };
+    (@ neg_mul_add_each $a:ident, $b:ident, $c:ident) => { $a.neg_mul_add($b, $c) };
+}
+
+impl Two {
+    #[inline(always)]
+    fn of([first, second]: [One; 2]) -> Two {
+        // SAFETY: as above.
+        Two(unsafe { _mm_set_pd(second.0, first.0) })
+    }
+
+    #[inline(always)]
+    fn numbers(self) -> [One; 2] {
+        // SAFETY: as above.
+        unsafe {
+            let second = _mm_unpackhi_pd(self.0, self.0);
+            [One(_mm_cvtsd_f64(self.0)), One(_mm_cvtsd_f64(second))]
+        }
+    }
+}
+
 impl Vector for One {
     type Stored = f64;
     type Mask = bool;
@@ -406,6 +442,16 @@ impl Vector for One {
         sqrt(),
         and(b),
         xor(b),
+    );
+
+    in_one_register!(
+        add_each(a, b),
+        sub_each(a, b),
+        mul_each(a, b),
+        div_each(a, b),
+        mul_add_each(a, b, c),
+        mul_sub_each(a, b, c),
+        neg_mul_add_each(a, b, c),
     );
 
     #[inline(always)]

@@ -84,6 +84,41 @@ pub trait Scalar:
     fn neg_mul_add(self, b: Self, c: Self) -> Self {
         c - self * b
     }
+    /// Two sums; as `sub_each` and those below, in one instruction where two numbers fit a register.
+    #[inline(always)]
+    fn add_each(a: [Self; 2], b: [Self; 2]) -> [Self; 2] {
+        [a[0] + b[0], a[1] + b[1]]
+    }
+    /// Two differences.
+    #[inline(always)]
+    fn sub_each(a: [Self; 2], b: [Self; 2]) -> [Self; 2] {
+        [a[0] - b[0], a[1] - b[1]]
+    }
+    /// Two products.
+    #[inline(always)]
+    fn mul_each(a: [Self; 2], b: [Self; 2]) -> [Self; 2] {
+        [a[0] * b[0], a[1] * b[1]]
+    }
+    /// Two quotients.
+    #[inline(always)]
+    fn div_each(a: [Self; 2], b: [Self; 2]) -> [Self; 2] {
+        [a[0] / b[0], a[1] / b[1]]
+    }
+    /// Two times [`mul_add`](Scalar::mul_add).
+    #[inline(always)]
+    fn mul_add_each(a: [Self; 2], b: [Self; 2], c: [Self; 2]) -> [Self; 2] {
+        [a[0].mul_add(b[0], c[0]), a[1].mul_add(b[1], c[1])]
+    }
+    /// Two times [`mul_sub`](Scalar::mul_sub).
+    #[inline(always)]
+    fn mul_sub_each(a: [Self; 2], b: [Self; 2], c: [Self; 2]) -> [Self; 2] {
+        [a[0].mul_sub(b[0], c[0]), a[1].mul_sub(b[1], c[1])]
+    }
+    /// Two times [`neg_mul_add`](Scalar::neg_mul_add).
+    #[inline(always)]
+    fn neg_mul_add_each(a: [Self; 2], b: [Self; 2], c: [Self; 2]) -> [Self; 2] {
+        [a[0].neg_mul_add(b[0], c[0]), a[1].neg_mul_add(b[1], c[1])]
+    }
     /// What rounding took from `self·b`: exactly `self·b − (self * b)`. 0 where a product is exact, or its error is not
     /// worth knowing.
     ///

@@ -11,7 +11,7 @@ use crate::cut::{self, Cut, Piece, Place};
 use crate::layout::{Layout, Writer};
 use crate::names::{Scope, flat};
 use lagrangian_program::quantity::{Entry, Extent, Kind};
-use lagrangian_program::{Function, Op, Reads, Role, Shape, Source};
+use lagrangian_program::{Function, Op, Reads, Role, Shape, Source, Statement};
 
 impl<'a> Emitter<'a> {
     /// Whether a function does anything: one that gives zeros has no code.
@@ -292,9 +292,14 @@ impl<'a> Emitter<'a> {
     }
 
     /// The statements of a function without its checks of pivots, in registers.
-    pub(super) fn unchecked(&mut self, function: &Function, wanted: &[String]) -> Unchecked {
+    pub(super) fn unchecked(
+        &mut self,
+        function: &Function,
+        wanted: &[String],
+        packs: Option<&[Statement]>,
+    ) -> Unchecked {
         self.in_scope(true, |writer, language, scope| {
-            body::unchecked(writer, language, function, scope, wanted)
+            body::unchecked(writer, language, function, scope, wanted, packs)
         })
     }
 

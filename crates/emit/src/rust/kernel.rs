@@ -155,7 +155,7 @@ impl Emitter<'_> {
             }
             None => {
                 let wanted = self.result_names(function);
-                let body = self.unchecked(function, &wanted);
+                let body = self.unchecked(function, &wanted, None);
                 let texts = body.results.iter();
                 let texts: Vec<String> = texts.map(|text| text.at_least(Binding::Atom)).collect();
                 self.checks(function, &body, &texts);

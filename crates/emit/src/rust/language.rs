@@ -6,7 +6,7 @@ use super::Emitter;
 use crate::body::{Angle, Binding, Expression as Text, Language, Loops, Place, Rounded};
 use crate::layout::{Layout, Writer};
 use crate::names::{Scope, flat};
-use lagrangian_program::{Contracted, Guard, Source};
+use lagrangian_program::{Contracted, Guard, Source, What};
 
 /// How Rust writes what is no operator.
 pub(super) struct Rust<'a> {
@@ -133,6 +133,25 @@ impl Language for Rust<'_> {
         };
         let a = a.at_least(Binding::Atom);
         Some(Text::call(format!("{a}.{method}({}, {})", b.text, c.text)))
+    }
+
+    fn pack(&self, what: What, operands: &[[Text; 2]]) -> Option<String> {
+        let method = match what {
+            What::Add => "add_each",
+            What::Sub => "sub_each",
+            What::Mul => "mul_each",
+            What::Div => "div_each",
+            What::Contraction(Contracted::Add) => "mul_add_each",
+            What::Contraction(Contracted::Sub) => "mul_sub_each",
+            What::Contraction(Contracted::SubFrom) => "neg_mul_add_each",
+        };
+        let both = |[a, b]: &[Text; 2]| format!("[{}, {}]", a.text, b.text);
+        let operands: Vec<String> = operands.iter().map(both).collect();
+        Some(format!(
+            "{}::{method}({})",
+            self.number(),
+            operands.join(", ")
+        ))
     }
 
     fn sin_cos_all(&self, writer: &mut Writer, angles: &[Angle]) {

@@ -4,7 +4,7 @@
 use super::kernel::with_lifetime;
 use super::language::number;
 use super::types::{Group, Types, literal};
-use super::{Emitter, OF_CONTACTS};
+use super::{Emitter, OF_CONTACTS, in_pairs};
 use crate::body::Binding;
 use crate::layout::Layout;
 use crate::names::Field;
@@ -303,7 +303,8 @@ impl Emitter<'_> {
         let has_far = !early_angles(function).is_empty();
         self.asks_once = true;
         let wanted = self.result_names(function);
-        let body = self.unchecked(function, &wanted);
+        let packs = in_pairs(function, self.options);
+        let body = self.unchecked(function, &wanted, packs.as_deref());
         self.asks_once = false;
         for (i, text) in body.results.iter().enumerate() {
             let text = text.at_least(Binding::Atom);

@@ -1,0 +1,624 @@
+//! Operations in pairs: what two parts of a machine have in common, done at once.
+//!
+//! A robot has a left arm and a right arm, a quadruped four equal legs: their operations are the same, on other values.
+//! Where a register holds two numbers, one instruction does both. Compilers look for such pairs from neighbours in memory
+//! (S. Larsen and S. Amarasinghe, *Exploiting superword level parallelism with multimedia instruction sets*, PLDI 2000,
+//! 145–156); limbs have none there, so this looks for operations that stand alike in the function.
+//!
+//! Each operation gets a color of what it is computed from and of what is computed from it, up to some distance (the
+//! refinement of B. Weisfeiler and A. Leman, 1968). Two of one color are the seed of a pair of parts, and from each pair of
+//! operations the next ones follow: the operands of both, and what uses both in the same way. Only operations of the same
+//! depth become a pair, so that none waits for itself by way of another pair.
+//!
+//! Pairing changes neither which operations there are nor their operands: the bits are those of the function.
+
+use std::hash::{Hash, Hasher};
+
+use rustc_hash::{FxHashMap, FxHasher};
+
+use super::repeats::{Kind, early_angles};
+use super::{Contracted, Contractions, Function, Op, Source, Value};
+
+/// How far colors see.
+const DISTANCE: usize = 8;
+
+/// The distances at which seeds are looked for: far ones first, since what looks alike from afar is alike more surely.
+const OF_SEEDS: [usize; 4] = [8, 6, 5, 4];
+
+/// The most operations of one color that are compared with each other, and the most users of one value that are. Beyond
+/// it nothing stands out, and each would be compared with each.
+const MOST_ALIKE: usize = 64;
+
+/// Pairs have to save this share of the operations at least. What saves less are a few that look alike by chance.
+const LEAST_SHARE: usize = 8;
+
+/// What is written as one statement.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Statement {
+    /// One operation; of a sine and a cosine of one angle, either.
+    One(Value),
+    /// Two of one kind.
+    Two(Pack),
+}
+
+/// Two operations of one kind.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pack {
+    /// What they do.
+    pub what: What,
+    /// What they compute.
+    pub values: [Value; 2],
+    /// Their operands, slot by slot.
+    pub operands: Vec<[Value; 2]>,
+}
+
+/// What operations of a pair do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum What {
+    /// a + b
+    Add,
+    /// a − b
+    Sub,
+    /// a·b
+    Mul,
+    /// a/b
+    Div,
+    /// A product and a sum in one.
+    Contraction(Contracted),
+}
+
+impl What {
+    /// Whether the first two operands may change places.
+    fn commutes(self) -> bool {
+        !matches!(self, What::Sub | What::Div)
+    }
+}
+
+/// The operations of a function in pairs where it pays, each after its operands; `None` where it does not. Products are
+/// contracted, and angles that are [early](early_angles) are known before.
+pub fn packs(function: &Function) -> Option<Vec<Statement>> {
+    let mut finder = Finder::new(function);
+    finder.find();
+    finder.prune();
+    let packs = finder.lane.iter().filter(|lane| **lane == Some(0));
+    let packs = packs.count() - finder.pairs_of_arguments();
+    let operations = finder.nodes.iter().filter(|node| node.what.is_some());
+    (packs > 0 && packs * LEAST_SHARE >= operations.count()).then(|| finder.statements())
+}
+
+/// What a value is to its users.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Sort {
+    /// Computed here.
+    Operation,
+    /// Known before; two such values can lie side by side in memory.
+    Known,
+    /// An argument of the state, by its kind.
+    Argument(u8),
+    /// Part of another operation, or nothing that is needed.
+    Absent,
+}
+
+struct Node {
+    sort: Sort,
+    /// What it does, where it may be one of a pair.
+    what: Option<What>,
+    /// A hash of what it does.
+    kind: u64,
+    operands: Vec<Value>,
+    /// How many operations there are on the longest way from arguments to here.
+    depth: u32,
+    users: Vec<Value>,
+}
+
+struct Finder<'a> {
+    function: &'a Function,
+    nodes: Vec<Node>,
+    /// The colors of each value, from near to far.
+    colors: Vec<[u64; DISTANCE]>,
+    partner: Vec<Option<Value>>,
+    /// The place in its pair.
+    lane: Vec<Option<u8>>,
+    /// Pairs whose neighbours are still to be looked at.
+    open: Vec<[Value; 2]>,
+}
+
+fn hash(of: impl Hash) -> u64 {
+    let mut hasher = FxHasher::default();
+    of.hash(&mut hasher);
+    hasher.finish()
+}
+
+impl<'a> Finder<'a> {
+    fn new(function: &'a Function) -> Finder<'a> {
+        let nodes = nodes(function);
+        let colors = colors(&nodes);
+        let n = nodes.len();
+        Finder {
+            function,
+            nodes,
+            colors,
+            partner: vec![None; n],
+            lane: vec![None; n],
+            open: Vec::new(),
+        }
+    }
+
+    fn node(&self, value: Value) -> &Node {
+        &self.nodes[value.index()]
+    }
+
+    fn is_paired(&self, value: Value) -> bool {
+        self.partner[value.index()].is_some()
+    }
+
+    /// Whether these are a pair, in this order.
+    fn is_pair(&self, [a, b]: [Value; 2]) -> bool {
+        self.partner[a.index()] == Some(b) && self.lane[a.index()] == Some(0)
+    }
+
+    /// From how near to how far two values look alike.
+    fn likeness(&self, a: Value, b: Value) -> usize {
+        let both = self.colors[a.index()].iter().zip(&self.colors[b.index()]);
+        both.take_while(|(a, b)| a == b).count()
+    }
+
+    /// How well two operands go together, 0 for not at all. `is_strict`: operations have to be a pair already.
+    fn fit(&self, a: Value, b: Value, is_strict: bool) -> u32 {
+        if a == b {
+            return 1;
+        }
+        let (sort, other) = (self.node(a).sort, self.node(b).sort);
+        let is_free = !self.is_paired(a) && !self.is_paired(b);
+        match (sort, other) {
+            _ if sort != other => 0,
+            (Sort::Known, _) => 1,
+            (Sort::Operation, _) if self.is_pair([a, b]) => 3,
+            (Sort::Operation, _) => u32::from(is_free && !is_strict),
+            (Sort::Argument(_), _) if self.is_pair([a, b]) => 2,
+            (Sort::Argument(_), _) => u32::from(is_free),
+            (Sort::Absent, _) => 0,
+        }
+    }
+
+    /// The operands of two operations side by side, if these can be a pair, and how well they fit.
+    fn side_by_side(&self, x: Value, y: Value, is_strict: bool) -> Option<(u32, Vec<[Value; 2]>)> {
+        let (first, second) = (self.node(x), self.node(y));
+        let what = first.what?;
+        if x == y || second.what != Some(what) || first.depth != second.depth {
+            return None;
+        }
+        let rated = |order: [usize; 3]| {
+            let columns = first.operands.iter().zip(order);
+            let columns: Vec<[Value; 2]> = columns
+                .map(|(a, place)| [*a, second.operands[place]])
+                .collect();
+            let mut fits = columns.iter().map(|&[a, b]| self.fit(a, b, is_strict));
+            let rate = fits.try_fold(0, |sum, fit| (fit > 0).then_some(sum + fit));
+            rate.map(|rate| (rate, columns))
+        };
+        let straight = rated([0, 1, 2]);
+        let crossed = match what.commutes() {
+            true => rated([1, 0, 2]),
+            false => None,
+        };
+        match (&straight, &crossed) {
+            (Some(a), Some(b)) if b.0 > a.0 => crossed,
+            (None, _) => crossed,
+            _ => straight,
+        }
+    }
+
+    fn join(&mut self, x: Value, y: Value) {
+        for (value, other, lane) in [(x, y, 0), (y, x, 1)] {
+            self.partner[value.index()] = Some(other);
+            self.lane[value.index()] = Some(lane);
+        }
+        self.open.push([x, y]);
+    }
+
+    fn part(&mut self, x: Value) {
+        for value in [Some(x), self.partner[x.index()]].into_iter().flatten() {
+            self.partner[value.index()] = None;
+            self.lane[value.index()] = None;
+        }
+    }
+
+    /// From seeds to pairs.
+    fn find(&mut self) {
+        for distance in OF_SEEDS {
+            let mut classes: FxHashMap<u64, Vec<Value>> = FxHashMap::default();
+            for (index, node) in self.nodes.iter().enumerate() {
+                if node.what.is_some() {
+                    let color = self.colors[index][distance - 1];
+                    classes.entry(color).or_default().push(Value(index as u32));
+                }
+            }
+            let mut classes: Vec<Vec<Value>> = classes.into_values().collect();
+            classes.retain(|class| (2..=MOST_ALIKE).contains(&class.len()));
+            classes.sort_unstable_by_key(|class| (class.len(), class[0]));
+            for class in classes {
+                for (place, &x) in class.iter().enumerate() {
+                    let later = class[place + 1..].iter().copied();
+                    let mut fitting = later.filter(|&y| {
+                        let is_free = !self.is_paired(x) && !self.is_paired(y);
+                        is_free && self.side_by_side(x, y, false).is_some()
+                    });
+                    if let Some(y) = fitting.next() {
+                        self.join(x, y);
+                        self.close();
+                    }
+                }
+            }
+        }
+    }
+
+    /// What follows from pairs.
+    fn close(&mut self) {
+        while let Some([x, y]) = self.open.pop() {
+            if let Some((_, columns)) = self.side_by_side(x, y, false) {
+                for [a, b] in columns {
+                    let (first, second) = (self.node(a), self.node(b));
+                    let can_be = match first.sort {
+                        Sort::Operation => {
+                            self.side_by_side(a, b, false).is_some() && self.likeness(a, b) > 0
+                        }
+                        Sort::Argument(_) => first.sort == second.sort,
+                        _ => false,
+                    };
+                    if a != b && can_be && !self.is_paired(a) && !self.is_paired(b) {
+                        self.join(a, b);
+                    }
+                }
+            }
+            self.follow(x, y);
+        }
+    }
+
+    /// Pairs of what uses both of a pair.
+    fn follow(&mut self, x: Value, y: Value) {
+        let [first, second] = [x, y].map(|value| &self.node(value).users);
+        if first.len().max(second.len()) > MOST_ALIKE {
+            return;
+        }
+        let mut candidates = Vec::new();
+        for &a in first.iter().filter(|a| !self.is_paired(**a)) {
+            for &b in second.iter().filter(|b| !self.is_paired(**b)) {
+                if let Some((fit, _)) = self.side_by_side(a, b, true) {
+                    candidates.push((2 * fit as usize + self.likeness(a, b), a, b));
+                }
+            }
+        }
+        candidates.sort_unstable_by_key(|&(rate, a, b)| (std::cmp::Reverse(rate), a, b));
+        for (_, a, b) in candidates {
+            let is_free = !self.is_paired(a) && !self.is_paired(b);
+            if is_free && self.side_by_side(a, b, true).is_some() {
+                self.join(a, b);
+            }
+        }
+    }
+
+    /// Undoes pairs that cost more than they save: two operands that come from different places have to be put into one
+    /// register, and the second result has to be taken out of it where somebody needs it by itself.
+    fn prune(&mut self) {
+        loop {
+            let is_bad = |&x: &Value| {
+                let Some((y, 0)) = self.partner[x.index()].zip(self.lane[x.index()]) else {
+                    return false;
+                };
+                if self.node(x).what.is_none() {
+                    return false;
+                }
+                let Some((_, columns)) = self.side_by_side(x, y, false) else {
+                    return true;
+                };
+                let gathered = columns.iter().filter(|&&[a, b]| {
+                    self.node(a).sort == Sort::Operation && a != b && !self.is_pair([a, b])
+                });
+                let users = &self.node(y).users;
+                let is_taken_out =
+                    users.is_empty() || users.iter().any(|user| !self.is_paired(*user));
+                2 * gathered.count() + usize::from(is_taken_out) > 2
+            };
+            let all = (0..self.nodes.len()).map(|index| Value(index as u32));
+            let bad: Vec<Value> = all.filter(is_bad).collect();
+            if bad.is_empty() {
+                return;
+            }
+            for x in bad {
+                self.part(x);
+            }
+        }
+    }
+
+    /// How many pairs are of arguments, which save nothing.
+    fn pairs_of_arguments(&self) -> usize {
+        let all = self.nodes.iter().zip(&self.lane);
+        all.filter(|(node, lane)| node.what.is_none() && **lane == Some(0))
+            .count()
+    }
+
+    /// The operations that results and guards need, depth first.
+    fn statements(&self) -> Vec<Statement> {
+        let mut statements = Vec::new();
+        let mut is_entered = vec![false; self.nodes.len()];
+        let results = self.function.results.iter().copied();
+        let guards = self.function.guards.iter();
+        let guards = guards.flat_map(|guard| [guard.pivot, guard.scale]);
+        let mut open: Vec<(Value, bool)> = results
+            .chain(guards)
+            .map(|value| (self.first(value), false))
+            .collect();
+        open.reverse();
+        while let Some((value, is_ready)) = open.pop() {
+            if self.node(value).sort != Sort::Operation {
+                continue;
+            }
+            let pack = self.pack(value);
+            if is_ready {
+                statements.push(pack.map_or(Statement::One(value), Statement::Two));
+                continue;
+            }
+            if std::mem::replace(&mut is_entered[value.index()], true) {
+                continue;
+            }
+            open.push((value, true));
+            let mut needed: Vec<Value> = match &pack {
+                Some(pack) => pack.operands.iter().flatten().copied().collect(),
+                None => self.node(value).operands.clone(),
+            };
+            needed.reverse();
+            open.extend(needed.into_iter().map(|value| (self.first(value), false)));
+        }
+        statements
+    }
+
+    /// The first of the pair that a value belongs to.
+    fn first(&self, value: Value) -> Value {
+        match (self.partner[value.index()], self.lane[value.index()]) {
+            (Some(other), Some(1)) => other,
+            _ => value,
+        }
+    }
+
+    /// The pair of which a value is the first.
+    fn pack(&self, x: Value) -> Option<Pack> {
+        let y = self.partner[x.index()]?;
+        let (_, operands) = self.side_by_side(x, y, false)?;
+        Some(Pack {
+            what: self.node(x).what?,
+            values: [x, y],
+            operands,
+        })
+    }
+}
+
+/// The values of a function as nodes.
+fn nodes(function: &Function) -> Vec<Node> {
+    let contractions = Contractions::of(function);
+    let n = function.code.len();
+    let mut is_early = vec![false; n];
+    let mut is_early_angle = vec![false; n];
+    for angle in early_angles(function) {
+        is_early[angle.index()] = true;
+        is_early_angle[angle.index()] = true;
+    }
+    for (index, op) in function.code.iter().enumerate().rev() {
+        if is_early[index] {
+            op.operands()
+                .for_each(|operand| is_early[operand.index()] = true);
+        }
+    }
+    let mut nodes: Vec<Node> = Vec::with_capacity(n);
+    for (index, op) in function.code.iter().enumerate() {
+        let value = Value(index as u32);
+        let mut what = None;
+        let mut operands: Vec<Value> = op.operands().collect();
+        let mut kind = hash(Kind::Operation(op.with_operands(|_| Value(0))));
+        let sort = match op {
+            Op::Constant(_) | Op::Pi | Op::Read(Source::Parameter(_) | Source::Prepared(_)) => {
+                kind = 0;
+                Sort::Known
+            }
+            Op::Read(source) => Sort::Argument(match source {
+                Source::Coordinate(_) => 0,
+                Source::Velocity(_) => 1,
+                Source::Acceleration(_) => 2,
+                Source::Input(_) => 3,
+                _ => 4,
+            }),
+            Op::Sin(angle) if is_early_angle[angle.index()] => Sort::Argument(5),
+            Op::Cos(angle) if is_early_angle[angle.index()] => Sort::Argument(6),
+            // Computed before everything else, and there is little of it.
+            _ if is_early[index] => Sort::Argument(7),
+            _ if contractions.is_part(value) => Sort::Absent,
+            _ => {
+                what = match (contractions.sum(value), op) {
+                    (Some(sum), _) => {
+                        let [a, b] = sum.factors;
+                        operands = vec![a, b, sum.term];
+                        Some(What::Contraction(sum.kind))
+                    }
+                    (_, Op::Add(..)) => Some(What::Add),
+                    (_, Op::Sub(..)) => Some(What::Sub),
+                    (_, Op::Mul(..)) => Some(What::Mul),
+                    (_, Op::Div(..)) => Some(What::Div),
+                    _ => None,
+                };
+                Sort::Operation
+            }
+        };
+        if let Sort::Argument(which) = sort {
+            kind = u64::from(which);
+        }
+        if sort != Sort::Operation {
+            operands.clear();
+        }
+        let below = operands.iter().map(|operand| nodes[operand.index()].depth);
+        nodes.push(Node {
+            sort,
+            what,
+            kind: hash((sort, what, kind)),
+            depth: match sort {
+                Sort::Operation => 1 + below.max().unwrap_or(0),
+                _ => 0,
+            },
+            operands,
+            users: Vec::new(),
+        });
+    }
+    for index in 0..n {
+        for operand in nodes[index].operands.clone() {
+            let users = &mut nodes[operand.index()].users;
+            if users.last() != Some(&Value(index as u32)) {
+                users.push(Value(index as u32));
+            }
+        }
+    }
+    nodes
+}
+
+/// Colors of what is below and above, nearest first.
+fn colors(nodes: &[Node]) -> Vec<[u64; DISTANCE]> {
+    let mut below: Vec<u64> = nodes.iter().map(|node| node.kind).collect();
+    let mut above = below.clone();
+    let mut colors = vec![[0; DISTANCE]; nodes.len()];
+    for distance in 0..DISTANCE {
+        let next_below = nodes.iter().map(|node| {
+            let mut operands: Vec<u64> = node.operands.iter().map(|x| below[x.index()]).collect();
+            if node.what.is_some_and(What::commutes) {
+                operands[..2].sort_unstable();
+            }
+            hash((node.kind, operands))
+        });
+        let next_below: Vec<u64> = next_below.collect();
+        let next_above = nodes.iter().enumerate().map(|(index, node)| {
+            let mut users: Vec<(u64, u64)> = Vec::with_capacity(node.users.len());
+            for user in &node.users {
+                let user = (&nodes[user.index()], above[user.index()]);
+                // In which slots the value stands; of those that commute, how often.
+                let commutes = user.0.what.is_some_and(What::commutes);
+                for (slot, operand) in user.0.operands.iter().enumerate() {
+                    if operand.index() == index {
+                        let slot = if commutes && slot < 2 { 0 } else { slot as u64 };
+                        users.push((slot, user.1));
+                    }
+                }
+            }
+            users.sort_unstable();
+            hash((node.kind, users))
+        });
+        above = next_above.collect();
+        below = next_below;
+        for (color, both) in colors.iter_mut().zip(below.iter().zip(&above)) {
+            color[distance] = hash(both);
+        }
+    }
+    colors
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Role, Shape};
+    use super::*;
+
+    /// Two limbs on one body: of each its own values, one sum of both, and results that need it.
+    fn limbs(last: fn(Value, Value) -> Op) -> Function {
+        let mut code = Vec::new();
+        let mut op = |op: Op| {
+            code.push(op);
+            Value(code.len() as u32 - 1)
+        };
+        let limb = |op: &mut dyn FnMut(Op) -> Value, i: u32| {
+            let q = op(Op::Read(Source::Coordinate(i)));
+            let v = op(Op::Read(Source::Velocity(i)));
+            let k = op(Op::Read(Source::Prepared(i)));
+            let mut inertia = op(Op::Mul(q, v));
+            for _ in 0..6 {
+                let product = op(Op::Mul(inertia, k));
+                inertia = op(Op::Add(product, q));
+            }
+            op(Op::Mul(inertia, inertia))
+        };
+        let (left, right) = (limb(&mut op, 0), limb(&mut op, 1));
+        let both = op(Op::Add(left, right));
+        let results = vec![op(Op::Div(both, left)), op(last(both, right))];
+        Function {
+            role: Role::Accelerations,
+            shape: Shape::Vector(2),
+            code,
+            results,
+            guards: Vec::new(),
+        }
+    }
+
+    /// Each operation stands once, after its operands.
+    fn check(function: &Function, statements: &[Statement]) {
+        let contractions = Contractions::of(function);
+        let is_read = |value: &Value| matches!(function.op(*value), Op::Read(_) | Op::Constant(_));
+        let mut is_known: Vec<bool> = (0..function.code.len())
+            .map(|index| is_read(&Value(index as u32)))
+            .collect();
+        for statement in statements {
+            let all: Vec<(Value, Vec<Value>)> = match statement {
+                Statement::One(value) => {
+                    let sum = contractions.sum(*value);
+                    let operands = sum.map(|sum| vec![sum.factors[0], sum.factors[1], sum.term]);
+                    let own = || function.op(*value).operands().collect();
+                    vec![(*value, operands.unwrap_or_else(own))]
+                }
+                Statement::Two(pack) => (0..2)
+                    .map(|lane| {
+                        let operands = pack.operands.iter().map(|pair| pair[lane]);
+                        (pack.values[lane], operands.collect())
+                    })
+                    .collect(),
+            };
+            for (value, operands) in &all {
+                assert!(!is_known[value.index()], "{value:?} stands twice");
+                assert!(operands.iter().all(|operand| is_known[operand.index()]));
+            }
+            all.iter()
+                .for_each(|(value, _)| is_known[value.index()] = true);
+        }
+        let is_there = |index: usize| is_known[index] || contractions.is_part(Value(index as u32));
+        assert!((0..function.code.len()).all(is_there));
+    }
+
+    #[test]
+    fn operations_that_limbs_have_in_common_are_pairs() {
+        let function = limbs(Op::Div);
+        let statements = packs(&function).expect("all but one are alike");
+        check(&function, &statements);
+        let pairs = statements.iter().filter_map(|statement| match statement {
+            Statement::Two(pack) => Some(pack.what),
+            Statement::One(_) => None,
+        });
+        let contractions = [What::Contraction(Contracted::Add); 6];
+        let expected = [&[What::Mul], &contractions[..], &[What::Mul, What::Div]].concat();
+        assert_eq!(pairs.collect::<Vec<_>>(), expected);
+    }
+
+    #[test]
+    fn what_differs_stays_by_itself() {
+        let function = limbs(Op::Mul);
+        let statements = packs(&function).expect("most are alike");
+        check(&function, &statements);
+        let is_pair = |statement: &&Statement| matches!(statement, Statement::Two(_));
+        assert_eq!(statements.iter().filter(is_pair).count(), 8);
+    }
+
+    #[test]
+    fn a_chain_of_operations_has_no_pairs() {
+        let mut code = vec![Op::Read(Source::Coordinate(0))];
+        code.extend((0..20).map(|index| Op::Mul(Value(index), Value(0))));
+        let function = Function {
+            role: Role::Accelerations,
+            shape: Shape::Vector(1),
+            results: vec![Value(20)],
+            code,
+            guards: Vec::new(),
+        };
+        assert_eq!(packs(&function), None);
+    }
+}
