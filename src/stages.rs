@@ -97,7 +97,7 @@ macro_rules! in_blocks {
 pub(crate) use in_blocks;
 
 /// `Σⱼ w̄ⱼ kⱼ` and `Σⱼ wⱼ kⱼ` for `B` coordinates from `start`: what positions and velocities take
-/// from the stages. In registers `R`, so that a term is rounded once where these multiply and add at once.
+/// from the stages. In registers `R`; products and sums are rounded each, so that it has the same bits in all of them.
 #[inline(always)]
 pub(crate) fn weigh<const B: usize, R, V>(
     row: &Row,
@@ -115,8 +115,8 @@ where
             let of_position = R::from_f64(term.position) + R::from_f64(beyond.position);
             let of_velocity = R::from_f64(term.velocity) + R::from_f64(beyond.velocity);
             for i in 0..B {
-                position[i] = k[i].mul_add(of_position, position[i]);
-                velocity[i] = k[i].mul_add(of_velocity, velocity[i]);
+                position[i] = position[i] + of_position * k[i];
+                velocity[i] = velocity[i] + of_velocity * k[i];
             }
         }
         return [position, velocity];
@@ -125,14 +125,14 @@ where
         let k = load::<B, R, V>(&k[term.stage], start);
         let [of_position, of_velocity] = [R::from_f64(term.position), R::from_f64(term.velocity)];
         for i in 0..B {
-            position[i] = k[i].mul_add(of_position, position[i]);
-            velocity[i] = k[i].mul_add(of_velocity, velocity[i]);
+            position[i] = position[i] + of_position * k[i];
+            velocity[i] = velocity[i] + of_velocity * k[i];
         }
     }
     [position, velocity]
 }
 
-/// [`weigh`] for one coordinate, outside of kernels: each product and each sum is rounded.
+/// [`weigh`] for one coordinate, outside of kernels.
 #[inline(always)]
 pub(crate) fn weigh_one<N: StepNumber, V: Vector<N>>(
     row: &Row,

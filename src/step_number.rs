@@ -77,13 +77,13 @@ mod sealed {
     impl<const W: usize> Sealed for Lanes<W> {}
 }
 
-/// 1 over the error that is tolerable. One division for all errors of a number: in wide registers it takes as long as thirty products.
+/// The error that is tolerable in a number.
 #[inline(always)]
-fn per_tolerable([before, now]: [f64; 2], absolute: f64, relative: f64) -> f64 {
+fn tolerable([before, now]: [f64; 2], absolute: f64, relative: f64) -> f64 {
     let (before, now) = (before.abs(), now.abs());
     // Not `max`, which costs more because it passes over what is not a number.
     let size = if before > now { before } else { now };
-    1.0 / (absolute + relative * size)
+    absolute + relative * size
 }
 
 /// What all numbers of one trajectory have in common.
@@ -150,9 +150,9 @@ macro_rules! simple {
                 relative: f64,
             ) -> [[f64; 1]; K] {
                 let sizes = sizes.map(Self::to_f64);
-                let per_tolerable = per_tolerable(sizes, absolute.to_f64(), relative);
+                let tolerable = tolerable(sizes, absolute.to_f64(), relative);
                 errors.map(|error| {
-                    let error = error.to_f64() * per_tolerable;
+                    let error = error.to_f64() / tolerable;
                     [error * error]
                 })
             }
@@ -281,12 +281,12 @@ impl<const W: usize> StepNumber for Lanes<W> {
         let mut scale = [0.0; W];
         for (lane, scale) in scale.iter_mut().enumerate() {
             let sizes = [before.0[lane], now.0[lane]];
-            *scale = per_tolerable(sizes, absolute.0[lane], relative);
+            *scale = tolerable(sizes, absolute.0[lane], relative);
         }
         let mut squares = [[0.0; W]; K];
         for (squares, error) in squares.iter_mut().zip(errors) {
             for ((square, error), scale) in squares.iter_mut().zip(error.0).zip(scale) {
-                let error = error * scale;
+                let error = error / scale;
                 *square = error * error;
             }
         }

@@ -55,7 +55,9 @@ use crate::tolerance::{LEAST_RELATIVE_TOLERANCE, Tolerance};
 use crate::{ContactTrouble, Number, System, Vector};
 #[cfg(feature = "std")]
 use in_impulses::InImpulses;
-use kernels::{Attempt, Finish};
+use kernels::Attempt;
+#[cfg(feature = "jit")]
+use kernels::Finish;
 #[cfg(feature = "std")]
 use of_fixed_length::Fixed;
 #[cfg(feature = "std")]
@@ -826,6 +828,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
 
     /// Ends a try whose stages are done and whose new point stands in `now`: brings that onto the constraints and finds the error, 1 being
     /// just tolerable.
+    #[cfg(feature = "jit")]
     fn finish(&mut self, h: f64) -> Result<f64, StepError> {
         let stepper = self;
         f64::run(Finish { stepper, h })
@@ -862,7 +865,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         self.finish_within::<R>(h)
     }
 
-    /// [`finish`](Self::finish) within a kernel.
+    /// What comes after the stages of a try, within a kernel: brings the new point onto the constraints and finds the error.
     #[inline(always)]
     fn finish_within<R: Scalar<Stored = f64>>(&mut self, h: f64) -> Result<f64, StepError> {
         let Self {

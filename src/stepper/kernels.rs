@@ -1,5 +1,4 @@
-//! Tries of explicit steps as kernels: in arithmetic that multiplies and adds at once where the processor has it, as it is for
-//! several trajectories side by side, so that each of them has the bits that it has alone.
+//! Tries of explicit steps as kernels: several coordinates at a time in the registers that the processor has.
 
 use super::Stepper;
 use crate::System;
@@ -25,11 +24,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Kernel<f64> for Attempt<'_, '
 }
 
 /// The end of a try: [`Stepper::finish`].
+#[cfg(feature = "jit")]
 pub(super) struct Finish<'a, 's, S: System, L, A> {
     pub stepper: &'a mut Stepper<'s, S, L, A>,
     pub h: f64,
 }
 
+#[cfg(feature = "jit")]
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Kernel<f64> for Finish<'_, '_, S, L, A> {
     type Output = Result<f64, StepError>;
 
