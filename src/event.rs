@@ -31,6 +31,10 @@ use crate::{Coordinates, Error, Machine, Quadratures, State, System, Vector};
 /// Where in a step the sign is looked at if it changes once at the most.
 pub(crate) const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
+/// What turns by more than this in a step, in rad, may have come back to where it was between two looks: functions of its angle are then
+/// interpolated as closely as it takes.
+pub(crate) const FARTHEST_TURN: f64 = core::f64::consts::PI;
+
 /// What is zero for no longer than this part of a step, and has the same sign before and after, has touched zero.
 const TOUCH: f64 = 1e-6;
 
@@ -327,6 +331,7 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
     let mut found = Vec::new();
     let roundoff = theta_roundoff(stepper);
     let is_series = stepper.coefficients().is_some();
+    let turns = !watches.is_empty() && turn(system, stepper, |_| true) > FARTHEST_TURN;
     let mut glanced = None;
     for (index, watch) in watches.iter_mut().enumerate() {
         if !watch.begun {
@@ -355,7 +360,11 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
                 };
             }
             watch.latest = Some(values[4]);
-            match watch.places(&values) {
+            let of_step = match turns {
+                true => Some(Places::All),
+                false => watch.places(&values),
+            };
+            match of_step {
                 None => continue,
                 Some(of_step) => places = of_step,
             }
@@ -485,6 +494,31 @@ pub(crate) fn interpolated_at<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     }
     let (q, v) = stepper.hermite(theta);
     (stepper.t_before() + theta * stepper.last_step(), q, v)
+}
+
+/// The greatest angle in rad by which one of these coordinates turned in the last step.
+///
+/// A body that turns uniformly needs no short steps: it may turn many times in one.
+pub(crate) fn turn<S: System, L: InputLaw<S>, A: Quadratures<S>>(
+    system: &S,
+    stepper: &Stepper<'_, S, L, A>,
+    counts: impl Fn(usize) -> bool,
+) -> f64 {
+    let h = stepper.last_step();
+    let of = |vector: &S::Vector, i: usize| vector.as_slice()[i];
+    let mut greatest = 0.0_f64;
+    for (i, coordinate) in system.coordinates().enumerate() {
+        if coordinate.unit != "rad" || !counts(i) {
+            continue;
+        }
+        let between = of(stepper.q(), i) - of(stepper.q_before(), i);
+        let by_rates = [stepper.v(), stepper.v_before()].map(|v| (h * of(v, i)).abs());
+        greatest = greatest
+            .max(between.abs())
+            .max(by_rates[0])
+            .max(by_rates[1]);
+    }
+    greatest
 }
 
 /// Time and state at the [nodes](roots::NODES) of the last step, good enough to see an event: those of implicit methods on their dense output, since

@@ -595,7 +595,7 @@ fn ask<R, V>(
         *asked += usize::from(*trying);
     }
     let none = machine.accelerate(at.0, at.1, at.2, a).err();
-    if none.is_some() || !are_all_finite::<R, V>(a) {
+    if none.is_some() || !are_all_finite::<R>(a.as_slice()) {
         give_up(none, at.0, a, trying, failed);
     }
 }

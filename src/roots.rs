@@ -4,7 +4,8 @@
 //! the motion, so its interpolant in Chebyshev's polynomials is as good as the function itself, to rounding; and the
 //! coefficients bound it: `|c₀| > Σ |cⱼ|` leaves no root, and the same of the derivative no more than one. Where neither
 //! holds, the interval is halved. L. N. Trefethen, *Approximation Theory and Approximation Practice*, 2013, ch. 3, 8
-//! and 18. Sines of angles that are multiples of one are all that it takes, and no allocation beyond a few vectors.
+//! and 18. A body that turns uniformly needs no short steps, and functions of its angle swing many times in one: such a step is cut into
+//! parts that an interpolant has. Sines of angles that are multiples of one are all that it takes, and no allocation beyond a few vectors.
 //!
 //! Most steps of a method by Runge and Kutta are told by five values along a polynomial that costs nothing ([`glance`]).
 
@@ -29,6 +30,17 @@ const ROUNDING: f64 = 1e-14;
 /// How often an interval is halved whose function no interpolant has: what has a kink there is looked at in all nodes.
 const HALVINGS: u32 = 2;
 
+/// A function swings too often for an interpolant where a coefficient in the upper half is more than this share of the greatest. Of a jump
+/// it is a fortieth, of a kink less.
+const SWINGS: f64 = 0.1;
+
+/// How often an interval is halved, all in all, in which a function swings too often.
+const HALVINGS_OF_SWINGS: u32 = 14;
+
+/// Where it swings, an interpolant has all of it if its last coefficients are below this share of the greatest: a function of an angle of 10⁵ rad
+/// is known to 10⁻¹¹.
+const CONVERGED_WITH_NOISE: f64 = 1e-7;
+
 /// Roots nearer to each other than this, as a share of the step, are one that does not change the sign.
 const NARROWEST: f64 = 1.0 / (1u64 << 40) as f64;
 
@@ -36,7 +48,7 @@ const NARROWEST: f64 = 1.0 / (1u64 << 40) as f64;
 /// first, it changes its sign no more than once.
 pub(crate) fn looks(mut f: impl FnMut(f64) -> Result<f64, Error>) -> Result<Vec<f64>, Error> {
     let mut looks = Vec::new();
-    interpolate(&mut f, [0.0, 1.0], HALVINGS, &mut looks)?;
+    interpolate(&mut f, [0.0, 1.0], Effort::FIRST, &mut looks)?;
     looks.retain(|theta| *theta > 0.0);
     if looks.last() != Some(&1.0) {
         looks.push(1.0);
@@ -118,7 +130,8 @@ pub fn extremes(
             }
             let slopes = derivative(c);
             let mut looks = Vec::new();
-            isolate(&slopes, [-1.0, 1.0], &mut looks);
+            let noise = ROUNDING * self::greatest(&slopes);
+            isolate(&slopes, ([-1.0, 1.0], noise), &mut looks);
             for pair in looks.chunks(2) {
                 let &[mut one, mut other] = pair else {
                     continue;
@@ -165,8 +178,9 @@ const BEYOND: f64 = 8.0;
 /// Of a coefficient before the last, so much counts at least: the last may be 0 by chance.
 const OF_THIRD: f64 = 1.0 / 16.0;
 
-/// The derivative of what is left out is so many times that: coefficients behind the last count 25 times and more, and fall by a fifth and more.
-const OF_DERIVATIVE: f64 = 4.0;
+/// The derivative of the orders beyond 4 is at most `Σ k² |cₖ|`: of a motion with `ωh = 10` that is 40 times the last coefficient, five times what
+/// its [`BEYOND`] makes of that.
+const OF_DERIVATIVE: f64 = 5.5;
 
 /// How often a step is halved in which an interpolant of degree 4 is neither far from zero nor monotone.
 const HALVINGS_OF_GLANCE: u32 = 5;
@@ -191,7 +205,7 @@ pub(crate) fn glance(values: &[f64; 5]) -> Option<usize> {
         _ => c3.abs() * falls.clamp(OF_THIRD, 1.0),
     };
     let beyond = BEYOND * of_third.max(c4.abs());
-    // Of powers.
+    // The coefficients of the interpolant in the monomial basis.
     let p = [
         c0 - c2 + c4,
         c1 - 3.0 * c3,
@@ -248,11 +262,50 @@ impl Signs {
     }
 }
 
+/// How an interval may be cut.
+#[derive(Clone, Copy)]
+struct Effort {
+    /// How often it may be halved where no interpolant has the function.
+    halvings: u32,
+    /// How often it may be halved where the function swings too often.
+    of_swings: u32,
+    /// Below which share of the greatest coefficient the last ones have to be.
+    converged: f64,
+}
+
+impl Effort {
+    const FIRST: Self = Self {
+        halvings: HALVINGS,
+        of_swings: HALVINGS_OF_SWINGS,
+        converged: CONVERGED,
+    };
+
+    /// Whether an interpolant has all of a function.
+    fn suffices(&self, coefficients: &[f64]) -> bool {
+        let greatest = greatest(coefficients);
+        let tail = &coefficients[coefficients.len() - 3..];
+        greatest <= CONVERGED * f64::MAX
+            && tail.iter().all(|c| c.abs() <= self.converged * greatest)
+    }
+
+    /// What is below this in an interpolant is noise.
+    fn noise(&self, coefficients: &[f64]) -> f64 {
+        let rounding = ROUNDING * greatest(coefficients);
+        match self.converged > CONVERGED {
+            true => {
+                let tail = &coefficients[coefficients.len() - 3..];
+                rounding.max(coefficients.len() as f64 * greatest(tail))
+            }
+            false => rounding,
+        }
+    }
+}
+
 /// Interpolates a function between two fractions, and isolates its roots there.
 fn interpolate(
     f: &mut impl FnMut(f64) -> Result<f64, Error>,
     [a, b]: [f64; 2],
-    halvings: u32,
+    effort: Effort,
     looks: &mut Vec<f64>,
 ) -> Result<(), Error> {
     let mut values = Vec::new();
@@ -273,14 +326,46 @@ fn interpolate(
             });
         }
         let coefficients = coefficients(&values);
-        let greatest = greatest(&coefficients);
-        let tail = &coefficients[degree - 2..];
-        if greatest <= CONVERGED * f64::MAX && tail.iter().all(|c| c.abs() <= CONVERGED * greatest)
-        {
-            isolate(&coefficients, [a, b], looks);
+        if effort.suffices(&coefficients) {
+            let noise = effort.noise(&coefficients);
+            isolate(&coefficients, ([a, b], noise), looks);
             return Ok(());
         }
     }
+    let upper = &coefficients(&values)[values.len() / 2..];
+    if greatest(upper) > SWINGS * greatest(&coefficients(&values)) {
+        let swings = Effort {
+            converged: CONVERGED_WITH_NOISE,
+            ..effort
+        };
+        // How long a part may be is tried at the beginning. Of what has no parts that an interpolant has, such as noise, nothing is known.
+        for cuts in 1..=effort.of_swings {
+            let parts = 2_u32.pow(cuts);
+            let cut = |part: u32| match part == parts {
+                true => b,
+                false => a + (b - a) * f64::from(part) / f64::from(parts),
+            };
+            let degree = DEGREES[DEGREES.len() - 1];
+            let values: Result<Vec<f64>, Error> = (0..=degree)
+                .map(|node| f(at(node, degree, [a, cut(1)])))
+                .collect();
+            if !swings.suffices(&coefficients(&values?)) {
+                continue;
+            }
+            let of_part = Effort {
+                of_swings: effort.of_swings - cuts,
+                ..swings
+            };
+            for part in 0..parts {
+                if part > 0 {
+                    looks.push(cut(part));
+                }
+                interpolate(f, [cut(part), cut(part + 1)], of_part, looks)?;
+            }
+            return Ok(());
+        }
+    }
+    let Effort { halvings, .. } = effort;
     if halvings == 0 {
         let degree = values.len() - 1;
         // Nodes go from the end to the beginning.
@@ -288,9 +373,13 @@ fn interpolate(
         return Ok(());
     }
     let middle = 0.5 * (a + b);
-    interpolate(f, [a, middle], halvings - 1, looks)?;
+    let of_half = Effort {
+        halvings: halvings - 1,
+        ..effort
+    };
+    interpolate(f, [a, middle], of_half, looks)?;
     looks.push(middle);
-    interpolate(f, [middle, b], halvings - 1, looks)
+    interpolate(f, [middle, b], of_half, looks)
 }
 
 /// Whether a function is certainly not zero by an interpolant that may not have all of it. The coefficients of a smooth
@@ -411,8 +500,7 @@ fn greatest(coefficients: &[f64]) -> f64 {
 }
 
 /// Adds the ends of intervals with a root.
-fn isolate(coefficients: &[f64], whole: [f64; 2], looks: &mut Vec<f64>) {
-    let noise = ROUNDING * greatest(coefficients);
+fn isolate(coefficients: &[f64], (whole, noise): ([f64; 2], f64), looks: &mut Vec<f64>) {
     let mut open = Vec::from([(coefficients.to_vec(), whole)]);
     while let Some((mut c, [a, b])) = open.pop() {
         while c.len() > 1 && c.last().is_some_and(|c| c.abs() <= noise) {
@@ -494,6 +582,37 @@ mod tests {
         for (found, expected) in found.iter().zip(expected) {
             assert!((found - expected).abs() < 1e-12, "{found} {expected}");
         }
+    }
+
+    #[test]
+    fn what_swings_thousands_of_times_has_all_its_roots() {
+        let far = |x: f64| (0.1 + 5000.0 * x).sin();
+        let expected: Vec<f64> = (1..=1591)
+            .map(|k| (f64::from(k) * core::f64::consts::PI - 0.1) / 5000.0)
+            .collect();
+        are_near(&roots(far), &expected);
+        // Faster and faster.
+        let rising = |x: f64| (0.5 + 900.0 * x * x).sin();
+        let expected: Vec<f64> = (1..=286)
+            .map(|k| ((f64::from(k) * core::f64::consts::PI - 0.5) / 900.0).sqrt())
+            .collect();
+        are_near(&roots(rising), &expected);
+    }
+
+    #[test]
+    fn noise_is_given_up() {
+        let mut state = 1_u64;
+        let mut calls = 0;
+        let noise = |_: f64| {
+            calls += 1;
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            Ok((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5)
+        };
+        looks(noise).unwrap();
+        // Seven intervals, in each of which parts of fourteen sizes are tried.
+        assert!(calls < 7 * 16 * 65, "{calls}");
     }
 
     #[test]

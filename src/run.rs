@@ -1235,6 +1235,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
                 return Ok(None);
             }
         } else {
+            let turns = event::turn(self.system, stepper, |_| true) > event::FARTHEST_TURN;
             let mut values = std::vec![[0.0; 5]; count];
             let mut hold = true;
             let states = event::at_nodes(self.system, stepper, interpolant)?;
@@ -1247,6 +1248,10 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             }
             for (place, values) in places.iter_mut().zip(&values) {
                 *place = match roots::glance(values) {
+                    // What does not change is nowhere to be looked for.
+                    _ if turns && values.iter().any(|value| *value != values[0]) => {
+                        Some(Places::All)
+                    }
                     Some(0) if hold => None,
                     Some(0 | 1) if values[4] <= 0.0 => Some(Places::Few),
                     // What holds at 0 throughout.

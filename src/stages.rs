@@ -308,13 +308,13 @@ pub(crate) fn add(sums: &mut impl AsMut<[f64]>, terms: &impl AsRef<[f64]>) {
     }
 }
 
-/// Whether all numbers of a vector are finite, in all trajectories.
+/// Whether all numbers are finite, in all trajectories.
 #[inline(always)]
-pub(crate) fn are_all_finite<R: Scalar, V: Vector<R::Stored>>(vector: &V) -> bool {
+pub(crate) fn are_all_finite<R: Scalar>(numbers: &[R::Stored]) -> bool {
     // The sum of what is not finite is not finite, and one test is cheaper than many. In registers: of a loop over the lanes of each
     // number the compiler makes something slower than the evaluation of a small machine.
     let mut sum = R::ZERO;
-    for number in vector.as_slice() {
+    for number in numbers {
         sum = sum + R::load(*number);
     }
     sum.is_finite()

@@ -11,12 +11,13 @@ use crate::event::{self, Crossing, Event, Triple, made, state};
 use crate::friction::Margin;
 use crate::inputs::InputLaw;
 use crate::phases::{Book, Change};
+use crate::roots;
 use crate::solution::Ending;
 use crate::step_error::StepError;
 use crate::stepper::{Cause, Happened};
 use crate::{
     ContactEvent, ContactEventKind, ContactImpact, ContactTrouble, Error, ImpactAcross, Machine,
-    System,
+    Stepper, System, Vector,
 };
 
 /// How often contacts may change at one instant, for each of them and beyond.
@@ -28,6 +29,18 @@ const CORRECTIONS: usize = 8;
 /// Where several contacts share a load in ways that only all together can tell, a change is looked for so far
 /// behind the place where it is seen, as a part of the step.
 const BEYOND: f64 = 1e-9;
+
+/// Between two looks at a gap no angle that it depends on turns further than this, in rad.
+const TURN_BETWEEN_LOOKS: f64 = 0.5;
+
+/// A gap falls no faster than this many times the greatest of its rates at the looks.
+const FALLS: f64 = 2.0;
+
+/// What opens at a look is looked at from this part of the way to the next one on.
+const OPENED: f64 = 1e-3;
+
+/// The most looks at a step.
+const MOST_LOOKS: f64 = 1e6;
 
 /// A slip in space that comes to rest, or turns by a right angle, is followed in a step of its own from this part of the way on; and
 /// no further where that part of the step is less than the second.
@@ -464,17 +477,47 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let clearances = |(t, q, v): &Triple<VectorOf<M>>| touching.clearances(system, (*t, q, v));
         let mut before = clearances(&beginning);
         let mut theta_before = 0.0;
-        for theta in event::LOOKS {
+        let looks = looks(system, stepper);
+        let thetas = (1..=looks).map(|look| look as f64 / looks as f64);
+        // The gap of polygons is a greatest distance: it may fall below zero and come back between two looks. How far it may fall is told by
+        // the greatest of its rates, for which the whole step is looked at first.
+        let corners: Vec<usize> = system
+            .unilateral_contacts()
+            .enumerate()
+            .filter(|(k, contact)| contact.faced && touching.modes()[*k] == Mode::Open)
+            .map(|(k, _)| k)
+            .collect();
+        let mut falls = vec![0.0_f64; touching.modes().len()];
+        if !corners.is_empty() {
+            for theta in thetas.clone() {
+                let now = clearances(&event::interpolated_at(stepper, theta));
+                for &k in &corners {
+                    falls[k] = falls[k].max(now[k].rate.abs()).max(before[k].rate.abs());
+                }
+            }
+        }
+        for theta in thetas {
             let looked = event::interpolated_at(stepper, theta);
             let now = clearances(&looked);
             let mut earliest: Option<(f64, Cause, Option<usize>)> = None;
             for (k, mode) in touching.modes().iter().enumerate() {
-                let (from, to) = (before[k], now[k]);
-                let comes_near = from.rate < 0.0 && to.rate > 0.0;
-                if *mode != Mode::Open || !(to.value < 0.0 || comes_near) {
+                if *mode != Mode::Open || touching.leans(k).is_some() {
                     continue;
                 }
-                if touching.leans(k).is_some() {
+                let (from, to) = (before[k], now[k]);
+                let mut between = [theta_before, theta];
+                let mut closes = to.value < 0.0 || from.rate < 0.0 && to.rate > 0.0;
+                let fall = FALLS * falls[k] * stepper.last_step().abs() * (theta - theta_before);
+                if fall > 0.0 && to.value >= 0.0 && from.value.min(to.value) < fall {
+                    let gap = |theta: f64| {
+                        let (t, q, v) = event::interpolated_at(stepper, theta);
+                        Ok(touching.clearances(system, (t, &q, &v))[k].value)
+                    };
+                    if let Some(least) = dip(between, gap)? {
+                        (between, closes) = (least, true);
+                    }
+                }
+                if !closes {
                     continue;
                 }
                 let interpolant = made(interpolant, stepper, system)?;
@@ -488,8 +531,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 };
                 let yields = touching.yields(k);
                 let found = match yields {
-                    true => pressing([theta_before, theta], roundoff, at)?,
-                    false => closing([theta_before, theta], roundoff, at)?,
+                    true => pressing(between, roundoff, at)?,
+                    false => closing(between, roundoff, at)?,
                 };
                 if let Some(found) = found
                     && earliest.is_none_or(|(known, ..)| found < known)
@@ -572,6 +615,47 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
         Ok(None)
     }
+}
+
+/// Where a gap with kinks that is open at two looks falls below zero between them: from where it is open to where it is least.
+fn dip(
+    [from, to]: [f64; 2],
+    mut gap: impl FnMut(f64) -> Result<f64, Error>,
+) -> Result<Option<[f64; 2]>, Error> {
+    let mut from = from;
+    if gap(from)? <= 0.0 {
+        from += OPENED * (to - from);
+        if gap(from)? <= 0.0 {
+            return Ok(None);
+        }
+    }
+    let mut extent = [None; 2];
+    roots::extremes(gap, [from, to], &mut extent, [true, false])?;
+    let least = extent[0].filter(|(least, _)| *least < 0.0);
+    Ok(least.map(|(_, place)| [from, place]))
+}
+
+/// Into how many parts the looks at contacts divide the last step: four, and more where something turns far that a gap depends on.
+fn looks<S: System, L: InputLaw<S>, A: Quadratures<S>>(
+    system: &S,
+    stepper: &Stepper<'_, S, L, A>,
+) -> usize {
+    const FEWEST: usize = event::LOOKS.len();
+    let at_once = FEWEST as f64 * TURN_BETWEEN_LOOKS;
+    if event::turn(system, stepper, |_| true) <= at_once {
+        return FEWEST;
+    }
+    let (n, m) = (
+        stepper.q().as_slice().len(),
+        system.unilateral_contacts().len(),
+    );
+    let mut rows = vec![0.0; 2 * m * n];
+    system.contact_matrix(stepper.t(), stepper.q(), &mut rows);
+    let counts = |i: usize| (0..m).any(|contact| rows[2 * contact * n + i] != 0.0);
+    let turn = event::turn(system, stepper, counts);
+    (turn / TURN_BETWEEN_LOOKS)
+        .ceil()
+        .clamp(FEWEST as f64, MOST_LOOKS) as usize
 }
 
 /// Where a gap closes between two looks at an open contact, if it does: not before it has opened, where it begins

@@ -15,7 +15,7 @@ use crate::balance::Quadratures;
 use crate::inputs::InputLaw;
 use crate::methods::{Kind, MAX_STAGES, Method};
 use crate::scalar::{Kernel, Scalar};
-use crate::stages::Point;
+use crate::stages::{Point, are_all_finite};
 use crate::step_error::StepError;
 use crate::step_number::StepNumber;
 use crate::tolerance::Tolerance;
@@ -307,14 +307,14 @@ fn look<R: Scalar<Stored = Wide>>(
 /// In which lanes all of these numbers are finite, or their sum at least.
 #[inline(always)]
 fn finite<R: Scalar<Stored = Wide>>(a: &[Wide]) -> LaneMask {
-    let mut sum = R::ZERO;
+    if are_all_finite::<R>(a) {
+        return LaneMask::MAX;
+    }
+    let mut sum = Wide::NOTHING;
     for a in a {
-        sum = sum + R::load(*a);
+        sum = sum + *a;
     }
-    match sum.is_finite() {
-        true => LaneMask::MAX,
-        false => bits(&sum.store().are_finite()),
-    }
+    bits(&sum.are_finite())
 }
 
 /// One try of every lane, in the widest registers that there are.

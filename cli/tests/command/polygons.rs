@@ -479,6 +479,56 @@ fn polygons_never_overlap_and_keep_their_momenta() {
     assert!(impacts > 30, "{impacts}");
 }
 
+/// A corner that turns by more than a radian in a step comes and goes between few looks: the same impacts as in short steps.
+#[test]
+fn corners_of_what_turns_fast_are_seen() {
+    let spec = Scratch::new(
+        "needles.machine",
+        "machine Needles in plane {
+            coordinates {
+                x: m = -1, y: m = -0.043483395326655634, a: rad = -2.325164558289584, X: m = 1, Y: m, A: rad,
+                der(x): m/s = 2, der(a): rad/s = 3.924295962352905, der(A): rad/s = -3.1002194110527785,
+            }
+            frames { one = ground.shift(x, y).turn(a), two = ground.shift(X, Y).turn(A) }
+            bodies {
+                one {
+                    mass: 1, inertia: 0.02, frame: one,
+                    outline: ((-0.2854980929963377, 0.018691828204576724), (0.07620873244274891, -0.008138307286298935),
+                        (0.28808226656264013, -0.01895628168271136), (-0.19494926400313511, 0.01566143591270012)),
+                },
+                two {
+                    mass: 2, inertia: 0.05, frame: two,
+                    outline: ((0.16051778121385976, 0.22901086263269269), (-0.12800095569914705, -0.17756409864679568),
+                        (-0.03503481979805981, -0.05464872848916714)),
+                },
+            }
+            springs { pull { stiffness: 3, from: one.at, to: two.at } }
+            contacts { hit { corners: outline, on: one, against: outline, of: two, restitution: 1, friction: 0 } }
+        }",
+    );
+    let run = |longest: &str| -> Value {
+        let call = [
+            "simulate",
+            spec.path(),
+            "--until",
+            "3",
+            "--tolerance",
+            "1e-12",
+            "--longest-step",
+            longest,
+            "--json",
+        ];
+        serde_json::from_slice(&lagrangian(&call).stdout).expect("a document")
+    };
+    let [free, short] = ["1", "0.002"].map(run);
+    let [found, expected] = [&free, &short].map(|run| events(run, "impact"));
+    assert_eq!(found.len(), expected.len());
+    for (one, other) in found.iter().zip(&expected) {
+        assert_eq!(one["contact"], other["contact"]);
+        close(number(&one["t"]), number(&other["t"]), 1e-9);
+    }
+}
+
 /// By time stepping a box stops where it should, to the first order in the step, and is not pressed into the other.
 #[test]
 fn boxes_are_stepped_too() {
