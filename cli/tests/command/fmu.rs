@@ -634,22 +634,68 @@ fn a_unit_finds_what_comes_and_goes_within_a_step() {
             ],
         ];
         let made = unit(spec.path(), &at, &options.concat());
-        let folder = at.0.parent().expect("a folder");
-        for (name, content) in &files(&at.0) {
-            let name = name.rsplit('/').next().expect("a name");
-            fs::write(folder.join(name), content).expect("a file");
-        }
-        fs::write(folder.join("events.h"), include_str!("fmu/events.h")).expect("a file");
-        let driver = include_str!("fmu/grazing3.c");
-        fs::write(folder.join("driver.c"), driver).expect("a file");
-        let mut cc = Command::new("cc");
-        // Of the header some is for others.
-        let flags = ["-std=c99", "-Wall", "-Werror", "-Wno-unused-function"];
-        cc.current_dir(folder).args(flags);
-        cc.arg(format!("-DTOKEN={}", made["token"]));
-        cc.args(["driver.c", "./Machine.so", "-o", "driver", "-lm"]);
-        run(cc.arg("-Wl,-rpath,."), "");
-        run(Command::new("./driver").current_dir(folder), "");
+        drive(&at, &made, include_str!("fmu/grazing3.c"));
+    }
+}
+
+/// Runs an importer in C with a unit of FMI 3.0, which is to find what it says.
+fn drive(at: &Scratch, made: &Value, driver: &str) {
+    let folder = at.0.parent().expect("a folder");
+    for (name, content) in &files(&at.0) {
+        let name = name.rsplit('/').next().expect("a name");
+        fs::write(folder.join(name), content).expect("a file");
+    }
+    fs::write(folder.join("events.h"), include_str!("fmu/events.h")).expect("a file");
+    fs::write(folder.join("driver.c"), driver).expect("a file");
+    let mut cc = Command::new("cc");
+    // Of the header some is for others.
+    let flags = ["-std=c99", "-Wall", "-Werror", "-Wno-unused-function"];
+    cc.current_dir(folder).args(flags);
+    cc.arg(format!("-DTOKEN={}", made["token"]));
+    cc.args(["driver.c", "./Machine.so", "-o", "driver", "-lm"]);
+    run(cc.arg("-Wl,-rpath,."), "");
+    run(Command::new("./driver").current_dir(folder), "");
+}
+
+/// A wheel that turns uniformly needs no short steps: each event of its angle is found in one that takes it hundreds of times around.
+#[test]
+fn a_unit_finds_what_happens_at_each_turn() {
+    let spec = "machine Wheel in plane {
+        parameters { J: kg*m^2 = 1, m: kg = 1 }
+        coordinates { phi: rad = 0.3, der(phi): rad/s = 10 }
+        assume { sin(phi) > -0.5 }
+        frames { wheel = ground.turn(phi) }
+        bodies { wheel { mass: m, inertia: J, frame: wheel } }
+        gravity none;
+    }";
+    let spec = Scratch::new("wheel.machine", spec);
+    for method in ["dop853", "dopri5"] {
+        let at = Scratch::new("Machine.fmu", "");
+        let options = ["--method", method, "--event", "upright=cos(phi)"];
+        let made = unit(spec.path(), &at, &options);
+        drive(&at, &made, include_str!("fmu/turns3.c"));
+    }
+}
+
+/// What comes and goes about a turning point is found where a step lies symmetrically about it, so that odd terms of the motion vanish.
+#[test]
+fn a_unit_finds_what_comes_and_goes_in_the_middle_of_a_step() {
+    let spec = "machine Two in plane {
+        parameters { M: kg = 1, k: N/m = 1, stiff: N/m = 4, depth: m = 0.1 }
+        coordinates { x: m, y: m }
+        bodies { one { mass: M, at: (x, 0) }, two { mass: M, at: (y, 1*m) } }
+        gravity none;
+        springs { left { stiffness: k, stretch: x }, right { stiffness: stiff, stretch: y } }
+    }";
+    let spec = Scratch::new("two.machine", spec);
+    for method in ["dop853", "dopri5"] {
+        let at = Scratch::new("Machine.fmu", "");
+        let options = [
+            ["--method", method, "--event", "one=x-(1*m-depth)"],
+            ["--fmi", "3", "--event", "both=x+y-(1.3*m-depth)"],
+        ];
+        let made = unit(spec.path(), &at, &options.concat());
+        drive(&at, &made, include_str!("fmu/symmetric3.c"));
     }
 }
 

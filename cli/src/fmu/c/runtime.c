@@ -840,32 +840,54 @@ static double tryStep(Unit *unit, double h) {
  * Events and facts within a step: where a formula changes its sign along the motion there. A formula is as smooth as the motion, so its
  * interpolant in Chebyshev's polynomials is as good as the formula, and the coefficients bound it: where the first is greater than the
  * sum of the others there is no zero, and where that is so of the derivative there is one at most. Where neither holds the interval is
- * halved. L. N. Trefethen, Approximation Theory and Approximation Practice, 2013, chapters 3, 8 and 18.
+ * halved. L. N. Trefethen, Approximation Theory and Approximation Practice, 2013, chapters 3, 8 and 18. A body that turns uniformly needs
+ * no short steps, and formulas of its angle swing many times in one: such a step is cut into parts that an interpolant has.
  */
 enum {
-    /* Degrees of interpolants: the first two are only asked whether a formula is far from zero. */
+    /* Degrees of interpolants: of the first how often a formula may change its sign is told, of the second only whether it is far from zero. */
     COARSE = 4,
     MIDDLE = 8,
     FINE = 16,
     FINEST = 64,
     /* So often an interval is halved whose formula no interpolant has: what has a kink there is looked at in all nodes. */
     HALVINGS = 2,
-    MOST_LOOKS = 4 * FINEST + 4
+    /* So often an interval is halved, all in all, in which a formula swings too often. */
+    HALVINGS_OF_SWINGS = 14,
+    /* So often a step is halved in which the coarse interpolant is neither far from zero nor monotone. */
+    HALVINGS_OF_GLANCE = 5
 };
 
-/* Fractions of a step, the last of which is 1: between two of them, and between 0 and the first, a formula changes its sign no more
-   than once. */
-typedef struct {
-    int count;
-    double at[MOST_LOOKS];
-} Looks;
+/* An interpolant has all of a formula where its last coefficients are below this share of the greatest. */
+#define CONVERGED 1e-12
 
-static void lookAt(Looks *looks, double x) {
-    const int count = looks->count;
-    /* There is always a place for the end. */
-    if (!(x > 0.0) || (count > 0 && x <= looks->at[count - 1]) || (count == MOST_LOOKS - 1 && x < 1.0)) return;
-    looks->at[looks->count++] = x;
-}
+/* Where the formula swings, below this: a formula of an angle of 1e5 rad is known to 1e-11. */
+#define CONVERGED_WITH_NOISE 1e-7
+
+/* A formula swings too often for an interpolant where a coefficient in the upper half is more than this share of the greatest. Of a jump it
+   is a fortieth, of a kink less. */
+#define SWINGS 0.1
+
+/* In rad: what turns by more than that in a step may have come back to where it was between two nodes. */
+#define FARTHEST_TURN 3.14159265358979323846
+
+/* Above this tolerance a step may be so long that five values do not tell what the motion does within it. */
+#define LOOSEST 1e-3
+
+/* A search along the step that was tried, forward in time, for changes of the signs of what is watched. */
+typedef struct {
+    Unit *unit;
+    /* The length of the step. */
+    double h;
+    /* What is looked at now, the fraction of the step at which it was looked at last, and the length of the step that ends behind the change
+       that was found last, 0 before there is one. */
+    int k;
+    double seen, early;
+    int is_over;
+    /* The length of the step that ends behind the first event that ends it, with that event and the sign behind it; the whole step, and -1,
+       where there is none. */
+    double first;
+    int which, sign;
+} Search;
 
 /* The motion within a step is y = c0 + x (c1 + (1 - x) (c2 + x (c3 + (1 - x) (c4 + ...)))) at the fraction x of it: the cubic through
    both ends and their slopes, which are times the length here, and what bends it further. */
@@ -878,8 +900,8 @@ static void curveCubic(Unit *unit, int i, double start, double end, double slope
 }
 
 /* Of degree 5, through coordinates, rates and accelerations of both ends; rates are its derivative. It costs no evaluation, since the last
-   stage is near the acceleration at the end. Without that, of degree 4. */
-static void curveThroughEnds(Unit *unit, double h, int is_quartic) {
+   stage is near the acceleration at the end. */
+static void curveThroughEnds(Unit *unit, double h) {
     unit->bends = 6;
     for (int i = 0; i < COORDINATES; ++i) {
         const int k = COORDINATES + i;
@@ -888,7 +910,7 @@ static void curveThroughEnds(Unit *unit, double h, int is_quartic) {
         const double rise = unit->curve[1][i], bend = unit->curve[2][i], twist = unit->curve[3][i];
         /* The second derivatives of the cubic at both ends are 2 (twist - bend) and -2 (bend + 2 twist). */
         const double of_start = 0.5 * h * h * a + bend - twist;
-        const double of_end = is_quartic ? of_start : 0.5 * h * h * unit->slopes[STAGES - 1][k] + bend + 2.0 * twist;
+        const double of_end = 0.5 * h * h * unit->slopes[STAGES - 1][k] + bend + 2.0 * twist;
         const double b = 2.0 * (of_end - bend - 2.0 * twist) / (h * h);
         unit->curve[4][i] = of_start;
         unit->curve[5][i] = of_end - of_start;
@@ -967,79 +989,67 @@ static double sumOfSizes(const double *c, int from, int degree) {
     return sum;
 }
 
-/* Whether a formula is certainly not zero, by values at the nodes, each of which may be wrong by `margin`. Coefficients of what is smooth fall
-   like powers of the last two, so that what an interpolant leaves out is a small multiple of these. */
-static int isFarFromZero(const double *values, int degree, double margin) {
+/* Whether a formula is certainly not zero, by values at the nodes. Coefficients of what is smooth fall like powers of the last two, so that
+   what an interpolant leaves out is a small multiple of these. */
+static int isFarFromZero(const double *values, int degree) {
     double c[MIDDLE + 1];
     interpolate(values, degree, c);
     const double last = sizeOf(c[degree]) > sizeOf(c[degree - 1]) ? sizeOf(c[degree]) : sizeOf(c[degree - 1]);
-    return sizeOf(c[0]) > sumOfSizes(c, 1, degree) + 4.0 * (degree + 1) * last + margin;
+    return sizeOf(c[0]) > sumOfSizes(c, 1, degree) + 4.0 * (degree + 1) * last;
 }
 
-/* Adds the ends of intervals with a zero of an interpolant. */
-static void isolate(const double *c, int degree, double a, double b, double noise, Looks *looks) {
-    double slopes[FINEST + 3], values[FINEST + 1], half[FINEST + 1];
-    while (degree > 0 && sizeOf(c[degree]) <= noise) --degree;
-    const double rest = sumOfSizes(c, 1, degree);
-    if (sizeOf(c[0]) > rest + noise || rest + sizeOf(c[0]) <= noise) return;
-    slopes[degree + 1] = slopes[degree] = 0.0;
-    for (int k = degree; k >= 1; --k) slopes[k - 1] = slopes[k + 1] + 2.0 * k * c[k];
-    slopes[0] *= 0.5;
-    /* Zeros nearer to each other than this share of the step are one that does not change the sign. */
-    if (degree == 0 || sizeOf(slopes[0]) > sumOfSizes(slopes, 1, degree - 1) || b - a <= 0x1p-40) {
-        lookAt(looks, a);
-        lookAt(looks, b);
-        return;
-    }
-    const double middle = 0.5 * (a + b);
-    for (int side = 0; side < 2; ++side) {
-        for (int node = 0; node <= degree; ++node) {
-            /* By Clenshaw's recurrence. */
-            const double x = nodeOf(node, degree, side - 1.0, side);
-            double one = 0.0, two = 0.0;
-            for (int k = degree; k >= 1; --k) {
-                const double next = c[k] + 2.0 * x * one - two;
-                two = one, one = next;
-            }
-            values[node] = c[0] + x * one - two;
-        }
-        interpolate(values, degree, half);
-        isolate(half, degree, side ? middle : a, side ? b : middle, noise, looks);
-    }
+/* The signs that a formula has had: the last one, and how often it changed. */
+typedef struct {
+    int latest, changes;
+} Signs;
+
+/* One more, with one change at most since the one before it. */
+static void takeSign(Signs *signs, int sign) {
+    signs->changes += signs->latest && signs->latest != sign;
+    signs->latest = sign;
 }
 
-/* Looks at what is watched between two fractions of a step. */
-static void lookBetween(const Unit *unit, double h, int which, double a, double b, int halvings, Looks *looks) {
-    double all[WATCHED + 1], values[FINEST + 1], c[FINEST + 1];
-    for (int degree = MIDDLE; degree <= FINEST; degree *= 2) {
-        for (int node = 0; node <= degree; ++node) {
-            watchAlong(unit, h, nodeOf(node, degree, a, b), all);
-            values[node] = all[which];
-        }
-        if (degree < FINE) {
-            if (isFarFromZero(values, degree, 0.0)) return;
-            continue;
-        }
-        double greatest = 0.0, last = 0.0;
-        interpolate(values, degree, c);
-        for (int k = 0; k <= degree; ++k) {
-            const double size = sizeOf(c[k]);
-            if (!(size <= greatest)) greatest = size;
-            if (k > degree - 3 && !(size <= last)) last = size;
-        }
-        if (isFinite(greatest) && last <= 1e-12 * greatest) {
-            isolate(c, degree, a, b, 1e-14 * greatest, looks);
-            return;
-        }
+/*
+ * Follows a polynomial of degree 4 about a middle to half a width on either side, where each value may be wrong by `beyond`; whether its
+ * signs are known. Pieces that are far from zero have one, and in pieces next to each other that are monotone it changes once at most. The
+ * derivative of what is beyond degree 4 is at most the sum of k^2 |c_k|: of a motion of 10 rad that is 5.5 times `beyond`.
+ */
+static int followSigns(Signs *signs, const double *p, double middle, double width, double beyond, int halvings) {
+    const double m = middle, r = width;
+    const double value = p[0] + m * (p[1] + m * (p[2] + m * (p[3] + m * p[4])));
+    const double slope = r * (p[1] + m * (2.0 * p[2] + m * (3.0 * p[3] + m * 4.0 * p[4])));
+    const double second = sizeOf(r * r * (p[2] + m * (3.0 * p[3] + m * 6.0 * p[4])));
+    const double third = sizeOf(r * r * r * (p[3] + m * 4.0 * p[4])), fourth = sizeOf(r * r * r * r * p[4]);
+    if (sizeOf(value) > sizeOf(slope) + second + third + fourth + beyond) {
+        takeSign(signs, signOf(value));
+        return 1;
     }
-    if (halvings == 0) {
-        for (int node = FINEST - 1; node >= 0; --node) lookAt(looks, nodeOf(node, FINEST, a, b));
-        return;
-    }
-    const double middle = 0.5 * (a + b);
-    lookBetween(unit, h, which, a, middle, halvings - 1, looks);
-    lookAt(looks, middle);
-    lookBetween(unit, h, which, middle, b, halvings - 1, looks);
+    if (sizeOf(slope) > 2.0 * second + 3.0 * third + 4.0 * fourth + r * 5.5 * beyond) return 1;
+    const double half = 0.5 * r;
+    return halvings > 0 && followSigns(signs, p, m - half, half, beyond, halvings - 1) &&
+           followSigns(signs, p, m + half, half, beyond, halvings - 1);
+}
+
+/*
+ * How often a formula changes its sign within a step, by its values at the nodes of degree 4; -1 where they do not tell, since it turns too
+ * near to zero, or is not as smooth as a motion. What the interpolant leaves out, and what the polynomial of the motion is wrong by, is
+ * bounded by how fast the coefficients fall: a motion of the frequency w has 2 J_k(z), where z = wh/2, which fall by z/10 and more behind
+ * the last one, and its quintic is wrong by (wh)^2/15 of the last one; so eight times the last is enough up to wh = 10. The last may be 0 by
+ * chance: of the one before it a sixteenth counts at least.
+ */
+static int glance(const double *values) {
+    double c[COARSE + 1];
+    interpolate(values, COARSE, c);
+    const double falls = sizeOf(c[3]) / sizeOf(c[1]);
+    const double share = falls > 1.0 ? 1.0 : falls > 0.0625 ? falls : 0.0625;
+    const double of_third = c[3] == 0.0 ? 0.0 : sizeOf(c[3]) * share;
+    const double beyond = 8.0 * (of_third > sizeOf(c[4]) ? of_third : sizeOf(c[4]));
+    /* The interpolant in powers. */
+    const double p[] = {c[0] - c[2] + c[4], c[1] - 3.0 * c[3], 2.0 * c[2] - 8.0 * c[4], 4.0 * c[3], 8.0 * c[4]};
+    Signs signs = {signOf(values[COARSE]), 0};
+    if (!followSigns(&signs, p, 0.0, 1.0, beyond, HALVINGS_OF_GLANCE)) return -1;
+    takeSign(&signs, signOf(values[0]));
+    return signs.changes;
 }
 
 /* What is watched at the end of a step of the length h, by the method itself; no number where there is no such step. */
@@ -1076,53 +1086,174 @@ static double locate(Unit *unit, int k, double early, double at_early, double la
     return late;
 }
 
-/* The length of the step up to the next change of sign of what is watched, behind a step of the length `early` and from a look on; 0 if there
-   is none. */
-static double nextCrossing(Unit *unit, double h, int k, const Looks *looks, int *look, double early, int *sign) {
+/*
+ * Looks at what is watched at a fraction of the step, between which and the one before it its sign changes once at most. Facts are told, and
+ * events counted where no step may end at them; else the first of them is noted. Behind it nothing has happened yet.
+ */
+static void lookAt(Search *search, double x) {
+    Unit *unit = search->unit;
     State *now = &unit->now;
-    double all[WATCHED + 1];
-    for (; *look < looks->count; ++*look) {
-        const double x = looks->at[*look], late = x * h;
-        watchAlong(unit, h, x, all);
-        *sign = signOfWatched(unit, k, all[k]);
-        const int side = sideOf(unit, k);
-        if (k < EVENTS && !side) now->side[k] = (signed char)*sign;
-        if (!*sign || !side || *sign == side) continue;
-        /* What the polynomial says is not certain. */
-        const double value = x < 1.0 ? atEndOf(unit, late, k) : all[k];
-        if (late <= early || !isBehind(k, *sign, value)) continue;
-        double from = *look > 0 ? looks->at[*look - 1] * h : 0.0, before = 0.0;
-        if (from > early) before = atEndOf(unit, from, k);
-        if (!(from > early) || isBehind(k, *sign, before)) from = early, before = 0.0;
-        ++*look;
-        return locate(unit, k, from, before, late, value, *sign);
+    const int k = search->k;
+    const double seen = search->seen, late = x * search->h;
+    if (search->is_over || !(x > seen)) return;
+    if (seen > 0.0 && seen * search->h >= search->first) {
+        search->is_over = 1;
+        return;
     }
-    return 0.0;
+    double all[WATCHED + 1];
+    search->seen = x;
+    watchAlong(unit, search->h, x, all);
+    const int sign = signOfWatched(unit, k, all[k]), side = sideOf(unit, k);
+    if (k < EVENTS && !side) now->side[k] = (signed char)sign;
+    if (!sign || !side || sign == side) return;
+    /* What the polynomial says is not certain. */
+    const double value = x < 1.0 ? atEndOf(unit, late, k) : all[k];
+    if (late <= search->early || !isBehind(k, sign, value)) return;
+    double from = seen * search->h, before = 0.0;
+    if (from > search->early) before = atEndOf(unit, from, k);
+    if (!(from > search->early) || isBehind(k, sign, before)) from = search->early, before = 0.0;
+    const double at = locate(unit, k, from, before, late, value, sign);
+    search->early = at;
+    if (k < EVENTS && !unit->may_stop) {
+        countEvent(unit, k, now->time + at, sign);
+    } else if (k < EVENTS) {
+        if (search->which < 0 || at < search->first) search->first = at, search->which = k, search->sign = sign;
+        search->is_over = 1;
+    } else if (at > search->first) {
+        search->is_over = 1;
+    } else {
+        changeFact(unit, k - EVENTS, now->time + at, sign < 0);
+    }
 }
 
-/* Where in the step that was tried a sign may change, of each that is watched: at the end alone, or, where `is_near` says so, wherever the
-   motion within the step has a zero. 0 where an event's formula is no number at the end. */
+/* Looks at the ends of intervals with a zero of an interpolant. */
+static void isolate(const double *c, int degree, double a, double b, double noise, Search *search) {
+    double slopes[FINEST + 3], values[FINEST + 1], half[FINEST + 1];
+    if (search->is_over) return;
+    while (degree > 0 && sizeOf(c[degree]) <= noise) --degree;
+    const double rest = sumOfSizes(c, 1, degree);
+    if (sizeOf(c[0]) > rest + noise || rest + sizeOf(c[0]) <= noise) return;
+    slopes[degree + 1] = slopes[degree] = 0.0;
+    for (int k = degree; k >= 1; --k) slopes[k - 1] = slopes[k + 1] + 2.0 * k * c[k];
+    slopes[0] *= 0.5;
+    /* Zeros nearer to each other than this share of the step are one that does not change the sign. */
+    if (degree == 0 || sizeOf(slopes[0]) > sumOfSizes(slopes, 1, degree - 1) || b - a <= 0x1p-40) {
+        lookAt(search, a);
+        lookAt(search, b);
+        return;
+    }
+    const double middle = 0.5 * (a + b);
+    for (int side = 0; side < 2; ++side) {
+        for (int node = 0; node <= degree; ++node) {
+            /* By Clenshaw's recurrence. */
+            const double x = nodeOf(node, degree, side - 1.0, side);
+            double one = 0.0, two = 0.0;
+            for (int k = degree; k >= 1; --k) {
+                const double next = c[k] + 2.0 * x * one - two;
+                two = one, one = next;
+            }
+            values[node] = c[0] + x * one - two;
+        }
+        interpolate(values, degree, half);
+        isolate(half, degree, side ? middle : a, side ? b : middle, noise, search);
+    }
+}
+
+/* What is looked at, at the nodes between two fractions of the step. */
+static void sample(const Search *search, int degree, double a, double b, double *values) {
+    double all[WATCHED + 1];
+    for (int node = 0; node <= degree; ++node) {
+        watchAlong(search->unit, search->h, nodeOf(node, degree, a, b), all);
+        values[node] = all[search->k];
+    }
+}
+
+/* The greatest size of some coefficients; no number where one of them is none. */
+static double greatestOf(const double *c, int from, int degree) {
+    double greatest = 0.0;
+    for (int k = from; k <= degree; ++k) {
+        const double size = sizeOf(c[k]);
+        if (!(size <= greatest)) greatest = size;
+        if (size != size) break;
+    }
+    return greatest;
+}
+
+/* Whether an interpolant has all of a formula, where its last coefficients are to be below a share of the greatest. */
+static int isEnough(const double *c, int degree, double share) {
+    const double greatest = greatestOf(c, 0, degree);
+    return isFinite(greatest) && greatestOf(c, degree - 2, degree) <= share * greatest;
+}
+
+/* Looks at what is watched between two fractions of the step. */
+static void lookBetween(Search *search, double a, double b, int halvings, int halvings_of_swings, double share) {
+    double values[FINEST + 1], c[FINEST + 1];
+    if (search->is_over) return;
+    for (int degree = MIDDLE; degree <= FINEST; degree *= 2) {
+        sample(search, degree, a, b, values);
+        if (degree < FINE) {
+            if (isFarFromZero(values, degree)) return;
+            continue;
+        }
+        interpolate(values, degree, c);
+        if (isEnough(c, degree, share)) {
+            /* Below its rounding an interpolant is noise. */
+            const double rounding = 1e-14 * greatestOf(c, 0, degree);
+            const double rest = share > CONVERGED ? (degree + 1) * greatestOf(c, degree - 2, degree) : 0.0;
+            isolate(c, degree, a, b, rest > rounding ? rest : rounding, search);
+            return;
+        }
+    }
+    if (greatestOf(c, FINEST / 2, FINEST) > SWINGS * greatestOf(c, 0, FINEST)) {
+        /* How long a part may be is tried at the beginning. Of what has no parts that an interpolant has, such as noise, nothing is known. */
+        for (int cuts = 1; cuts <= halvings_of_swings; ++cuts) {
+            const int parts = 1 << cuts;
+            sample(search, FINEST, a, a + (b - a) / parts, values);
+            interpolate(values, FINEST, c);
+            if (!isEnough(c, FINEST, CONVERGED_WITH_NOISE)) continue;
+            for (int part = 0; part < parts && !search->is_over; ++part) {
+                const double from = a + (b - a) * part / parts, to = part + 1 < parts ? a + (b - a) * (part + 1) / parts : b;
+                lookAt(search, from);
+                lookBetween(search, from, to, halvings, halvings_of_swings - cuts, CONVERGED_WITH_NOISE);
+            }
+            return;
+        }
+    }
+    if (halvings == 0) {
+        for (int node = FINEST - 1; node >= 0; --node) lookAt(search, nodeOf(node, FINEST, a, b));
+        return;
+    }
+    const double middle = 0.5 * (a + b);
+    lookBetween(search, a, middle, halvings - 1, halvings_of_swings, share);
+    lookAt(search, middle);
+    lookBetween(search, middle, b, halvings - 1, halvings_of_swings, share);
+}
+
+/* Whether an angle turns so far in the step that was tried that five values do not tell what its functions do. */
+static int turnsFar(const Unit *unit, double h) {
+    for (int k = 0; k < ANGLES; ++k) {
+        const int i = ANGLE[k];
+        const double turn = unit->end[i] - unit->now.states[i];
+        const double at_start = h * unit->now.states[COORDINATES + i], at_end = h * unit->end[COORDINATES + i];
+        if (sizeOf(turn) > FARTHEST_TURN || sizeOf(at_start) > FARTHEST_TURN || sizeOf(at_end) > FARTHEST_TURN) return 1;
+    }
+    return 0;
+}
+
+/* Where in the step that was tried a sign may change, of each that is watched: once, to another sign at the end, or, where `is_near` says so,
+   wherever the motion within the step has a zero. 0 where an event's formula is no number at the end. */
 static int lookAlong(Unit *unit, double h, int *is_near) {
     State *now = &unit->now;
-    double seen[COARSE + 1][WATCHED + 1], margin[WATCHED + 1], one[WATCHED + 1], values[COARSE + 1];
+    double seen[COARSE + 1][WATCHED + 1], values[COARSE + 1];
     int is_any_near = 0;
     memcpy(unit->end, unit->point, sizeof unit->end);
-    memset(margin, 0, sizeof margin);
-    int is_of_method = END < STAGES;
-    if (is_of_method) {
-        curveOfMethod(unit, h);
-    } else {
-        /* By how much the one polynomial is better than the other is more than what it is wrong by. */
-        curveThroughEnds(unit, h, 1);
-        watchAlong(unit, h, 0.5, one);
-        curveThroughEnds(unit, h, 0);
-        watchAlong(unit, h, 0.5, margin);
-        for (int k = 0; k < WATCHED; ++k) margin[k] = sizeOf(margin[k] - one[k]);
-    }
+    const int is_of_method = END < STAGES, is_long = turnsFar(unit, h) || !(now->tolerance <= LOOSEST);
+    if (is_of_method) curveOfMethod(unit, h);
+    else curveThroughEnds(unit, h);
     for (int node = 0; node <= COARSE; ++node) watchAlong(unit, h, nodeOf(node, COARSE, 0.0, 1.0), seen[node]);
     for (int k = 0; k < WATCHED; ++k) {
-        const double start = seen[COARSE][k];
-        if (k < EVENTS && seen[0][k] != seen[0][k]) {
+        const double start = seen[COARSE][k], end = seen[0][k];
+        if (k < EVENTS && end != end) {
             withoutEvent(unit, k, now->time + h);
             return 0;
         }
@@ -1130,11 +1261,12 @@ static int lookAlong(Unit *unit, double h, int *is_near) {
         const int side = sideOf(unit, k), is_before = k < EVENTS ? side * start < 0.0 : (side > 0) != holds(k - EVENTS, start);
         if (is_before && 2.0 * sizeOf(start) > now->leave[k]) now->leave[k] = 2.0 * sizeOf(start);
         for (int node = 0; node <= COARSE; ++node) values[node] = seen[node][k];
-        is_near[k] = !isFarFromZero(values, COARSE, margin[k]);
+        const int changes = is_long ? -1 : glance(values);
+        is_near[k] = !(side && isBehind(k, side, start) && changes == !isBehind(k, side, end));
         is_any_near |= is_near[k];
     }
     /* The polynomial of higher order, or the one that there is where it has no accelerations. */
-    if (is_any_near && !is_of_method && !curveOfMethod(unit, h)) curveThroughEnds(unit, h, 0);
+    if (is_any_near && !is_of_method && !curveOfMethod(unit, h)) curveThroughEnds(unit, h);
     return 1;
 }
 
@@ -1145,29 +1277,19 @@ static int lookAlong(Unit *unit, double h, int *is_near) {
  */
 static double lookForEvents(Unit *unit, double h) {
     State *now = &unit->now;
-    double first = h, values[WATCHED + 1];
-    int is_near[WATCHED + 1], which = -1, sign_of_first = 0;
-    Looks looks;
+    double values[WATCHED + 1];
+    int is_near[WATCHED + 1];
+    Search search = {.unit = unit, .h = h, .first = h, .which = -1};
     if (!lookAlong(unit, h, is_near)) return 0.0;
     for (int k = 0; k < WATCHED; ++k) {
-        int look = 0, sign = 0;
-        double at = 0.0;
-        looks.count = 0;
-        if (is_near[k]) lookBetween(unit, h, k, 0.0, 1.0, HALVINGS, &looks);
-        lookAt(&looks, 1.0);
-        while ((at = nextCrossing(unit, h, k, &looks, &look, at, &sign)) > 0.0) {
-            if (k >= EVENTS) {
-                /* Behind the end of the step nothing has happened yet. */
-                if (at > first) break;
-                changeFact(unit, k - EVENTS, now->time + at, sign < 0);
-            } else if (!unit->may_stop) {
-                countEvent(unit, k, now->time + at, sign);
-            } else {
-                if (which < 0 || at < first) first = at, which = k, sign_of_first = sign;
-                break;
-            }
-        }
+        search.k = k;
+        search.seen = search.early = 0.0;
+        search.is_over = 0;
+        if (is_near[k]) lookBetween(&search, 0.0, 1.0, HALVINGS, HALVINGS_OF_SWINGS, CONVERGED);
+        lookAt(&search, 1.0);
     }
+    const double first = search.first;
+    const int which = search.which;
     /* The search leaves another step in `point`. */
     if (unit->tried != first) tryStep(unit, first);
     if (which < 0) return h;
@@ -1177,7 +1299,7 @@ static double lookForEvents(Unit *unit, double h) {
         const int sign = signOfEvent(unit, k, values[k]);
         if (sign && now->side[k] && sign != now->side[k]) now->passed[k] = (signed char)sign;
     }
-    now->passed[which] = (signed char)sign_of_first;
+    now->passed[which] = (signed char)search.sign;
     now->is_unsettled = 1;
     unit->has_stopped = 1;
     return first;

@@ -1,0 +1,77 @@
+/* A wheel that turns uniformly, and many times between two points of communication, in co-simulation by FMI 3.0: it is upright at each half turn,
+   and too low once a turn. */
+#include "fmi3Functions.h"
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MOST 4096
+
+static double events[MOST], facts[MOST];
+static int event_count, fact_count;
+
+static void must(int holds, int rule) {
+    if (holds) return;
+    fprintf(stderr, "rule %d is broken\n", rule);
+    exit(rule);
+}
+
+static void well(fmi3Status status, int rule) { must(status == fmi3OK, rule); }
+
+static void hear(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category, fmi3String message) {
+    double t;
+    char word[16];
+    (void)environment, (void)status, (void)category;
+    if (sscanf(message, "at t = %lf s event %15[a-z]", &t, word) == 2) events[event_count++ % MOST] = t;
+    else if (sscanf(message, "at t = %lf s it does %15[a-z]", &t, word) == 2) facts[fact_count++ % MOST] = t;
+}
+
+/* Each instant, to what is asked for, 1e-13 s, and the rounding of an angle that went so far, in as many steps as there are instants. */
+static void compare(const char *what, const double *found, int count, double first, double apart, double until, int rule) {
+    const int known = (int)floor((until - first) / apart) + 1;
+    if (count != known) fprintf(stderr, "%d of %s, known %d\n", count, what, known);
+    must(count == known, rule);
+    for (int k = 0; k < count; ++k) {
+        const double t = first + k * apart;
+        if (!(fabs(found[k] - t) <= 1e-13 + 64.0 * DBL_EPSILON * (1.0 + until)))
+            fprintf(stderr, "%s %d at %.17g, known %.17g\n", what, k, found[k], t);
+        must(fabs(found[k] - t) <= 1e-13 + 64.0 * DBL_EPSILON * (1.0 + until), rule);
+    }
+}
+
+int main(void) {
+    static const struct {
+        double length, until;
+    } ways[] = {{1.0, 20.0}, {10.0, 100.0}, {100.0, 100.0}, {1000.0, 1000.0}};
+    static const double tolerances[] = {1e-2, 1e-6, 1e-12};
+    const double pi = acos(-1.0);
+    for (int way = 0; way < 24; ++way) {
+        const double length = ways[way / 6].length, until = ways[way / 6].until;
+        const int stops = way % 2;
+        bool event, terminate, early;
+        double last = 0.0;
+        fmi3Instance unit = fmi3InstantiateCoSimulation("a", TOKEN, NULL, false, true, stops, stops, NULL, 0, NULL, hear, NULL);
+        must(unit != NULL, 3);
+        event_count = fact_count = 0;
+        well(fmi3EnterInitializationMode(unit, true, tolerances[way / 2 % 3], 0.0, false, 0.0), 4);
+        well(fmi3ExitInitializationMode(unit), 5);
+        if (stops) well(fmi3EnterStepMode(unit), 6);
+        while (last < until) {
+            const double t = last, point = length * (floor(t / length + 1e-9) + 1.0);
+            well(fmi3DoStep(unit, t, point - t, true, &event, &terminate, &early, &last), 7);
+            if (!event) continue;
+            bool again, end, nominals, values, next;
+            double when;
+            well(fmi3EnterEventMode(unit), 8);
+            well(fmi3UpdateDiscreteStates(unit, &again, &end, &nominals, &values, &next, &when), 8);
+            well(fmi3EnterStepMode(unit), 8);
+        }
+        /* phi = 0.3 + 10 t; cos(phi) = 0 at odd quarters of a turn, sin(phi) falls to -1/2 at 7/12 of each. */
+        compare("events", events, event_count, (0.5 * pi - 0.3) / 10.0, pi / 10.0, until, 20);
+        compare("facts", facts, fact_count, (7.0 * pi / 6.0 - 0.3) / 10.0, pi / 5.0, until, 21);
+        fmi3FreeInstance(unit);
+    }
+    return 0;
+}
