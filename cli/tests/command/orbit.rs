@@ -845,6 +845,15 @@ fn what_nothing_depends_on_goes_on_by_its_momentum() {
     assert_multipliers(&found, &[(1.0, 0.0), (1.0, 0.0), (1.0, 0.0)]);
     // Of each energy and each momentum.
     assert_eq!(found["family"], 2);
+    // M is 1 but for its error, whatever the start: of those that are next to each other to the last digit, and of others.
+    for k in 0..40 {
+        let start = match k % 2 {
+            0 => f64::from_bits(0.1_f64.to_bits() + k / 2),
+            _ => 0.05 + 0.0031 * k as f64,
+        };
+        let found = orbit(&[spec.path(), "--start", &format!("s={start:?}")]);
+        assert_eq!(found["family"], 2, "{start:?}: {found:#}");
+    }
     // What is to come back has no momentum.
     let back = orbit(&[spec.path(), "--advance", "x=0", "--near", "2"]);
     assert_eq!(back["advance"], serde_json::json!({}));

@@ -306,6 +306,9 @@ const MOST_HALVINGS: usize = 12;
 /// Singular values below this share of the largest belong to changes of the start that lead to orbits again.
 const NOTHING: f64 = 1e-7;
 
+/// What a period may be off is no more than this part of it.
+const MOST_OF_PERIOD: f64 = 1e-3;
+
 /// An orbit closes up to so many tolerances of the integration: errors of a step, some hundred times.
 const CLOSED: f64 = 1e3;
 
@@ -444,7 +447,12 @@ impl Search<'_> {
         // What ten times the tolerance changes is ten times what the tolerance leaves, or more.
         let coarse = self.passage(chart, &x, period, (10.0 * tolerance).min(1e-4))?;
         let size = passage.monodromy.amax();
-        let bounds = (&passage.monodromy - coarse.monodromy).map(|x| x.abs().max(tolerance * size));
+        let by_integration =
+            (&passage.monodromy - &coarse.monodromy).map(|x| x.abs().max(tolerance * size));
+        let bounds = match is_autonomous {
+            true => by_integration + self.by_period(chart, (&x, period), [&passage, &coarse])?,
+            false => by_integration,
+        };
         let (multipliers, family) = self.multipliers(
             chart,
             &x,
@@ -470,6 +478,29 @@ impl Search<'_> {
             is_autonomous,
             rounds,
         })
+    }
+
+    /// What M changes by with what the period may be off.
+    ///
+    /// A motion closes up to its gap and to what integration leaves of its end, and by as much the state may be further along the orbit. There
+    /// is no other measure of that where M is 1, as of a harmonic motion: then all that is left of M − 1 is its error.
+    fn by_period(
+        &self,
+        chart: &Chart,
+        (x, period): (&DVector<f64>, f64),
+        [passage, coarse]: [&Passage; 2],
+    ) -> Result<DMatrix<f64>, NoOrbit> {
+        let scale = self.scale(chart, x, period)?;
+        let length = |of: DVector<f64>| (&scale * of).norm();
+        let off = length(chart.of(&self.gap(x, &passage.x)))
+            + length(chart.of(&(&passage.x - &coarse.x)));
+        let later = off / length(passage.rate.clone());
+        if !(later > 0.0 && later.is_finite()) {
+            return Ok(DMatrix::zeros(chart.size(), chart.size()));
+        }
+        let later = later.min(MOST_OF_PERIOD * period);
+        let there = self.passage(chart, x, period + later, self.sought.tolerance)?;
+        Ok((there.monodromy - &passage.monodromy).abs())
     }
 
     /// Whether the equations change with time, and what stops that.
@@ -1139,8 +1170,10 @@ impl Search<'_> {
             matrix -= along * (along.transpose() * &full);
             right -= along * along.dot(&whole);
         }
+        let own = (scale * &passage.monodromy * &columns * &back).amax();
         let svd = matrix.svd(true, true);
-        let least = NOTHING * svd.singular_values.max();
+        // Of M − 1 where M is 1 all that is left is the error of M.
+        let least = NOTHING * svd.singular_values.max().max(own);
         let z = svd.solve(&right, least).ok()?;
         let dt = along.map_or(0.0, |along| along.dot(&(whole - full * &z)) / rate.norm());
         let dx = columns * back * z;
