@@ -657,7 +657,21 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let StepError::StepTooSmall { t, .. } = *error else {
             return None;
         };
+        self.slack(NEAR_FORK, |_| true)
+            .map(|contact| StepError::Contact {
+                contact,
+                trouble: ContactTrouble::NotHeld,
+                t,
+            })
+    }
+
+    /// The first closed contact of these whose gap changes with the coordinates by less than this share of what it did at the start.
+    fn slack(&self, share: f64, counts: impl Fn(usize) -> bool) -> Option<usize> {
         let (touching, system) = (self.stepper.touching().as_ref()?, self.model.system);
+        let is_closed = |contact: &usize| touching.modes()[*contact] != Mode::Open;
+        let closed = (0..touching.modes().len()).filter(|k| counts(*k) && is_closed(k));
+        let mut closed = closed.peekable();
+        closed.peek()?;
         let (begun, start) = self.model.start;
         let n = start.as_slice().len();
         let rows = |t, q| {
@@ -665,23 +679,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             system.contact_matrix(t, q, &mut rows);
             rows
         };
-        let (before, now) = (rows(begun, start), rows(t, self.stepper.q()));
+        let (before, now) = (rows(begun, start), rows(self.stepper.t(), self.stepper.q()));
         let length = |rows: &[f64], contact: usize| {
             let row = &rows[2 * contact * n..][..n];
             row.iter().map(|w| w * w).sum::<f64>().sqrt()
         };
-        let closed = (touching.modes().iter().enumerate())
-            .filter(|(_, mode)| **mode != Mode::Open)
-            .map(|(contact, _)| contact);
-        let weak = |contact: &usize| length(&now, *contact) < NEAR_FORK * length(&before, *contact);
-        closed
-            .filter(weak)
-            .map(|contact| StepError::Contact {
-                contact,
-                trouble: ContactTrouble::NotHeld,
-                t,
-            })
-            .next()
+        closed.find(|contact| length(&now, *contact) < share * length(&before, *contact))
     }
 
     /// When the state of a contact ended in the last step, and which.

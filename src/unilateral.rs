@@ -90,7 +90,7 @@ pub enum ContactTrouble {
     /// The law of friction leaves no motion, or more than one: P. Painlevé's paradox.
     Paradox,
     /// No force along its normal holds it shut: its gap hardly changes with the coordinates, or constraints, walls that move or other
-    /// contacts contradict it. There is no friction in it.
+    /// contacts contradict it.
     NotHeld,
     /// No forces were found that obey the law of friction in space, by a method that converges where there are.
     Unsolved,

@@ -944,9 +944,9 @@ impl Touching {
                     .map(|pressed| pressed.force.max(0.0))
             })
             .collect();
-        let paradox = |k: usize| StepError::Contact {
-            contact: k,
-            trouble: ContactTrouble::Paradox,
+        let trouble = |contact: usize, trouble| StepError::Contact {
+            contact,
+            trouble,
             t,
         };
         // How each slips: from its rate, or found out below; none where it may stick.
@@ -1019,9 +1019,12 @@ impl Touching {
                         {
                             coupled -= sign * friction * g[2 * place * width + 2 * place + 3];
                         }
+                        if own == 0.0 {
+                            return Err(trouble(k, ContactTrouble::NotHeld));
+                        }
                         // Pressed, it would be pressed the more: none or several motions.
                         if own + coupled <= ROUNDING_OF_FORCES * own {
-                            return Err(paradox(k));
+                            return Err(trouble(k, ContactTrouble::Paradox));
                         }
                         Asked::Normal { share }
                     }

@@ -42,6 +42,10 @@ const OPENED: f64 = 1e-3;
 /// The most looks at a step.
 const MOST_LOOKS: f64 = 1e6;
 
+/// A gap that closes where it changes with the coordinates by less than this share of what it did at the start, the root of rounding, is taken
+/// not to change with them: it does so the less the nearer it is to 0, and how near that is only rounding says.
+const VANISHED: f64 = 1.5e-8;
+
 /// A slip in space that comes to rest, or turns by a right angle, is followed in a step of its own from this part of the way on; and
 /// no further where that part of the step is less than the second.
 pub(super) const APPROACH: f64 = 0.9;
@@ -207,6 +211,16 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 return Err(self.model.explain(error, &now.q, &now.v));
             }
         };
+        // Whether what closes on such a gap rests there is for rounding to say: it is not held.
+        let closes = |k: usize| !at_start && happened.before[k] == Mode::Open && !self.yields(k);
+        if let Some(contact) = self.slack(VANISHED, closes) {
+            let error = StepError::Contact {
+                contact,
+                trouble: ContactTrouble::NotHeld,
+                t: self.stepper.t(),
+            };
+            return Err((self.model).explain(error, self.stepper.q(), self.stepper.v()));
+        }
         self.pace.take(self.stepper.t(), &happened);
         if !at_start && let Some(steps) = &mut self.record.steps {
             steps.jump(&self.stepper);
