@@ -195,20 +195,20 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         step: f64,
         at_start: bool,
     ) -> Result<(), Error> {
-        let before = (self.settings.hands_over).then(|| self.stepper.point());
+        let before = (self.settings.hands_over).then(|| self.stepper.standing());
         self.forget_values();
         let met = self.stepper.meet(cause, self.stop, step);
         let happened = match met {
             Ok(happened) => happened,
             Err(error) => {
-                let now = self.stepper.point();
+                let (q, v) = (self.stepper.q().clone(), self.stepper.v().clone());
                 if let Some(before) = before {
                     self.stepper.bring_back(before);
                     if self.hand_over_unsettled(&error)? {
                         return Ok(());
                     }
                 }
-                return Err(self.model.explain(error, &now.q, &now.v));
+                return Err(self.model.explain(error, &q, &v));
             }
         };
         // Whether what closes on such a gap rests there is for rounding to say: it is not held.

@@ -3,21 +3,39 @@
 use super::meeting::{Cause, Happened, hold};
 use super::{InImpulses, Stepper};
 use crate::balance::Quadratures;
+use crate::constraints::Constraints;
+use crate::contact::Touching;
 use crate::inputs::InputLaw;
 use crate::methods::Method;
 use crate::stages::Point;
 use crate::{StepError, System};
 use std::boxed::Box;
 
+/// What contacts that meet change of a stepper.
+pub(crate) struct Standing<S: System, A> {
+    now: Point<S::Vector>,
+    touching: Option<Touching>,
+    constraints: Option<Constraints<S::Vector>>,
+    quadratures: A,
+}
+
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
-    /// Where it stands now, to be brought back to.
-    pub(crate) fn point(&self) -> Point<S::Vector> {
-        self.now.clone()
+    /// How it stands now, to be brought back to.
+    pub(crate) fn standing(&self) -> Standing<S, A> {
+        Standing {
+            now: self.now.clone(),
+            touching: self.model.touching.clone(),
+            constraints: self.model.constraints.clone(),
+            quadratures: self.quadratures.clone(),
+        }
     }
 
-    /// Brings it back to where it stood at the same instant.
-    pub(crate) fn bring_back(&mut self, point: Point<S::Vector>) {
-        self.now = point;
+    /// Brings it back to how it stood at the same instant: with the losses of impacts that did not settle, too.
+    pub(crate) fn bring_back(&mut self, standing: Standing<S, A>) {
+        self.now = standing.now;
+        self.model.touching = standing.touching;
+        self.model.constraints = standing.constraints;
+        self.quadratures = standing.quadratures;
     }
 
     /// Whether its steps are those of time stepping.
@@ -26,7 +44,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     }
 
     /// The fastest rate at which any gap closed so far, in m/s, and what forces add to such a rate now, in m/s²: see
-    /// [`Touching`](crate::contact::Touching).
+    /// [`Touching`].
     pub(crate) fn closing(&mut self) -> [f64; 2] {
         let Self { model, now, .. } = self;
         model.set_inputs(now.t, &now.q, &now.v);
