@@ -142,7 +142,8 @@ impl<S: Batched<N>, const N: usize> Batch<S, N> {
     }
 
     /// The Taylor series of the motion of every lane through its state, as [`System::series`] has it, with 24 rows at the most. The
-    /// time is the sum of two numbers. To be asked for only where [`System::check_series`] is fine.
+    /// time is the sum of two numbers. To be asked for only where [`System::check_series`] is fine. `lists` is what is worked with, of
+    /// some kilobytes, whatever it holds: whoever asks again brings it again.
     ///
     /// # Errors
     /// If there are lanes that have none. All others have got theirs.
@@ -153,9 +154,10 @@ impl<S: Batched<N>, const N: usize> Batch<S, N> {
         q: &S::Vectors,
         v: &S::Vectors,
         u: &S::BatchInputs,
+        lists: &mut S::SeriesLists,
         coefficients: &mut [S::Vectors],
     ) -> Result<(), SomeSingular<N>> {
-        match S::batch_series(&self.equations, t, q, v, u, coefficients) {
+        match S::batch_series(&self.equations, t, q, v, u, lists, coefficients) {
             Ok(()) if self.singular.is_none() => Ok(()),
             _ => self.series_one_by_one(t, (q, v, u), coefficients),
         }
@@ -229,6 +231,8 @@ pub trait Batched<const N: usize>: System + Copy {
     type Vectors: LaneVector<N, Vector = Self::Vector>;
     /// The inputs of `N` systems by name.
     type BatchInputs;
+    /// What [`batch_series`](Self::batch_series) works with: coefficients of which it makes products; `()` where there is no series.
+    type SeriesLists: Default;
 
     /// The equations of these systems.
     fn batch(systems: [&Self; N]) -> Self::Batch;
@@ -253,13 +257,14 @@ pub trait Batched<const N: usize>: System + Copy {
     ) -> Result<(), Singular>;
 
     /// [`System::series`] of every lane, with 24 rows at the most, or of none if one of them has none. To be asked for only where
-    /// [`System::check_series`] is fine.
+    /// [`System::check_series`] is fine. What `lists` holds before does not matter.
     fn batch_series(
         _several: &Self::Batch,
         _t: [Lanes<N>; 2],
         _q: &Self::Vectors,
         _v: &Self::Vectors,
         _u: &Self::BatchInputs,
+        _lists: &mut Self::SeriesLists,
         _coefficients: &mut [Self::Vectors],
     ) -> Result<(), Singular> {
         Ok(())

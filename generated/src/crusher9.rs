@@ -946,6 +946,22 @@ pub fn assumption_1<S: ::lagrangian::emitted::Scalar>(q: &[S; 9]) -> S {
     s2
 }
 
+/// The coefficients of which products are made, order by order, while the Taylor series is
+/// computed. What they hold before that does not matter.
+pub struct Lists<S> {
+    a0: ::lagrangian::emitted::series::Pack<S, 20>,
+    b0: ::lagrangian::emitted::series::Pack<S, 20>,
+}
+
+impl<S: Copy + Default> Default for Lists<S> {
+    fn default() -> Self {
+        Self {
+            a0: Default::default(),
+            b0: Default::default(),
+        }
+    }
+}
+
 /// The Taylor series of the motion through a state, to be run with whatever instructions the
 /// processor has: row `j` of `coefficients` becomes `q⁽ʲ⁾/j!`. The time is the sum of two numbers.
 pub struct Series<'a, S> {
@@ -953,6 +969,7 @@ pub struct Series<'a, S> {
     t: [S; 2],
     q: &'a [S; 9],
     v: &'a [S; 9],
+    lists: &'a mut Lists<S>,
     coefficients: &'a mut [[S; 9]],
 }
 
@@ -966,6 +983,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
             t,
             q,
             v,
+            lists,
             coefficients,
         } = self;
         let n = N::load;
@@ -1420,54 +1438,62 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
         for (row, x) in coefficients.iter_mut().zip([*q, *v, second]) {
             *row = x;
         }
-        let zeros = [[N::ZERO.store(); 20]; ::lagrangian::emitted::series::ROWS];
-        let mut a0 = ::lagrangian::emitted::series::Aligned(zeros);
-        a0.0[2] = [
-            x301.store(),
-            x301.store(),
-            x303.store(),
-            x303.store(),
-            x311.store(),
-            x305.store(),
-            x305.store(),
-            x313.store(),
-            x311.store(),
-            x313.store(),
-            x340.store(),
-            x344.store(),
-            x336.store(),
-            x325.store(),
-            x336.store(),
-            x325.store(),
-            x330.store(),
-            x319.store(),
-            x330.store(),
-            x319.store(),
-        ];
-        let zeros = [[N::ZERO.store(); 20]; ::lagrangian::emitted::series::ROWS];
-        let mut b0 = ::lagrangian::emitted::series::Aligned(zeros);
-        b0.0[2] = [
-            x350.store(),
-            x348.store(),
-            x354.store(),
-            x352.store(),
-            x354.store(),
-            x361.store(),
-            x359.store(),
-            x361.store(),
-            x352.store(),
-            x359.store(),
-            x350.store(),
-            x348.store(),
-            x352.store(),
-            x354.store(),
-            x357.store(),
-            x369.store(),
-            x359.store(),
-            x361.store(),
-            x364.store(),
-            x372.store(),
-        ];
+        const A0: [usize; 20] = [0, 0, 1, 1, 2, 3, 3, 4, 2, 4, 5, 6, 7, 8, 7, 8, 9, 10, 9, 10];
+        const B0: [usize; 20] = [0, 1, 2, 3, 2, 4, 5, 4, 3, 5, 0, 1, 3, 2, 6, 7, 5, 4, 8, 9];
+        ::lagrangian::emitted::series::keep::<N, 20, 20>(
+            &mut lists.a0.0,
+            2,
+            [
+                x301.store(),
+                x301.store(),
+                x303.store(),
+                x303.store(),
+                x311.store(),
+                x305.store(),
+                x305.store(),
+                x313.store(),
+                x311.store(),
+                x313.store(),
+                x340.store(),
+                x344.store(),
+                x336.store(),
+                x325.store(),
+                x336.store(),
+                x325.store(),
+                x330.store(),
+                x319.store(),
+                x330.store(),
+                x319.store(),
+            ],
+            &A0,
+        );
+        ::lagrangian::emitted::series::keep::<N, 20, 20>(
+            &mut lists.b0.0,
+            2,
+            [
+                x350.store(),
+                x348.store(),
+                x354.store(),
+                x352.store(),
+                x354.store(),
+                x361.store(),
+                x359.store(),
+                x361.store(),
+                x352.store(),
+                x359.store(),
+                x350.store(),
+                x348.store(),
+                x352.store(),
+                x354.store(),
+                x357.store(),
+                x369.store(),
+                x359.store(),
+                x361.store(),
+                x364.store(),
+                x372.store(),
+            ],
+            &B0,
+        );
         let mut y18 = x346;
         let mut y24 = x71;
         let mut y25 = x74;
@@ -1502,7 +1528,11 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
         let mut r6 = x304;
         let count = coefficients.len().min(::lagrangian::emitted::series::ROWS);
         for order in 3..count {
-            let w0 = ::lagrangian::emitted::series::sweep::<N, 20>(&a0.0, &b0.0, order - 2);
+            let w0 = ::lagrangian::emitted::series::sweep::<N, 20, 20>(
+                [&lists.a0.0, &lists.b0.0],
+                order - 2,
+                [&A0, &B0],
+            );
             let x375 = y25;
             let x376 = x6 * x375;
             let x377 = N::from_ratio(1, order as i64);
@@ -1782,8 +1812,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
                     N::ZERO.store(),
                 ];
             }
-            if let Some(kept) = a0.0.get_mut(order) {
-                *kept = [
+            ::lagrangian::emitted::series::keep::<N, 20, 20>(
+                &mut lists.a0.0,
+                order,
+                [
                     x567.store(),
                     x567.store(),
                     x571.store(),
@@ -1804,10 +1836,13 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
                     x582.store(),
                     x593.store(),
                     x582.store(),
-                ];
-            }
-            if let Some(kept) = b0.0.get_mut(order) {
-                *kept = [
+                ],
+                &A0,
+            );
+            ::lagrangian::emitted::series::keep::<N, 20, 20>(
+                &mut lists.b0.0,
+                order,
+                [
                     x613.store(),
                     x611.store(),
                     x617.store(),
@@ -1828,8 +1863,9 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
                     x624.store(),
                     x627.store(),
                     x635.store(),
-                ];
-            }
+                ],
+                &B0,
+            );
             y18 = x609;
             y24 = x378;
             y25 = x382;
@@ -1926,6 +1962,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
             t,
             q,
             v,
+            lists: &mut Default::default(),
             coefficients,
         };
         boolean has_linear_assumptions(p) = true;
@@ -1946,13 +1983,17 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
     }
     absent [MAY_BE_CONSTRAINED MAY_SLIDE MAY_COLLIDE]
     intervals []
-    batch_series { (p, t, q, v, u, coefficients) Series {
-        p,
-        t,
-        q,
-        v,
-        coefficients,
-    } }
+    batch_series {
+        Lists<::lagrangian::emitted::Lanes<N>>;
+        (p, t, q, v, u, lists, coefficients) Series {
+            p,
+            t,
+            q,
+            v,
+            lists,
+            coefficients,
+        }
+    }
     lanes [N]
     numbers [yes]
 }

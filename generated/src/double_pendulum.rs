@@ -346,12 +346,29 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     -(p.k1 * (cos_theta2 * p.l2 + cos_theta1 * p.l1) + cos_theta1 * p.k0)
 }
 
+/// The coefficients of which products are made, order by order, while the Taylor series is
+/// computed. What they hold before that does not matter.
+pub struct Lists<S> {
+    a0: ::lagrangian::emitted::series::Pack<S, 8>,
+    b0: ::lagrangian::emitted::series::Pack<S, 8>,
+}
+
+impl<S: Copy + Default> Default for Lists<S> {
+    fn default() -> Self {
+        Self {
+            a0: Default::default(),
+            b0: Default::default(),
+        }
+    }
+}
+
 /// The Taylor series of the motion through a state, to be run with whatever instructions the
 /// processor has: row `j` of `coefficients` becomes `q⁽ʲ⁾/j!`. The time is the sum of two numbers.
 pub struct Series<'a, S> {
     p: &'a Prepared<S>,
     q: &'a [S; 2],
     v: &'a [S; 2],
+    lists: &'a mut Lists<S>,
     coefficients: &'a mut [[S; 2]],
 }
 
@@ -364,6 +381,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
             p,
             q,
             v,
+            lists,
             coefficients,
         } = self;
         let n = N::load;
@@ -493,30 +511,38 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
         for (row, x) in coefficients.iter_mut().zip([*q, *v, second]) {
             *row = x;
         }
-        let zeros = [[N::ZERO.store(); 8]; ::lagrangian::emitted::series::ROWS];
-        let mut a0 = ::lagrangian::emitted::series::Aligned(zeros);
-        a0.0[2] = [
-            x89.store(),
-            x89.store(),
-            x93.store(),
-            x93.store(),
-            x104.store(),
-            x107.store(),
-            x101.store(),
-            x98.store(),
-        ];
-        let zeros = [[N::ZERO.store(); 8]; ::lagrangian::emitted::series::ROWS];
-        let mut b0 = ::lagrangian::emitted::series::Aligned(zeros);
-        b0.0[2] = [
-            x111.store(),
-            x109.store(),
-            x115.store(),
-            x113.store(),
-            x109.store(),
-            x111.store(),
-            x113.store(),
-            x115.store(),
-        ];
+        const A0: [usize; 8] = [0, 0, 1, 1, 2, 3, 4, 5];
+        const B0: [usize; 8] = [0, 1, 2, 3, 1, 0, 3, 2];
+        ::lagrangian::emitted::series::keep::<N, 8, 8>(
+            &mut lists.a0.0,
+            2,
+            [
+                x89.store(),
+                x89.store(),
+                x93.store(),
+                x93.store(),
+                x104.store(),
+                x107.store(),
+                x101.store(),
+                x98.store(),
+            ],
+            &A0,
+        );
+        ::lagrangian::emitted::series::keep::<N, 8, 8>(
+            &mut lists.b0.0,
+            2,
+            [
+                x111.store(),
+                x109.store(),
+                x115.store(),
+                x113.store(),
+                x109.store(),
+                x111.store(),
+                x113.store(),
+                x115.store(),
+            ],
+            &B0,
+        );
         let mut y6 = x109;
         let mut y7 = x111;
         let mut y15 = x113;
@@ -529,7 +555,11 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
         let mut z14 = x93;
         let count = coefficients.len().min(::lagrangian::emitted::series::ROWS);
         for order in 3..count {
-            let w0 = ::lagrangian::emitted::series::sweep::<N, 8>(&a0.0, &b0.0, order - 2);
+            let w0 = ::lagrangian::emitted::series::sweep::<N, 8, 8>(
+                [&lists.a0.0, &lists.b0.0],
+                order - 2,
+                [&A0, &B0],
+            );
             let x116 = w0[0];
             let x117 = z5;
             let x118 = x117.mul_add(x10, x116);
@@ -624,8 +654,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
             if let Some(row) = coefficients.get_mut(order) {
                 *row = [x188.store(), x190.store()];
             }
-            if let Some(kept) = a0.0.get_mut(order) {
-                *kept = [
+            ::lagrangian::emitted::series::keep::<N, 8, 8>(
+                &mut lists.a0.0,
+                order,
+                [
                     x187.store(),
                     x187.store(),
                     x189.store(),
@@ -634,10 +666,13 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
                     x203.store(),
                     x197.store(),
                     x194.store(),
-                ];
-            }
-            if let Some(kept) = b0.0.get_mut(order) {
-                *kept = [
+                ],
+                &A0,
+            );
+            ::lagrangian::emitted::series::keep::<N, 8, 8>(
+                &mut lists.b0.0,
+                order,
+                [
                     x207.store(),
                     x205.store(),
                     x211.store(),
@@ -646,8 +681,9 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
                     x207.store(),
                     x209.store(),
                     x211.store(),
-                ];
-            }
+                ],
+                &B0,
+            );
             y6 = x205;
             y7 = x207;
             y15 = x209;
@@ -687,6 +723,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
             p,
             q,
             v,
+            lists: &mut Default::default(),
             coefficients,
         };
         matrix mass_matrix(p, t, q) = mass_matrix(p, q);
@@ -702,12 +739,16 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
     }
     absent [MAY_BE_CONSTRAINED MAY_SLIDE MAY_COLLIDE]
     intervals []
-    batch_series { (p, t, q, v, u, coefficients) Series {
-        p,
-        q,
-        v,
-        coefficients,
-    } }
+    batch_series {
+        Lists<::lagrangian::emitted::Lanes<N>>;
+        (p, t, q, v, u, lists, coefficients) Series {
+            p,
+            q,
+            v,
+            lists,
+            coefficients,
+        }
+    }
     lanes [N]
     numbers [yes]
 }

@@ -20,7 +20,10 @@
 //! }
 //! absent [MAY_SLIDE]                              constants of `System` that are `false`
 //! intervals [yes]                                 where slips depend on prepared values, whose rounding counts then
-//! batch_series { (p, t, q, v, u, coefficients) Series { p, q, v, coefficients } }    the series in lanes, where there is one
+//! batch_series {                                  the series in lanes, where there is one: the type of what it keeps, and the call
+//!     Lists<Lanes<N>>;
+//!     (p, t, q, v, u, lists, coefficients) Series { p, q, v, lists, coefficients }
+//! }
 //! lanes [N]                                       a letter for the number of lanes, where there is `Batched`
 //! numbers [yes]                                   where there are `MachineIn` and `SystemIn`
 //! ```
@@ -247,18 +250,26 @@ macro_rules! implement_part {
     };
 
     // The Taylor series in lanes.
+    (batch_series [] $N:ident) => {
+        type SeriesLists = ();
+    };
     (
-        batch_series {
-            ($p:ident, $t:ident, $q:ident, $v:ident, $u:ident, $coefficients:ident) $series:expr
-        }
+        batch_series [{
+            $Lists:ty;
+            ($p:ident, $t:ident, $q:ident, $v:ident, $u:ident, $lists:ident, $coefficients:ident)
+            $series:expr
+        }]
         $N:ident
     ) => {
+        type SeriesLists = $Lists;
+
         fn batch_series(
             $p: &Self::Batch,
             $t: [$crate::emitted::Lanes<$N>; 2],
             $q: &Self::Vectors,
             $v: &Self::Vectors,
             $u: &Self::BatchInputs,
+            $lists: &mut Self::SeriesLists,
             $coefficients: &mut [Self::Vectors],
         ) -> ::core::result::Result<(), $crate::emitted::Singular> {
             <$crate::emitted::Lanes<$N> as $crate::emitted::Number>::run($series)
@@ -610,7 +621,7 @@ macro_rules! implement_lanes {
                 }
             }
 
-            $($crate::implement_part! { batch_series $series $N })?
+            $crate::implement_part! { batch_series [$($series)?] $N }
         }
     };
 }

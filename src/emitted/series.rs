@@ -1,6 +1,6 @@
 //! What emitted Taylor series call.
 
-pub use lagrangian_scalar::series::{Vanished, apply, factor, solve, sweep};
+pub use lagrangian_scalar::series::{Vanished, apply, factor, keep, solve, sweep};
 
 use crate::system::SERIES_ROWS;
 use crate::{Scalar, Singular};
@@ -18,10 +18,16 @@ pub const fn cost(coordinates: usize) -> [f64; 2] {
     [0.67 * fine, fine]
 }
 
-/// Numbers that begin where a line of the processor's cache does: a wide register of them is read in one piece.
-#[derive(Clone, Copy)]
+/// Coefficients of `P` lists side by side, order by order. They begin where a line of the processor's cache does: a wide register of them is
+/// read in one piece.
 #[repr(align(64))]
-pub struct Aligned<T>(pub T);
+pub struct Pack<S, const P: usize>(pub [[S; P]; ROWS]);
+
+impl<S: Copy + Default, const P: usize> Default for Pack<S, P> {
+    fn default() -> Self {
+        Pack([[S::default(); P]; ROWS])
+    }
+}
 
 /// The error of a pivot that vanished among these unknowns, of a machine with so many coordinates.
 #[cold]

@@ -144,7 +144,8 @@ impl<const W: usize> Ensemble<W> {
     ) {
         #[cfg(feature = "std")]
         if self.method.kind == Kind::Series {
-            return self.run_by::<S, InSeries<S::Vectors, W>>(trajectories, arrived);
+            return self
+                .run_by::<S, InSeries<S::Vectors, S::SeriesLists, W>>(trajectories, arrived);
         }
         self.run_by::<S, Track<Lanes<W>, S::Vectors>>(trajectories, arrived);
     }
@@ -417,7 +418,7 @@ impl<S: Batched<W>, const W: usize> Steps<S, W> for Track<Lanes<W>, S::Vectors> 
 }
 
 #[cfg(feature = "std")]
-impl<S: Batched<W>, const W: usize> Steps<S, W> for InSeries<S::Vectors, W> {
+impl<S: Batched<W>, const W: usize> Steps<S, W> for InSeries<S::Vectors, S::SeriesLists, W> {
     fn resting(ensemble: &Ensemble<W>, first: &Track<f64, S::Vector>) -> Self {
         let t = Lanes::splat(first.t());
         let now = Point::new(t, spread(first.q()), spread(first.v()));

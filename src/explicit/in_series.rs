@@ -3,6 +3,7 @@
 //! All lanes are expanded together at the ends of the steps that they try. A lane keeps the coefficients of the beginning of its
 //! step until a try is good. One that a trajectory was just put into has none yet: its first try is a step of no length.
 
+use std::boxed::Box;
 use std::vec::Vec;
 
 use lagrangian_native::Lanes;
@@ -30,8 +31,8 @@ struct Lane {
     control: Control,
 }
 
-/// Trajectories side by side.
-pub(super) struct InSeries<V, const W: usize> {
+/// Trajectories side by side. `L` is what the machine works with while it expands them, and is cleared once.
+pub(super) struct InSeries<V, L, const W: usize> {
     tolerance: Tolerance<V>,
     longest: f64,
     end: Lanes<W>,
@@ -39,10 +40,11 @@ pub(super) struct InSeries<V, const W: usize> {
     ahead: Point<V, Lanes<W>>,
     /// The coefficients of the motion through now, and through where the steps that are tried end.
     coefficients: [Vec<V>; 2],
+    lists: Box<L>,
     lanes: [Lane; W],
 }
 
-impl<V: LaneVector<W>, const W: usize> InSeries<V, W> {
+impl<V: LaneVector<W>, L: Default, const W: usize> InSeries<V, L, W> {
     /// Trajectories that stand still. `tolerance` is relative, and absolute in every coordinate.
     pub fn resting(tolerance: f64, longest: f64, now: Point<V, Lanes<W>>) -> Self {
         let relative = tolerance.max(10.0 * f64::EPSILON);
@@ -56,6 +58,7 @@ impl<V: LaneVector<W>, const W: usize> InSeries<V, W> {
             ahead: now.clone(),
             now,
             coefficients: [(); 2].map(|()| std::vec![V::ZEROS; rows]),
+            lists: Box::default(),
             lanes: [Lane {
                 is_running: false,
                 is_expanded: false,
@@ -105,7 +108,7 @@ impl<V: LaneVector<W>, const W: usize> InSeries<V, W> {
     }
 
     /// One try of every trajectory that is not at its end.
-    pub fn attempt<S: Batched<W, Vectors = V>>(
+    pub fn attempt<S: Batched<W, Vectors = V, SeriesLists = L>>(
         &mut self,
         batch: &Batch<S, W>,
         inputs: &S::BatchInputs,
@@ -211,7 +214,7 @@ impl<V: LaneVector<W>, const W: usize> InSeries<V, W> {
     }
 
     /// Expands the motions through `ahead`, of those that have not `failed` yet.
-    fn expand<S: Batched<W, Vectors = V>>(
+    fn expand<S: Batched<W, Vectors = V, SeriesLists = L>>(
         &mut self,
         batch: &Batch<S, W>,
         inputs: &S::BatchInputs,
@@ -223,7 +226,8 @@ impl<V: LaneVector<W>, const W: usize> InSeries<V, W> {
         }
         let at = &self.ahead;
         let t = [at.t, at.t_low];
-        let found = batch.series(t, &at.q, &at.v, inputs, &mut self.coefficients[1]);
+        let [_, coefficients] = &mut self.coefficients;
+        let found = batch.series(t, &at.q, &at.v, inputs, &mut self.lists, coefficients);
         if let Err(some) = found {
             for (lane, failed) in failed.iter_mut().enumerate() {
                 let t = self.ahead.t[lane];

@@ -103,6 +103,7 @@ fn each_trajectory_is_what_it_is_alone() {
     assert_same::<_, 2>(&pendulums, Method::TAYLOR, 1e-10);
     assert_same::<_, 4>(&pendulums, Method::TAYLOR, 1e-4);
     assert_same::<_, 8>(&pendulums, Method::TAYLOR, 1e-14);
+    assert_same::<_, 8>(&pendulums, Method::TAYLOR, 1e-7);
     assert_same::<_, 8>(&pendulums[..3], Method::TAYLOR, 1e-10);
     // Fewer than there are lanes, and none.
     assert_same::<_, 8>(&pendulums[..3], Method::DOP853, 1e-10);
@@ -145,7 +146,11 @@ fn each_has_its_own_inputs_and_its_own_drive() {
             trajectory
         })
         .collect();
-    assert_same::<_, 4>(&driven, Method::TAYLOR, 1e-9);
+    for tolerance in [1e-4, 1e-9, 1e-13] {
+        assert_same::<_, 2>(&driven, Method::TAYLOR, tolerance);
+        assert_same::<_, 4>(&driven, Method::TAYLOR, tolerance);
+        assert_same::<_, 8>(&driven, Method::TAYLOR, tolerance);
+    }
 }
 
 /// By series: one without mass, one that starts at what is no number, one whose numbers overflow, and one that never gets there.

@@ -3,7 +3,9 @@
 
 use crate::support::library;
 use lagrangian::interpreted::InterpretedMachine;
-use lagrangian::{Machine, Simulation, State, System, TAYLOR, Vector};
+use lagrangian::{
+    Batch, Batched, LaneVector, Lanes, Machine, Simulation, State, System, TAYLOR, Vector,
+};
 use lagrangian_machines::{Crusher9, DoublePendulum, SimplePendulum};
 use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::Report;
@@ -31,6 +33,13 @@ lagrangian::machine! {
 }
 lagrangian::machine! {
     machine ClosedPendulum extends "../../machines/closed_pendulum.machine" { methods { taylor } }
+}
+
+lagrangian::machine! {
+    machine ElasticPendulum extends "../../machines/elastic_pendulum.machine" { methods { taylor } }
+}
+lagrangian::machine! {
+    machine Chain extends "../../machines/chain.machine" { methods { taylor } }
 }
 
 /// Numbers between −1 and 1.
@@ -107,6 +116,83 @@ fn coefficients_of_closed_loops_are_those_of_the_interpreter() {
     };
     agrees::<FourBar>(&asking("FourBar", "four_bar"));
     agrees::<ClosedPendulum>(&asking("ClosedPendulum", "closed_pendulum"));
+}
+
+/// Products of what depends on rates, which lie in packs of their own; and more products than a pack holds.
+#[test]
+fn coefficients_in_several_packs_are_those_of_the_interpreter() {
+    let asking = |name: &str, spec: &str| {
+        format!("machine {name} extends \"{spec}.machine\" {{ methods {{ taylor }} }}")
+    };
+    agrees::<ElasticPendulum>(&asking("ElasticPendulum", "elastic_pendulum"));
+    agrees::<Chain>(&asking("Chain", "chain"));
+}
+
+/// The coefficients of several states at once are those of each alone, in every bit, whatever was computed before in the same lists.
+fn agrees_in_lanes<M: Machine + Default, const W: usize>()
+where
+    M::System: Batched<W>,
+{
+    let system = M::default().prepare();
+    let n = system.coordinates().len();
+    let batch = Batch::<_, W>::of(&system);
+    let (inputs, own_inputs) = (batch.default_inputs(&system), system.default_inputs());
+    let mut lists = <M::System as Batched<W>>::SeriesLists::default();
+    let seed = u64::from(std::process::id()) | 1;
+    println!("seed {seed}");
+    let mut numbers = Numbers(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
+    let mut good = 0;
+    for rows in [24, 3, 4, 5, 14, 22].repeat(4) {
+        let t = [10.0, 1e-15].map(|scale| Lanes([0.0; W].map(|_| scale * numbers.next())));
+        let mut states = || {
+            std::array::from_fn::<_, W, _>(|_| {
+                let numbers: Vec<f64> = (0..n).map(|_| numbers.next()).collect();
+                vector::<<M::System as System>::Vector>(&numbers)
+            })
+        };
+        let [q, v] = [states(), states()];
+        let mut found = vec![<M::System as Batched<W>>::Vectors::ZEROS; rows];
+        let [all_q, all_v] = [&q, &v].map(|of| batch.vectors(of.each_ref()));
+        let result = batch.series(t, &all_q, &all_v, &inputs, &mut lists, &mut found);
+        let singular = result.map_or_else(|some| some.lanes, |()| [None; W]);
+        for lane in 0..W {
+            let mut alone = vec![<M::System as System>::Vector::zeros(n); rows];
+            let own_t = t.map(|t| t[lane]);
+            let one = system.series(own_t, &q[lane], &v[lane], &own_inputs, &mut alone);
+            assert_eq!(one.err(), singular[lane]);
+            if singular[lane].is_some() {
+                continue;
+            }
+            good += 1;
+            for (order, (found, alone)) in found.iter().zip(&alone).enumerate() {
+                let found = found.lane(lane);
+                let bits = |of: &[f64]| of.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+                assert!(
+                    bits(found.as_slice()) == bits(alone.as_slice()),
+                    "order {order} of {rows}, lane {lane} of {W}: {found:?} {alone:?}"
+                );
+            }
+        }
+    }
+    assert!(good > 20 * W, "{good}");
+}
+
+#[test]
+fn coefficients_in_lanes_are_those_of_one_state() {
+    fn all<M: Machine + Default>()
+    where
+        M::System: Batched<2> + Batched<4> + Batched<8>,
+    {
+        agrees_in_lanes::<M, 2>();
+        agrees_in_lanes::<M, 4>();
+        agrees_in_lanes::<M, 8>();
+    }
+    all::<DoublePendulum>();
+    all::<Crusher9>();
+    all::<FourBar>();
+    all::<ClosedPendulum>();
+    all::<ElasticPendulum>();
+    all::<Chain>();
 }
 
 #[test]

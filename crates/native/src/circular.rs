@@ -51,55 +51,7 @@ pub trait Sines: Vector {
         a: &[[Self::Stored; P]],
         b: &[[Self::Stored; P]],
     ) -> [Register<Self>; P] {
-        if !Self::SEVERAL || P <= STREAMS {
-            return crate::series::convolve_all(a, b);
-        }
-        let mut sums = [Register(Self::ZERO); P];
-        let mut start = 0;
-        while start + STREAMS <= P {
-            convolve_some::<Self, STREAMS, P>(a, b, start, &mut sums);
-            start += STREAMS;
-        }
-        while start < P {
-            convolve_some::<Self, 1, P>(a, b, start, &mut sums);
-            start += 1;
-        }
-        sums
-    }
-}
-
-/// How many pairs of lists are multiplied at once: two sums of each stay in registers, and are enough not to wait for each other.
-const STREAMS: usize = 4;
-
-/// [`Sines::convolve_all`] of `G` pairs of lists from `start` on.
-#[inline(always)]
-fn convolve_some<V: Sines, const G: usize, const P: usize>(
-    a: &[[V::Stored; P]],
-    b: &[[V::Stored; P]],
-    start: usize,
-    sums: &mut [Register<V>; P],
-) {
-    let count = a.len().min(b.len());
-    let half = count / 2;
-    let (a, b) = (&a[..count], &b[..count]);
-    let (mut down, mut up) = ([V::ZERO; G], [V::ZERO; G]);
-    if count % 2 == 1 {
-        for p in 0..G {
-            let factor = V::load(a[half][start + p]);
-            down[p] = factor.mul_add(V::load(b[half][start + p]), down[p]);
-        }
-    }
-    let below = a[..half].iter().zip(&b[..half]).rev();
-    let above = a[count - half..].iter().zip(&b[count - half..]);
-    for ((low_a, low_b), (high_a, high_b)) in below.zip(above) {
-        for p in 0..G {
-            let at = start + p;
-            down[p] = V::load(low_a[at]).mul_add(V::load(high_b[at]), down[p]);
-            up[p] = V::load(high_a[at]).mul_add(V::load(low_b[at]), up[p]);
-        }
-    }
-    for p in 0..G {
-        sums[start + p] = Register(down[p].add(up[p]));
+        crate::series::convolve_all(a, b)
     }
 }
 

@@ -86,6 +86,7 @@ impl<V: Sines> Scalar for Register<V> {
 
     const ZERO: Self = Register(V::ZERO);
     const ONE: Self = Register(V::ONE);
+    const PAIRS_AT_ONCE: usize = V::PAIRS_AT_ONCE;
 
     #[inline(always)]
     fn from_f64(x: f64) -> Self {

@@ -3,7 +3,7 @@
 
 use std::vec::Vec;
 
-use lagrangian_scalar::{DoubleDouble, Kernel, Scalar};
+use lagrangian_scalar::{DoubleDouble, Kernel, Scalar, series};
 
 use crate::vector::Register;
 use crate::x86::{self, Eight, Four, FourOfMany, Native, One, TwiceFour, Two};
@@ -150,6 +150,109 @@ fn sums_of_products_have_the_same_bits_in_every_register() {
     check::<20>(&mut random);
     check::<24>(&mut random);
     check::<29>(&mut random);
+}
+
+/// The sums of products of `L` pairs of lists, with more and more numbers, of which a number is given for each pair.
+struct Swept<'a, T, const P: usize, const L: usize> {
+    numbers: [&'a [[T; P]]; 2],
+    places: [&'a [usize; L]; 2],
+}
+
+impl<T: Copy, const P: usize, const L: usize> Kernel<T> for Swept<'_, T, P, L> {
+    type Output = Vec<[T; L]>;
+
+    #[inline(always)]
+    fn run<N: Scalar<Stored = T>>(self) -> Vec<[T; L]> {
+        let ([of_a, of_b], [first, second]) = (self.places, self.numbers);
+        // What was not kept must not be read.
+        let nothing = N::from_f64(f64::NAN).store();
+        let mut a = vec![[nothing; P]; first.len()];
+        let mut b = a.clone();
+        let mut all = Vec::new();
+        for order in 2..first.len() {
+            series::keep::<N, P, L>(&mut a, order, first[order], of_a);
+            series::keep::<N, P, L>(&mut b, order, second[order], of_b);
+            let mut stored = [nothing; L];
+            let sums = series::sweep::<N, P, L>([&a, &b], order, [of_a, of_b]);
+            for (to, sum) in stored.iter_mut().zip(sums) {
+                *to = sum.store();
+            }
+            all.push(stored);
+        }
+        all
+    }
+}
+
+/// Lists that are in several pairs, kept once in registers of several states, and as often where one state is computed.
+#[test]
+fn sums_of_products_have_the_same_bits_in_lanes() {
+    fn check<const W: usize, V: Native<Stored = Lanes<W>>, const P: usize, const L: usize>(
+        random: &mut Random,
+    ) {
+        let mut places = || -> [usize; L] {
+            let mut count = 0;
+            core::array::from_fn(|_| {
+                let place = (random.uniform() * (count + 1) as f64) as usize;
+                count = count.max(place + 1);
+                place
+            })
+        };
+        let places = [places(), places()];
+        let rows = places.map(|places| -> Vec<[Lanes<W>; P]> {
+            let mut row = || {
+                let mut lists = [Lanes([0.0; W]); P];
+                for list in &mut lists {
+                    *list = Lanes(core::array::from_fn(|_| random.uniform() - 0.5));
+                }
+                let number = |p: usize| places.get(p).map_or(Lanes([0.0; W]), |at| lists[*at]);
+                core::array::from_fn(number)
+            };
+            (0..24).map(|_| row()).collect()
+        });
+        let [a, b] = &rows;
+        let of = [&places[0], &places[1]];
+        let swept = || Swept {
+            numbers: [&a[..], &b[..]],
+            places: of,
+        };
+        let by_array = swept().run::<Register<[f64; W]>>();
+        let by_register = x86::run::<V, _>(swept()).ok();
+        for lane in 0..W {
+            let alone = rows.each_ref().map(|rows| -> Vec<[f64; P]> {
+                rows.iter()
+                    .map(|row| row.map(|lanes| lanes[lane]))
+                    .collect()
+            });
+            let one = <f64 as Number>::run(Swept {
+                numbers: [&alone[0][..], &alone[1][..]],
+                places: of,
+            });
+            for found in [Some(&by_array), by_register.as_ref()]
+                .into_iter()
+                .flatten()
+            {
+                let found: Vec<[f64; L]> = found
+                    .iter()
+                    .map(|row| row.map(|lanes| lanes[lane]))
+                    .collect();
+                assert_eq!(found, one, "{L} of {P} in lane {lane} of {W}");
+            }
+        }
+    }
+    fn check_all<const W: usize, V: Native<Stored = Lanes<W>>>(random: &mut Random) {
+        check::<W, V, 2, 1>(random);
+        check::<W, V, 4, 3>(random);
+        check::<W, V, 8, 8>(random);
+        check::<W, V, 12, 10>(random);
+        check::<W, V, 20, 20>(random);
+        check::<W, V, 24, 24>(random);
+    }
+    let mut random = Random(0x5eed_0008);
+    check_all::<2, Two>(&mut random);
+    check_all::<4, Four>(&mut random);
+    check_all::<4, FourOfMany>(&mut random);
+    check_all::<8, TwiceFour>(&mut random);
+    check_all::<8, Eight>(&mut random);
 }
 
 fn in_lanes<const N: usize>(angles: &[f64]) -> Vec<Lanes<N>> {

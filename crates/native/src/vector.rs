@@ -24,8 +24,8 @@ pub trait Vector: Copy {
     const ZERO: Self;
     /// Ones.
     const ONE: Self;
-    /// Whether there are more numbers than one.
-    const SEVERAL: bool;
+    /// [`Scalar::PAIRS_AT_ONCE`], by how many registers there are: two sums of each pair, and their factors.
+    const PAIRS_AT_ONCE: usize;
 
     /// The numbers from memory.
     fn load(stored: Self::Stored) -> Self;
@@ -151,7 +151,7 @@ impl Vector for f64 {
 
     const ZERO: Self = 0.0;
     const ONE: Self = 1.0;
-    const SEVERAL: bool = false;
+    const PAIRS_AT_ONCE: usize = 0;
 
     #[inline(always)]
     fn load(stored: f64) -> Self {
@@ -258,7 +258,7 @@ impl<const N: usize> Vector for [f64; N] {
 
     const ZERO: Self = [0.0; N];
     const ONE: Self = [1.0; N];
-    const SEVERAL: bool = true;
+    const PAIRS_AT_ONCE: usize = 4;
 
     #[inline(always)]
     fn load(stored: Lanes<N>) -> Self {

@@ -79,7 +79,7 @@ fn has_avx512() -> bool {
 macro_rules! register {
     (
         $(#[$doc:meta])*
-        $name:ident: $raw:ty, $lanes:literal lanes, mask $mask:ty, $here:ident, $with:ident;
+        $name:ident: $raw:ty, $lanes:literal lanes, mask $mask:ty, $here:ident, $with:ident, pairs $pairs:literal;
         $load:ident $store:ident $splat:ident $first:ident
         $add:ident $sub:ident $mul:ident $div:ident $sqrt:ident
         $mul_add:ident $mul_sub:ident $neg_mul_add:ident $and:ident $xor:ident;
@@ -110,7 +110,7 @@ macro_rules! register {
 
             const ZERO: Self = $name::constant(0.0);
             const ONE: Self = $name::constant(1.0);
-            const SEVERAL: bool = true;
+            const PAIRS_AT_ONCE: usize = $pairs;
 
             register!(@ load(stored: Lanes<$lanes>) -> Self { $name($load(stored.0.as_ptr())) });
             register!(@ splat(x: f64) -> Self { $name($splat(x)) });
@@ -196,7 +196,7 @@ macro_rules! register {
 
 register! {
     /// Two numbers.
-    Two: __m128d, 2 lanes, mask __m128d, has_avx2, with_avx2;
+    Two: __m128d, 2 lanes, mask __m128d, has_avx2, with_avx2, pairs 4;
     _mm_loadu_pd _mm_storeu_pd _mm_set1_pd _mm_cvtsd_f64
     _mm_add_pd _mm_sub_pd _mm_mul_pd _mm_div_pd _mm_sqrt_pd
     _mm_fmadd_pd _mm_fmsub_pd _mm_fnmadd_pd _mm_and_pd _mm_xor_pd;
@@ -212,7 +212,7 @@ register! {
 
 register! {
     /// Four numbers.
-    Four: __m256d, 4 lanes, mask __m256d, has_avx2, with_avx2;
+    Four: __m256d, 4 lanes, mask __m256d, has_avx2, with_avx2, pairs 4;
     _mm256_loadu_pd _mm256_storeu_pd _mm256_set1_pd _mm256_cvtsd_f64
     _mm256_add_pd _mm256_sub_pd _mm256_mul_pd _mm256_div_pd _mm256_sqrt_pd
     _mm256_fmadd_pd _mm256_fmsub_pd _mm256_fnmadd_pd _mm256_and_pd _mm256_xor_pd;
@@ -229,7 +229,7 @@ register! {
 register! {
     /// Four numbers where there are 32 registers and not 16: of AVX-512. The arithmetic is the same, and
     /// less of it goes to memory and back.
-    FourOfMany: __m256d, 4 lanes, mask __m256d, has_avx512, with_avx512;
+    FourOfMany: __m256d, 4 lanes, mask __m256d, has_avx512, with_avx512, pairs 8;
     _mm256_loadu_pd _mm256_storeu_pd _mm256_set1_pd _mm256_cvtsd_f64
     _mm256_add_pd _mm256_sub_pd _mm256_mul_pd _mm256_div_pd _mm256_sqrt_pd
     _mm256_fmadd_pd _mm256_fmsub_pd _mm256_fnmadd_pd _mm256_and_pd _mm256_xor_pd;
@@ -245,7 +245,7 @@ register! {
 
 register! {
     /// Eight numbers, of AVX-512.
-    Eight: __m512d, 8 lanes, mask __mmask8, has_avx512, with_avx512;
+    Eight: __m512d, 8 lanes, mask __mmask8, has_avx512, with_avx512, pairs 8;
     _mm512_loadu_pd _mm512_storeu_pd _mm512_set1_pd _mm512_cvtsd_f64
     _mm512_add_pd _mm512_sub_pd _mm512_mul_pd _mm512_div_pd _mm512_sqrt_pd
     _mm512_fmadd_pd _mm512_fmsub_pd _mm512_fnmadd_pd _mm512_and_pd _mm512_xor_pd;
@@ -284,7 +284,7 @@ impl Vector for TwiceFour {
 
     const ZERO: Self = TwiceFour(Four::ZERO, Four::ZERO);
     const ONE: Self = TwiceFour(Four::ONE, Four::ONE);
-    const SEVERAL: bool = true;
+    const PAIRS_AT_ONCE: usize = 4;
 
     both!(
         add(b),
@@ -429,7 +429,7 @@ impl Vector for One {
 
     const ZERO: Self = One(0.0);
     const ONE: Self = One(1.0);
-    const SEVERAL: bool = false;
+    const PAIRS_AT_ONCE: usize = 0;
 
     plain!(
         add(b),

@@ -61,6 +61,9 @@ pub trait Scalar:
     const ZERO: Self;
     /// 1.
     const ONE: Self;
+    /// How many pairs of lists are multiplied at once ([`series::sweep`]) where a list that is in several pairs is kept and read once: so
+    /// many that their sums stay in registers. 0 for numbers that are kept once for each pair, side by side, as a register of several reads them.
+    const PAIRS_AT_ONCE: usize = 0;
 
     /// The number nearest to `x`; exact in every type that holds all of `f64`.
     fn from_f64(x: f64) -> Self;

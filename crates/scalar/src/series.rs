@@ -9,19 +9,57 @@ use crate::Scalar;
 /// for less at each order.
 const MOST_INVERTED: usize = 24;
 
-/// Pairs of streams of coefficients that are multiplied together.
+/// `L` pairs of lists of coefficients that are multiplied together.
 ///
 /// `Σ aⱼ b₍k+2−j₎` over `2 ≤ j ≤ k`. What has just been computed is not among these terms but added behind them, so that the sum runs
 /// while the last order is still being solved for.
+///
+/// A row of `a` and of `b` holds what [`keep`] wrote of an order: a number for each pair or, with [`PAIRS_AT_ONCE`](Scalar::PAIRS_AT_ONCE), one for
+/// each list, in the place that is given for the pair. Sums behind those of the pairs have no meaning.
 #[inline(always)]
-pub fn sweep<N: Scalar, const P: usize>(
-    a: &[[N::Stored; P]],
-    b: &[[N::Stored; P]],
+pub fn sweep<N: Scalar, const P: usize, const L: usize>(
+    [a, b]: [&[[N::Stored; P]]; 2],
     k: usize,
+    places: [&[usize; L]; 2],
 ) -> [N; P] {
-    match (a.get(2..=k), b.get(2..=k)) {
-        (Some(a), Some(b)) => N::convolve_all(a, b),
-        _ => [N::ZERO; P],
+    const { assert!(L <= P && L <= 24, "a pack of lists") };
+    let (Some(a), Some(b)) = (a.get(2..=k), b.get(2..=k)) else {
+        return [N::ZERO; P];
+    };
+    let mut sums = [N::ZERO; P];
+    // Where a group begins is written down and not counted: so the compiler knows all places, and loads each list once.
+    macro_rules! groups {
+        ($size:literal: $($start:literal)*) => {{$(
+            if const { $start < L } {
+                convolve_some::<N, $size, P, L>([a, b], $start, places, &mut sums);
+            }
+        )*}};
+    }
+    match N::PAIRS_AT_ONCE {
+        0 => return N::convolve_all(a, b),
+        1..8 => groups!(4: 0 4 8 12 16 20),
+        _ => groups!(8: 0 8 16),
+    }
+    sums
+}
+
+/// Keeps the coefficients of an order for [`sweep`]: `numbers` has one for each of `L` pairs, and where its list stands is its place.
+#[inline(always)]
+pub fn keep<N: Scalar, const P: usize, const L: usize>(
+    rows: &mut [[N::Stored; P]],
+    order: usize,
+    numbers: [N::Stored; P],
+    places: &[usize; L],
+) {
+    let Some(row) = rows.get_mut(order) else {
+        return;
+    };
+    if N::PAIRS_AT_ONCE == 0 {
+        *row = numbers;
+        return;
+    }
+    for p in 0..L {
+        row[places[p]] = numbers[p];
     }
 }
 
@@ -55,6 +93,39 @@ pub fn convolve_all<N: Scalar, const P: usize>(
         down[p] = down[p] + up[p];
     }
     down
+}
+
+/// [`convolve_all`] of up to `G` pairs from `start` on, of lists that stand in these places: the same arithmetic.
+#[inline(always)]
+fn convolve_some<N: Scalar, const G: usize, const P: usize, const L: usize>(
+    [a, b]: [&[[N::Stored; P]]; 2],
+    start: usize,
+    [of_a, of_b]: [&[usize; L]; 2],
+    sums: &mut [N; P],
+) {
+    let count = a.len().min(b.len());
+    let half = count / 2;
+    let (a, b) = (&a[..count], &b[..count]);
+    let (mut down, mut up) = ([N::ZERO; G], [N::ZERO; G]);
+    let end = G.min(L - start);
+    if count % 2 == 1 {
+        for p in 0..end {
+            let [i, k] = [of_a[start + p], of_b[start + p]];
+            down[p] = N::load(a[half][i]).mul_add(N::load(b[half][k]), N::ZERO);
+        }
+    }
+    let below = a[..half].iter().zip(&b[..half]).rev();
+    let above = a[count - half..].iter().zip(&b[count - half..]);
+    for ((low_a, low_b), (high_a, high_b)) in below.zip(above) {
+        for p in 0..end {
+            let [i, k] = [of_a[start + p], of_b[start + p]];
+            down[p] = N::load(low_a[i]).mul_add(N::load(high_b[k]), down[p]);
+            up[p] = N::load(high_a[i]).mul_add(N::load(low_b[k]), up[p]);
+        }
+    }
+    for p in 0..end {
+        sums[start + p] = down[p] + up[p];
+    }
 }
 
 /// A pivot that is zero up to rounding.

@@ -101,9 +101,14 @@ impl Emitter<'_> {
         let rounds_prepared = slips.is_some_and(|function| self.needs(function).prepared);
         self.writer.line(format!("absent [{}]", absent.join(" ")));
         self.writer.line(flag("intervals", rounds_prepared, "yes"));
-        if let Some(call) = self.call_of_series().filter(|_| has_lanes) {
-            let before = "batch_series { (p, t, q, v, u, coefficients) ";
-            self.writer.expression(before, &call, " }");
+        if let Some(call) = self.call_of_series("lists").filter(|_| has_lanes) {
+            let runtime = &self.options.runtime;
+            let lists = self.lists_of_series(&format!("{runtime}::Lanes<{register}>"));
+            self.writer.open("batch_series {");
+            self.writer.line(format!("{lists};"));
+            let before = "(p, t, q, v, u, lists, coefficients) ";
+            self.writer.expression(before, &call, "");
+            self.writer.close("}");
         }
         self.writer.line(flag("lanes", has_lanes, &register));
         self.writer
@@ -240,7 +245,8 @@ impl Emitter<'_> {
     }
 
     fn rows_of_system(&mut self) {
-        if let Some(call) = self.call_of_series() {
+        let lists = format!("&mut {}::default()", self.types.known("Default"));
+        if let Some(call) = self.call_of_series(&lists) {
             let arguments = ["p", "t", "q", "v", "u", "coefficients"];
             self.row("series", "series", &arguments, Some(call));
             if !self.program.assumptions.is_empty() && self.program.has_linear_assumptions() {

@@ -8,12 +8,16 @@
 //!
 //! Arithmetic is that of the interpreter (`lagrangian-program`, `series/recurrence.rs`), in the same order, and so are its
 //! bits. Factors of products lie in packs, `a0` and `b0`, that one order fills after the other; so the sum over orders is a
-//! loop over packs, which a compiler turns into vector instructions, and code does not grow with the order.
+//! loop over packs, which a compiler turns into vector instructions, and code does not grow with the order. A list that is
+//! a factor of several products stands in a pack as often; several trajectories at once, whose numbers fill registers by
+//! themselves, keep and read it once, in the place that the constants `A0` and `B0` give. Whoever calls brings the packs, so that
+//! they need not be cleared for every step.
 
 mod arithmetic;
 mod code;
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::sync::Arc;
 
 use lagrangian_program::series::{
@@ -65,8 +69,7 @@ struct Written {
     code: Code,
     /// What the parameters decide, by rows.
     constants: Vec<RowId>,
-    /// Streams of positions and forces, and of everything else, in the order of their lanes.
-    lanes: [Vec<Convolution>; 2],
+    packs: Vec<Pack>,
     /// For each carried variable what it begins with, and what an order leaves in it.
     carried: BTreeMap<Carried, [X; 2]>,
     /// For each list of lanes what is kept of both factors: at the start, and of each order.
@@ -75,6 +78,69 @@ struct Written {
     motion: [Vec<X>; 2],
     /// The matrix by which accelerations change forces, column by column.
     applied: Option<Vec<Vec<X>>>,
+}
+
+/// The lists of up to [`WIDTH`] products side by side: of their first factors, and of their second.
+struct Pack {
+    /// Of positions and forces, or of everything else.
+    kind: usize,
+    number: usize,
+    /// Which of the products of its kind.
+    range: Range<usize>,
+    /// How many lists there is room for.
+    width: usize,
+    /// For each product which of the different lists of a side is its factor.
+    places: [Vec<usize>; 2],
+}
+
+impl Pack {
+    /// The packs of these products.
+    fn all(lanes: &[Vec<Convolution>; 2]) -> Vec<Pack> {
+        let mut packs = Vec::new();
+        for (kind, lanes) in lanes.iter().enumerate() {
+            for (number, products) in lanes.chunks(WIDTH).enumerate() {
+                let start = number * WIDTH;
+                packs.push(Pack {
+                    kind,
+                    number,
+                    range: start..start + products.len(),
+                    width: padded(products.len()),
+                    places: [0, 1].map(|side| places(products, side)),
+                });
+            }
+        }
+        packs
+    }
+
+    /// The names of both sides.
+    fn names(&self) -> [String; 2] {
+        let letters = [["a", "b"], ["c", "d"]][self.kind];
+        letters.map(|letter| format!("{letter}{}", self.number))
+    }
+
+    /// The name of the sums of its products.
+    fn sums(&self) -> String {
+        format!("{}{}", ["w", "s"][self.kind], self.number)
+    }
+
+    /// How many products there are, and room for how many: arguments of functions.
+    fn sizes(&self) -> String {
+        format!("{}, {}", self.width, self.range.len())
+    }
+}
+
+/// For each product which of the different factors of a side it has, in the order in which they come.
+fn places(products: &[Convolution], side: usize) -> Vec<usize> {
+    let mut known: Vec<Stream> = Vec::new();
+    let place = |product: &Convolution| {
+        let factor = product.factors[side];
+        let place = known.iter().position(|other| *other == factor);
+        place.unwrap_or_else(|| {
+            known.push(factor);
+            known.len() - 1
+        })
+    };
+    products.iter().map(place).collect()
 }
 
 impl Emitter<'_> {
@@ -118,12 +184,64 @@ impl Emitter<'_> {
         (count > 0).then_some(count)
     }
 
+    /// The packs of the series.
+    fn packs_of_series(&self, series: &Series) -> Vec<Pack> {
+        Pack::all(&Symbolic::new(series, &self.types.register, &self.inputs.paths).lanes)
+    }
+
+    /// The type of the packs of the series over such numbers: of nothing, where there are none.
+    pub(super) fn lists_of_series(&self, scalar: &str) -> String {
+        let packs = self.series().map(|series| self.packs_of_series(&series));
+        match packs.is_none_or(|packs| packs.is_empty()) {
+            true => "()".to_owned(),
+            false => format!("{}<{scalar}>", self.types.lists),
+        }
+    }
+
+    /// The struct of the packs.
+    fn struct_of_lists(&mut self, packs: &[Pack]) {
+        if packs.is_empty() {
+            return;
+        }
+        let runtime = self.options.runtime.clone();
+        let Types { scalar, lists, .. } = self.types.clone();
+        let [copy, default] = ["Copy", "Default"].map(|name| self.types.known(name));
+        self.writer.gap();
+        self.docs(
+            "The coefficients of which products are made, order by order, while the Taylor series is computed. What they hold \
+             before that does not matter.",
+        );
+        self.writer.open(format!("pub struct {lists}<{scalar}> {{"));
+        for pack in packs {
+            for name in pack.names() {
+                let width = pack.width;
+                self.writer.line(format!(
+                    "{name}: {runtime}::series::Pack<{scalar}, {width}>,"
+                ));
+            }
+        }
+        self.writer.close("}");
+        self.writer.gap();
+        self.writer.open(format!(
+            "impl<{scalar}: {copy} + {default}> {default} for {lists}<{scalar}> {{"
+        ));
+        self.writer.signature("fn default", &[], Some("Self"));
+        let names = packs.iter().flat_map(Pack::names);
+        let zeros = Layout::Atom(format!("{default}::default()"));
+        let fields = names.map(|name| (name, zeros.clone()));
+        let value = Layout::Struct("Self".into(), fields.collect());
+        self.writer.expression("", &value, "");
+        self.writer.close("}");
+        self.writer.close("}");
+    }
+
     /// The kernel.
     pub(super) fn series_kernel(&mut self) {
         let Some(series) = self.series() else {
             return;
         };
         let written = self.written(&series);
+        self.struct_of_lists(&written.packs);
         let runtime = self.options.runtime.clone();
         let Types {
             scalar, register, ..
@@ -173,6 +291,7 @@ impl Emitter<'_> {
             prepared,
             scalar,
             inputs,
+            lists,
             ..
         } = &self.types;
         let vector = self.array(self.program.dimension());
@@ -191,6 +310,11 @@ impl Emitter<'_> {
                 "u",
                 format!("&{inputs}<{scalar}>"),
             ),
+            (
+                !self.packs_of_series(series).is_empty(),
+                "lists",
+                format!("&mut {lists}<{scalar}>"),
+            ),
             (true, "coefficients", format!("&mut [{vector}]")),
         ];
         let used = all.into_iter().filter(|(is_used, ..)| *is_used);
@@ -198,11 +322,15 @@ impl Emitter<'_> {
             .collect()
     }
 
-    /// The call of the series as a value, if it is asked for.
-    pub(super) fn call_of_series(&self) -> Option<Layout> {
+    /// The call of the series as a value, if it is asked for, with these lists.
+    pub(super) fn call_of_series(&self, lists: &str) -> Option<Layout> {
         let series = self.series()?;
         let names = self.fields_of_series(&series).into_iter();
-        let fields = names.map(|(name, _)| (name.clone(), Layout::Atom(name)));
+        let fields = names.map(|(name, _)| {
+            let value = if name == "lists" { lists } else { &name };
+            let value = Layout::Atom(value.to_owned());
+            (name, value)
+        });
         Some(Layout::Struct(self.types.series.clone(), fields.collect()))
     }
 
@@ -210,7 +338,7 @@ impl Emitter<'_> {
         let runtime = self.options.runtime.clone();
         let register = self.types.register.clone();
         let n = self.program.dimension();
-        let code = &written.code;
+        let Written { code, packs, .. } = written;
         code.write(&mut self.writer, Part::Start, &runtime, n);
         if let Some(columns) = &written.applied {
             let columns = columns.iter().map(|column| code.kept(column, 0));
@@ -224,30 +352,20 @@ impl Emitter<'_> {
             .open("for (row, x) in coefficients.iter_mut().zip([*q, *v, second]) {");
         self.writer.line("*row = x;");
         self.writer.close("}");
-        let mut packs = Vec::new();
-        for (kind, names) in [["a", "b"], ["c", "d"]].into_iter().enumerate() {
-            for (pack, lanes) in written.lanes[kind].chunks(WIDTH).enumerate() {
-                let names = names.map(|name| format!("{name}{pack}"));
-                let from = pack * WIDTH;
-                packs.push((kind, names, from..from + lanes.len(), padded(lanes.len())));
+        let usize = self.types.known("usize");
+        for pack in packs {
+            for (name, places) in pack.names().iter().zip(&pack.places) {
+                let places = Layout::array(places.iter().map(usize::to_string));
+                let (name, count) = (name.to_uppercase(), pack.range.len());
+                self.writer.expression(
+                    &format!("const {name}: [{usize}; {count}] = "),
+                    &places,
+                    ";",
+                );
             }
         }
-        for (kind, names, range, width) in &packs {
-            for (side, name) in names.iter().enumerate() {
-                self.writer.line(format!(
-                    "let zeros = [[{register}::ZERO.store(); {width}]; {runtime}::series::ROWS];"
-                ));
-                self.writer.line(format!(
-                    "let mut {name} = {runtime}::series::Aligned(zeros);"
-                ));
-                if *kind == 0 {
-                    let first = written.kept[*kind][side][range.clone()].iter();
-                    let first: Vec<X> = first.map(|[first, _]| *first).collect();
-                    let first = code.kept(&first, *width);
-                    self.writer
-                        .expression(&format!("{name}.0[2] = "), &first, ";");
-                }
-            }
+        for pack in packs.iter().filter(|pack| pack.kind == 0) {
+            self.keep(written, pack, "2", |[first, _]| first);
         }
         for (carried, [first, _]) in &written.carried {
             let (name, first) = (carried.name(), code.text(*first));
@@ -257,40 +375,59 @@ impl Emitter<'_> {
             "let count = coefficients.len().min({runtime}::series::ROWS);"
         ));
         self.writer.open("for order in 3..count {");
-        for (kind, [a, b], range, width) in &packs {
-            let name = format!("{}{}", ["w", "s"][*kind], range.start / WIDTH);
+        for pack in packs {
+            let [a, b] = pack.names();
+            let [of_a, of_b] = [&a, &b].map(|name| name.to_uppercase());
             let call = Layout::List(
-                format!("{runtime}::series::sweep::<{register}, {width}>("),
-                [format!("&{a}.0"), format!("&{b}.0"), "order - 2".to_owned()]
-                    .map(Layout::Atom)
-                    .to_vec(),
+                format!("{runtime}::series::sweep::<{register}, {}>(", pack.sizes()),
+                [
+                    format!("[&lists.{a}.0, &lists.{b}.0]"),
+                    "order - 2".to_owned(),
+                    format!("[&{of_a}, &{of_b}]"),
+                ]
+                .map(Layout::Atom)
+                .to_vec(),
                 ")",
             );
+            let sums = pack.sums();
             self.writer
-                .expression(&format!("let {name} = "), &call, ";");
+                .expression(&format!("let {sums} = "), &call, ";");
         }
         code.write(&mut self.writer, Part::Order, &runtime, n);
         self.writer
             .open("if let Some(row) = coefficients.get_mut(order) {");
         self.writer.expression("*row = ", &code.kept(later, 0), ";");
         self.writer.close("}");
-        for (kind, names, range, width) in &packs {
-            let at = ["order", "order - 1"][*kind];
-            for (side, name) in names.iter().enumerate() {
-                let kept = written.kept[*kind][side][range.clone()].iter();
-                let kept: Vec<X> = kept.map(|[_, kept]| *kept).collect();
-                self.writer
-                    .open(format!("if let Some(kept) = {name}.0.get_mut({at}) {{"));
-                let kept = code.kept(&kept, *width);
-                self.writer.expression("*kept = ", &kept, ";");
-                self.writer.close("}");
-            }
+        for pack in packs {
+            let at = ["order", "order - 1"][pack.kind];
+            self.keep(written, pack, at, |[_, kept]| kept);
         }
         for (carried, [_, last]) in &written.carried {
             let (name, last) = (carried.name(), code.text(*last));
             self.writer.line(format!("{name} = {last};"));
         }
         self.writer.close("}");
+    }
+
+    /// Writes what is kept of an order in both sides of a pack, of what is kept at the start and of each order.
+    fn keep(&mut self, written: &Written, pack: &Pack, at: &str, which: fn([X; 2]) -> X) {
+        let register = &self.types.register;
+        let runtime = &self.options.runtime;
+        for (side, name) in pack.names().iter().enumerate() {
+            let kept = written.kept[pack.kind][side][pack.range.clone()].iter();
+            let kept: Vec<X> = kept.copied().map(which).collect();
+            let call = Layout::List(
+                format!("{runtime}::series::keep::<{register}, {}>(", pack.sizes()),
+                vec![
+                    Layout::Atom(format!("&mut lists.{name}.0")),
+                    Layout::Atom(at.to_owned()),
+                    written.code.kept(&kept, pack.width),
+                    Layout::Atom(format!("&{}", name.to_uppercase())),
+                ],
+                ")",
+            );
+            self.writer.expression("", &call, ";");
+        }
     }
 }
 
@@ -410,7 +547,7 @@ fn written(series: &Series, number: &str, inputs: &[String]) -> Written {
     Written {
         code,
         constants,
-        lanes,
+        packs: Pack::all(&lanes),
         carried: variables,
         kept,
         motion,

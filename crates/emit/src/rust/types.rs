@@ -20,8 +20,9 @@ pub(super) struct Types {
     pub(super) derivatives: String,
     /// For each function that is called often, a call of it, and what its pieces are.
     pub(super) calls: BTreeMap<Role, [String; 2]>,
-    /// A call of the Taylor series.
+    /// A call of the Taylor series, and what it keeps from order to order.
     pub(super) series: String,
+    pub(super) lists: String,
     /// What a stage of the accelerations leaves to the next one.
     pub(super) at_time: String,
     pub(super) at_position: String,
@@ -46,6 +47,7 @@ impl Types {
             prepared: scope.take("Prepared"),
             derivatives: scope.take("Derivatives"),
             series: scope.take("Series"),
+            lists: scope.take("Lists"),
             at_time: scope.take("AtTime"),
             at_position: scope.take("AtPosition"),
             calls: calls(&mut scope),
