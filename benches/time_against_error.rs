@@ -34,6 +34,12 @@ mod in_series {
         machine ChainOf8 extends "../machines/chain.machine" { methods { taylor } }
     }
     lagrangian::machine! {
+        machine ChainOf16 extends "../machines/chain.machine" { constants { N = 16 } methods { taylor } }
+    }
+    lagrangian::machine! {
+        machine SixJointArm extends "../machines/six_joint_arm.machine" { methods { taylor } }
+    }
+    lagrangian::machine! {
         machine FourBar extends "../machines/four_bar.machine" { methods { taylor } }
     }
     lagrangian::machine! {
@@ -88,8 +94,16 @@ impl Call {
         let known = KnownRun::named(name);
         for method in Method::all().filter(|method| self.asks_for(method.tableau.name)) {
             for setting in settings(method, known.until) {
-                let point = self.alone(&known, machine, method, setting);
+                let point = self.alone(&known, machine, Some(method), setting);
                 if !print(name, method.tableau.name, setting, point) {
+                    break;
+                }
+            }
+        }
+        if self.asks_for("auto") {
+            for setting in settings(Method::DOP853, known.until) {
+                let point = self.alone(&known, machine, None, setting);
+                if !print(name, "auto", setting, point) {
                     break;
                 }
             }
@@ -109,22 +123,25 @@ impl Call {
         }
     }
 
-    /// Seconds of the quickest of several runs, evaluations, and the error.
+    /// Seconds of the quickest of several runs, evaluations, and the error; of the method that a simulation chooses where none is given.
     fn alone<M: Machine>(
         &self,
         known: &KnownRun,
         machine: &M,
-        method: &'static Method,
+        method: Option<&'static Method>,
         setting: f64,
     ) -> Option<Point> {
         let system = machine.prepare();
         let start = start(known, &system);
         let mut best = Point::default();
         for _ in 0..self.repeats {
-            let simulation = Simulation::new(machine).method(method);
-            let simulation = match method.has_fixed_steps() {
-                true => simulation.longest_step(setting),
-                false => simulation.tolerance(setting),
+            let simulation = Simulation::new(machine);
+            let simulation = match method {
+                Some(method) if method.has_fixed_steps() => {
+                    simulation.method(method).longest_step(setting)
+                }
+                Some(method) => simulation.method(method).tolerance(setting),
+                None => simulation.automatic().tolerance(setting),
             };
             let simulation = simulation.max_steps(MOST_STEPS).forget_steps();
             let run = simulation.until(known.until).run(start.clone()).ok()?;
@@ -248,6 +265,12 @@ fn main() {
     call.race("double_pendulum_chaotic", &pendulum);
     let crusher = Crusher9::default();
     call.race("crusher", &crusher);
+    let stiff = Crusher9 {
+        cx: 2e9,
+        cy: 1.6e9,
+        ..crusher
+    };
+    call.race("stiff_crusher", &stiff);
     call.race("kepler", &TwoBodyOrbit::default());
     call.race("heavy_top", &in_series::HeavyTop::default());
     call.race(
@@ -259,6 +282,8 @@ fn main() {
     let stiff = in_series::ElasticPendulum { k: 4e6, ..elastic };
     call.race("stiff_spring_pendulum", &stiff);
     call.race("chain_8", &in_series::ChainOf8::default());
+    call.race("chain_16", &in_series::ChainOf16::default());
+    call.race("six_joint_arm", &in_series::SixJointArm::default());
     call.race("four_bar", &in_series::FourBar::default());
     call.race("closed_pendulum", &in_series::ClosedPendulum::default());
     call.race("andrews_squeezer", &AndrewsSqueezer::default());

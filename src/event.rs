@@ -33,7 +33,10 @@ pub(crate) const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
 /// What turns by more than this in a step, in rad, may have come back to where it was between two looks: functions of its angle are then
 /// interpolated as closely as it takes.
-pub(crate) const FARTHEST_TURN: f64 = core::f64::consts::PI;
+const FARTHEST_TURN: f64 = core::f64::consts::PI;
+
+/// With a greater tolerance a step may be so long that five values do not tell what a motion does in it.
+const LOOSEST: f64 = 1e-3;
 
 /// What is zero for no longer than this part of a step, and has the same sign before and after, has touched zero.
 const TOUCH: f64 = 1e-6;
@@ -331,7 +334,7 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
     let mut found = Vec::new();
     let roundoff = theta_roundoff(stepper);
     let is_series = stepper.coefficients().is_some();
-    let turns = !watches.is_empty() && turn(system, stepper, |_| true) > FARTHEST_TURN;
+    let is_long = !watches.is_empty() && is_long(system, stepper);
     let mut glanced = None;
     for (index, watch) in watches.iter_mut().enumerate() {
         if !watch.begun {
@@ -360,7 +363,7 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
                 };
             }
             watch.latest = Some(values[4]);
-            let of_step = match turns {
+            let of_step = match is_long {
                 true => Some(Places::All),
                 false => watch.places(&values),
             };
@@ -494,6 +497,14 @@ pub(crate) fn interpolated_at<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     }
     let (q, v) = stepper.hermite(theta);
     (stepper.t_before() + theta * stepper.last_step(), q, v)
+}
+
+/// Whether functions of the motion are to be interpolated closely over the last step, since five values may not tell what they do.
+pub(crate) fn is_long<S: System, L: InputLaw<S>, A: Quadratures<S>>(
+    system: &S,
+    stepper: &Stepper<'_, S, L, A>,
+) -> bool {
+    stepper.relative_tolerance() > LOOSEST || turn(system, stepper, |_| true) > FARTHEST_TURN
 }
 
 /// The greatest angle in rad by which one of these coordinates turned in the last step.

@@ -1238,7 +1238,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
                 return Ok(None);
             }
         } else {
-            let turns = event::turn(self.system, stepper, |_| true) > event::FARTHEST_TURN;
+            let is_long = event::is_long(self.system, stepper);
             let mut values = std::vec![[0.0; 5]; count];
             let mut hold = true;
             let states = event::at_nodes(self.system, stepper, interpolant)?;
@@ -1252,7 +1252,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             for (place, values) in places.iter_mut().zip(&values) {
                 *place = match roots::glance(values) {
                     // What does not change is nowhere to be looked for.
-                    _ if turns && values.iter().any(|value| *value != values[0]) => {
+                    _ if is_long && values.iter().any(|value| *value != values[0]) => {
                         Some(Places::All)
                     }
                     Some(0) if hold => None,

@@ -402,6 +402,12 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         absolute.as_slice()[coordinate] + relative * size.abs()
     }
 
+    /// The share of a size that a step may be wrong by.
+    #[cfg(feature = "std")]
+    pub(crate) fn relative_tolerance(&self) -> f64 {
+        self.tolerance.relative
+    }
+
     /// Whether the stages of its method depend on each other.
     #[cfg(feature = "std")]
     pub(crate) fn is_implicit(&self) -> bool {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""A ball that bounces and a block that rocks, in MuJoCo and here: error against closed forms, and time.
+"""A ball that bounces, in MuJoCo, Exudyn and here, and a block that rocks, in MuJoCo and here: error against closed forms, and time.
 
-    benches/peers/contacts.py COMMAND      COMMAND is the command `lagrangian`; needs mujoco (requirements.txt)
+    benches/peers/contacts.py COMMAND      COMMAND is the command `lagrangian`; needs mujoco and exudyn (requirements.txt)
 """
 
 import json
@@ -11,6 +11,8 @@ import sys
 import time
 from pathlib import Path
 
+import exudyn
+import exudyn.utilities as items
 import mujoco
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -51,6 +53,34 @@ def mujoco_ball(step, stiffness, until):
     while data.time < until - step / 2:
         mujoco.mj_step(model, data)
     return 1.0 + data.qpos[0]
+
+
+def exudyn_ball(step, stiffness, until):
+    """Exudyn's ball of 1 kg on a soft floor that is told to give back 0.8 of a speed, by its model of Gonthier and others (2); its other
+    model (1) is further off. Steps of generalized-α at which contact begins and ends are repeated."""
+    machine = exudyn.SystemContainer().AddSystem()
+    ball, fixed = machine.AddNode(items.Node1D()), machine.AddNode(items.NodePointGround())
+    machine.AddObject(items.Mass1D(mass=1.0, nodeNumber=ball))
+    of_ball, of_floor = (machine.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=0)) for node in (ball, fixed))
+    machine.AddLoad(items.LoadCoordinate(markerNumber=of_ball, load=-GRAVITY))
+    machine.AddObject(
+        items.ObjectContactCoordinate(
+            markerNumbers=[of_floor, of_ball],
+            nodeNumber=machine.AddNode(items.NodeGenericData(initialCoordinates=[1.0, 0.0], numberOfDataCoordinates=2)),
+            contactStiffness=stiffness,
+            restitutionCoefficient=0.8,
+            minimumImpactVelocity=1e-3,
+            impactModel=2,
+            offset=-1.0,
+        )
+    )
+    machine.Assemble()
+    settings = exudyn.SimulationSettings()
+    settings.timeIntegration.endTime = until
+    settings.timeIntegration.numberOfSteps = round(until / step)
+    settings.solution.file.write = False
+    machine.SolveDynamic(settings)
+    return 1.0 + float(machine.GetNodeOutput(ball, exudyn.OutputVariableType.Coordinates))
 
 
 HALF_WIDTH, HALF_HEIGHT, TILT = 0.25, 1.0, 0.12248933156343208
@@ -116,11 +146,15 @@ def main():
     print("| --- | --- | --: | --: |")
     until = 2.3
     truth = ball(until)
-    for step, stiffness in [(1e-3, 1e5), (1e-4, 1e6)]:
-        clock = time.perf_counter()
-        error = abs(mujoco_ball(step, stiffness, until) - truth)
-        spent = 1e3 * (time.perf_counter() - clock)
-        print(f"| ball, height after {until} s | MuJoCo {mujoco.__version__}, {step:g} s, {stiffness:g} /s² | {error:.1e} m | {spent:.1f} |")
+    for name, of_peer, settings in [
+        (f"MuJoCo {mujoco.__version__}", mujoco_ball, [(1e-3, 1e5), (1e-4, 1e6)]),
+        (f"Exudyn {exudyn.__version__}", exudyn_ball, [(1e-3, 1e5), (1e-4, 1e7)]),
+    ]:
+        for step, stiffness in settings:
+            clock = time.perf_counter()
+            error = abs(of_peer(step, stiffness, until) - truth)
+            spent = 1e3 * (time.perf_counter() - clock)
+            print(f"| ball, height after {until} s | {name}, {step:g} s, {stiffness:g} /s² | {error:.1e} m | {spent:.1f} |")
     for tolerance in ["1e-6", "1e-12"]:
         words = ["machines/contacts/bouncing_ball.machine", "--until", str(until), "--tolerance", tolerance]
         run, spent = here(command, *[str(ROOT / words[0]), *words[1:]])

@@ -31,11 +31,11 @@ def pendulum():
     return system, [0.3, 0.5, 0.0, 0.0], 100.0, end, [1.0] * 4
 
 
-def crusher():
-    """Newton's law of each body, as in expert/crusher.c."""
+def crusher(stiffer=1):
+    """Newton's law of each body, as in expert/crusher.c; the springs of the platform are `stiffer` by this factor."""
     m, J, m0, e, x0, y0, w = 450.0, 60.0, 25.0, 0.04, 0.10, -0.25, 100.0
     m1, m2 = 120.0, 60.0
-    cx, cy, xc, yc, bx_, by_, xb, yb = 2e5, 1.6e5, 0.35, -0.05, 400.0, 350.0, 0.35, 0.04
+    cx, cy, xc, yc, bx_, by_, xb, yb = 2e5 * stiffer, 1.6e5 * stiffer, 0.35, -0.05, 400.0, 350.0, 0.35, 0.04
     k1, d1, r1, k2, d2, r2 = 5e4, 60.0, 0.15, 2e4, 30.0, 0.10
     names = ["x", "y", "t", "s1", "f1", "g1", "s2", "f2", "g2"]
     q = hy.make_vars(*names)

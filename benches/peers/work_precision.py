@@ -112,7 +112,9 @@ BY_HAND = {
     "double_pendulum_regular": motions.pendulum,
     "double_pendulum_chaotic": motions.pendulum,
     "crusher": motions.crusher,
+    "stiff_crusher": lambda: motions.crusher(10_000),
     "chain_8": lambda: motions.chain(8, False),
+    "chain_16": lambda: motions.chain(16, False),
 }
 # Unrolled code of these takes minutes to compile.
 COMPACT = ("andrews_squeezer", "closed_pendulum")
@@ -229,7 +231,7 @@ class MuJoCo:
     def __init__(self, run):
         import peers.mujoco_peer as models
 
-        bars = {"double_pendulum_regular": 2, "double_pendulum_chaotic": 2, "chain_8": 8}
+        bars = {"double_pendulum_regular": 2, "double_pendulum_chaotic": 2, "chain_8": 8, "chain_16": 16}
         self.run, self.bars = run, bars.get(run.name)
         if self.bars:
             bob = [(1.0, 1.0, 1.0, 1e-12)] * self.bars

@@ -87,6 +87,7 @@ fn andrews_squeezer_ends_where_the_test_set_says() {
 fn runs_of_the_library_end_at_the_references() {
     for name in [
         "andrews_squeezer",
+        "chain_16",
         "chain_8",
         "closed_pendulum",
         "crusher",
@@ -95,7 +96,9 @@ fn runs_of_the_library_end_at_the_references() {
         "flyball_governor",
         "four_bar",
         "heavy_top",
+        "six_joint_arm",
         "spherical_pendulum",
+        "stiff_crusher",
         "stiff_spring_pendulum",
     ] {
         ends_there(name, &METHODS[0], 1e-11, 1e-7);

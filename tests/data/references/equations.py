@@ -81,11 +81,14 @@ def double_pendulum(over, _t, q, v):
     )
 
 
-def crusher(over, t, q, v):
-    """Newton's law for each body: Jacobians and the accelerations that stay where those of coordinates vanish."""
+def crusher(over, t, q, v, stiffer=1):
+    """Newton's law for each body: Jacobians and the accelerations that stay where those of coordinates vanish.
+
+    The springs of the platform are `stiffer` by this factor.
+    """
     m, J, m0, e, x0, y0, w = map(over.number, (450.0, 60.0, 25.0, 0.04, 0.10, -0.25, 100.0))
     m1, J1, m2, J2 = map(over.number, (120.0, 2.4, 60.0, 0.5))
-    cx, cy, xc, yc = map(over.number, (2e5, 1.6e5, 0.35, -0.05))
+    cx, cy, xc, yc = map(over.number, (2e5 * stiffer, 1.6e5 * stiffer, 0.35, -0.05))
     bx, by, xb, yb = map(over.number, (400.0, 350.0, 0.35, 0.04))
     k1, d1, r1, k2, d2, r2 = map(over.number, (5e4, 60.0, 0.15, 2e4, 30.0, 0.10))
     (st, ct), (n1, c1), (n2, c2), (sw, cw) = map(over.sin_cos, (q[2], q[4], q[7], w * t))
@@ -133,6 +136,10 @@ def crusher(over, t, q, v):
     force[3] = force[3] - k1 * (s1 - r1) - d1 * v[3]
     force[6] = force[6] - k2 * (s2 - r2) - d2 * v[6]
     return matrix, force
+
+
+def stiff_crusher(over, t, q, v):
+    return crusher(over, t, q, v, stiffer=10_000)
 
 
 def heavy_top(over, _t, q, v):
@@ -288,19 +295,89 @@ def closed_pendulum(over, _t, q, v):
     return plane.closed([[((k,), (l, 0)) for k in range(5)]])
 
 
+def dot(a, b):
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def plus(a, b):
+    return [x + y for x, y in zip(a, b)]
+
+
+def six_joint_arm(over, _t, q, v):
+    """Newton's and Euler's laws of each body in its own axes, with the velocities that each joint alone gives it."""
+    number = over.number
+    h, a, b, c = map(number, (0.35, 0.40, 0.42, 0.10))
+    # Of each joint: the axis, and where it is in the axes of the body before.
+    joints = (("z", (0, 0, 0)), ("y", (0, 0, h)), ("y", (0, 0, a)), ("z", (0, 0, b)), ("y", (0, 0, 0)), ("z", (0, 0, c)))
+    # Of each body: mass, mass centre, and the rows of its inertia about that.
+    bodies = (
+        (12, (0, number(-0.01), h / 2), ((0.25, 0, 0), (0, 0.25, 0), (0, 0, 0.06))),
+        (9, (0, number(0.03), a / 2), ((0.13, 0, 0), (0, 0.13, 0), (0, 0, 0.02))),
+        (6, (number(0.01), 0, b / 2), ((0.09, 0, 0), (0, 0.09, 0.002), (0, 0.002, 0.01))),
+        (1.5, (0, 0, 0), ((0.003, 0, 0), (0, 0.003, 0), (0, 0, 0.002))),
+        (1, (0, 0, c / 2), ((0.002, 0, 0), (0, 0.002, 0), (0, 0, 0.001))),
+        (5.2, (number(0.03), 0, number(0.08)), ((0.02, 0.001, 0), (0.001, 0.02, 0), (0, 0, 0.01))),
+    )
+    n = len(joints)
+    matrix, force = [[0] * n for _ in range(n)], [-number(0.4) * rate for rate in v]
+    # In the axes of the body: what each joint's unit rate gives it of angular velocity and of velocity of its joint; its angular
+    # velocity; and its accelerations where those of coordinates vanish, gravity as an acceleration upwards.
+    turns, moves = [], []
+    spin, angular, linear = [0, 0, 0], [0, 0, 0], [0, 0, number(9.81)]
+    for i, ((axis, at), (mass, centre, inertia)) in enumerate(zip(joints, bodies)):
+        sin, cos = over.sin_cos(q[i])
+
+        def into(x):
+            if axis == "z":
+                return [cos * x[0] + sin * x[1], cos * x[1] - sin * x[0], x[2]]
+            return [cos * x[0] - sin * x[2], x[1], cos * x[2] + sin * x[0]]
+
+        linear = into(plus(linear, plus(cross(angular, at), cross(spin, cross(spin, at)))))
+        moves = [into(plus(move, cross(turn, at))) for turn, move in zip(turns, moves)] + [[0, 0, 0]]
+        unit = [0, 0, 1] if axis == "z" else [0, 1, 0]
+        turns = [into(turn) for turn in turns] + [unit]
+        before = into(spin)
+        rate = [x * v[i] for x in unit]
+        angular = plus(into(angular), cross(before, rate))
+        spin = plus(before, rate)
+
+        mass, rows = number(mass), [[number(x) if x else 0 for x in row] for row in inertia]
+        of = lambda x: [dot(row, x) for row in rows]
+        velocities = [plus(move, cross(turn, centre)) for turn, move in zip(turns, moves)]
+        acceleration = plus(linear, plus(cross(angular, centre), cross(spin, cross(spin, centre))))
+        torque = plus(of(angular), cross(spin, of(spin)))
+        for j, (turn, velocity) in enumerate(zip(turns, velocities)):
+            force[j] = force[j] - mass * dot(velocity, acceleration) - dot(turn, torque)
+            for k in range(j + 1):
+                entry = mass * dot(velocity, velocities[k]) + dot(turn, of(turns[k]))
+                matrix[j][k] = matrix[j][k] + entry
+                if k < j:
+                    matrix[k][j] = matrix[j][k]
+    return matrix, force
+
+
 CRUSHER_START = [0.0, 0.0, 0.01, 0.16, 0.4, 0.0, 0.11, 1.3, 0.0, 0.05, -0.03, 0.02, 0.0, 2.0, 1.0, 0.0, -3.0, -2.0]
 CRUSHER_SCALES = [0.02, 0.02, 0.1, 0.03, math.pi, math.pi, 0.02, math.pi, math.pi, 0.5, 0.5, 1, 0.3, 5, 10, 0.3, 5, 10]
+
+ARM_START = [0.2] * 6 + [1.0, -0.5, 0.8, 2.0, -1.5, 3.0]
 
 # Name: spec, what is set in it, equations, start where it is a state of doubles, end of the run, scales of errors where they are not 1.
 PROBLEMS = {
     "double_pendulum_regular": ("double_pendulum", "", double_pendulum, [0.3, 0.5, 0.0, 0.0], 100.0, None),
     "double_pendulum_chaotic": ("double_pendulum", "", double_pendulum, [2.0, 2.5, 0.0, 0.0], 10.0, None),
     "crusher": ("crusher9", "", crusher, CRUSHER_START, 5.0, CRUSHER_SCALES),
+    "stiff_crusher": ("crusher9", "cx=2e9 cy=1.6e9", stiff_crusher, CRUSHER_START, 1.0, CRUSHER_SCALES),
     "heavy_top": ("heavy_top", "", heavy_top, [math.pi, 1.2, 0.0, 0.5, 0.3, 150.0], 2.0, None),
     "spherical_pendulum": ("spherical_pendulum", "", spherical_pendulum, [0.0, math.pi / 3, 3.0, 0.0], 50.0, None),
     "elastic_pendulum": ("elastic_pendulum", "", elastic_pendulum(39.24), [1.2, 0.1, 0.0, 0.0], 50.0, None),
     "stiff_spring_pendulum": ("elastic_pendulum", "k=4e6", elastic_pendulum(4e6), [0.751, 1.0, 0.0, 0.0], 1.0, None),
     "chain_8": ("chain", "", chain(8), [0.3] * 8 + [0.0] * 8, 1.0, None),
+    "chain_16": ("chain", "N=16", chain(16), [0.3] * 16 + [0.0] * 16, 1.0, None),
+    "six_joint_arm": ("six_joint_arm", "", six_joint_arm, ARM_START, 2.0, None),
     "four_bar": ("four_bar", "", four_bar, None, 10.0, None),
     "andrews_squeezer": ("andrews_squeezer", "", andrews, None, 0.03, None),
     "closed_pendulum": ("closed_pendulum", "", closed_pendulum, None, 2.0, None),
