@@ -179,20 +179,14 @@ where
 
 #[test]
 fn coefficients_in_lanes_are_those_of_one_state() {
-    fn all<M: Machine + Default>()
-    where
-        M::System: Batched<2> + Batched<4> + Batched<8>,
-    {
-        agrees_in_lanes::<M, 2>();
-        agrees_in_lanes::<M, 4>();
-        agrees_in_lanes::<M, 8>();
-    }
-    all::<DoublePendulum>();
-    all::<Crusher9>();
-    all::<FourBar>();
-    all::<ClosedPendulum>();
-    all::<ElasticPendulum>();
-    all::<Chain>();
+    // Each number of lanes of a machine is code of its own, which takes seconds to compile.
+    agrees_in_lanes::<DoublePendulum, 2>();
+    agrees_in_lanes::<DoublePendulum, 8>();
+    agrees_in_lanes::<Crusher9, 4>();
+    agrees_in_lanes::<Crusher9, 8>();
+    agrees_in_lanes::<ClosedPendulum, 4>();
+    agrees_in_lanes::<ElasticPendulum, 2>();
+    agrees_in_lanes::<Chain, 8>();
 }
 
 #[test]
