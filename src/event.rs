@@ -31,11 +31,11 @@ use crate::{Coordinates, Error, Machine, Quadratures, State, System, Vector};
 /// Where in a step the sign is looked at if it changes once at the most.
 pub(crate) const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
-/// What turns by more than this in a step, in rad, may have come back to where it was between two looks: functions of its angle are then
+/// What turns by more than this in a step, in rad, may have come back to where it was between two looks: functions of the motion are then
 /// interpolated as closely as it takes.
 const FARTHEST_TURN: f64 = core::f64::consts::PI;
 
-/// With a greater tolerance a step may be so long that five values do not tell what a motion does in it.
+/// With a greater tolerance a step may be so long that a glance does not tell what a motion does in it.
 const LOOSEST: f64 = 1e-3;
 
 /// What is zero for no longer than this part of a step, and has the same sign before and after, has touched zero.
@@ -289,8 +289,8 @@ impl<M: Machine> Watch<'_, M> {
         Ok(())
     }
 
-    /// Where in the last step to look at the function, by its values at the [nodes](roots::NODES); `None` where it has no event.
-    fn places(&self, values: &[f64; 5]) -> Option<Places> {
+    /// Where in the last step to look at the function, by its values at the [fractions](roots::FRACTIONS) of a glance; `None` where it has no event.
+    fn places(&self, values: &[f64; roots::FRACTIONS.len()]) -> Option<Places> {
         let changes = roots::glance(values);
         if self.side == 0.0 {
             let is_zero = |value: &f64| value.abs() <= self.leave;
@@ -351,11 +351,11 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
             let states = match &glanced {
                 Some(states) => states,
                 None => {
-                    let all = at_nodes(system, stepper, interpolant)?;
+                    let all = at_fractions(system, stepper, interpolant)?;
                     &*glanced.insert(all.map(|at| state(system, at)))
                 }
             };
-            let mut values = [0.0; 5];
+            let mut values = [0.0; roots::FRACTIONS.len()];
             for (node, (of_node, at)) in values.iter_mut().zip(states).enumerate() {
                 *of_node = match known {
                     Some(known) if node == 0 => known,
@@ -499,7 +499,7 @@ pub(crate) fn interpolated_at<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     (stepper.t_before() + theta * stepper.last_step(), q, v)
 }
 
-/// Whether functions of the motion are to be interpolated closely over the last step, since five values may not tell what they do.
+/// Whether functions of the motion are to be interpolated closely over the last step, since a glance may not tell what they do.
 pub(crate) fn is_long<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     system: &S,
     stepper: &Stepper<'_, S, L, A>,
@@ -519,7 +519,8 @@ pub(crate) fn turn<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     let of = |vector: &S::Vector, i: usize| vector.as_slice()[i];
     let mut greatest = 0.0_f64;
     for (i, coordinate) in system.coordinates().enumerate() {
-        if coordinate.unit != "rad" || !counts(i) {
+        // An angle may be written as a pure number, too.
+        if !matches!(coordinate.unit, "rad" | "1") || !counts(i) {
             continue;
         }
         let between = of(stepper.q(), i) - of(stepper.q_before(), i);
@@ -532,18 +533,18 @@ pub(crate) fn turn<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     greatest
 }
 
-/// Time and state at the [nodes](roots::NODES) of the last step, good enough to see an event: those of implicit methods on their dense output, since
+/// Time and state at the [fractions](roots::FRACTIONS) of the last step, good enough to see an event: those of implicit methods on their dense output, since
 /// accelerations at the ends of their steps may know of more than the motion.
-pub(crate) fn at_nodes<S: System, L: InputLaw<S>, A: Quadratures<S>>(
+pub(crate) fn at_fractions<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     system: &S,
     stepper: &mut Stepper<'_, S, L, A>,
     interpolant: &mut Option<Interpolant<S::Vector>>,
-) -> Result<[Triple<S::Vector>; 5], Error> {
+) -> Result<[Triple<S::Vector>; roots::FRACTIONS.len()], Error> {
     if stepper.is_implicit() {
         made(interpolant, stepper, system)?;
     }
     let along = interpolant.as_ref().filter(|_| stepper.is_implicit());
-    Ok(roots::NODES.map(|theta| match along {
+    Ok(roots::FRACTIONS.map(|theta| match along {
         _ if theta == 0.0 => {
             let (q, v) = (stepper.q_before().clone(), stepper.v_before().clone());
             (stepper.t_before(), q, v)

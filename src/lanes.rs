@@ -142,8 +142,8 @@ impl<S: Batched<N>, const N: usize> Batch<S, N> {
     }
 
     /// The Taylor series of the motion of every lane through its state, as [`System::series`] has it, with 24 rows at the most. The
-    /// time is the sum of two numbers. To be asked for only where [`System::check_series`] is fine. `lists` is what is worked with, of
-    /// some kilobytes, whatever it holds: whoever asks again brings it again.
+    /// time is the sum of two numbers. To be asked for only where [`System::check_series`] is fine. `lists` is a buffer of
+    /// some kilobytes, whose content does not matter; a caller that keeps it from one step to the next saves clearing it.
     ///
     /// # Errors
     /// If there are lanes that have none. All others have got theirs.

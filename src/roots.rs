@@ -7,7 +7,7 @@
 //! and 18. A body that turns uniformly needs no short steps, and functions of its angle swing many times in one: such a step is cut into
 //! parts that an interpolant has. Sines of angles that are multiples of one are all that it takes, and no allocation beyond a few vectors.
 //!
-//! Most steps of a method by Runge and Kutta are told by five values along a polynomial that costs nothing ([`glance`]).
+//! Most steps of a method by Runge and Kutta are told by eight values along a polynomial that costs nothing ([`glance`]).
 
 use std::vec::Vec;
 
@@ -158,14 +158,24 @@ pub fn extremes(
     Ok(())
 }
 
-/// Where in a step a [`glance`] looks: at the nodes of degree 4, in the order of time.
-pub(crate) const NODES: [f64; 5] = [
+/// Where in a step a [`glance`] looks: at the nodes of degree 4, in the order of time, and beside three of them, which tells slopes there.
+pub(crate) const FRACTIONS: [f64; 8] = [
     0.0,
     0.5 - 0.5 * core::f64::consts::FRAC_1_SQRT_2,
     0.5,
     0.5 + 0.5 * core::f64::consts::FRAC_1_SQRT_2,
     1.0,
+    BESIDE,
+    0.5 + BESIDE,
+    1.0 - BESIDE,
 ];
+
+/// How far from a node a [`glance`] looks beside it, as a share of the step.
+const BESIDE: f64 = 0.01;
+
+/// Beside nodes values may differ from the interpolant by this share of the greatest, for their rounding. What is so much greater than its
+/// changes has no root.
+const ROUNDING_OF_VALUES: f64 = 1e-6;
 
 /// How much more than their estimate the coefficients may be that an interpolant of degree 4 leaves out, together with what the motion along which
 /// the values were taken was wrong by.
@@ -185,12 +195,13 @@ const OF_DERIVATIVE: f64 = 5.5;
 /// How often a step is halved in which an interpolant of degree 4 is neither far from zero nor monotone.
 const HALVINGS_OF_GLANCE: u32 = 5;
 
-/// How often a function changes its sign within a step, by its values at the [`NODES`]: along the motion itself, or a polynomial through both ends
-/// of the step that is of order 5. `None` where they do not tell, since it turns too near to zero, or is not as smooth as a motion.
+/// How often a function changes its sign within a step, by its values at the [`FRACTIONS`]: along the motion itself, or a polynomial through both
+/// ends of the step that is of order 5. `None` where they do not tell, since it turns too near to zero, or is not as smooth as a motion.
 ///
-/// What counts is the interpolant of degree 4 and how fast its coefficients fall.
-pub(crate) fn glance(values: &[f64; 5]) -> Option<usize> {
-    let [v0, v1, v2, v3, v4] = *values;
+/// What counts is the interpolant of degree 4 and how fast its coefficients fall. A function that swings many times in the step may seem to be
+/// smooth at the nodes; its slopes there are those of the interpolant in less than one of ten thousand steps.
+pub(crate) fn glance(values: &[f64; FRACTIONS.len()]) -> Option<usize> {
+    let [v0, v1, v2, v3, v4, ref beside @ ..] = *values;
     let (ends, odd_ends) = (0.5 * (v0 + v4), 0.5 * (v4 - v0));
     let (inner, odd_inner) = (v1 + v3, core::f64::consts::FRAC_1_SQRT_2 * (v3 - v1));
     // Of Chebyshev's polynomials.
@@ -213,6 +224,15 @@ pub(crate) fn glance(values: &[f64; 5]) -> Option<usize> {
         4.0 * c3,
         8.0 * c4,
     ];
+    let differs = OF_DERIVATIVE * beyond * 2.0 * BESIDE + ROUNDING_OF_VALUES * greatest(values);
+    let is_followed = FRACTIONS[5..].iter().zip(beside).all(|(theta, value)| {
+        let x = 2.0 * theta - 1.0;
+        let expected = p.iter().rev().fold(0.0, |sum, p| sum * x + p);
+        (value - expected).abs() <= differs
+    });
+    if !is_followed {
+        return None;
+    }
     let mut signs = Signs {
         latest: if v0 == 0.0 { 0.0 } else { v0.signum() },
         changes: 0,
@@ -283,19 +303,14 @@ impl Effort {
     /// Whether an interpolant has all of a function.
     fn suffices(&self, coefficients: &[f64]) -> bool {
         let greatest = greatest(coefficients);
-        let tail = &coefficients[coefficients.len() - 3..];
-        greatest <= CONVERGED * f64::MAX
-            && tail.iter().all(|c| c.abs() <= self.converged * greatest)
+        greatest <= CONVERGED * f64::MAX && last(coefficients) <= self.converged * greatest
     }
 
     /// What is below this in an interpolant is noise.
     fn noise(&self, coefficients: &[f64]) -> f64 {
         let rounding = ROUNDING * greatest(coefficients);
         match self.converged > CONVERGED {
-            true => {
-                let tail = &coefficients[coefficients.len() - 3..];
-                rounding.max(coefficients.len() as f64 * greatest(tail))
-            }
+            true => rounding.max(coefficients.len() as f64 * last(coefficients)),
             false => rounding,
         }
     }
@@ -312,7 +327,8 @@ fn interpolate(
     for node in 0..=COARSE {
         values.push(f(at(node, COARSE, [a, b]))?);
     }
-    if is_far_from_zero(&coefficients(&values)) {
+    let coarse = coefficients(&values);
+    if is_far_from_zero(&coarse) && is_followed(f, &coarse, [a, b])? {
         return Ok(());
     }
     for degree in DEGREES {
@@ -332,42 +348,14 @@ fn interpolate(
             return Ok(());
         }
     }
-    let upper = &coefficients(&values)[values.len() / 2..];
-    if greatest(upper) > SWINGS * greatest(&coefficients(&values)) {
-        let swings = Effort {
-            converged: CONVERGED_WITH_NOISE,
-            ..effort
-        };
-        // How long a part may be is tried at the beginning. Of what has no parts that an interpolant has, such as noise, nothing is known.
-        for cuts in 1..=effort.of_swings {
-            let parts = 2_u32.pow(cuts);
-            let cut = |part: u32| match part == parts {
-                true => b,
-                false => a + (b - a) * f64::from(part) / f64::from(parts),
-            };
-            let degree = DEGREES[DEGREES.len() - 1];
-            let values: Result<Vec<f64>, Error> = (0..=degree)
-                .map(|node| f(at(node, degree, [a, cut(1)])))
-                .collect();
-            if !swings.suffices(&coefficients(&values?)) {
-                continue;
-            }
-            let of_part = Effort {
-                of_swings: effort.of_swings - cuts,
-                ..swings
-            };
-            for part in 0..parts {
-                if part > 0 {
-                    looks.push(cut(part));
-                }
-                interpolate(f, [cut(part), cut(part + 1)], of_part, looks)?;
-            }
-            return Ok(());
-        }
+    let degree = values.len() - 1;
+    let all = coefficients(&values);
+    let swings = greatest(&all[degree / 2..]) > SWINGS * greatest(&all);
+    if swings && interpolate_parts(f, [a, b], effort, looks)? {
+        return Ok(());
     }
     let Effort { halvings, .. } = effort;
     if halvings == 0 {
-        let degree = values.len() - 1;
         // Nodes go from the end to the beginning.
         looks.extend((0..degree).rev().map(|node| at(node, degree, [a, b])));
         return Ok(());
@@ -382,12 +370,69 @@ fn interpolate(
     interpolate(f, [middle, b], of_half, looks)
 }
 
+/// Interpolates a function that swings too often for one interpolant in the fewest equal parts that have one, and isolates its roots there. The
+/// answer is whether there are such parts; of what has none, such as noise, nothing is known.
+fn interpolate_parts(
+    f: &mut impl FnMut(f64) -> Result<f64, Error>,
+    [a, b]: [f64; 2],
+    effort: Effort,
+    looks: &mut Vec<f64>,
+) -> Result<bool, Error> {
+    let [.., degree] = DEGREES;
+    for cuts in 1..=effort.of_swings {
+        let parts = 2_u32.pow(cuts);
+        let cut = |part: u32| match part == parts {
+            true => b,
+            false => a + (b - a) * f64::from(part) / f64::from(parts),
+        };
+        let of_part = Effort {
+            of_swings: effort.of_swings - cuts,
+            converged: CONVERGED_WITH_NOISE,
+            ..effort
+        };
+        // How long a part may be is tried at the beginning.
+        let first: Result<Vec<f64>, Error> = (0..=degree)
+            .map(|node| f(at(node, degree, [a, cut(1)])))
+            .collect();
+        if !of_part.suffices(&coefficients(&first?)) {
+            continue;
+        }
+        for part in 0..parts {
+            if part > 0 {
+                looks.push(cut(part));
+            }
+            interpolate(f, [cut(part), cut(part + 1)], of_part, looks)?;
+        }
+        return Ok(true);
+    }
+    Ok(false)
+}
+
 /// Whether a function is certainly not zero by an interpolant that may not have all of it. The coefficients of a smooth
 /// function fall like powers of the last two: the truncation error is a small multiple of these.
 fn is_far_from_zero(c: &[f64]) -> bool {
     let rest: f64 = c[1..].iter().map(|c| c.abs()).sum();
     let last = c[c.len() - 1].abs().max(c[c.len() - 2].abs());
     c[0].abs() > rest + 4.0 * c.len() as f64 * last
+}
+
+/// Whether a function has the slopes of its interpolant at both ends: what swings many times may seem to be smooth at the nodes.
+fn is_followed(
+    f: &mut impl FnMut(f64) -> Result<f64, Error>,
+    c: &[f64],
+    [a, b]: [f64; 2],
+) -> Result<bool, Error> {
+    let count = c.len() as f64;
+    let last = c[c.len() - 1].abs().max(c[c.len() - 2].abs());
+    // The truncation error of [`is_far_from_zero`] is of an order as high as there are coefficients.
+    let differs = 2.0 * BESIDE * 4.0 * count * count * last + ROUNDING_OF_VALUES * greatest(c);
+    for theta in [BESIDE, 1.0 - BESIDE] {
+        let off = f(a + (b - a) * theta)? - evaluate(c, 2.0 * theta - 1.0);
+        if off.is_nan() || off.abs() > differs {
+            return Ok(false);
+        }
+    }
+    Ok(true)
 }
 
 /// Node number `node` of so many between two fractions: the first is at the end, the last at the beginning.
@@ -499,6 +544,11 @@ fn greatest(coefficients: &[f64]) -> f64 {
     })
 }
 
+/// The greatest of the last three coefficients, by which an interpolant is known to have all of a function.
+fn last(coefficients: &[f64]) -> f64 {
+    greatest(&coefficients[coefficients.len() - 3..])
+}
+
 /// Adds the ends of intervals with a root.
 fn isolate(coefficients: &[f64], (whole, noise): ([f64; 2], f64), looks: &mut Vec<f64>) {
     let mut open = Vec::from([(coefficients.to_vec(), whole)]);
@@ -599,6 +649,26 @@ mod tests {
         are_near(&roots(rising), &expected);
     }
 
+    /// What swings many times in a step is seldom taken to be smooth: so of 30 000 oscillations beside a level that they pass.
+    #[test]
+    fn a_glance_is_not_deceived_by_fast_oscillations() {
+        let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+        let mut random = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1u64 << 53) as f64
+        };
+        let mut deceived = 0;
+        for _ in 0..30_000 {
+            let (frequency, phase) = (20.0 * 50.0_f64.powf(random()), 7.0 * random());
+            let level = 1.98 * (random() - 0.5);
+            deceived += usize::from(seen(|x| (frequency * x + phase).cos() - level).is_some());
+        }
+        // By values at the nodes alone it would be a thousand.
+        assert!(deceived <= 3, "{deceived}");
+    }
+
     #[test]
     fn noise_is_given_up() {
         let mut state = 1_u64;
@@ -653,7 +723,7 @@ mod tests {
 
     /// What a glance says of a function.
     fn seen(f: impl Fn(f64) -> f64) -> Option<usize> {
-        glance(&NODES.map(f))
+        glance(&FRACTIONS.map(f))
     }
 
     #[test]

@@ -1239,9 +1239,9 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             }
         } else {
             let is_long = event::is_long(self.system, stepper);
-            let mut values = std::vec![[0.0; 5]; count];
+            let mut values = std::vec![[0.0; roots::FRACTIONS.len()]; count];
             let mut hold = true;
-            let states = event::at_nodes(self.system, stepper, interpolant)?;
+            let states = event::at_fractions(self.system, stepper, interpolant)?;
             for (node, (t, q, v)) in states.iter().enumerate() {
                 let facts = self.system.assumptions(*t, q, v, stepper.inputs());
                 for (values, fact) in values.iter_mut().zip(facts) {
@@ -1258,7 +1258,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
                     Some(0) if hold => None,
                     Some(0 | 1) if values[4] <= 0.0 => Some(Places::Few),
                     // What holds at 0 throughout.
-                    None if hold && *values == [0.0; 5] => None,
+                    None if hold && *values == [0.0; roots::FRACTIONS.len()] => None,
                     _ => Some(Places::All),
                 };
             }

@@ -51,7 +51,7 @@ pub fn text(unit: &Unit<'_>) -> String {
     list(&mut text, "unsigned char", "FACT_IS_STRICT", strict, "0");
     let coordinates = program.coordinates.iter().enumerate();
     let angles: Vec<String> = coordinates
-        .filter(|(_, slot)| slot.unit.is_angle())
+        .filter(|(_, slot)| slot.unit.is_one())
         .map(|(index, _)| index.to_string())
         .collect();
     let events = unit.events.iter().map(|event| event.name.clone());
@@ -68,7 +68,7 @@ pub fn text(unit: &Unit<'_>) -> String {
     let holonomic = program.constraints.iter();
     let holonomic = holonomic.map(|constraint| u8::from(constraint.holonomic).to_string());
     list(&mut text, "unsigned char", "IS_HOLONOMIC", holonomic, "0");
-    text.push_str("\n/* Which coordinates are angles. */\n");
+    text.push_str("\n/* Which coordinates are angles, or pure numbers, which may be angles. */\n");
     let _ = writeln!(text, "enum {{ ANGLES = {} }};", angles.len()); // writing to a String cannot fail
     list(&mut text, "int", "ANGLE", angles.into_iter(), "0");
     let has = |kind| u8::from(unit.kinds.contains(&kind));

@@ -570,6 +570,7 @@ fn a_unit_finds_its_events() {
             fs::write(folder.join(name), content).expect("a file");
         }
         fs::write(folder.join("events.h"), include_str!("fmu/events.h")).expect("a file");
+        fs::write(folder.join("must.h"), include_str!("fmu/must.h")).expect("a file");
         fs::write(folder.join("driver.c"), driver).expect("a file");
         let mut cc = Command::new("cc");
         cc.current_dir(folder)
@@ -645,8 +646,14 @@ fn drive(at: &Scratch, made: &Value, driver: &str) {
         let name = name.rsplit('/').next().expect("a name");
         fs::write(folder.join(name), content).expect("a file");
     }
-    fs::write(folder.join("events.h"), include_str!("fmu/events.h")).expect("a file");
-    fs::write(folder.join("driver.c"), driver).expect("a file");
+    for (name, content) in [
+        ("events.h", include_str!("fmu/events.h")),
+        ("must.h", include_str!("fmu/must.h")),
+        ("steps3.h", include_str!("fmu/steps3.h")),
+        ("driver.c", driver),
+    ] {
+        fs::write(folder.join(name), content).expect("a file");
+    }
     let mut cc = Command::new("cc");
     // Of the header some is for others.
     let flags = ["-std=c99", "-Wall", "-Werror", "-Wno-unused-function"];
@@ -657,23 +664,41 @@ fn drive(at: &Scratch, made: &Value, driver: &str) {
     run(Command::new("./driver").current_dir(folder), "");
 }
 
-/// A wheel that turns uniformly needs no short steps: each event of its angle is found in one that takes it hundreds of times around.
+/// A wheel that turns uniformly needs no short steps: each event of its angle is found in one that takes it hundreds of times around, and so where
+/// its coordinate is a pure number or the way that it rolls.
 #[test]
 fn a_unit_finds_what_happens_at_each_turn() {
-    let spec = "machine Wheel in plane {
-        parameters { J: kg*m^2 = 1, m: kg = 1 }
-        coordinates { phi: rad = 0.3, der(phi): rad/s = 10 }
-        assume { sin(phi) > -0.5 }
-        frames { wheel = ground.turn(phi) }
-        bodies { wheel { mass: m, inertia: J, frame: wheel } }
-        gravity none;
-    }";
-    let spec = Scratch::new("wheel.machine", spec);
-    for method in ["dop853", "dopri5"] {
-        let at = Scratch::new("Machine.fmu", "");
-        let options = ["--method", method, "--event", "upright=cos(phi)"];
-        let made = unit(spec.path(), &at, &options);
-        drive(&at, &made, include_str!("fmu/turns3.c"));
+    let wheels = [
+        (
+            "coordinates { phi: rad = 0.3, der(phi): rad/s = 10 }",
+            "phi",
+            "0",
+        ),
+        (
+            "coordinates { phi: 1 = 0.3, der(phi): 1/s = 10 }",
+            "phi",
+            "0",
+        ),
+        ("coordinates { x: m = 0.03, der(x): m/s = 1 }", "x/r", "x"),
+    ];
+    for (coordinates, angle, way) in wheels {
+        let spec = format!(
+            "machine Wheel in plane {{
+                parameters {{ J: kg*m^2 = 1, m: kg = 1, r: m = 0.1 }}
+                {coordinates}
+                assume {{ sin({angle}) > -0.5 }}
+                frames {{ wheel = ground.shift({way}, 0).turn({angle}) }}
+                bodies {{ wheel {{ mass: m, inertia: J, frame: wheel }} }}
+                gravity none;
+            }}"
+        );
+        let spec = Scratch::new("wheel.machine", &spec);
+        for method in ["dop853", "dopri5"] {
+            let at = Scratch::new("Machine.fmu", "");
+            let event = format!("upright=cos({angle})");
+            let made = unit(spec.path(), &at, &["--method", method, "--event", &event]);
+            drive(&at, &made, include_str!("fmu/turns3.c"));
+        }
     }
 }
 

@@ -300,35 +300,44 @@ fn what_a_run_is_not_exact_enough_for_is_no_extreme() {
     assert!(text.contains(" ripples of no more than "), "{text}");
 }
 
-/// A wheel that turns uniformly needs no short steps, and is upright many times in one.
+/// A wheel that turns uniformly needs no short steps, and is upright many times in one: also where its coordinate is a pure number, or the way that
+/// it rolls.
 #[test]
 fn what_turns_many_times_in_a_step_is_found_each_time() {
-    let spec = Scratch::new(
-        "wheel.machine",
-        "machine Wheel in plane {
-            parameters { J: kg*m^2 = 1, m: kg = 1 }
-            coordinates { phi: rad = 0.3, der(phi): rad/s = 10 }
-            frames { wheel = ground.turn(phi) }
-            bodies { wheel { mass: m, inertia: J, frame: wheel } }
-            gravity none;
-        }",
-    );
-    for method in ["dop853", "dopri5", "radau5"] {
-        for until in [10.0, 100.0, 1000.0] {
-            let last = f64::to_string(&until);
-            let run = ["--until", &last, "--method", method];
-            let asked = ["--crossing", "cos(phi)", "--direction", "both"];
-            let found = answer(&[&["section", spec.path()], &asked[..], &run].concat());
-            let times = list(&found["t"]);
-            let count = ((0.3 + 10.0 * until) / PI - 0.5).floor() as usize + 1;
-            assert_eq!(times.len(), count, "{method} {until}");
-            for (k, t) in times.iter().enumerate() {
-                let exact = ((k as f64 + 0.5) * PI - 0.3) / 10.0;
-                // Rounding of an angle that went so far.
-                assert!(
-                    (t - exact).abs() < 64.0 * f64::EPSILON * (1.0 + until),
-                    "{t} {exact}"
-                );
+    let wheels = [
+        ("phi: rad = 0.3, der(phi): rad/s = 10", "phi", "0"),
+        ("phi: 1 = 0.3, der(phi): 1/s = 10", "phi", "0"),
+        ("x: m = 0.03, der(x): m/s = 1", "x/r", "x"),
+    ];
+    for (coordinate, angle, way) in wheels {
+        let spec = format!(
+            "machine Wheel in plane {{
+                parameters {{ J: kg*m^2 = 1, m: kg = 1, r: m = 0.1 }}
+                coordinates {{ {coordinate} }}
+                frames {{ wheel = ground.shift({way}, 0).turn({angle}) }}
+                bodies {{ wheel {{ mass: m, inertia: J, frame: wheel }} }}
+                gravity none;
+            }}"
+        );
+        let spec = Scratch::new("wheel.machine", &spec);
+        for method in ["dop853", "dopri5", "radau5"] {
+            for until in [10.0, 100.0, 1000.0] {
+                let last = f64::to_string(&until);
+                let run = ["--until", &last, "--method", method];
+                let upright = format!("cos({angle})");
+                let asked = ["--crossing", &upright, "--direction", "both"];
+                let found = answer(&[&["section", spec.path()], &asked[..], &run].concat());
+                let times = list(&found["t"]);
+                let count = ((0.3 + 10.0 * until) / PI - 0.5).floor() as usize + 1;
+                assert_eq!(times.len(), count, "{coordinate} {method} {until}");
+                for (k, t) in times.iter().enumerate() {
+                    let exact = ((k as f64 + 0.5) * PI - 0.3) / 10.0;
+                    // Rounding of an angle that went so far.
+                    assert!(
+                        (t - exact).abs() < 64.0 * f64::EPSILON * (1.0 + until),
+                        "{t} {exact}"
+                    );
+                }
             }
         }
     }

@@ -846,6 +846,8 @@ static double tryStep(Unit *unit, double h) {
 enum {
     /* Degrees of interpolants: of the first how often a formula may change its sign is told, of the second only whether it is far from zero. */
     COARSE = 4,
+    /* So often a formula is looked at at first: at the nodes of the first, and beside three of them. */
+    GLANCED = COARSE + 4,
     MIDDLE = 8,
     FINE = 16,
     FINEST = 64,
@@ -867,10 +869,17 @@ enum {
    is a fortieth, of a kink less. */
 #define SWINGS 0.1
 
+/* So far from a node, as a share of the step, a formula is looked at beside it, which tells its slope there. */
+#define BESIDE 0.01
+
+/* Beside nodes values may differ from the interpolant by this share of the greatest, for their rounding. What is so much greater than its
+   changes has no zero. */
+#define ROUNDING_OF_VALUES 1e-6
+
 /* In rad: what turns by more than that in a step may have come back to where it was between two nodes. */
 #define FARTHEST_TURN 3.14159265358979323846
 
-/* Above this tolerance a step may be so long that five values do not tell what the motion does within it. */
+/* Above this tolerance a step may be so long that a glance does not tell what the motion does within it. */
 #define LOOSEST 1e-3
 
 /* A search along the step that was tried, forward in time, for changes of the signs of what is watched. */
@@ -989,6 +998,27 @@ static double sumOfSizes(const double *c, int from, int degree) {
     return sum;
 }
 
+/* The greatest size of some coefficients; no number where one of them is none. */
+static double greatestOf(const double *c, int from, int degree) {
+    double greatest = 0.0;
+    for (int k = from; k <= degree; ++k) {
+        const double size = sizeOf(c[k]);
+        if (!(size <= greatest)) greatest = size;
+        if (size != size) break;
+    }
+    return greatest;
+}
+
+/* The value of an interpolant between -1 and 1, by Clenshaw's recurrence. */
+static double valueOf(const double *c, int degree, double x) {
+    double one = 0.0, two = 0.0;
+    for (int k = degree; k > 0; --k) {
+        const double next = c[k] + 2.0 * x * one - two;
+        two = one, one = next;
+    }
+    return c[0] + x * one - two;
+}
+
 /* Whether a formula is certainly not zero, by values at the nodes. Coefficients of what is smooth fall like powers of the last two, so that
    what an interpolant leaves out is a small multiple of these. */
 static int isFarFromZero(const double *values, int degree) {
@@ -1030,9 +1060,15 @@ static int followSigns(Signs *signs, const double *p, double middle, double widt
            followSigns(signs, p, m + half, half, beyond, halvings - 1);
 }
 
+/* The fractions of a step at which a formula is looked at at first: at the nodes of degree 4, from the end, and beside three of them. */
+static double glancedAt(int place) {
+    static const double beside[] = {BESIDE, 0.5 + BESIDE, 1.0 - BESIDE};
+    return place <= COARSE ? nodeOf(place, COARSE, 0.0, 1.0) : beside[place - COARSE - 1];
+}
+
 /*
- * How often a formula changes its sign within a step, by its values at the nodes of degree 4; -1 where they do not tell, since it turns too
- * near to zero, or is not as smooth as a motion. What the interpolant leaves out, and what the polynomial of the motion is wrong by, is
+ * How often a formula changes its sign within a step, by its values at these fractions; -1 where they do not tell, since it turns too
+ * near to zero, or is not as smooth as a motion. What swings many times may seem to be smooth at the nodes, but seldom has the slopes there. What the interpolant leaves out, and what the polynomial of the motion is wrong by, is
  * bounded by how fast the coefficients fall: a motion of the frequency w has 2 J_k(z), where z = wh/2, which fall by z/10 and more behind
  * the last one, and its quintic is wrong by (wh)^2/15 of the last one; so eight times the last is enough up to wh = 10. The last may be 0 by
  * chance: of the one before it a sixteenth counts at least.
@@ -1046,6 +1082,11 @@ static int glance(const double *values) {
     const double beyond = 8.0 * (of_third > sizeOf(c[4]) ? of_third : sizeOf(c[4]));
     /* The interpolant in powers. */
     const double p[] = {c[0] - c[2] + c[4], c[1] - 3.0 * c[3], 2.0 * c[2] - 8.0 * c[4], 4.0 * c[3], 8.0 * c[4]};
+    const double differs = 5.5 * beyond * 2.0 * BESIDE + ROUNDING_OF_VALUES * greatestOf(values, 0, GLANCED - 1);
+    for (int place = COARSE + 1; place < GLANCED; ++place) {
+        const double x = 2.0 * glancedAt(place) - 1.0, expected = p[0] + x * (p[1] + x * (p[2] + x * (p[3] + x * p[4])));
+        if (!(sizeOf(values[place] - expected) <= differs)) return -1;
+    }
     Signs signs = {signOf(values[COARSE]), 0};
     if (!followSigns(&signs, p, 0.0, 1.0, beyond, HALVINGS_OF_GLANCE)) return -1;
     takeSign(&signs, signOf(values[0]));
@@ -1144,16 +1185,7 @@ static void isolate(const double *c, int degree, double a, double b, double nois
     }
     const double middle = 0.5 * (a + b);
     for (int side = 0; side < 2; ++side) {
-        for (int node = 0; node <= degree; ++node) {
-            /* By Clenshaw's recurrence. */
-            const double x = nodeOf(node, degree, side - 1.0, side);
-            double one = 0.0, two = 0.0;
-            for (int k = degree; k >= 1; --k) {
-                const double next = c[k] + 2.0 * x * one - two;
-                two = one, one = next;
-            }
-            values[node] = c[0] + x * one - two;
-        }
+        for (int node = 0; node <= degree; ++node) values[node] = valueOf(c, degree, nodeOf(node, degree, side - 1.0, side));
         interpolate(values, degree, half);
         isolate(half, degree, side ? middle : a, side ? b : middle, noise, search);
     }
@@ -1168,15 +1200,19 @@ static void sample(const Search *search, int degree, double a, double b, double 
     }
 }
 
-/* The greatest size of some coefficients; no number where one of them is none. */
-static double greatestOf(const double *c, int from, int degree) {
-    double greatest = 0.0;
-    for (int k = from; k <= degree; ++k) {
-        const double size = sizeOf(c[k]);
-        if (!(size <= greatest)) greatest = size;
-        if (size != size) break;
+/* Whether a formula has the slopes of its interpolant at both ends: what swings many times may seem to be smooth at the nodes. */
+static int isFollowed(const Search *search, const double *values, int degree, double a, double b) {
+    double c[MIDDLE + 1], all[WATCHED + 1];
+    interpolate(values, degree, c);
+    /* What the interpolant leaves out is of an order as high as there are coefficients. */
+    const double count = degree + 1.0, left_out = 4.0 * count * greatestOf(c, degree - 1, degree);
+    const double differs = 2.0 * BESIDE * count * left_out + ROUNDING_OF_VALUES * greatestOf(c, 0, degree);
+    for (int side = 0; side < 2; ++side) {
+        const double x = side ? 1.0 - BESIDE : BESIDE;
+        watchAlong(search->unit, search->h, a + (b - a) * x, all);
+        if (!(sizeOf(all[search->k] - valueOf(c, degree, 2.0 * x - 1.0)) <= differs)) return 0;
     }
-    return greatest;
+    return 1;
 }
 
 /* Whether an interpolant has all of a formula, where its last coefficients are to be below a share of the greatest. */
@@ -1192,7 +1228,7 @@ static void lookBetween(Search *search, double a, double b, int halvings, int ha
     for (int degree = MIDDLE; degree <= FINEST; degree *= 2) {
         sample(search, degree, a, b, values);
         if (degree < FINE) {
-            if (isFarFromZero(values, degree)) return;
+            if (isFarFromZero(values, degree) && isFollowed(search, values, degree, a, b)) return;
             continue;
         }
         interpolate(values, degree, c);
@@ -1229,7 +1265,7 @@ static void lookBetween(Search *search, double a, double b, int halvings, int ha
     lookBetween(search, middle, b, halvings - 1, halvings_of_swings, share);
 }
 
-/* Whether an angle turns so far in the step that was tried that five values do not tell what its functions do. */
+/* Whether an angle turns so far in the step that was tried that a glance does not tell what its functions do. */
 static int turnsFar(const Unit *unit, double h) {
     for (int k = 0; k < ANGLES; ++k) {
         const int i = ANGLE[k];
@@ -1244,13 +1280,13 @@ static int turnsFar(const Unit *unit, double h) {
    wherever the motion within the step has a zero. 0 where an event's formula is no number at the end. */
 static int lookAlong(Unit *unit, double h, int *is_near) {
     State *now = &unit->now;
-    double seen[COARSE + 1][WATCHED + 1], values[COARSE + 1];
+    double seen[GLANCED][WATCHED + 1], values[GLANCED];
     int is_any_near = 0;
     memcpy(unit->end, unit->point, sizeof unit->end);
     const int is_of_method = END < STAGES, is_long = turnsFar(unit, h) || !(now->tolerance <= LOOSEST);
     if (is_of_method) curveOfMethod(unit, h);
     else curveThroughEnds(unit, h);
-    for (int node = 0; node <= COARSE; ++node) watchAlong(unit, h, nodeOf(node, COARSE, 0.0, 1.0), seen[node]);
+    for (int place = 0; place < GLANCED; ++place) watchAlong(unit, h, glancedAt(place), seen[place]);
     for (int k = 0; k < WATCHED; ++k) {
         const double start = seen[COARSE][k], end = seen[0][k];
         if (k < EVENTS && end != end) {
@@ -1260,7 +1296,7 @@ static int lookAlong(Unit *unit, double h, int *is_near) {
         /* A step that ended behind a change was moved back before it, by what holds the constraints: that is none. */
         const int side = sideOf(unit, k), is_before = k < EVENTS ? side * start < 0.0 : (side > 0) != holds(k - EVENTS, start);
         if (is_before && 2.0 * sizeOf(start) > now->leave[k]) now->leave[k] = 2.0 * sizeOf(start);
-        for (int node = 0; node <= COARSE; ++node) values[node] = seen[node][k];
+        for (int place = 0; place < GLANCED; ++place) values[place] = seen[place][k];
         const int changes = is_long ? -1 : glance(values);
         is_near[k] = !(side && isBehind(k, side, start) && changes == !isBehind(k, side, end));
         is_any_near |= is_near[k];

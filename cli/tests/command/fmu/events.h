@@ -1,8 +1,7 @@
 /* A ball thrown up at 3 m/s from a height of 2 m, and beside it a pendulum of 0.5 m let go at 1 rad: when what happens, in closed
    form, until 2 s. */
+#include "must.h"
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* References: y, theta, their rates, their accelerations, g and the height that is high, two energies, a fact, four formulas and
@@ -14,12 +13,6 @@ typedef struct {
     double t;
     int event, sign;
 } Happening;
-
-static void must(int holds, int rule) {
-    if (holds) return;
-    fprintf(stderr, "rule %d is broken\n", rule);
-    exit(rule);
-}
 
 /* In the order of time. The ball passes 2.3 m on its way up and down, is back at its start, and falls below 1 m; the pendulum passes
    its lowest point at odd quarters of its period, which is 2 pi / w / agm(1, cos(a/2)). */

@@ -1,7 +1,7 @@
 /* What comes and goes within a step: a ball that is above a height for some milliseconds, a pendulum that is beyond an angle for some, both as
    events and as facts, in co-simulation by FMI 3.0 with steps of communication of several lengths. */
-#include "fmi3Functions.h"
 #include "events.h"
+#include "steps3.h"
 
 /* Events: above 2.4585 m and beyond -0.9999 rad; facts: below 2.4587 m, before -0.99999 rad, and at least 1 m high. */
 enum { TOP, EDGE, COUNTED };
@@ -28,8 +28,6 @@ static void hear(fmi3InstanceEnvironment environment, fmi3Status status, fmi3Str
     }
 }
 
-static void well(fmi3Status status, int rule) { must(status == fmi3OK, rule); }
-
 /* The instants of one kind, in order. */
 static int of(const char *what, double *to) {
     int count = 0;
@@ -55,7 +53,6 @@ int main(void) {
         static const double lengths[] = {1.25, 0.625, 0.05};
         const double length = lengths[way / 2];
         const int stops = way % 2;
-        bool event, terminate, early;
         double last = 0.0, at[8];
         fmi3Instance unit = fmi3InstantiateCoSimulation("a", TOKEN, NULL, false, true, stops, stops, NULL, 0, NULL, hear, NULL);
         must(unit != NULL, 3);
@@ -64,14 +61,7 @@ int main(void) {
         well(fmi3ExitInitializationMode(unit), 5);
         if (stops) well(fmi3EnterStepMode(unit), 6);
         while (last < 1.25) {
-            const double t = last, point = length * (floor(t / length + 1e-9) + 1.0);
-            well(fmi3DoStep(unit, t, point - t, true, &event, &terminate, &early, &last), 7);
-            if (!event) continue;
-            bool again, end, nominals, values, next;
-            double when;
-            well(fmi3EnterEventMode(unit), 8);
-            well(fmi3UpdateDiscreteStates(unit, &again, &end, &nominals, &values, &next, &when), 8);
-            well(fmi3EnterStepMode(unit), 8);
+            step(unit, length * (floor(last / length + 1e-9) + 1.0), &last);
         }
         /* A tolerance of 1e-12 is some 1e-11 of motion by 1.25 s; near its greatest height the ball moves by some 0.05 m/s. */
         must(of("top", at) == 2, 20);

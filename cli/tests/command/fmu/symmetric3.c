@@ -1,9 +1,7 @@
 /* Steps that lie symmetrically about turning points, near which events come and go: oscillations whose greatest values are in the middle of a step
    of communication, in co-simulation by FMI 3.0. */
-#include "fmi3Functions.h"
+#include "steps3.h"
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* The numbers x, y and their rates; how far events lie below greatest values. */
@@ -14,14 +12,6 @@ static struct {
     double t;
 } told[256];
 static int told_count;
-
-static void must(int holds, int rule) {
-    if (holds) return;
-    fprintf(stderr, "rule %d is broken\n", rule);
-    exit(rule);
-}
-
-static void well(fmi3Status status, int rule) { must(status == fmi3OK, rule); }
 
 static void hear(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category, fmi3String message) {
     (void)environment, (void)status, (void)category;
@@ -53,7 +43,6 @@ int main(void) {
         const double tolerance = tolerances[way / 2 % 3], turn = 2.0 * acos(-1.0), h = turn / parts, depth = 1e3 * tolerance;
         const double first = (parts / 2 + 0.5) * h;
         const double start[] = {cos(first), 0.3 * cos(2.0 * first), sin(first), 0.6 * sin(2.0 * first)};
-        bool event, terminate, early;
         double last = 0.0;
         fmi3Instance unit = fmi3InstantiateCoSimulation("a", TOKEN, NULL, false, true, stops, stops, NULL, 0, NULL, hear, NULL);
         must(unit != NULL, 3);
@@ -65,14 +54,8 @@ int main(void) {
         if (stops) well(fmi3EnterStepMode(unit), 6);
         for (int k = 0; k < steps;) {
             const double until = h * (k + 1);
-            well(fmi3DoStep(unit, last, until - last, true, &event, &terminate, &early, &last), 7);
+            step(unit, until, &last);
             if (last >= until * (1.0 - 1e-15)) ++k;
-            if (!event) continue;
-            bool again, end, nominals, values, next;
-            double when;
-            well(fmi3EnterEventMode(unit), 8);
-            well(fmi3UpdateDiscreteStates(unit, &again, &end, &nominals, &values, &next, &when), 8);
-            well(fmi3EnterStepMode(unit), 8);
         }
         /* Some 250 steps leave 500 times the tolerance at most, which is half of the depth: an instant is off by a quarter of its distance from the
            turning point. cos(s) + 0.3 cos(2 s) = 1.3 - depth is an equation of degree two for cos(s). */

@@ -1,24 +1,14 @@
 /* A wheel that turns uniformly, and many times between two points of communication, in co-simulation by FMI 3.0: it is upright at each half turn,
    and too low once a turn. */
-#include "fmi3Functions.h"
+#include "steps3.h"
 #include <float.h>
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define MOST 4096
 
 static double events[MOST], facts[MOST];
 static int event_count, fact_count;
-
-static void must(int holds, int rule) {
-    if (holds) return;
-    fprintf(stderr, "rule %d is broken\n", rule);
-    exit(rule);
-}
-
-static void well(fmi3Status status, int rule) { must(status == fmi3OK, rule); }
 
 static void hear(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category, fmi3String message) {
     double t;
@@ -52,7 +42,6 @@ int main(void) {
         const int stops = way % 2;
         /* To stop at each of thousands, and search all that is left each time, takes seconds. */
         if (stops && until > 100.0) continue;
-        bool event, terminate, early;
         double last = 0.0;
         fmi3Instance unit = fmi3InstantiateCoSimulation("a", TOKEN, NULL, false, true, stops, stops, NULL, 0, NULL, hear, NULL);
         must(unit != NULL, 3);
@@ -61,14 +50,7 @@ int main(void) {
         well(fmi3ExitInitializationMode(unit), 5);
         if (stops) well(fmi3EnterStepMode(unit), 6);
         while (last < until) {
-            const double t = last, point = length * (floor(t / length + 1e-9) + 1.0);
-            well(fmi3DoStep(unit, t, point - t, true, &event, &terminate, &early, &last), 7);
-            if (!event) continue;
-            bool again, end, nominals, values, next;
-            double when;
-            well(fmi3EnterEventMode(unit), 8);
-            well(fmi3UpdateDiscreteStates(unit, &again, &end, &nominals, &values, &next, &when), 8);
-            well(fmi3EnterStepMode(unit), 8);
+            step(unit, length * (floor(last / length + 1e-9) + 1.0), &last);
         }
         /* phi = 0.3 + 10 t; cos(phi) = 0 at odd quarters of a turn, sin(phi) falls to -1/2 at 7/12 of each. */
         compare("events", events, event_count, (0.5 * pi - 0.3) / 10.0, pi / 10.0, until, 20);

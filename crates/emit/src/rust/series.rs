@@ -10,7 +10,7 @@
 //! bits. Factors of products lie in packs, `a0` and `b0`, that one order fills after the other; so the sum over orders is a
 //! loop over packs, which a compiler turns into vector instructions, and code does not grow with the order. A list that is
 //! a factor of several products stands in a pack as often; several trajectories at once, whose numbers fill registers by
-//! themselves, keep and read it once, in the place that the constants `A0` and `B0` give. Whoever calls brings the packs, so that
+//! themselves, keep and read it once, in the place that the constants `A0` and `B0` give. The caller provides the packs, so that
 //! they need not be cleared for every step.
 
 mod arithmetic;
