@@ -233,16 +233,15 @@ fn print(name: &str, method: &str, setting: f64, point: Option<Point>) -> bool {
 
 /// Tolerances, or lengths of steps, from coarse to fine.
 fn settings(method: &Method, until: f64) -> Vec<f64> {
-    match method.has_fixed_steps() {
-        true => (8..=20)
+    if method.has_fixed_steps() {
+        (8..=20)
             .map(|power| until / f64::from(1 << power))
-            .collect(),
-        false => {
-            let halves = (4..=30)
-                .step_by(2)
-                .map(|half| 10_f64.powf(-0.5 * f64::from(half)));
-            halves.collect()
-        }
+            .collect()
+    } else {
+        let halves = (4..=30)
+            .step_by(2)
+            .map(|half| 10_f64.powf(-0.5 * f64::from(half)));
+        halves.collect()
     }
 }
 

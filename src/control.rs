@@ -101,18 +101,16 @@ impl Control {
 
 /// Whether one more step may be taken after `taken` ones, at time `t`.
 pub(crate) fn check_count(taken: usize, steps: usize, t: f64) -> Result<(), StepError> {
-    match taken < steps {
-        true => Ok(()),
-        false => Err(StepError::TooManySteps { steps, t }),
+    if taken < steps {
+        Ok(())
+    } else {
+        Err(StepError::TooManySteps { steps, t })
     }
 }
 
 /// The longest step that somebody asks for: what is no length sets no bound.
 pub(crate) fn longest(step: f64) -> f64 {
-    match step > 0.0 {
-        true => step,
-        false => f64::INFINITY,
-    }
+    if step > 0.0 { step } else { f64::INFINITY }
 }
 
 /// A few parts in 10¹⁵ of the time, in `f64`: shorter steps have no beginning and no end. Near t = 0 that is no limit; there the

@@ -139,9 +139,12 @@ fn worst<S: System>(
     let a = a.as_slice();
     let inertia: Vec<f64> = (0..n).map(|i| sqrt(mass[i * n + i].max(0.0))).collect();
     let spread: f64 = (0..n)
-        .map(|j| match inertia[j] > 0.0 {
-            true => inertia[j] * a[j].abs() + size[j] / inertia[j],
-            false => 0.0,
+        .map(|j| {
+            if inertia[j] > 0.0 {
+                inertia[j] * a[j].abs() + size[j] / inertia[j]
+            } else {
+                0.0
+            }
         })
         .sum();
 
@@ -158,17 +161,17 @@ fn worst<S: System>(
     let mut is_finite = tolerance.is_finite();
     let mut take = |index: usize, is_constraint: bool, residual: f64, terms: f64, weight: f64| {
         is_finite &= residual.is_finite() && terms.is_finite();
-        let share = match residual == 0.0 {
-            true => 0.0,
-            false => residual.abs() / terms / weight,
+        let share = if residual == 0.0 {
+            0.0
+        } else {
+            residual.abs() / terms / weight
         };
         if share > worst.share {
-            let row = match is_constraint {
-                true => constraint_name(system, index),
-                false => {
-                    let coordinate = system.coordinates().nth(index);
-                    coordinate.map_or("?", |coordinate| coordinate.name).into()
-                }
+            let row = if is_constraint {
+                constraint_name(system, index)
+            } else {
+                let coordinate = system.coordinates().nth(index);
+                coordinate.map_or("?", |coordinate| coordinate.name).into()
             };
             worst = Worst {
                 row,

@@ -333,9 +333,10 @@ impl Error {
             StepError::Singular { singular, t } => {
                 let name = singular.name(system).into();
                 // 0/0 is nothing of nothing.
-                let ratio = match singular.ratio.is_nan() {
-                    true => 0.0,
-                    false => singular.ratio,
+                let ratio = if singular.ratio.is_nan() {
+                    0.0
+                } else {
+                    singular.ratio
                 };
                 match singular.at {
                     Pivot::Coordinate(_) => Self::SingularMassMatrix {
@@ -432,9 +433,10 @@ struct Short(f64);
 impl Display for Short {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let size = self.0.abs();
-        match size == 0.0 || !size.is_finite() || (1e-4..1e9).contains(&size) {
-            true => write!(f, "{}", self.0),
-            false => write!(f, "{:e}", self.0),
+        if size == 0.0 || !size.is_finite() || (1e-4..1e9).contains(&size) {
+            write!(f, "{}", self.0)
+        } else {
+            write!(f, "{:e}", self.0)
         }
     }
 }
@@ -506,9 +508,10 @@ impl Display for Error {
             }
             Self::UnknownCoordinate { name } => write!(f, "no coordinate is named `{name}`"),
             Self::UnknownVariable { name, known } => {
-                let known = match known.is_empty() {
-                    true => "nothing but the state".into(),
-                    false => known.join(", "),
+                let known = if known.is_empty() {
+                    "nothing but the state".into()
+                } else {
+                    known.join(", ")
                 };
                 write!(
                     f,
@@ -727,9 +730,10 @@ impl Display for Error {
                 terms,
                 t,
             } => {
-                let (of, equation) = match is_constraint {
-                    true => ("the constraint", "G a - γ"),
-                    false => ("the coordinate", "M a - f - Gᵀ λ"),
+                let (of, equation) = if *is_constraint {
+                    ("the constraint", "G a - γ")
+                } else {
+                    ("the coordinate", "M a - f - Gᵀ λ")
                 };
                 write!(
                     f,

@@ -78,9 +78,10 @@ impl<O> Evaluation<O> {
             let column = rows.iter().skip(i).step_by(n).zip(&multipliers);
             column.map(|(g, multiplier)| g * multiplier).sum()
         };
-        let reactions = match multipliers.is_empty() {
-            true => Vec::new(),
-            false => (0..n).map(reaction).collect(),
+        let reactions = if multipliers.is_empty() {
+            Vec::new()
+        } else {
+            (0..n).map(reaction).collect()
         };
         let mut contacts = vec![ContactForce::default(); system.contacts().len()];
         if !contacts.is_empty() {

@@ -1,20 +1,17 @@
 //! Events: instants at which a function of the state changes its sign.
 //!
-//! The function is looked at a few times within each step, along a polynomial that costs no evaluation. These values and how fast the coefficients of
-//! their interpolant fall bound it in between ([`roots::glance`]), so that most steps are known to have no zero. Where there may be some, they are found
-//! on the dense output of the step, to the rounding of time; and where it is not known that there is one at the most, all of them are isolated there
-//! first ([`roots::looks`]): what comes and goes within a step is an event, too. What only touches zero is none. An event that
-//! ends a run is more than that: the step is made again up to there, and its length is corrected until the
-//! function is 0 at the *end of the step*, to rounding. So the end of the run is the state of the event,
-//! and as exact as the end of every other step.
+//! The function is evaluated at eight points of each step, along the quintic through the ends of the step, which costs no evaluation of the machine.
+//! These values and the decay of their Chebyshev coefficients bound the function in between ([`roots::sign_changes`]), which
+//! shows for most steps that there is no root. Roots are located on the dense output of the step, to the rounding of time. If there may be more than
+//! one, all of them are isolated first ([`roots::looks`]), so a function that changes its sign twice within a step has two events. A function that only
+//! touches zero has none. For an event that ends the run, the step is repeated up to the root and its length corrected until the function
+//! is 0 to rounding at the *end of the step*. So the final state is as accurate as any other.
 //!
-//! A step by Taylor series is long, and its polynomial as exact as the step: there all roots are isolated at once.
+//! A step by Taylor series is long and its polynomial as accurate as the step, so all roots are isolated at once.
 //!
-//! A function that is 0 at the start of a run, to rounding, has no sign there: whoever goes on from an
-//! event is at its zero, or beside it by rounding. Its sign is the one that it has just after, looked for at
-//! fractions of the first step that grow from the rounding of time on, each four times the one before it. So
-//! the zero at the start is not found again, and a bounce is found however much shorter than the step it
-//! is.
+//! A function that is 0 to rounding at the start of a run has no sign there: a run that continues from an event starts at the root or
+//! within rounding of it. Its sign is the one just after the start, sought at fractions of the first step that grow by factors of four
+//! from the rounding of time. So the root at the start is not found again, and a bounce is found even if it is much shorter than the step.
 
 use std::boxed::Box;
 use std::string::String;
@@ -28,21 +25,21 @@ use crate::roots;
 use crate::stepper::Stepper;
 use crate::{Coordinates, Error, Machine, Quadratures, State, System, Vector};
 
-/// Where in a step the sign is looked at if it changes once at the most.
+/// Fractions of a step at which the sign is evaluated if it changes at most once.
 pub(crate) const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
-/// What turns by more than this in a step, in rad, may have come back to where it was between two looks: functions of the motion are then
-/// interpolated as closely as it takes.
+/// A coordinate that turns by more than this in a step, in rad, may have returned to the same angle between two of the eight points. Functions of the
+/// motion are then interpolated to convergence.
 const FARTHEST_TURN: f64 = core::f64::consts::PI;
 
-/// With a greater tolerance a step may be so long that a glance does not tell what a motion does in it.
+/// With a greater tolerance steps may be too long for eight values to decide.
 const LOOSEST: f64 = 1e-3;
 
-/// What is zero for no longer than this part of a step, and has the same sign before and after, has touched zero.
+/// A function that is zero for at most this fraction of a step and has the same sign on both sides only touches zero.
 const TOUCH: f64 = 1e-6;
 
-/// What is within so many roundings of zero is zero: those of an event's own time, of the step that
-/// ended there, and of a function of some ten operations.
+/// Rounding allowance at the start of a run: for the time of the event from which it continues, for the step that ended there, and for a function
+/// of some ten operations.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Which changes of sign count.
@@ -214,16 +211,18 @@ impl<M: Machine> Watch<'_, M> {
                 // What is not a number there says nothing.
                 *by = if most.is_finite() { most } else { 0.0 };
             }
-            match by[1] < 4.0 * by[0] {
-                true => jumps += by[0],
-                false => smooth += by[0],
+            if by[1] < 4.0 * by[0] {
+                jumps += by[0]
+            } else {
+                smooth += by[0]
             }
         }
         if self.side == 0.0 || value.abs() <= smooth + jumps {
             self.side = 0.0;
-            self.leave = match jumps > 0.0 {
-                true => 0.0,
-                false => 2.0 * smooth.max(value.abs()),
+            self.leave = if jumps > 0.0 {
+                0.0
+            } else {
+                2.0 * smooth.max(value.abs())
             };
         }
         Ok(())
@@ -244,9 +243,10 @@ impl<M: Machine> Watch<'_, M> {
         // Where it has become zero, and how long it was so: that may be a touch.
         let mut zeros: Option<[f64; 3]> = None;
         // Where it starts from zero, it may leave it and be back long before a quarter of the step.
-        let least = match side == 0.0 {
-            true => 16.0 * roundoff,
-            false => looks[0],
+        let least = if side == 0.0 {
+            16.0 * roundoff
+        } else {
+            looks[0]
         };
         let small = core::iter::successors(Some(least), |theta| Some(4.0 * theta));
         let small = small.take_while(|theta| *theta < looks[0]);
@@ -289,9 +289,9 @@ impl<M: Machine> Watch<'_, M> {
         Ok(())
     }
 
-    /// Where in the last step to look at the function, by its values at the [fractions](roots::FRACTIONS) of a glance; `None` where it has no event.
+    /// Decides from the values at the eight [fractions](roots::FRACTIONS) where in the last step to look for events; `None` if there is none.
     fn places(&self, values: &[f64; roots::FRACTIONS.len()]) -> Option<Places> {
-        let changes = roots::glance(values);
+        let changes = roots::sign_changes(values);
         if self.side == 0.0 {
             let is_zero = |value: &f64| value.abs() <= self.leave;
             return match changes {
@@ -335,7 +335,7 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
     let roundoff = theta_roundoff(stepper);
     let is_series = stepper.coefficients().is_some();
     let is_long = !watches.is_empty() && is_long(system, stepper);
-    let mut glanced = None;
+    let mut sampled = None;
     for (index, watch) in watches.iter_mut().enumerate() {
         if !watch.begun {
             watch.settle(sight, stepper)?;
@@ -348,11 +348,11 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
         let mut places = Places::All;
         let known = watch.latest.take();
         if !is_series {
-            let states = match &glanced {
+            let states = match &sampled {
                 Some(states) => states,
                 None => {
                     let all = at_fractions(system, stepper, interpolant)?;
-                    &*glanced.insert(all.map(|at| state(system, at)))
+                    &*sampled.insert(all.map(|at| state(system, at)))
                 }
             };
             let mut values = [0.0; roots::FRACTIONS.len()];
@@ -363,9 +363,10 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
                 };
             }
             watch.latest = Some(values[4]);
-            let of_step = match is_long {
-                true => Some(Places::All),
-                false => watch.places(&values),
+            let of_step = if is_long {
+                Some(Places::All)
+            } else {
+                watch.places(&values)
             };
             match of_step {
                 None => continue,
@@ -499,7 +500,7 @@ pub(crate) fn interpolated_at<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     (stepper.t_before() + theta * stepper.last_step(), q, v)
 }
 
-/// Whether functions of the motion are to be interpolated closely over the last step, since a glance may not tell what they do.
+/// Whether the last step is too long for eight values to decide whether functions of the motion change their sign.
 pub(crate) fn is_long<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     system: &S,
     stepper: &Stepper<'_, S, L, A>,

@@ -170,9 +170,10 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
 
     /// Which stage of one trajectory has the acceleration now.
     fn newest(&self) -> usize {
-        match self.is_after_step() {
-            true => self.method.tableau.stages,
-            false => 0,
+        if self.is_after_step() {
+            self.method.tableau.stages
+        } else {
+            0
         }
     }
 
@@ -188,9 +189,10 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
 
     /// Where the last step of one trajectory began; now, if it has taken none.
     pub fn before(&self) -> &Point<V, N> {
-        match self.is_after_step() {
-            true => &self.before,
-            false => &self.now,
+        if self.is_after_step() {
+            &self.before
+        } else {
+            &self.now
         }
     }
 
@@ -421,10 +423,11 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         let are_numbers = attempt::are_finite(&now.q, &now.v);
         let errors = N::each(|lane| {
             let error = found.as_ref()[lane];
-            match error.is_finite() && are_numbers.as_ref()[lane] {
-                true => error,
+            if error.is_finite() && are_numbers.as_ref()[lane] {
+                error
+            } else {
                 // An error beyond all measure.
-                false => f64::INFINITY,
+                f64::INFINITY
             }
         });
         for (lane, failed) in failed.as_mut().iter_mut().enumerate() {

@@ -412,9 +412,10 @@ impl Contacts {
 
     /// [`mode_of`](Self::mode_of) a state.
     fn mode_at<S: System>(&self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> Mode {
-        match self.skids() {
-            true => self.mode_of(&slips(system, t, q, v)),
-            false => self.mode,
+        if self.skids() {
+            self.mode_of(&slips(system, t, q, v))
+        } else {
+            self.mode
         }
     }
 

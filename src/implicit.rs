@@ -182,9 +182,10 @@ impl Implicit {
                 self.age = Age::Fresh;
                 self.factored = 0.0;
             }
-            let solved = match self.factor(task.h) {
-                false => Ok(Solved::Shorter(0.5)),
-                true => self.newton(task, k, [q, v], &mut accelerations),
+            let solved = if self.factor(task.h) {
+                self.newton(task, k, [q, v], &mut accelerations)
+            } else {
+                Ok(Solved::Shorter(0.5))
             };
             if solved == Ok(Solved::Yes) {
                 for (known, k) in self.known.iter_mut().zip(&k[1..]) {
@@ -347,9 +348,10 @@ impl Implicit {
     /// By how much the step is to be shorter after one with that error; infinite if it could not be
     /// solved.
     pub fn reject(&self, error: f64, exponent: f64, shrink: f64) -> f64 {
-        match error.is_finite() {
-            true => self.step_factor(error, exponent).max(shrink),
-            false => self.shorter,
+        if error.is_finite() {
+            self.step_factor(error, exponent).max(shrink)
+        } else {
+            self.shorter
         }
     }
 
@@ -387,9 +389,10 @@ impl Implicit {
         }
         self.age = if stays { Age::Old } else { Age::None };
         let factor = factor.clamp(shrink, grow);
-        match stays && (1.0..=HARDLY_LONGER).contains(&factor) {
-            true => 1.0,
-            false => factor,
+        if stays && (1.0..=HARDLY_LONGER).contains(&factor) {
+            1.0
+        } else {
+            factor
         }
     }
 }

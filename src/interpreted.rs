@@ -282,9 +282,10 @@ impl Machine for InterpretedMachine {
                 compiled: self.machine_code.prepared(&interpreter),
                 interpreter,
             }),
-            parameters: match self.program.contacts.is_empty() {
-                true => Vec::new(),
-                false => self.parameters.clone(),
+            parameters: if self.program.contacts.is_empty() {
+                Vec::new()
+            } else {
+                self.parameters.clone()
             },
             enclosing: SharedWorkspace::new(None),
             series: self.series.clone(),
@@ -373,15 +374,16 @@ impl Running {
         if compiled.call(role, arguments, results) {
             return Ok(());
         }
-        match role.is_fast() {
+        if role.is_fast() {
             // In the arithmetic of compiled machines, to the last bit.
-            true => f64::run(Call {
+            f64::run(Call {
                 interpreter,
                 role,
                 arguments,
                 results,
-            }),
-            false => interpreter.call(role, arguments, results),
+            })
+        } else {
+            interpreter.call(role, arguments, results)
         }
     }
 }
@@ -853,13 +855,15 @@ impl Staged for InterpretedSystem {
         if !self.program.contacts.is_empty() {
             return accelerations_with_friction(self, values[0], q, v, u, a);
         }
-        let role = match self.program.stages.is_empty() {
-            true => Role::Accelerations,
-            false => Role::AccelerationsAt,
+        let role = if self.program.stages.is_empty() {
+            Role::Accelerations
+        } else {
+            Role::AccelerationsAt
         };
-        let before = match self.program.stages.coordinates {
-            true => Role::AtPosition,
-            false => Role::AtTime,
+        let before = if self.program.stages.coordinates {
+            Role::AtPosition
+        } else {
+            Role::AtTime
         };
         self.call_after((before, values), (role, [q, v, &u.values]), a)
     }
@@ -890,13 +894,12 @@ impl InterpretedSystem {
         results: &mut [f64],
     ) -> Result<(), Singular> {
         let mut running = self.running.lock();
-        let t = match stage == Role::AtTime && !self.program.stages.time {
-            true => left[0],
-            false => {
-                running.interpreter.stand(stage, left);
-                running.compiled.stand(stage, left);
-                f64::NAN // nobody reads the time any more
-            }
+        let t = if stage == Role::AtTime && !self.program.stages.time {
+            left[0]
+        } else {
+            running.interpreter.stand(stage, left);
+            running.compiled.stand(stage, left);
+            f64::NAN // nobody reads the time any more
         };
         let called = running.call(role, at(t, q, v, u), results);
         called.map_err(|singular| where_it_stopped(&self.program, singular))
@@ -910,9 +913,10 @@ fn at<'a>(t: f64, q: &'a [f64], v: &'a [f64], u: &'a [f64]) -> Arguments<'a, f64
 
 impl Differentiate for InterpretedSystem {
     fn variables(&self) -> impl ExactSizeIterator<Item = Quantity<'_>> {
-        let own = match self.program.has_linearization() {
-            true => &self.program.derivatives[2 * self.program.dimension()..],
-            false => &[],
+        let own = if self.program.has_linearization() {
+            &self.program.derivatives[2 * self.program.dimension()..]
+        } else {
+            &[]
         };
         own.iter().map(|variable| {
             let Label { name, unit } = match variable {

@@ -135,9 +135,10 @@ impl<S: Batched<N>, const N: usize> Batch<S, N> {
                 };
             }
         }
-        match singular.iter().any(Option::is_some) {
-            true => Err(SomeSingular { lanes: singular }),
-            false => Ok(()),
+        if singular.iter().any(Option::is_some) {
+            Err(SomeSingular { lanes: singular })
+        } else {
+            Ok(())
         }
     }
 
@@ -194,9 +195,10 @@ impl<S: Batched<N>, const N: usize> Batch<S, N> {
                 }
             }
         }
-        match singular.iter().any(Option::is_some) {
-            true => Err(SomeSingular { lanes: singular }),
-            false => Ok(()),
+        if singular.iter().any(Option::is_some) {
+            Err(SomeSingular { lanes: singular })
+        } else {
+            Ok(())
         }
     }
 

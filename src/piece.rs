@@ -42,10 +42,7 @@ impl Piece {
     /// The part that it has in common with another one, which a run enters where it enters the later of both.
     #[must_use]
     pub fn and(self, other: Piece, forward: bool) -> Piece {
-        let entered = |piece: &Piece| match forward {
-            true => piece.from,
-            false => -piece.to,
-        };
+        let entered = |piece: &Piece| if forward { piece.from } else { -piece.to };
         let jumps = match (entered(&self), entered(&other)) {
             (one, two) if one > two => self.jumps,
             (one, two) if one < two => other.jumps,

@@ -1,13 +1,13 @@
-//! Where the roots of a smooth function are, none missed.
+//! Isolates all roots of a smooth function within a step.
 //!
-//! A function of the state may come to zero several times within a step. It is as smooth as
-//! the motion, so its interpolant in Chebyshev's polynomials is as good as the function itself, to rounding; and the
-//! coefficients bound it: `|c₀| > Σ |cⱼ|` leaves no root, and the same of the derivative no more than one. Where neither
-//! holds, the interval is halved. L. N. Trefethen, *Approximation Theory and Approximation Practice*, 2013, ch. 3, 8
-//! and 18. A body that turns uniformly needs no short steps, and functions of its angle swing many times in one: such a step is cut into
-//! parts that an interpolant has. Sines of angles that are multiples of one are all that it takes, and no allocation beyond a few vectors.
+//! A function of the state may vanish several times within a step. It is as smooth as the motion, so its Chebyshev interpolant
+//! represents it to rounding, and the coefficients bound it: if `|c₀| > Σ |cⱼ|` there is no root, and if the same holds of the
+//! derivative there is at most one. Where neither holds the interval is bisected. L. N. Trefethen, *Approximation Theory and
+//! Approximation Practice*, 2013, ch. 3, 8 and 18. A body that turns uniformly takes long steps in which functions of its angle
+//! oscillate many times: such a step is divided into parts that the interpolant resolves.
 //!
-//! Most steps of a method by Runge and Kutta are told by eight values along a polynomial that costs nothing ([`glance`]).
+//! For most steps of a Runge–Kutta method eight values along the quintic through the ends of the step suffice
+//! ([`sign_changes`]); they cost no evaluation of the machine.
 
 use std::vec::Vec;
 
@@ -15,37 +15,36 @@ use lagrangian_scalar::Scalar;
 
 use crate::Error;
 
-/// Degrees of interpolants, tried in this order.
+/// Degrees of the interpolants, tried in this order.
 const DEGREES: [usize; 3] = [16, 32, 64];
 
-/// The degree of an interpolant that is only asked whether the function is far from zero.
+/// Degree of the interpolant that only decides whether the function is far from zero.
 const COARSE: usize = 8;
 
-/// An interpolant has all of a function where its last coefficients are below this share of the greatest.
+/// An interpolant resolves a function if its last coefficients are below this fraction of the largest.
 const CONVERGED: f64 = 1e-12;
 
-/// Rounding of the coefficients, as a share of the greatest.
+/// Rounding of the coefficients, relative to the largest.
 const ROUNDING: f64 = 1e-14;
 
-/// How often an interval is halved whose function no interpolant has: what has a kink there is looked at in all nodes.
+/// How many times an interval is bisected that no interpolant resolves. If there is a kink, all nodes are looked at in the end.
 const HALVINGS: u32 = 2;
 
-/// A function swings too often for an interpolant where a coefficient in the upper half is more than this share of the greatest. Of a jump
-/// it is a fortieth, of a kink less.
+/// A function oscillates too fast for an interpolant if a coefficient in the upper half exceeds this fraction of the largest. For a
+/// jump the fraction is a fortieth, for a kink it is smaller.
 const SWINGS: f64 = 0.1;
 
-/// How often an interval is halved, all in all, in which a function swings too often.
+/// How many times in total an interval is bisected because the function oscillates too fast.
 const HALVINGS_OF_SWINGS: u32 = 14;
 
-/// Where it swings, an interpolant has all of it if its last coefficients are below this share of the greatest: a function of an angle of 10⁵ rad
-/// is known to 10⁻¹¹.
+/// [`CONVERGED`] for such a function: a function of an angle of 10⁵ rad is only accurate to 10⁻¹¹.
 const CONVERGED_WITH_NOISE: f64 = 1e-7;
 
-/// Roots nearer to each other than this, as a share of the step, are one that does not change the sign.
+/// Two roots closer than this fraction of the step count as one that does not change the sign.
 const NARROWEST: f64 = 1.0 / (1u64 << 40) as f64;
 
-/// Fractions of a step at which to look at a function, the last of which is 1: between two of them, and between 0 and the
-/// first, it changes its sign no more than once.
+/// Returns increasing fractions of a step, the last of which is 1, such that the function changes its sign at most once between
+/// neighbours, and between 0 and the first.
 pub(crate) fn looks(mut f: impl FnMut(f64) -> Result<f64, Error>) -> Result<Vec<f64>, Error> {
     let mut looks = Vec::new();
     interpolate(&mut f, [0.0, 1.0], Effort::FIRST, &mut looks)?;
@@ -57,24 +56,24 @@ pub(crate) fn looks(mut f: impl FnMut(f64) -> Result<f64, Error>) -> Result<Vec<
     Ok(looks)
 }
 
-/// How often an interval is halved in which a function has a kink, on the way to its extremes.
+/// How many times an interval with a kink is bisected in the search for extremes.
 const HALVINGS_TO_EXTREMES: u32 = 40;
 
-/// The highest degree of an interpolant on the way to extremes.
+/// The highest degree of an interpolant in the search for extremes.
 const FINE: usize = 32;
 
-/// How many intervals of one step are looked at on the way to extremes.
+/// How many intervals of one step the search for extremes looks at.
 const MOST_INTERVALS: usize = 400;
 
-/// Extremes of a function are found to this share of the range of its values.
+/// Extremes are found to this fraction of the range of the function.
 const EXTREMES: f64 = 1e-10;
 
 /// Finds the least and the greatest value of a function between two fractions.
 ///
-/// `extent` holds the extremes that are known before, from other steps or none, each with its place, and afterwards those with
-/// the values in between, where that place is a fraction; `wanted` says which of them matter. Where the function is smooth, it is looked
-/// at between the nodes by its interpolant in Chebyshev's polynomials, whose coefficients bound it: so what cannot hold an extreme is
-/// told from few values. Where it has a kink, the interval is halved.
+/// On entry `extent` holds the least and the greatest value known so far, each with its place, or `None`; on return also those
+/// of this step, with fractions of it as places. `wanted` says which of the two matter. The coefficients of a Chebyshev interpolant bound the
+/// function between the nodes, so an interval that cannot contain a new extreme is discarded after few values. An interval with a kink
+/// is bisected.
 ///
 /// # Errors
 /// Those of the function.
@@ -95,7 +94,7 @@ pub fn extremes(
         }
         Ok::<f64, Error>(value)
     };
-    // What is open behind the first interval; most steps need no more than that, and allocate nothing.
+    // Intervals that are still to be searched after the first. Most steps need only the first and allocate nothing.
     let mut open = Vec::new();
     let mut next = Some(([from, to], HALVINGS_TO_EXTREMES));
     let mut looked_at = 0;
@@ -158,7 +157,8 @@ pub fn extremes(
     Ok(())
 }
 
-/// Where in a step a [`glance`] looks: at the nodes of degree 4, in the order of time, and beside three of them, which tells slopes there.
+/// Fractions of a step at which [`sign_changes`] takes its values: the Chebyshev nodes of degree 4, in order of time, and three places
+/// beside nodes, which test the slopes there.
 pub(crate) const FRACTIONS: [f64; 8] = [
     0.0,
     0.5 - 0.5 * core::f64::consts::FRAC_1_SQRT_2,
@@ -170,41 +170,43 @@ pub(crate) const FRACTIONS: [f64; 8] = [
     1.0 - BESIDE,
 ];
 
-/// How far from a node a [`glance`] looks beside it, as a share of the step.
+/// Distance of those three places from their nodes, as a fraction of the step.
 const BESIDE: f64 = 0.01;
 
-/// Beside nodes values may differ from the interpolant by this share of the greatest, for their rounding. What is so much greater than its
-/// changes has no root.
+/// Allowance for rounding when values beside the nodes are compared with the interpolant, relative to the largest value. A function
+/// that varies by less than this fraction of its size has no root.
 const ROUNDING_OF_VALUES: f64 = 1e-6;
 
-/// How much more than their estimate the coefficients may be that an interpolant of degree 4 leaves out, together with what the motion along which
-/// the values were taken was wrong by.
+/// Safety factor on the estimated truncation error of the interpolant of degree 4, which also covers the error of the quintic along which the values
+/// are taken.
 ///
-/// A motion of the frequency `ω` has the coefficients `2 Jₖ(z)` with `z = ωh/2`, which fall by `z/10` and more behind the last one. Its quintic
-/// through the ends of a step is wrong by `(ωh)⁶/46 080`, which is `(ωh)²/15` of the last one. So the factor is enough for `ωh ≤ 10`, and no
-/// step of an explicit method is as long as that.
+/// A motion of frequency `ω` has the coefficients `2 Jₖ(z)` with `z = ωh/2`, which fall by `z/10` or faster after the last one. The error of its
+/// quintic through the ends of a step is `(ωh)⁶/46 080`, which is `(ωh)²/15` times the last one. So the factor suffices for `ωh ≤ 10`, and
+/// steps of explicit methods are shorter than that.
 const BEYOND: f64 = 8.0;
 
-/// Of a coefficient before the last, so much counts at least: the last may be 0 by chance.
+/// At least this fraction of the last but one coefficient counts, since the last may be 0 by chance.
 const OF_THIRD: f64 = 1.0 / 16.0;
 
-/// The derivative of the orders beyond 4 is at most `Σ k² |cₖ|`: of a motion with `ωh = 10` that is 40 times the last coefficient, five times what
-/// its [`BEYOND`] makes of that.
+/// Bound on the derivative of the truncated terms, as a multiple of the bound on the terms. The derivative is at most `Σ k² |cₖ|`, for a motion with
+/// `ωh = 10` 40 times the last coefficient, which is five times [`BEYOND`] times that coefficient.
 const OF_DERIVATIVE: f64 = 5.5;
 
-/// How often a step is halved in which an interpolant of degree 4 is neither far from zero nor monotone.
-const HALVINGS_OF_GLANCE: u32 = 5;
+/// How many times a step is bisected in which the interpolant of degree 4 is neither far from zero nor monotone.
+const MOST_BISECTIONS: u32 = 5;
 
-/// How often a function changes its sign within a step, by its values at the [`FRACTIONS`]: along the motion itself, or a polynomial through both
-/// ends of the step that is of order 5. `None` where they do not tell, since it turns too near to zero, or is not as smooth as a motion.
+/// Counts the sign changes of a function within a step from its values at the [`FRACTIONS`], taken along the motion or along the quintic through
+/// both ends of the step. Returns `None` if they do not decide it, because the function has an extreme too near to zero or is not as smooth
+/// as a motion.
 ///
-/// What counts is the interpolant of degree 4 and how fast its coefficients fall. A function that swings many times in the step may seem to be
-/// smooth at the nodes; its slopes there are those of the interpolant in less than one of ten thousand steps.
-pub(crate) fn glance(values: &[f64; FRACTIONS.len()]) -> Option<usize> {
+/// The interpolant of degree 4 and the decay of its coefficients bound the function. A function that oscillates many times in the step can look smooth
+/// at the nodes (aliasing); that it also has the slopes of the interpolant at the three places beside them happens in less than one step of ten
+/// thousand.
+pub(crate) fn sign_changes(values: &[f64; FRACTIONS.len()]) -> Option<usize> {
     let [v0, v1, v2, v3, v4, ref beside @ ..] = *values;
     let (ends, odd_ends) = (0.5 * (v0 + v4), 0.5 * (v4 - v0));
     let (inner, odd_inner) = (v1 + v3, core::f64::consts::FRAC_1_SQRT_2 * (v3 - v1));
-    // Of Chebyshev's polynomials.
+    // Coefficients in Chebyshev polynomials.
     let c0 = 0.25 * (ends + inner + v2);
     let c1 = 0.5 * (odd_ends + odd_inner);
     let c2 = 0.5 * (ends - v2);
@@ -237,29 +239,28 @@ pub(crate) fn glance(values: &[f64; FRACTIONS.len()]) -> Option<usize> {
         latest: if v0 == 0.0 { 0.0 } else { v0.signum() },
         changes: 0,
     };
-    if !signs.follow(&p, [0.0, 1.0], beyond, HALVINGS_OF_GLANCE) {
+    if !signs.follow(&p, [0.0, 1.0], beyond, MOST_BISECTIONS) {
         return None;
     }
     signs.take(if v4 == 0.0 { 0.0 } else { v4.signum() });
     Some(signs.changes)
 }
 
-/// The signs that a function has had.
+/// Signs of a function, collected in order of time.
 struct Signs {
     latest: f64,
     changes: usize,
 }
 
 impl Signs {
-    /// One more, with no more than one change since the one before it.
+    /// Adds a sign. The function changes its sign at most once between it and the one before.
     fn take(&mut self, sign: f64) {
         self.changes += usize::from(self.latest != 0.0 && self.latest != sign);
         self.latest = sign;
     }
 
-    /// Follows a polynomial of degree 4 about a middle to half a width on either side, where each value may be wrong by `beyond`. The answer is
-    /// whether its signs are known: pieces that are far from zero have one, and in pieces next to each other that are monotone it changes once at
-    /// the most.
+    /// Follows a polynomial of degree 4 from `m − r` to `m + r`, each value of which may be wrong by `beyond`. Returns whether its signs are known:
+    /// in a piece that is far from zero the sign is constant, and in adjacent monotone pieces it changes at most once.
     fn follow(&mut self, p: &[f64; 5], [m, r]: [f64; 2], beyond: f64, halvings: u32) -> bool {
         let [p0, p1, p2, p3, p4] = *p;
         let value = p0 + m * (p1 + m * (p2 + m * (p3 + m * p4)));
@@ -282,14 +283,14 @@ impl Signs {
     }
 }
 
-/// How an interval may be cut.
+/// How far an interval may be divided.
 #[derive(Clone, Copy)]
 struct Effort {
-    /// How often it may be halved where no interpolant has the function.
+    /// How many more times it may be bisected if no interpolant resolves the function.
     halvings: u32,
-    /// How often it may be halved where the function swings too often.
+    /// How many more times it may be bisected if the function oscillates too fast.
     of_swings: u32,
-    /// Below which share of the greatest coefficient the last ones have to be.
+    /// The last coefficients have to be below this fraction of the largest.
     converged: f64,
 }
 
@@ -300,23 +301,24 @@ impl Effort {
         converged: CONVERGED,
     };
 
-    /// Whether an interpolant has all of a function.
+    /// Whether an interpolant with these coefficients resolves the function.
     fn suffices(&self, coefficients: &[f64]) -> bool {
         let greatest = greatest(coefficients);
         greatest <= CONVERGED * f64::MAX && last(coefficients) <= self.converged * greatest
     }
 
-    /// What is below this in an interpolant is noise.
+    /// Coefficients below this are noise.
     fn noise(&self, coefficients: &[f64]) -> f64 {
         let rounding = ROUNDING * greatest(coefficients);
-        match self.converged > CONVERGED {
-            true => rounding.max(coefficients.len() as f64 * last(coefficients)),
-            false => rounding,
+        if self.converged > CONVERGED {
+            rounding.max(coefficients.len() as f64 * last(coefficients))
+        } else {
+            rounding
         }
     }
 }
 
-/// Interpolates a function between two fractions, and isolates its roots there.
+/// Interpolates a function between two fractions and isolates its roots there.
 fn interpolate(
     f: &mut impl FnMut(f64) -> Result<f64, Error>,
     [a, b]: [f64; 2],
@@ -332,7 +334,7 @@ fn interpolate(
         return Ok(());
     }
     for degree in DEGREES {
-        // Every second node is one of before.
+        // Every second node was a node of the lower degree.
         let before = core::mem::take(&mut values);
         for node in 0..=degree {
             let known = before.get(node / 2).filter(|_| node % 2 == 0);
@@ -356,7 +358,7 @@ fn interpolate(
     }
     let Effort { halvings, .. } = effort;
     if halvings == 0 {
-        // Nodes go from the end to the beginning.
+        // Nodes are numbered from the end to the beginning.
         looks.extend((0..degree).rev().map(|node| at(node, degree, [a, b])));
         return Ok(());
     }
@@ -370,8 +372,8 @@ fn interpolate(
     interpolate(f, [middle, b], of_half, looks)
 }
 
-/// Interpolates a function that swings too often for one interpolant in the fewest equal parts that have one, and isolates its roots there. The
-/// answer is whether there are such parts; of what has none, such as noise, nothing is known.
+/// Divides an interval in which the function oscillates too fast for one interpolant into the fewest equal parts that are resolved, and isolates
+/// the roots there. Returns whether there are such parts; noise has none.
 fn interpolate_parts(
     f: &mut impl FnMut(f64) -> Result<f64, Error>,
     [a, b]: [f64; 2],
@@ -381,16 +383,19 @@ fn interpolate_parts(
     let [.., degree] = DEGREES;
     for cuts in 1..=effort.of_swings {
         let parts = 2_u32.pow(cuts);
-        let cut = |part: u32| match part == parts {
-            true => b,
-            false => a + (b - a) * f64::from(part) / f64::from(parts),
+        let cut = |part: u32| {
+            if part == parts {
+                b
+            } else {
+                a + (b - a) * f64::from(part) / f64::from(parts)
+            }
         };
         let of_part = Effort {
             of_swings: effort.of_swings - cuts,
             converged: CONVERGED_WITH_NOISE,
             ..effort
         };
-        // How long a part may be is tried at the beginning.
+        // Whether parts of this length are resolved is tested on the first.
         let first: Result<Vec<f64>, Error> = (0..=degree)
             .map(|node| f(at(node, degree, [a, cut(1)])))
             .collect();
@@ -408,15 +413,15 @@ fn interpolate_parts(
     Ok(false)
 }
 
-/// Whether a function is certainly not zero by an interpolant that may not have all of it. The coefficients of a smooth
-/// function fall like powers of the last two: the truncation error is a small multiple of these.
+/// Whether an interpolant that may not resolve the function is certainly far from zero. The coefficients of a smooth function fall
+/// geometrically, so the truncation error is a small multiple of the last two.
 fn is_far_from_zero(c: &[f64]) -> bool {
     let rest: f64 = c[1..].iter().map(|c| c.abs()).sum();
     let last = c[c.len() - 1].abs().max(c[c.len() - 2].abs());
     c[0].abs() > rest + 4.0 * c.len() as f64 * last
 }
 
-/// Whether a function has the slopes of its interpolant at both ends: what swings many times may seem to be smooth at the nodes.
+/// Whether a function has the slopes of its interpolant at both ends. A function that oscillates many times can look smooth at the nodes.
 fn is_followed(
     f: &mut impl FnMut(f64) -> Result<f64, Error>,
     c: &[f64],
@@ -424,7 +429,7 @@ fn is_followed(
 ) -> Result<bool, Error> {
     let count = c.len() as f64;
     let last = c[c.len() - 1].abs().max(c[c.len() - 2].abs());
-    // The truncation error of [`is_far_from_zero`] is of an order as high as there are coefficients.
+    // The derivative of the truncation error that `is_far_from_zero` assumes.
     let differs = 2.0 * BESIDE * 4.0 * count * count * last + ROUNDING_OF_VALUES * greatest(c);
     for theta in [BESIDE, 1.0 - BESIDE] {
         let off = f(a + (b - a) * theta)? - evaluate(c, 2.0 * theta - 1.0);
@@ -435,7 +440,7 @@ fn is_followed(
     Ok(true)
 }
 
-/// Node number `node` of so many between two fractions: the first is at the end, the last at the beginning.
+/// Chebyshev node number `node` of this degree between two fractions, numbered from the end to the beginning.
 fn at(node: usize, degree: usize, [a, b]: [f64; 2]) -> f64 {
     match node {
         0 => b,
@@ -444,7 +449,7 @@ fn at(node: usize, degree: usize, [a, b]: [f64; 2]) -> f64 {
     }
 }
 
-/// `cos(π m/n)`. Degrees that divide 64 are looked up, since each step asks for some.
+/// `cos(π m/n)`, from a table if `n` divides 64, since most steps need some.
 fn cosine(m: usize, n: usize) -> f64 {
     match parts(n) {
         Some(parts) => COSINES[m * parts % COSINES.len()],
@@ -452,12 +457,12 @@ fn cosine(m: usize, n: usize) -> f64 {
     }
 }
 
-/// How many 128ths of the circle an angle of `π/n` has, if that is a whole number.
+/// The angle `π/n` in 128ths of the circle, if that is a whole number.
 fn parts(n: usize) -> Option<usize> {
     (n != 0 && 64_usize.is_multiple_of(n)).then(|| 64 / n)
 }
 
-/// Cosines of all 128 parts of the circle.
+/// Cosines of the multiples of a 128th of the circle.
 const COSINES: [f64; 128] = {
     let mut all = [0.0; 128];
     let mut part = 0;
@@ -544,12 +549,12 @@ fn greatest(coefficients: &[f64]) -> f64 {
     })
 }
 
-/// The greatest of the last three coefficients, by which an interpolant is known to have all of a function.
+/// The largest of the last three coefficients, which decides whether the interpolant resolves the function.
 fn last(coefficients: &[f64]) -> f64 {
     greatest(&coefficients[coefficients.len() - 3..])
 }
 
-/// Adds the ends of intervals with a root.
+/// Appends the ends of intervals that contain one root each.
 fn isolate(coefficients: &[f64], (whole, noise): ([f64; 2], f64), looks: &mut Vec<f64>) {
     let mut open = Vec::from([(coefficients.to_vec(), whole)]);
     while let Some((mut c, [a, b])) = open.pop() {
@@ -575,7 +580,7 @@ fn isolate(coefficients: &[f64], (whole, noise): ([f64; 2], f64), looks: &mut Ve
                 .collect();
             self::coefficients(&values)
         };
-        // The first half is looked at first.
+        // The first half is popped first.
         open.push((half(0.0, 1.0), [middle, b]));
         open.push((half(-1.0, 0.0), [a, middle]));
     }
@@ -593,7 +598,7 @@ fn derivative(c: &[f64]) -> Vec<f64> {
     slopes
 }
 
-/// The value at `x` between −1 and 1, by Clenshaw's recurrence.
+/// The value at `x` in [−1, 1], by Clenshaw's recurrence.
 fn evaluate(c: &[f64], x: f64) -> f64 {
     let (mut one, mut two) = (0.0, 0.0);
     for c in c[1..].iter().rev() {
@@ -649,9 +654,9 @@ mod tests {
         are_near(&roots(rising), &expected);
     }
 
-    /// What swings many times in a step is seldom taken to be smooth: so of 30 000 oscillations beside a level that they pass.
+    /// Fast oscillations through a level are hardly ever taken to be smooth: at most 3 of 30 000 with random frequencies and phases.
     #[test]
-    fn a_glance_is_not_deceived_by_fast_oscillations() {
+    fn fast_oscillations_are_not_taken_to_be_smooth() {
         let mut state = 0x9e37_79b9_7f4a_7c15_u64;
         let mut random = || {
             state = state
@@ -665,7 +670,7 @@ mod tests {
             let level = 1.98 * (random() - 0.5);
             deceived += usize::from(seen(|x| (frequency * x + phase).cos() - level).is_some());
         }
-        // By values at the nodes alone it would be a thousand.
+        // With the values at the nodes alone there would be a thousand.
         assert!(deceived <= 3, "{deceived}");
     }
 
@@ -721,20 +726,20 @@ mod tests {
         are_near(&found, &[0.7]);
     }
 
-    /// What a glance says of a function.
+    /// [`sign_changes`] of a function on the unit interval.
     fn seen(f: impl Fn(f64) -> f64) -> Option<usize> {
-        glance(&FRACTIONS.map(f))
+        sign_changes(&FRACTIONS.map(f))
     }
 
     #[test]
-    fn a_glance_counts_changes_of_sign() {
+    fn eight_values_count_sign_changes() {
         assert_eq!(seen(|_| 1.0), Some(0));
         assert_eq!(seen(|x| 2.0 + x.cos()), Some(0));
         assert_eq!(seen(|x| x - 0.3), Some(1));
         assert_eq!(seen(|x| (2.0 * x - 1.0).sin()), Some(1));
         assert_eq!(seen(|x| (x - 0.3) * (x - 0.4)), Some(2));
         assert_eq!(seen(|x| x * (x - 0.4)), Some(1));
-        // What it does not know.
+        // Undecided, except the sixth.
         assert_eq!(seen(|x| (x - 0.3) * (x - 0.3 - 1e-9)), None);
         assert_eq!(seen(|x| (x - 0.3) * (x - 0.3) + 1e-9), None);
         assert_eq!(seen(|x| (x - 0.3) * (x - 0.3) + 1e-2), Some(0));
@@ -744,10 +749,10 @@ mod tests {
         assert_eq!(seen(|x| if x < 0.3 { 1.0 } else { f64::INFINITY }), None);
     }
 
-    /// Sums of three sines of up to 5 rad a step beside a level near a turning point, against samples: a glance at their quintic, which is off by as
-    /// much as a fiftieth, never says that there are fewer changes than they have.
+    /// Sums of three sines of up to 5 rad a step and a level near one of their extremes, against dense samples. The quintic is wrong by up to a
+    /// fiftieth, and yet the count is never less than the number of sign changes of the samples.
     #[test]
-    fn a_glance_overlooks_no_root_of_random_motions() {
+    fn eight_values_miss_no_root_of_random_motions() {
         let mut state = 0x2545_f491_4f6c_dd1d_u64;
         let mut random = || {
             state = state
@@ -798,7 +803,7 @@ mod tests {
             assert!(signs.count() <= changes, "{case}: {terms:?} {level}");
             told += 1;
         }
-        // Most of them are told.
+        // Most of them are decided.
         assert!(told > 7000, "{told}");
     }
 

@@ -550,13 +550,14 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     /// Whether one more step may be taken.
     #[inline(always)]
     fn check_count(&self) -> Result<(), Error> {
-        match self.stepper.work().steps == self.settings.max_steps {
-            false => Ok(()),
-            true => Err(Error::TooManySteps {
+        if self.stepper.work().steps == self.settings.max_steps {
+            Err(Error::TooManySteps {
                 steps: self.settings.max_steps,
                 t: self.stepper.t(),
                 until: self.until,
-            }),
+            })
+        } else {
+            Ok(())
         }
     }
 
@@ -1250,7 +1251,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
                 }
             }
             for (place, values) in places.iter_mut().zip(&values) {
-                *place = match roots::glance(values) {
+                *place = match roots::sign_changes(values) {
                     // What does not change is nowhere to be looked for.
                     _ if is_long && values.iter().any(|value| *value != values[0]) => {
                         Some(Places::All)
@@ -1268,9 +1269,10 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         }
         let interpolant = made(interpolant, stepper, self.system)?;
         let at = |theta| event::state_at(self.system, stepper, interpolant, theta);
-        let mut looks = match places.contains(&Some(Places::Few)) {
-            true => event::LOOKS.to_vec(),
-            false => Vec::new(),
+        let mut looks = if places.contains(&Some(Places::Few)) {
+            event::LOOKS.to_vec()
+        } else {
+            Vec::new()
         };
         // All ask for the same fractions first.
         let mut known: Vec<(f64, Triple<S::Vector>)> = Vec::new();
@@ -1465,9 +1467,10 @@ fn contradicts_kept<S: System>(
             of_rates,
             kept: kept.map(|(_, of)| number_name(of.name, level)).collect(),
             residual,
-            unit: match of_rates {
-                true => std::format!("{}/s", constraint.unit),
-                false => constraint.unit.into(),
+            unit: if of_rates {
+                std::format!("{}/s", constraint.unit)
+            } else {
+                constraint.unit.into()
             },
         })
     };
@@ -1691,9 +1694,10 @@ fn balance<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     let (first, last) = (energies.first()?, energies.last()?);
     let turned_over = kinetic_energy + integrals.work_turned_over() + last.dissipated;
     Some(EnergyBalance {
-        explained: match has_fixed_steps {
-            true => f64::INFINITY,
-            false => explained.in_all(turned_over),
+        explained: if has_fixed_steps {
+            f64::INFINITY
+        } else {
+            explained.in_all(turned_over)
         },
         start: first.kinetic + first.potential,
         end: last.kinetic + last.potential,

@@ -220,13 +220,14 @@ impl<M: Machine> Sampled<'_, M> {
                 "after the start: samples are taken forward in time",
             );
         }
-        match is_alone {
-            true => Ok(()),
-            false => wrong(
+        if is_alone {
+            Ok(())
+        } else {
+            wrong(
                 "sampled",
                 self.period,
                 "without `inputs`, which would set the same",
-            ),
+            )
         }
     }
 }

@@ -291,9 +291,10 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
         let pieces = &self.pieces;
         let is_from = |piece: &Piece| piece.from <= t || is_near(piece.from, t);
         let is_forward = pieces.first().zip(pieces.last());
-        let found = match is_forward.is_none_or(|(first, last)| first.from <= last.from) {
-            true => pieces.partition_point(is_from).checked_sub(1),
-            false => Some(pieces.partition_point(|piece| !is_from(piece))),
+        let found = if is_forward.is_none_or(|(first, last)| first.from <= last.from) {
+            pieces.partition_point(is_from).checked_sub(1)
+        } else {
+            Some(pieces.partition_point(|piece| !is_from(piece)))
         };
         let found = found.and_then(|place| pieces.get(place));
         let found = found.filter(|piece| t <= piece.to || is_near(piece.to, t));
@@ -598,9 +599,10 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
         };
         // In parts, where the motion within a step is of a higher degree.
         let is_series = |of: &Steps<_>| of.method(*index).kind == Kind::Series;
-        let parts = match run.steps.as_ref().is_some_and(is_series) {
-            true => 4,
-            false => 1,
+        let parts = if run.steps.as_ref().is_some_and(is_series) {
+            4
+        } else {
+            1
         };
         let half = 0.5 * (t - before.t) / f64::from(parts);
         let nodes = (0..parts).flat_map(|part| GAUSS.map(|(x, weight)| (part, x, weight)));

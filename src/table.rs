@@ -365,9 +365,10 @@ impl Table {
     pub fn piece(&self, t: f64, forward: bool, order: u32) -> Result<Piece, NoPiece<'_>> {
         let [first, last] = self.ends;
         if self.beyond == Beyond::Error {
-            let is_known = match forward {
-                true => (first..last).contains(&t),
-                false => first < t && t <= last,
+            let is_known = if forward {
+                (first..last).contains(&t)
+            } else {
+                first < t && t <= last
             };
             if !is_known {
                 return Err(NoPiece::Ended(&self.name));
@@ -432,9 +433,10 @@ fn first_of(count: usize, holds: impl Fn(usize) -> bool) -> usize {
     let (mut from, mut to) = (0, count);
     while from < to {
         let middle = from + (to - from) / 2;
-        match holds(middle) {
-            true => to = middle,
-            false => from = middle + 1,
+        if holds(middle) {
+            to = middle
+        } else {
+            from = middle + 1
         }
     }
     from

@@ -65,9 +65,10 @@ impl<V: Vector> Taylor<V> {
     }
 
     fn of_now(&self) -> usize {
-        match self.is_taken {
-            true => 1 - self.beginning,
-            false => self.beginning,
+        if self.is_taken {
+            1 - self.beginning
+        } else {
+            self.beginning
         }
     }
 
@@ -97,9 +98,10 @@ impl<V: Vector> Taylor<V> {
         u: &S::Inputs,
         ahead: bool,
     ) -> Result<(), Singular> {
-        let which = match ahead {
-            true => 1 - self.beginning,
-            false => self.of_now(),
+        let which = if ahead {
+            1 - self.beginning
+        } else {
+            self.of_now()
         };
         self.length = None;
         let t = [at.t, at.t_low];
@@ -108,9 +110,10 @@ impl<V: Vector> Taylor<V> {
 
     /// The accelerations at the state that was expanded last: now, or with `ahead` the end of the step that is tried.
     pub fn accelerations(&self, ahead: bool, a: &mut V) {
-        let which = match ahead {
-            true => 1 - self.beginning,
-            false => self.of_now(),
+        let which = if ahead {
+            1 - self.beginning
+        } else {
+            self.of_now()
         };
         let second = &self.coefficients[which][2];
         for (a, c) in a.as_mut_slice().iter_mut().zip(second.as_slice()) {

@@ -105,13 +105,15 @@ pub fn run(call: &call::Brachistochrone) -> Result<(), Failure> {
     found.because = because;
     found.arrival = forward::arrival(call, &compiled.model.coordinates, &found);
     write(&files, &compiled, &machine, &found)?;
-    match call.spec.json {
-        true => output::line(format_args!("{:#}", found.document())),
-        false => found.print(machine.name()),
+    if call.spec.json {
+        output::line(format_args!("{:#}", found.document()))
+    } else {
+        found.print(machine.name())
     }
-    match found.is_motion() {
-        true => Ok(()),
-        false => Err(Failure::Said),
+    if found.is_motion() {
+        Ok(())
+    } else {
+        Err(Failure::Said)
     }
 }
 
@@ -179,10 +181,7 @@ fn ends(
             "nothing says where the motion ends: give `--to`, or the spec a section `brachistochrone { … }`".to_owned(),
         ));
     }
-    let to = match said.is_empty() {
-        true => from.clone(),
-        false => said,
-    };
+    let to = if said.is_empty() { from.clone() } else { said };
     let to = place(to, &call.to, "--to")?;
     Ok([from, to])
 }

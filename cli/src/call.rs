@@ -539,9 +539,10 @@ fn names(text: &str) -> Result<Names, String> {
         }
     }
     let names: Vec<String> = names.iter().map(|name| name.trim().to_owned()).collect();
-    match names.iter().any(String::is_empty) {
-        true => Err("expected names, with commas between them".into()),
-        false => Ok(Names(names)),
+    if names.iter().any(String::is_empty) {
+        Err("expected names, with commas between them".into())
+    } else {
+        Ok(Names(names))
     }
 }
 
@@ -1171,9 +1172,10 @@ fn steady(text: &str) -> Result<Steady, String> {
     if !text.contains('=') {
         let name = normalized(text.trim()).into_owned();
         let rate = SteadyRate::Start;
-        return match name.is_empty() {
-            true => Err("expected the name of a coordinate".into()),
-            false => Ok(Steady { name, rate }),
+        return if name.is_empty() {
+            Err("expected the name of a coordinate".into())
+        } else {
+            Ok(Steady { name, rate })
         };
     }
     let set = assignment(text)?;
@@ -1301,18 +1303,20 @@ const LEAST_WIDE_TOLERANCE: f64 = 10.0 * f64::EPSILON * f64::EPSILON;
 /// Reads the time from one record to the next.
 fn interval(text: &str) -> Result<f64, String> {
     let interval = number(text)?;
-    match interval > 0.0 {
-        true => Ok(interval),
-        false => Err("an interval is greater than 0".into()),
+    if interval > 0.0 {
+        Ok(interval)
+    } else {
+        Err("an interval is greater than 0".into())
     }
 }
 
 /// Reads a number that is greater than 0.
 fn positive(text: &str) -> Result<f64, String> {
     let value = number(text)?;
-    match value > 0.0 {
-        true => Ok(value),
-        false => Err("expected a number greater than 0".into()),
+    if value > 0.0 {
+        Ok(value)
+    } else {
+        Err("expected a number greater than 0".into())
     }
 }
 
@@ -1320,18 +1324,20 @@ fn positive(text: &str) -> Result<f64, String> {
 fn steps(text: &str) -> Result<usize, String> {
     // `1e8` is as good as all its zeros.
     let steps = number(text)?;
-    match (1.0..=1e15).contains(&steps) && steps.fract() == 0.0 {
-        true => Ok(steps as usize),
-        false => Err("expected a whole number from 1 to 1e15".into()),
+    if (1.0..=1e15).contains(&steps) && steps.fract() == 0.0 {
+        Ok(steps as usize)
+    } else {
+        Err("expected a whole number from 1 to 1e15".into())
     }
 }
 
 /// Reads how many there are.
 pub fn count(text: &str) -> Result<u64, String> {
     let count = number(text)?;
-    match (1.0..=(1u64 << 40) as f64).contains(&count) && count.fract() == 0.0 {
-        true => Ok(count as u64),
-        false => Err("expected a whole number from 1 to 2^40".into()),
+    if (1.0..=(1u64 << 40) as f64).contains(&count) && count.fract() == 0.0 {
+        Ok(count as u64)
+    } else {
+        Err("expected a whole number from 1 to 2^40".into())
     }
 }
 
@@ -1340,9 +1346,10 @@ pub fn number(text: &str) -> Result<f64, String> {
     let text = text.trim();
     let value = product(text)
         .ok_or_else(|| format!("`{text}` is not a number (as in 2.5, 1e-3, 50*pi, -pi/2)"))?;
-    match value.is_finite() {
-        true => Ok(value),
-        false => Err(format!("`{text}` is not a finite number")),
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(format!("`{text}` is not a finite number"))
     }
 }
 

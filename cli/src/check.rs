@@ -193,13 +193,13 @@ impl Published {
     fn new(comparison: Comparison<'_>, sources: &Sources) -> Published {
         let terms = comparison.terms();
         let has_sides = comparison.has_two_sides();
-        let side = |term: &Quoted| match term.on_the_right {
-            true => "right",
-            false => "left",
-        };
-        let sides = |terms: &[Quoted]| match has_sides {
-            true => terms.iter().map(side).collect(),
-            false => Vec::new(),
+        let side = |term: &Quoted| if term.on_the_right { "right" } else { "left" };
+        let sides = |terms: &[Quoted]| {
+            if has_sides {
+                terms.iter().map(side).collect()
+            } else {
+                Vec::new()
+            }
         };
         let [add_side, drop_side] = [sides(&terms[0]), sides(&terms[1])];
         let [add, drop] = terms.map(|terms| {

@@ -163,9 +163,10 @@ pub fn lines(run: &Run) -> Vec<String> {
                 line.push_str(&format!(" within {error:.1e} s, where its bounces end"));
             }
         }
-        line.push_str(match is_closed {
-            true => "; closed at the end",
-            false => "; open at the end",
+        line.push_str(if is_closed {
+            "; closed at the end"
+        } else {
+            "; open at the end"
         });
         line
     };

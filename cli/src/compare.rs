@@ -76,12 +76,11 @@ pub fn run(call: &call::Compare) -> Result<(), Failure> {
         file.write_text(&drawn(call, &times, &compared).map_err(Failure::Run)?)?;
     }
     let beyond = beyond(call, &compared);
-    match call.runs.json {
-        true => {
-            let result = as_json(call, &times, &compared, &left_out, &beyond);
-            output::line(format_args!("{result:#}"));
-        }
-        false => output::text(&text(&times, &compared, &left_out, [&first, &second])),
+    if call.runs.json {
+        let result = as_json(call, &times, &compared, &left_out, &beyond);
+        output::line(format_args!("{result:#}"));
+    } else {
+        output::text(&text(&times, &compared, &left_out, [&first, &second]))
     }
     match (beyond.as_slice(), call.within) {
         ([], _) | (_, None) => Ok(()),
@@ -180,17 +179,19 @@ fn compared(
         let names = own.columns.iter().map(|column| column.name.clone());
         names.filter(|name| other.get(name).is_none()).collect()
     };
-    let left_out = match call.of.is_empty() {
-        true => [only(first, second), only(second, first)],
-        false => [Vec::new(), Vec::new()],
+    let left_out = if call.of.is_empty() {
+        [only(first, second), only(second, first)]
+    } else {
+        [Vec::new(), Vec::new()]
     };
-    let wanted: Vec<&Quantity> = match call.of.is_empty() {
-        true => first
+    let wanted: Vec<&Quantity> = if call.of.is_empty() {
+        first
             .columns
             .iter()
             .filter(|column| column.name != RESIDUAL && second.get(&column.name).is_some())
-            .collect(),
-        false => first.chosen(&call.of, &call.first)?,
+            .collect()
+    } else {
+        first.chosen(&call.of, &call.first)?
     };
     if wanted.is_empty() {
         return Err(Failure::Run("the runs have no quantity in common".into()));
@@ -304,9 +305,10 @@ fn text(
                 Some(share) => number(share),
                 None => "–".to_owned(),
             };
-            let range = match found.is_constant {
-                true => format!("{} (constant)", number(found.range)),
-                false => number(found.range),
+            let range = if found.is_constant {
+                format!("{} (constant)", number(found.range))
+            } else {
+                number(found.range)
             };
             [
                 header(&one.name, one.unit.as_deref()),

@@ -323,9 +323,10 @@ fn vertex(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> (f64, f64) {
     let curvature = (slope_right - slope_left) / (right - left);
     let slope = slope_left - curvature * left;
     let x = -slope / (2.0 * curvature);
-    match x.is_finite() {
-        true => (b.0 + x, b.1 + x * slope / 2.0),
-        false => b,
+    if x.is_finite() {
+        (b.0 + x, b.1 + x * slope / 2.0)
+    } else {
+        b
     }
 }
 

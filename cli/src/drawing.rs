@@ -71,16 +71,13 @@ fn draw(area: &DrawingArea<SVGBackend<'_>, plotters::coord::Shift>, pane: &Pane)
     for (curve, colour) in pane.curves.iter().zip(colours.clone()) {
         let finite = curve.points.iter().copied();
         let finite = finite.filter(|(x, y)| x.is_finite() && y.is_finite());
-        match pane.are_points {
-            true => {
-                let dots = finite.map(|point| Circle::new(point, UNIT, colour.filled()));
-                chart.draw_series(dots)?;
-            }
-            false => {
-                let (x, y): (Vec<f64>, Vec<f64>) = finite.unzip();
-                let style = colour.stroke_width(UNIT + UNIT / 4);
-                chart.draw_series(LineSeries::new(thin(&x, &y, POINTS), style))?;
-            }
+        if pane.are_points {
+            let dots = finite.map(|point| Circle::new(point, UNIT, colour.filled()));
+            chart.draw_series(dots)?;
+        } else {
+            let (x, y): (Vec<f64>, Vec<f64>) = finite.unzip();
+            let style = colour.stroke_width(UNIT + UNIT / 4);
+            chart.draw_series(LineSeries::new(thin(&x, &y, POINTS), style))?;
         }
     }
     let place = |row: usize| (row as i32 * 17 + 16) * UNIT as i32;

@@ -67,16 +67,16 @@ pub fn run(call: &call::Evaluate) -> Result<(), Failure> {
         None => vec![Ok(Point::default())],
         Some(path) => {
             let is_input = path.as_os_str() == "-";
-            let name = match is_input {
-                true => "standard input".to_owned(),
-                false => path.display().to_string(),
+            let name = if is_input {
+                "standard input".to_owned()
+            } else {
+                path.display().to_string()
             };
-            let text = match is_input {
-                true => {
-                    let mut text = String::new();
-                    std::io::stdin().read_to_string(&mut text).map(|_| text)
-                }
-                false => std::fs::read_to_string(path),
+            let text = if is_input {
+                let mut text = String::new();
+                std::io::stdin().read_to_string(&mut text).map(|_| text)
+            } else {
+                std::fs::read_to_string(path)
             };
             let text =
                 text.map_err(|error| Failure::Call(format!("cannot read {name}: {error}")))?;
@@ -183,13 +183,17 @@ fn fill(
         )),
         Some(Numbers::ByName(entries)) => {
             for (name, value) in entries.iter().flat_map(|(name, entry)| named(name, entry)) {
-                let set = match is_states {
-                    true => numbers.set(&integral_name(&name), value),
-                    false => numbers.set(&name, value),
+                let set = if is_states {
+                    numbers.set(&integral_name(&name), value)
+                } else {
+                    numbers.set(&name, value)
                 };
-                set.map_err(|unknown| match is_states {
-                    true => format!("no state is named `{name}`"),
-                    false => format!("no coordinate: {unknown}"),
+                set.map_err(|unknown| {
+                    if is_states {
+                        format!("no state is named `{name}`")
+                    } else {
+                        format!("no coordinate: {unknown}")
+                    }
                 })?;
             }
             Ok(())

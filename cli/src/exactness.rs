@@ -38,9 +38,10 @@ impl Exactness {
             let moved = |sign: f64| {
                 let mut states = states.clone();
                 for state in &mut states {
-                    let number = match place < n {
-                        true => &mut state.q.values[place],
-                        false => &mut state.v.values[place - n],
+                    let number = if place < n {
+                        &mut state.q.values[place]
+                    } else {
+                        &mut state.v.values[place - n]
                     };
                     *number += sign * bound(*number);
                 }

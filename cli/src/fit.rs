@@ -310,9 +310,10 @@ fn sought(
                 let states = places(&start.q, &integral_name(coordinate));
                 let is_state = is_start && !states.is_empty();
                 let is_start = is_start && !is_state;
-                let mut places = match is_state {
-                    true => states,
-                    false => places(&start.q, coordinate),
+                let mut places = if is_state {
+                    states
+                } else {
+                    places(&start.q, coordinate)
                 };
                 let names: Vec<&str> = start.q.iter().map(|(name, _)| name).collect();
                 places.retain(|k| state_of(names[*k]).is_some() == is_state);
@@ -450,29 +451,31 @@ fn of_starts(
         for &place in places {
             let name = coordinates.iter().nth(place).map_or("", |(name, _)| name);
             let own = coordinates.unit(name).unwrap_or("1");
-            let (subject, word, unit, level, otherwise) = match is_start {
-                true => (
+            let (subject, word, unit, level, otherwise) = if is_start {
+                (
                     Subject::Start(e, place),
                     "start",
                     own.to_owned(),
                     0,
                     start.q.values[place],
-                ),
-                false => (
+                )
+            } else {
+                (
                     Subject::Rate(e, place),
                     "rate",
                     data::rate_unit(own),
                     1,
                     start.v.values[place],
-                ),
+                )
             };
             let (name, word, unit) = match state_of(name) {
                 Some(state) => (state, "start", unit::rate_unit(name, own)),
                 None => (name.to_owned(), word, unit),
             };
-            let quantity = match is_start {
-                true => Quantity::Coordinate(place),
-                false => Quantity::Rate(place),
+            let quantity = if is_start {
+                Quantity::Coordinate(place)
+            } else {
+                Quantity::Rate(place)
             };
             let column = experiment
                 .columns
@@ -507,12 +510,13 @@ fn ends(bounds: &Bounds, unit: &str) -> Result<[f64; 2], Failure> {
     };
     let low = end(&bounds.ends[0], f64::NEG_INFINITY)?;
     let high = end(&bounds.ends[1], f64::INFINITY)?;
-    match low < high {
-        true => Ok([low, high]),
-        false => Err(Failure::Call(format!(
+    if low < high {
+        Ok([low, high])
+    } else {
+        Err(Failure::Call(format!(
             "--bounds {}: from {low} to {high} there is nothing between",
             bounds.name
-        ))),
+        )))
     }
 }
 
@@ -534,9 +538,10 @@ fn check_values(machine: &InterpretedMachine, sought: &[Sought]) -> Result<(), F
         .names
         .iter()
         .any(|name| sought.iter().any(|s| s.name == *name));
-    let why = match is_sought {
-        true => "; of what is fitted, where the search begins",
-        false => "",
+    let why = if is_sought {
+        "; of what is fitted, where the search begins"
+    } else {
+        ""
     };
     Err(Failure::Call(format!(
         "{missing}; set them with --set {}=…{why}",
@@ -607,11 +612,12 @@ fn sigmas(
         .filter(|(_, value)| value.is_nan())
         .map(|(class, _)| class.name.as_str())
         .collect();
-    match missing.is_empty() {
-        true => Ok((Sigmas::Given, values)),
-        false => Err(Failure::Call(format!(
+    if missing.is_empty() {
+        Ok((Sigmas::Given, values))
+    } else {
+        Err(Failure::Call(format!(
             "--sigma says nothing of {}, which is measured as well; --columns chooses what is fitted to",
             missing.join(", ")
-        ))),
+        )))
     }
 }

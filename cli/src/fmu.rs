@@ -187,12 +187,11 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
     let tables = tables::text(&unit);
     unit.token = tables::token(&[&text, &tables, unit.method.tableau()]);
     let sources = sources(&unit, &format!("{text}{tables}"));
-    let libraries = match call.sources_only {
-        true => Vec::new(),
-        false => {
-            progress::now("compiling the unit");
-            compile::libraries(&unit, &sources, call.cc.as_deref(), &call.target)?
-        }
+    let libraries = if call.sources_only {
+        Vec::new()
+    } else {
+        progress::now("compiling the unit");
+        compile::libraries(&unit, &sources, call.cc.as_deref(), &call.target)?
     };
     let mut entries = vec![Entry::text(
         "modelDescription.xml",
@@ -299,12 +298,13 @@ fn check_sections(program: &Program) -> Result<(), Failure> {
 fn check_name(name: &str) -> Result<(), Failure> {
     let is_word = name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
         && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-    match is_word {
-        true => Ok(()),
-        false => Err(Failure::Call(format!(
+    if is_word {
+        Ok(())
+    } else {
+        Err(Failure::Call(format!(
             "--event {name}: the name of an event is made of the letters a to z, digits and `_`, since a variable is called by it: \
              event.NAME"
-        ))),
+        )))
     }
 }
 
@@ -385,11 +385,12 @@ fn start(machine: &InterpretedMachine, given: &call::Start) -> Result<Vec<(f64, 
     let marks = marked.q.values.iter().chain(&marked.v.values);
     let states = values.zip(marks);
     let states: Vec<(f64, bool)> = states.map(|(x, mark)| (*x, !mark.is_nan())).collect();
-    match states.iter().all(|(x, _)| x.is_finite()) {
-        true => Ok(states),
-        false => Err(Failure::Call(
+    if states.iter().all(|(x, _)| x.is_finite()) {
+        Ok(states)
+    } else {
+        Err(Failure::Call(
             "the start is not finite for these parameters: give it by --start".into(),
-        )),
+        ))
     }
 }
 
@@ -452,14 +453,14 @@ fn sources(unit: &Unit<'_>, machine: &str) -> Vec<(&'static str, String)> {
 /// The name of a file as an identifier of C.
 fn identifier(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let letters = stem.chars().map(|c| match c.is_ascii_alphanumeric() {
-        true => c,
-        false => '_',
-    });
+    let letters = stem
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
     let letters: String = letters.collect();
-    match letters.starts_with(|c: char| c.is_ascii_digit()) || letters.is_empty() {
-        true => format!("_{letters}"),
-        false => letters,
+    if letters.starts_with(|c: char| c.is_ascii_digit()) || letters.is_empty() {
+        format!("_{letters}")
+    } else {
+        letters
     }
 }
 
@@ -472,9 +473,10 @@ mod tests {
         let (_, rest) = text.split_once(&format!(" {name}[")).expect(name);
         let (_, rest) = rest.split_once("= {").expect(name);
         let (inside, _) = rest.split_once("};").expect(name);
-        let rows = match inside.contains('{') {
-            true => inside.split('{').skip(1).collect(),
-            false => vec![inside],
+        let rows = if inside.contains('{') {
+            inside.split('{').skip(1).collect()
+        } else {
+            vec![inside]
         };
         let number = |word: &str| {
             let parts: Vec<f64> = word

@@ -89,9 +89,10 @@ pub fn keeps(text: &str, is_error: bool) -> bool {
         let Some(Lent { answer, .. }) = lent else {
             return false;
         };
-        match is_error {
-            true => answer.err.push_str(text),
-            false => answer.out.push_str(text),
+        if is_error {
+            answer.err.push_str(text)
+        } else {
+            answer.out.push_str(text)
         }
         true
     })
@@ -119,9 +120,10 @@ impl Files for Specs {
                 None => path == spec.name,
                 Some(from) => beside(from) && own.file_name().is_some_and(|name| name == path),
             };
-            match is_own {
-                true => Ok((spec.name.clone(), spec.text.clone())),
-                false => Kept(&spec.files).read(path, from),
+            if is_own {
+                Ok((spec.name.clone(), spec.text.clone()))
+            } else {
+                Kept(&spec.files).read(path, from)
             }
         })
     }

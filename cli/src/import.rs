@@ -55,13 +55,12 @@ pub fn run(call: &call::Import) -> Result<(), Failure> {
     let shown = call.path.display().to_string();
     let file = call.path.file_name().unwrap_or_default().to_string_lossy();
     let mut faults = Faults::new(&shown, &text);
-    let robot = match ending_is_one_of(&call.path, URDF) {
-        true => urdf::read(&text, &call.ignore, &mut faults),
-        false => {
-            let folder = call.path.parent().unwrap_or_else(|| Path::new(""));
-            let included = |path: &Path| bytes_of(path).map_err(Failure::message);
-            mjcf::read(&text, folder, &included, &call.ignore, &mut faults)
-        }
+    let robot = if ending_is_one_of(&call.path, URDF) {
+        urdf::read(&text, &call.ignore, &mut faults)
+    } else {
+        let folder = call.path.parent().unwrap_or_else(|| Path::new(""));
+        let included = |path: &Path| bytes_of(path).map_err(Failure::message);
+        mjcf::read(&text, folder, &included, &call.ignore, &mut faults)
     };
     if let (Some(_), call::Base::Floating, false) =
         (&robot, call.base, ending_is_one_of(&call.path, URDF))

@@ -146,15 +146,17 @@ const LONGEST_IN_PAIRS: usize = 1000;
 fn options(is_straight: bool, is_in_pairs: bool) -> emit::rust::Options {
     let default = emit::rust::Options::default();
     emit::rust::Options {
-        shortest_rolled: match is_straight {
-            true => usize::MAX,
+        shortest_rolled: if is_straight {
+            usize::MAX
+        } else {
             // What is in the order of time repeats little but its reads, and a loop of these would keep all from being
             // checked at once, at the end.
-            false => LONGEST_SCHEDULED + 1,
+            LONGEST_SCHEDULED + 1
         },
-        shortest_packed: match is_in_pairs {
-            true => default.shortest_packed,
-            false => usize::MAX,
+        shortest_packed: if is_in_pairs {
+            default.shortest_packed
+        } else {
+            usize::MAX
         },
         runtime: "crate".into(),
         // Nothing is described to a debugger here, and whole functions compile faster than pieces, which pass hundreds of
@@ -217,9 +219,10 @@ fn source(
         ("x86", X86.to_owned()),
         ("machine", machine),
     ];
-    let alone = match is_in_pairs {
-        true => format!("mod alone {{\n{}}}\n\n", module(true)?),
-        false => "use machine as alone;\n\n".to_owned(),
+    let alone = if is_in_pairs {
+        format!("mod alone {{\n{}}}\n\n", module(true)?)
+    } else {
+        "use machine as alone;\n\n".to_owned()
     };
     for (name, text) in modules {
         let condition = match name {
@@ -238,9 +241,10 @@ fn source(
             program.constraints.len()
         ); // cannot fail
         // A machine without constraints has no rows of any.
-        source.push_str(match program.constraints.is_empty() {
-            true => "use no_rows as constraint_rows;\n",
-            false => "use machine::constraint_matrix_of as constraint_rows;\n",
+        source.push_str(if program.constraints.is_empty() {
+            "use no_rows as constraint_rows;\n"
+        } else {
+            "use machine::constraint_matrix_of as constraint_rows;\n"
         });
     }
     let operations = program
@@ -410,15 +414,14 @@ fn header(program: &Program, lanes: &[u8], spec: &str) -> String {
             constraints.len()
         ); // cannot fail
     }
-    let of_contacts = match unilateral.is_empty() {
-        true => String::new(),
-        false => {
-            let names = unilateral.iter().enumerate();
-            let names: String = names
-                .map(|(i, contact)| format!("\n *   [{i}] {}", contact.name))
-                .collect();
-            format!("\n *\n * Contacts:{names}")
-        }
+    let of_contacts = if unilateral.is_empty() {
+        String::new()
+    } else {
+        let names = unilateral.iter().enumerate();
+        let names: String = names
+            .map(|(i, contact)| format!("\n *   [{i}] {}", contact.name))
+            .collect();
+        format!("\n *\n * Contacts:{names}")
     };
     let (n, p, u) = (coordinates.len(), parameters.len(), inputs.len());
     let of_inputs = match u {

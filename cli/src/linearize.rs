@@ -54,9 +54,10 @@ pub fn run(call: &call::Linearize) -> Result<(), Failure> {
         return along::show(call, &machine, &trace, &files);
     }
     let request = request(call, &machine)?;
-    let (model, place) = match call.here {
-        true => about_start(call, &machine, &request)?,
-        false => about_motion(call, &machine, &request)?,
+    let (model, place) = if call.here {
+        about_start(call, &machine, &request)?
+    } else {
+        about_motion(call, &machine, &request)?
     };
     let none = || Failure::run("the eigenvalues cannot be found");
     let result = Linearization {
@@ -65,9 +66,10 @@ pub fn run(call: &call::Linearize) -> Result<(), Failure> {
         model,
     };
     files.write(machine.name(), &names(&machine), &result)?;
-    match call.spec.json {
-        true => output::line(format_args!("{:#}", as_json(&names(&machine), &result))),
-        false => output::text(&format!("{place}{}", text(&result))),
+    if call.spec.json {
+        output::line(format_args!("{:#}", as_json(&names(&machine), &result)))
+    } else {
+        output::text(&format!("{place}{}", text(&result)))
     }
     Ok(())
 }

@@ -96,9 +96,10 @@ pub fn run(call: &call::Map) -> Result<(), Failure> {
     if rows.rows.is_empty() {
         return Err(Failure::Call("no row is left to be drawn".into()));
     }
-    let over: Vec<String> = match call.over.is_empty() {
-        true => rows.names[1..=rows.varied].to_vec(),
-        false => call.over.clone(),
+    let over: Vec<String> = if call.over.is_empty() {
+        rows.names[1..=rows.varied].to_vec()
+    } else {
+        call.over.clone()
     };
     let quantities = call
         .of
@@ -201,12 +202,15 @@ impl Rows {
     /// The samples beside these rows, with what was varied in front of each.
     fn with_samples(self, path: &Path) -> Result<Rows, Failure> {
         let wrong = |why: &str| Failure::Call(format!("{}: {why}", path.display()));
-        let missing = |failure: Failure| match path.exists() {
-            true => failure,
-            false => Failure::Call(format!(
-                "there are no samples beside the table, {}: a sweep writes them with --record every=T or --record event=NAME",
-                path.display()
-            )),
+        let missing = |failure: Failure| {
+            if path.exists() {
+                failure
+            } else {
+                Failure::Call(format!(
+                    "there are no samples beside the table, {}: a sweep writes them with --record every=T or --record event=NAME",
+                    path.display()
+                ))
+            }
         };
         let mut all = table(path).map_err(missing)?.into_iter();
         let names = all.next().unwrap_or_default();
@@ -224,11 +228,12 @@ impl Rows {
             let varied = sample.first().and_then(|run| of_run.get(run.as_str()));
             let varied =
                 varied.ok_or_else(|| wrong("a sample is of a run that the table does not have"))?;
-            match sample.len() == names.len() {
-                true => Ok([&sample[..1], varied, &sample[1..]].concat()),
-                false => Err(wrong(
+            if sample.len() == names.len() {
+                Ok([&sample[..1], varied, &sample[1..]].concat())
+            } else {
+                Err(wrong(
                     "a row has another number of cells than there are columns",
-                )),
+                ))
             }
         });
         Ok(Rows {
@@ -255,9 +260,10 @@ impl Rows {
         let place = self.place(name)?;
         let cells = self.rows.iter().map(|row| row[place].as_str());
         let numbers: Vec<f64> = cells.map(|cell| cell.parse().unwrap_or(f64::NAN)).collect();
-        match numbers.iter().any(|number| number.is_finite()) {
-            true => Ok(numbers),
-            false => Err(Failure::Call(format!("column `{name}` holds no numbers"))),
+        if numbers.iter().any(|number| number.is_finite()) {
+            Ok(numbers)
+        } else {
+            Err(Failure::Call(format!("column `{name}` holds no numbers")))
         }
     }
 
@@ -630,9 +636,10 @@ fn colour(value: f64, [low, high]: [f64; 2]) -> RGBColor {
     if !value.is_finite() {
         return MISSING;
     }
-    let share = match high > low {
-        true => ((value - low) / (high - low)).clamp(0.0, 1.0),
-        false => 0.5,
+    let share = if high > low {
+        ((value - low) / (high - low)).clamp(0.0, 1.0)
+    } else {
+        0.5
     };
     let place = share * (VIRIDIS.len() - 1) as f64;
     let before = (place as usize).min(VIRIDIS.len() - 2);

@@ -265,12 +265,13 @@ fn refuse_drives(machine: &InterpretedMachine, q: &[f64], wanted: &Wanted) -> Re
     let Err(names) = steady::drives(machine, q, wanted) else {
         return Ok(());
     };
-    let help = match names.is_empty() {
-        true => "give the drive a parameter that stops it, or a coordinate of its own".to_owned(),
-        false => format!(
+    let help = if names.is_empty() {
+        "give the drive a parameter that stops it, or a coordinate of its own".to_owned()
+    } else {
+        format!(
             "it stands still with --set {}=0",
             names.join("=0, or --set ")
-        ),
+        )
     };
     Err(Failure::Run(format!(
         "the machine is driven: its equations change with time, so that it is at rest nowhere; {help}"
@@ -456,9 +457,10 @@ fn text_of_trace(trace: &Trace) -> String {
     };
     let [first, last] = [trace.points.first(), trace.points.last()];
     let [first, last] = [first, last].map(|point| point.map_or(0.0, |point| point.value));
-    let kind = match trace.wanted.steady.contains(&true) {
-        true => "steady motions",
-        false => "equilibria",
+    let kind = if trace.wanted.steady.contains(&true) {
+        "steady motions"
+    } else {
+        "equilibria"
     };
     // Writing to a String cannot fail.
     let _ = writeln!(
@@ -564,9 +566,10 @@ pub fn text_of_place(
     let width = width.unwrap_or(0);
     let found = &motion.found;
     let times = if found.steps == 1 { "step" } else { "steps" };
-    let what = match wanted.steady.contains(&true) {
-        true => "steady motion",
-        false => "equilibrium",
+    let what = if wanted.steady.contains(&true) {
+        "steady motion"
+    } else {
+        "equilibrium"
     };
     // Writing to a String cannot fail.
     let _ = writeln!(text, "{what}, {} {times} from the start:", found.steps);
@@ -632,9 +635,10 @@ fn text(names: &[&str], units: &[&str], start: &[f64], wanted: &Wanted, motion: 
         let _ = match (mode.kind(), damping(mode.lambda)) {
             ("free", _) => {
                 let _ = write!(text, "free, nothing brings it back");
-                match mode.error > 0.0 {
-                    true => writeln!(text, " faster than {} rad/s", number(mode.error)),
-                    false => writeln!(text),
+                if mode.error > 0.0 {
+                    writeln!(text, " faster than {} rad/s", number(mode.error))
+                } else {
+                    writeln!(text)
                 }
             }
             ("growing", _) => writeln!(text, "unstable, grows by e in {} s", number(1.0 / re)),

@@ -80,9 +80,10 @@ pub fn run(call: &call::Orbit) -> Result<(), Failure> {
         let recording = simulate::record(&motion);
         file.write_text(&plot::svg(ready.machine.name(), &recording).map_err(Failure::Run)?)?;
     }
-    match call.spec.json {
-        true => output::line(format_args!("{:#}", as_json(&ready.machine, &orbit))),
-        false => output::text(&text(&orbit)),
+    if call.spec.json {
+        output::line(format_args!("{:#}", as_json(&ready.machine, &orbit)))
+    } else {
+        output::text(&text(&orbit))
     }
     Ok(())
 }
@@ -414,9 +415,10 @@ fn verdict(orbit: &Orbit) -> &'static str {
 }
 
 fn text(orbit: &Orbit) -> String {
-    let drive = match orbit.is_autonomous {
-        true => "nothing drives the machine",
-        false => "the machine is driven",
+    let drive = if orbit.is_autonomous {
+        "nothing drives the machine"
+    } else {
+        "the machine is driven"
     };
     let mut text = format!("period {} s; {drive}\n", number(orbit.period));
     text.push_str("a start of the orbit:\n");
@@ -568,31 +570,30 @@ fn along(
         let drawn = drawing::svg(machine.name(), &panes(&trace, &label));
         file.write_text(&drawn.map_err(Failure::Run)?)?;
     }
-    match call.spec.json {
-        true => {
-            let points = trace.points.iter().map(|point| match &point.orbit {
-                Ok(orbit) => {
-                    let mut document = as_json(machine, orbit);
-                    document["value"] = json!(point.value);
-                    document
-                }
-                Err(none) => json!({"value": point.value, "error": none.to_string()}),
-            });
-            let changes = trace.changes.iter().map(|changed| {
-                json!({
-                    "between": changed.between,
-                    "change": changed.change.name(),
-                    "multiplier": {"re": changed.multiplier.re, "im": changed.multiplier.im},
-                })
-            });
-            let document = json!({
-                "along": {"name": vary.name, "unit": unit},
-                "points": points.collect::<Vec<Value>>(),
-                "changes": changes.collect::<Vec<Value>>(),
-            });
-            output::line(format_args!("{document:#}"));
-        }
-        false => output::text(&text_of_trace(&trace, &vary.name, &unit)),
+    if call.spec.json {
+        let points = trace.points.iter().map(|point| match &point.orbit {
+            Ok(orbit) => {
+                let mut document = as_json(machine, orbit);
+                document["value"] = json!(point.value);
+                document
+            }
+            Err(none) => json!({"value": point.value, "error": none.to_string()}),
+        });
+        let changes = trace.changes.iter().map(|changed| {
+            json!({
+                "between": changed.between,
+                "change": changed.change.name(),
+                "multiplier": {"re": changed.multiplier.re, "im": changed.multiplier.im},
+            })
+        });
+        let document = json!({
+            "along": {"name": vary.name, "unit": unit},
+            "points": points.collect::<Vec<Value>>(),
+            "changes": changes.collect::<Vec<Value>>(),
+        });
+        output::line(format_args!("{document:#}"));
+    } else {
+        output::text(&text_of_trace(&trace, &vary.name, &unit))
     }
     Ok(())
 }
@@ -728,9 +729,10 @@ fn text_of_trace(trace: &Trace, name: &str, unit: &str) -> String {
     for changed in &trace.changes {
         let [from, to] = changed.between;
         let (re, im) = (number(changed.multiplier.re), changed.multiplier.im);
-        let value = match im == 0.0 {
-            true => re,
-            false => format!("{re} ± {}i", number(im.abs())),
+        let value = if im == 0.0 {
+            re
+        } else {
+            format!("{re} ± {}i", number(im.abs()))
         };
         let _ = writeln!(
             text,

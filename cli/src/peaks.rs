@@ -106,12 +106,11 @@ pub fn run(call: &call::Peaks) -> Result<(), Failure> {
     if let Some(file) = &file {
         write(&found, file)?;
     }
-    match call.part.runs.json {
-        true => {
-            let quantities: Vec<Value> = found.iter().map(as_json).collect();
-            output::line(format_args!("{:#}", json!({ "quantities": quantities })));
-        }
-        false => output::text(&text(&found)),
+    if call.part.runs.json {
+        let quantities: Vec<Value> = found.iter().map(as_json).collect();
+        output::line(format_args!("{:#}", json!({ "quantities": quantities })));
+    } else {
+        output::text(&text(&found))
     }
     Ok(())
 }

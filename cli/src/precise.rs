@@ -162,9 +162,10 @@ pub fn in_double_doubles(call: &call::Simulate) -> Result<(), Failure> {
         }
         (Some(method), _) => method,
     };
-    let least = match std::ptr::eq(method, &TAYLOR) {
-        true => TOLERANCE,
-        false => EXPLICIT_TOLERANCE,
+    let least = if std::ptr::eq(method, &TAYLOR) {
+        TOLERANCE
+    } else {
+        EXPLICIT_TOLERANCE
     };
     let tolerance = call.tolerance.unwrap_or(least);
     progress::now("running in double-double");
@@ -259,10 +260,10 @@ fn relative(exact: DoubleDouble, other: DoubleDouble) -> f64 {
 pub fn worst(numbers: &[f64]) -> (usize, f64) {
     let start = (0, 0.0);
     let numbers = numbers.iter().enumerate();
-    numbers.fold(start, |(at, most), (i, x)| match *x <= most {
-        true => (at, most),
-        false => (i, *x),
-    })
+    numbers.fold(
+        start,
+        |(at, most), (i, x)| if *x <= most { (at, most) } else { (i, *x) },
+    )
 }
 
 /// What is printed of a state: names of coordinates and of their rates, each with the width of all, and where its number stands. Integrals of
@@ -391,13 +392,15 @@ fn decimal(x: DoubleDouble, digits: usize) -> String {
         // x 10^(digits − 1 − place), rounded.
         let power = digits as i32 - 1 - place;
         let (mut above, mut below) = (number.clone(), BigInt::from(1));
-        match exponent >= 0 {
-            true => above <<= exponent,
-            false => below <<= -exponent,
+        if exponent >= 0 {
+            above <<= exponent
+        } else {
+            below <<= -exponent
         }
-        match power >= 0 {
-            true => above *= ten.pow(power.unsigned_abs()),
-            false => below *= ten.pow(power.unsigned_abs()),
+        if power >= 0 {
+            above *= ten.pow(power.unsigned_abs())
+        } else {
+            below *= ten.pow(power.unsigned_abs())
         }
         let rounded: BigInt = (BigInt::from(2) * above + &below) / (BigInt::from(2) * below);
         let text = rounded.to_string();

@@ -54,9 +54,12 @@ pub fn begin(json: bool) {
         return;
     }
     let began = Instant::now();
-    let speak = move || match is_terminal {
-        true => on_terminal(began),
-        false => in_lines(began),
+    let speak = move || {
+        if is_terminal {
+            on_terminal(began)
+        } else {
+            in_lines(began)
+        }
     };
     // Without a thread nothing is said.
     let thread = std::thread::Builder::new().name("progress".into());

@@ -255,9 +255,10 @@ pub fn machine(
         let rate = set.name.strip_prefix("der(");
         let rate = rate.and_then(|name| name.strip_suffix(')'));
         let is_parameter = machine.unit(&set.name).is_some();
-        let other = match rate.is_some_and(|name| is_named(&coordinates, name)) {
-            true => Some("--rate sets the rate of a coordinate, under the coordinate's name"),
-            false => is_parameter.then_some("it is a parameter or an input, which --set sets"),
+        let other = if rate.is_some_and(|name| is_named(&coordinates, name)) {
+            Some("--rate sets the rate of a coordinate, under the coordinate's name")
+        } else {
+            is_parameter.then_some("it is a parameter or an input, which --set sets")
         };
         return Err(unknown_name("coordinate", &unknown, other));
     }
@@ -420,8 +421,9 @@ fn unknown_name(what: &str, unknown: &UnknownName, other: Option<&str>) -> Failu
 
 /// What a file is that a spec is made from.
 pub fn read_as(file: &Path) -> &'static str {
-    match file.extension().is_some_and(|ending| ending == "machine") {
-        true => "which the spec extends",
-        false => "which the spec reads",
+    if file.extension().is_some_and(|ending| ending == "machine") {
+        "which the spec extends"
+    } else {
+        "which the spec reads"
     }
 }

@@ -136,9 +136,10 @@ impl Columns {
                 None => self.get(&format!("der({})", column.name)).is_some(),
             };
             let moving: Vec<&Quantity> = self.columns.iter().filter(has_rates).collect();
-            return Ok(match moving.is_empty() {
-                true => self.columns.iter().collect(),
-                false => moving,
+            return Ok(if moving.is_empty() {
+                self.columns.iter().collect()
+            } else {
+                moving
             });
         }
         let mut chosen = Vec::new();
@@ -492,11 +493,12 @@ pub fn period_of(
     let inputs = system.default_inputs().values;
     let (q, v) = (&start.q.values, &start.v.values);
     let period = system.output(output, start.t, q, v, &[], &inputs);
-    match period > 0.0 && period.is_finite() {
-        true => Ok(period),
-        false => Err(Failure::Call(format!(
+    if period > 0.0 && period.is_finite() {
+        Ok(period)
+    } else {
+        Err(Failure::Call(format!(
             "{option} {formula}: {period} s is no period; expected a time greater than 0"
-        ))),
+        )))
     }
 }
 
@@ -517,23 +519,20 @@ pub fn one_with_run(
     files: &[&Destination],
 ) -> Result<(Columns, Option<Exactness>), Failure> {
     keep_apart(files.iter().copied(), &[(part.run.as_path(), "the run")])?;
-    let (columns, exactness) = match is_spec(&part.run)? {
-        false => {
-            refuse_without_spec(&part.runs)?;
-            (table(&part.run)?, None)
-        }
-        true => {
-            let options = Options::of(&part.run, &part.runs, None)?;
-            let (run, recording) = made(&options, &Looks::Even, files)?;
-            let method =
-                methods::named(options.method.unwrap_or(<&Method>::default().tableau.name))?;
-            let tolerance = match method.has_fixed_steps() {
-                true => ROUNDING,
-                false => options.tolerance.unwrap_or(TOLERANCE),
-            };
-            let exactness = Exactness { run, tolerance };
-            (Columns::of(recording), Some(exactness))
-        }
+    let (columns, exactness) = if is_spec(&part.run)? {
+        let options = Options::of(&part.run, &part.runs, None)?;
+        let (run, recording) = made(&options, &Looks::Even, files)?;
+        let method = methods::named(options.method.unwrap_or(<&Method>::default().tableau.name))?;
+        let tolerance = if method.has_fixed_steps() {
+            ROUNDING
+        } else {
+            options.tolerance.unwrap_or(TOLERANCE)
+        };
+        let exactness = Exactness { run, tolerance };
+        (Columns::of(recording), Some(exactness))
+    } else {
+        refuse_without_spec(&part.runs)?;
+        (table(&part.run)?, None)
     };
     Ok((columns.after(part.after), exactness))
 }

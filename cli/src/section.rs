@@ -63,9 +63,10 @@ pub fn run(call: &call::Section) -> Result<(), Failure> {
             .to_string_lossy();
         file.write_text(&drawing::svg(&title, &[pane]).map_err(Failure::Run)?)?;
     }
-    match call.part.runs.json {
-        true => output::line(format_args!("{:#}", as_json(&points, &shown))),
-        false => output::text(&text(&points, &shown)),
+    if call.part.runs.json {
+        output::line(format_args!("{:#}", as_json(&points, &shown)))
+    } else {
+        output::text(&text(&points, &shown))
     }
     Ok(())
 }
@@ -86,38 +87,35 @@ fn points(call: &call::Section, files: &[&Destination]) -> Result<Columns, Failu
     let part = &call.part;
     let neither =
         || Failure::Call("--every-period says how often to look, or --crossing where".into());
-    let found = match runs::is_spec(&part.run)? {
-        true => {
-            keep_apart(files.iter().copied(), &[(part.run.as_path(), "the run")])?;
-            if part.runs.every.is_some() {
-                return Err(Failure::Call(
-                    "--every has no part in a section of a spec's run".into(),
-                ));
-            }
-            let options = Options::of(&part.run, &part.runs, None)?;
-            match (&call.period, &call.crossing) {
-                (Some(period), _) => runs::spec(&options, &Looks::Period(period), files)?,
-                (None, Some(crossing)) => {
-                    // `x=0.1*m` is where x − 0.1 m passes 0.
-                    let formula = match crossing.split_once('=') {
-                        Some((name, value)) => format!("({name}) - ({value})"),
-                        None => crossing.clone(),
-                    };
-                    let looks = Looks::Crossing(&formula, call.direction);
-                    runs::spec(&options, &looks, files)?
-                }
-                (None, None) => return Err(neither()),
-            }
+    let found = if runs::is_spec(&part.run)? {
+        keep_apart(files.iter().copied(), &[(part.run.as_path(), "the run")])?;
+        if part.runs.every.is_some() {
+            return Err(Failure::Call(
+                "--every has no part in a section of a spec's run".into(),
+            ));
         }
-        false => {
-            let columns = runs::one(part, files)?;
-            let times = match (&call.period, &call.crossing) {
-                (Some(period), _) => periods(&columns, period)?,
-                (None, Some(crossing)) => crossings(call, &columns, crossing)?,
-                (None, None) => return Err(neither()),
-            };
-            at(&columns, times)
+        let options = Options::of(&part.run, &part.runs, None)?;
+        match (&call.period, &call.crossing) {
+            (Some(period), _) => runs::spec(&options, &Looks::Period(period), files)?,
+            (None, Some(crossing)) => {
+                // `x=0.1*m` is where x − 0.1 m passes 0.
+                let formula = match crossing.split_once('=') {
+                    Some((name, value)) => format!("({name}) - ({value})"),
+                    None => crossing.clone(),
+                };
+                let looks = Looks::Crossing(&formula, call.direction);
+                runs::spec(&options, &looks, files)?
+            }
+            (None, None) => return Err(neither()),
         }
+    } else {
+        let columns = runs::one(part, files)?;
+        let times = match (&call.period, &call.crossing) {
+            (Some(period), _) => periods(&columns, period)?,
+            (None, Some(crossing)) => crossings(call, &columns, crossing)?,
+            (None, None) => return Err(neither()),
+        };
+        at(&columns, times)
     };
     Ok(found.after(part.after))
 }

@@ -157,12 +157,13 @@ pub fn run(call: &call::Sensitivities) -> Result<(), Failure> {
             .collect();
         file.write_text(&drawing::svg(machine.name(), &panes).map_err(Failure::Run)?)?;
     }
-    match call.spec.json {
-        true => output::line(format_args!(
+    if call.spec.json {
+        output::line(format_args!(
             "{:#}",
             as_json(&times, &columns, observed.len())
-        )),
-        false => output::text(&text(&times, &columns)),
+        ))
+    } else {
+        output::text(&text(&times, &columns))
     }
     Ok(())
 }
@@ -285,15 +286,19 @@ fn observed(
     let rate = |k: usize| Observed {
         of: Of::Rate(k),
         name: shown_rate(&coordinates[k].0),
-        unit: match is_integral(&coordinates[k].0) {
-            true => unit::rate_unit(&coordinates[k].0, &coordinates[k].1),
-            false => rate_unit(&coordinates[k].1),
+        unit: if is_integral(&coordinates[k].0) {
+            unit::rate_unit(&coordinates[k].0, &coordinates[k].1)
+        } else {
+            rate_unit(&coordinates[k].1)
         },
     };
     // Of a state itself, and not its integral, which nothing depends on.
-    let shown = |k: usize| match is_integral(&coordinates[k].0) {
-        true => rate(k),
-        false => coordinate(k),
+    let shown = |k: usize| {
+        if is_integral(&coordinates[k].0) {
+            rate(k)
+        } else {
+            coordinate(k)
+        }
     };
     let output = |k: usize| Observed {
         of: Of::Output(k),
@@ -302,9 +307,10 @@ fn observed(
     };
     let wanted = call::names_of(lists).map_err(Failure::Call)?;
     if wanted.is_empty() {
-        return Ok(match outputs.is_empty() {
-            true => (0..coordinates.len()).map(shown).collect(),
-            false => (0..outputs.len()).map(output).collect(),
+        return Ok(if outputs.is_empty() {
+            (0..coordinates.len()).map(shown).collect()
+        } else {
+            (0..outputs.len()).map(output).collect()
         });
     }
     let mut all = Vec::new();
@@ -417,17 +423,16 @@ fn made(
         }
         .map_err(Failure::run)?;
     }
-    let start = match is_held {
-        true => {
-            let start = start_on_constraints(call, machine, start.clone())?;
-            if let Some(constraint) = starts::dependent_constraint(machine, &start) {
-                return Err(Failure::Run(format!(
-                    "the constraint `{constraint}` follows from others, and accelerations have no derivatives then: leave it out"
-                )));
-            }
-            start
+    let start = if is_held {
+        let start = start_on_constraints(call, machine, start.clone())?;
+        if let Some(constraint) = starts::dependent_constraint(machine, &start) {
+            return Err(Failure::Run(format!(
+                "the constraint `{constraint}` follows from others, and accelerations have no derivatives then: leave it out"
+            )));
         }
-        false => start.clone(),
+        start
+    } else {
+        start.clone()
     };
     let mut from = sensitive.start_from(start.clone());
     if collides {
@@ -607,9 +612,10 @@ fn across_impacts(
         check_drift(machine, &end, variations)?;
     }
     let interval = call.every.unwrap_or(call.until.abs() / SAMPLES);
-    let count = match call.until == from.t {
-        true => 0,
-        false => ((call.until - from.t) / interval * (1.0 - 1e-9)).floor() as usize,
+    let count = if call.until == from.t {
+        0
+    } else {
+        ((call.until - from.t) / interval * (1.0 - 1e-9)).floor() as usize
     };
     let mut times: Vec<f64> = (0..=count).map(|k| from.t + k as f64 * interval).collect();
     if call.until != from.t {

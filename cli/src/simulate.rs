@@ -120,9 +120,10 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         )));
     }
     let is_auto = call.method == AUTO;
-    let mut method = match is_auto {
-        true => <&Method>::default(),
-        false => methods::named_or(&call.method, &[AUTO])?,
+    let mut method = if is_auto {
+        <&Method>::default()
+    } else {
+        methods::named_or(&call.method, &[AUTO])?
     };
     let written = inputs::written(&call.inputs)?;
     let files = Files::new(call, &written)?;
@@ -232,45 +233,45 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         other: verdict::objection(&run).into_iter().collect(),
     };
     let contacts = contacts.found(&run);
-    let global = match call.global_error && *run.ending() == Ending::End {
-        false => None,
-        true => {
-            progress::now("estimating the error");
-            let again = |tolerance: f64, start: State<Named>| {
-                let simulation = signals.drive(Simulation::new(&machine), &machine);
-                let simulation = simulation
-                    .tolerance(tolerance)
-                    .method(method)
-                    .until(call.until)
-                    .longest_step(call.longest_step.unwrap_or(f64::INFINITY))
-                    .max_steps(call.max_steps)
-                    .forget_steps()
-                    .stop_if(|_| interrupt.came());
-                let simulation = reading::keep(simulation, &call.keep);
-                let simulation = match is_auto {
-                    true => simulation.automatic(),
-                    false => simulation,
-                };
-                let again = simulation.run_interpreted(start).ok()?;
-                (*again.ending() == Ending::End).then(|| again.end().clone())
+    let global = if call.global_error && *run.ending() == Ending::End {
+        progress::now("estimating the error");
+        let again = |tolerance: f64, start: State<Named>| {
+            let simulation = signals.drive(Simulation::new(&machine), &machine);
+            let simulation = simulation
+                .tolerance(tolerance)
+                .method(method)
+                .until(call.until)
+                .longest_step(call.longest_step.unwrap_or(f64::INFINITY))
+                .max_steps(call.max_steps)
+                .forget_steps()
+                .stop_if(|_| interrupt.came());
+            let simulation = reading::keep(simulation, &call.keep);
+            let simulation = if is_auto {
+                simulation.automatic()
+            } else {
+                simulation
             };
-            let is_driven = !signals.is_empty();
-            let wide = (!is_driven).then(|| ProvedSeries::derive(&compiled.model));
-            let asked = global_error::Asked {
-                machine: &machine,
-                series: wide,
-                tolerance,
-                has_fixed_steps: method.has_fixed_steps(),
-                max_steps: call.max_steps,
-            };
-            match global_error::estimate(asked, (run.start(), run.end()), again) {
-                Ok(estimate) => Some(estimate),
-                Err(why) => {
-                    trouble.other.push(why);
-                    None
-                }
+            let again = simulation.run_interpreted(start).ok()?;
+            (*again.ending() == Ending::End).then(|| again.end().clone())
+        };
+        let is_driven = !signals.is_empty();
+        let wide = (!is_driven).then(|| ProvedSeries::derive(&compiled.model));
+        let asked = global_error::Asked {
+            machine: &machine,
+            series: wide,
+            tolerance,
+            has_fixed_steps: method.has_fixed_steps(),
+            max_steps: call.max_steps,
+        };
+        match global_error::estimate(asked, (run.start(), run.end()), again) {
+            Ok(estimate) => Some(estimate),
+            Err(why) => {
+                trouble.other.push(why);
+                None
             }
         }
+    } else {
+        None
     };
 
     if recorded {
@@ -292,12 +293,13 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
             };
             let mut warnings = run.warnings().iter();
             let redundant = warnings.find(|it| matches!(it, Warning::RedundantConstraint { .. }));
-            let page = match call.live {
-                true => report.page_that_runs(&Live {
+            let page = if call.live {
+                report.page_that_runs(&Live {
                     tolerance,
                     most_steps: call.max_steps,
-                }),
-                false => report.page(),
+                })
+            } else {
+                report.page()
             };
             match redundant.filter(|_| call.live) {
                 Some(warning) => {

@@ -78,19 +78,18 @@ pub fn run(call: &call::Spectrum) -> Result<(), Failure> {
     let resolution = found
         .first()
         .map_or(f64::NAN, |one| one.spectrum.resolution);
-    match call.part.runs.json {
-        true => {
-            let result = json!({
-                "samples": samples.count,
-                "step": samples.step,
-                "resampled": samples.is_resampled,
-                "resolution": resolution,
-                "window": window.name(),
-                "quantities": found.iter().map(as_json).collect::<Vec<Value>>(),
-            });
-            output::line(format_args!("{result:#}"));
-        }
-        false => output::text(&text(&samples, resolution, window, &found)),
+    if call.part.runs.json {
+        let result = json!({
+            "samples": samples.count,
+            "step": samples.step,
+            "resampled": samples.is_resampled,
+            "resolution": resolution,
+            "window": window.name(),
+            "quantities": found.iter().map(as_json).collect::<Vec<Value>>(),
+        });
+        output::line(format_args!("{result:#}"));
+    } else {
+        output::text(&text(&samples, resolution, window, &found))
     }
     Ok(())
 }
@@ -122,23 +121,25 @@ impl Samples {
         let is_even = |pair: &[f64]| (pair[1] - pair[0] - step).abs() <= rounding;
         let even = times.windows(2).take_while(|pair| is_even(pair)).count() + 1;
         // An end that does not fall on a sample is none of them.
-        let samples = match even + 1 >= times.len() {
-            true => Samples {
+        let samples = if even + 1 >= times.len() {
+            Samples {
                 from: *first,
                 step: (times[even - 1] - first) / (even - 1) as f64,
                 count: even,
                 is_resampled: false,
-            },
-            false => Samples {
+            }
+        } else {
+            Samples {
                 from: *first,
                 step: (last - first) / (times.len() - 1) as f64,
                 count: times.len(),
                 is_resampled: true,
-            },
+            }
         };
-        match samples.count < LEAST {
-            true => Err(too_few()),
-            false => Ok(samples),
+        if samples.count < LEAST {
+            Err(too_few())
+        } else {
+            Ok(samples)
         }
     }
 

@@ -52,9 +52,10 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
         .path
         .extension()
         .is_some_and(|ending| ending == "json");
-    let mut plan = match is_plan {
-        true => written_plan(call)?,
-        false => plan(call)?,
+    let mut plan = if is_plan {
+        written_plan(call)?
+    } else {
+        plan(call)?
     };
     if call.chunk.is_some() && !is_plan {
         return Err(Failure::Call(
@@ -90,12 +91,11 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
     let out = Out::of(call, &plan)?;
     let is_part = call.chunk.is_some();
     let folder = Folder::open(&out.folder, out.format, is_part).map_err(refused)?;
-    let known = match call.fresh && !is_part {
-        true => {
-            folder.forget().map_err(refused)?;
-            None
-        }
-        false => folder.plan().map_err(refused)?,
+    let known = if call.fresh && !is_part {
+        folder.forget().map_err(refused)?;
+        None
+    } else {
+        folder.plan().map_err(refused)?
     };
     if let Some(known) = &known {
         let mut differences = plan.differences(known);
@@ -161,9 +161,10 @@ fn all(call: &call::Sweep, sweep: &Sweep, folder: Folder, out: &Out) -> Result<(
                 out.folder.display()
             ));
         }
-        return match is_interrupted {
-            true => Err(Failure::Interrupted),
-            false => Ok(()),
+        return if is_interrupted {
+            Err(Failure::Interrupted)
+        } else {
+            Ok(())
         };
     }
     let summary = folder.summary(sweep).map_err(refused)?;
@@ -177,9 +178,10 @@ fn all(call: &call::Sweep, sweep: &Sweep, folder: Folder, out: &Out) -> Result<(
         folder.remove().map_err(refused)?;
     }
     tell(call, &summary, (seconds, now), &shown.to_string());
-    match call.strict && summary.failed > 0 {
-        true => Err(Failure::Said),
-        false => Ok(()),
+    if call.strict && summary.failed > 0 {
+        Err(Failure::Said)
+    } else {
+        Ok(())
     }
 }
 
@@ -232,15 +234,14 @@ fn one_chunk(sweep: &Sweep, folder: &Folder, chunk: u64, json: bool) -> Result<(
     };
     folder.keep(chunk, &made).map_err(refused)?;
     let runs = made.rows.len();
-    match json {
-        true => {
-            let document = json!({ "chunk": chunk, "runs": runs, "failed": made.failed });
-            output::line(format_args!("{document:#}"));
-        }
-        false => output::line(format_args!(
+    if json {
+        let document = json!({ "chunk": chunk, "runs": runs, "failed": made.failed });
+        output::line(format_args!("{document:#}"));
+    } else {
+        output::line(format_args!(
             "chunk {chunk}: {runs} runs, {} failed",
             made.failed
-        )),
+        ))
     }
     Ok(())
 }
@@ -256,9 +257,10 @@ impl Out {
         if is_folder || (path.extension().is_none() && !path.exists()) {
             return Ok(Out {
                 folder: path.clone(),
-                format: match Format::Parquet.is_here() {
-                    true => Format::Parquet,
-                    false => Format::Csv,
+                format: if Format::Parquet.is_here() {
+                    Format::Parquet
+                } else {
+                    Format::Csv
                 },
                 file: None,
                 shown: path.clone(),
@@ -271,9 +273,10 @@ impl Out {
             )));
         }
         let to = Destination::new("--out", path, TABLE)?;
-        let samples = match plan.has_samples() {
-            true => Some(Destination::new("--out", &samples_beside(path), TABLE)?),
-            false => None,
+        let samples = if plan.has_samples() {
+            Some(Destination::new("--out", &samples_beside(path), TABLE)?)
+        } else {
+            None
         };
         keep_from(call, plan, [&to].into_iter().chain(&samples))?;
         let Some(file) = to.file() else {

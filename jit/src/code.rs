@@ -174,9 +174,10 @@ impl Code {
     /// # Errors
     /// If the system does not give pages that may be executable.
     pub fn new(function: &Function, is_fused: bool, layout: Layout) -> Result<Code, Unavailable> {
-        let arithmetic = match is_fused {
-            true => Arithmetic::Fused,
-            false => Arithmetic::Plain,
+        let arithmetic = if is_fused {
+            Arithmetic::Fused
+        } else {
+            Arithmetic::Plain
         };
         let lowered = Lowered::new(function, arithmetic);
         let assembled = assemble(&lowered, arithmetic, layout);
@@ -247,10 +248,11 @@ impl Code {
         }
         let workspace = workspace.at_least(self.workspace);
         let at = |base: Base| rows.addresses[base as usize].wrapping_add(first);
-        let known = match known_stride < stride {
+        let known = if known_stride < stride {
             // One address for all lanes.
-            true => rows.addresses[Base::Known as usize],
-            false => at(Base::Known),
+            rows.addresses[Base::Known as usize]
+        } else {
+            at(Base::Known)
         };
         // SAFETY: the pages are executable and hold, from `entry` on, a function of this kind, which `assemble` wrote. Of
         // each argument it reads as many numbers as `reads` says, a stride apart, and there are so many; it writes as many

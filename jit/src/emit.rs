@@ -321,9 +321,10 @@ impl<'a> Emitter<'a> {
     /// The next position at which a value is used.
     fn next(&self, id: Id) -> u32 {
         let id = id as usize;
-        match self.next_use[id] < self.first_use[id + 1] {
-            true => self.uses[self.next_use[id] as usize],
-            false => NEVER,
+        if self.next_use[id] < self.first_use[id + 1] {
+            self.uses[self.next_use[id] as usize]
+        } else {
+            NEVER
         }
     }
 
@@ -442,9 +443,10 @@ impl<'a> Emitter<'a> {
             Node::Leaf(_) => Ok(()),
             Node::Binary(instruction, a, b) => {
                 let code = self.code(instruction);
-                let (a, b) = match instruction.is_symmetric() && self.is_better_second(a, b) {
-                    true => (b, a),
-                    false => (a, b),
+                let (a, b) = if instruction.is_symmetric() && self.is_better_second(a, b) {
+                    (b, a)
+                } else {
+                    (a, b)
                 };
                 let (a, last) = self.pair(a, b, instruction.is_of_bits())?;
                 let to = self.result(id)?;

@@ -76,10 +76,7 @@ impl Level {
 
     /// All that the processor has, the best last.
     pub fn all() -> impl Iterator<Item = Level> {
-        let [avx2, avx512] = match is_fused() {
-            true => levels(),
-            false => [false; 2],
-        };
+        let [avx2, avx512] = if is_fused() { levels() } else { [false; 2] };
         let avx2 = avx2.then_some(Level::Avx2);
         avx2.into_iter().chain(avx512.then_some(Level::Avx512))
     }

@@ -135,9 +135,10 @@ impl<const N: usize> Several<N> {
             return None; // they read parameters
         }
         let held = self.run(role, arguments, results)?;
-        Some(match role.inverts() {
-            true => held & self.regular,
-            false => held,
+        Some(if role.inverts() {
+            held & self.regular
+        } else {
+            held
         })
     }
 

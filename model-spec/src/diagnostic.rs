@@ -306,9 +306,10 @@ impl Report {
             return;
         }
         let is_error = diagnostic.code.severity() == Severity::Error;
-        let list = match is_error {
-            true => &mut self.diagnostics,
-            false => &mut self.warnings,
+        let list = if is_error {
+            &mut self.diagnostics
+        } else {
+            &mut self.warnings
         };
         if list.len() >= REPORT_LIMIT {
             self.omitted += usize::from(is_error);

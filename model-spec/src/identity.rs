@@ -56,9 +56,10 @@ pub fn equal(a: Expr<'_>, b: Expr<'_>) -> Option<bool> {
 /// Whether an expression is zero, as far as the prime field can tell; `None` where it has a value at
 /// no point.
 pub fn is_zero(expression: Expr<'_>) -> Option<bool> {
-    match expression.is_zero() {
-        true => Some(true),
-        false => equal(expression, expression.dag().zero()),
+    if expression.is_zero() {
+        Some(true)
+    } else {
+        equal(expression, expression.dag().zero())
     }
 }
 

@@ -116,9 +116,10 @@ pub fn literal(text: &str, span: Span, report: &mut Report) -> Token {
 /// A name as the Rust compiler reads it, in the normalization form C: `é` is one name, whether it is
 /// written as one character or as `e` and an accent.
 pub fn normalized(name: &str) -> Cow<'_, str> {
-    match is_nfc(name) {
-        true => Cow::Borrowed(name),
-        false => Cow::Owned(name.nfc().collect()),
+    if is_nfc(name) {
+        Cow::Borrowed(name)
+    } else {
+        Cow::Owned(name.nfc().collect())
     }
 }
 
@@ -265,11 +266,12 @@ impl<'a> Lexer<'a> {
         let start = self.at;
         self.at += quote.opening;
         let inside = self.rest();
-        let length = match quote.raw {
-            true => inside
+        let length = if quote.raw {
+            inside
                 .find(&quote.closing)
-                .map(|at| at + quote.closing.len()),
-            false => length_to_quote(inside, '"'),
+                .map(|at| at + quote.closing.len())
+        } else {
+            length_to_quote(inside, '"')
         };
         match length {
             Some(length) => {

@@ -212,10 +212,11 @@ pub fn accelerations<'py>(
     py.detach(|| {
         let parts = threads().min(rows.div_ceil(ROWS_A_THREAD)).max(1);
         let length = rows.div_ceil(parts).max(1);
-        let lanes = match batch.varied.is_empty() && rows >= WORTH_LANES {
-            true => machine.in_lanes(),
-            false => None,
-        };
+        let lanes = if batch.varied.is_empty() && rows >= WORTH_LANES {
+machine.in_lanes()
+} else {
+None
+};
         let part = |first: usize, out: &mut [f64]| {
             let count = out.len().checked_div(n).unwrap_or(0);
             // What has no accelerations is asked alone, which says why.
@@ -330,10 +331,11 @@ pub fn evaluate<'py>(
             let [closed, sticks] = [c.closed, c.sticks].map(flag);
             [c.gap, c.normal, c.friction, c.slip, closed, sticks]
         });
-        let reactions = match evaluation.reactions.is_empty() {
-            true => vec![0.0; n],
-            false => evaluation.reactions,
-        };
+        let reactions = if evaluation.reactions.is_empty() {
+vec![0.0; n]
+} else {
+evaluation.reactions
+};
         let all = [
             evaluation.mass_matrix,
             evaluation.bias,

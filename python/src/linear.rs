@@ -92,10 +92,11 @@ fn found(
         steps: MOST_STEPS,
     };
     if let Err(names) = steady::drives(machine, &q, &wanted) {
-        let help = match names.is_empty() {
-            true => String::new(),
-            false => format!("; it stands still with {} = 0", names.join(" = 0, or ")),
-        };
+        let help = if names.is_empty() {
+String::new()
+} else {
+format!("; it stands still with {} = 0", names.join(" = 0, or "))
+};
         return Err(format!(
             "the machine is driven: its equations change with time, so that it is at rest nowhere{help}"
         ));

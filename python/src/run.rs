@@ -105,14 +105,16 @@ impl Run {
         let (start, end) = (self.solution.start(), self.solution.end());
         let duration = end.t - start.t;
         let dimension = start.q.values.len();
-        let parts = match duration == 0.0 {
-            true => 0,
-            false => 1000 * u64::from(finer(dimension, duration, duration / 1000.0, false)),
-        };
-        let time = |k: u64| match k == parts {
-            true => end.t,
-            false => start.t + duration * (k as f64 / parts as f64),
-        };
+        let parts = if duration == 0.0 {
+0
+} else {
+1000 * u64::from(finer(dimension, duration, duration / 1000.0, false))
+};
+        let time = |k: u64| if k == parts {
+end.t
+} else {
+start.t + duration * (k as f64 / parts as f64)
+};
         let states = self.states_at(py, (0..=parts).map(time).collect())?;
         let method = Method::named(method).unwrap_or_default();
         let (file, tolerance, inputs) = asked;

@@ -105,15 +105,14 @@ pub fn sensitivities<'py>(
             })
             .stop_if(|_| stop.load(std::sync::atomic::Ordering::Relaxed))
             .run_interpreted(from)?;
-        match stop.load(std::sync::atomic::Ordering::Relaxed) {
-            true => Ok(Vec::new()),
-            false => {
+        if stop.load(std::sync::atomic::Ordering::Relaxed) {
+Ok(Vec::new())
+} else {
                 if is_held {
                     check_drift(own, run.end(), &causes, &by)?;
                 }
                 Ok(run.at_each(instants)?)
             }
-        }
     });
     if let Some(error) = raised {
         return Err(error);

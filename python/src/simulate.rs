@@ -145,10 +145,11 @@ pub fn simulate(
 ) -> PyResult<(Run, Option<String>)> {
     of.check_parameters(py)?;
     let is_automatic = settings.method == AUTO;
-    let method = match is_automatic {
-        true => Some(<&Method>::default()),
-        false => Method::named(&settings.method),
-    };
+    let method = if is_automatic {
+Some(<&Method>::default())
+} else {
+Method::named(&settings.method)
+};
     let Some(method) = method else {
         let known = methods().join(", ");
         return Err(PyValueError::new_err(format!(
@@ -358,10 +359,11 @@ impl Task {
                 });
                 self.raised.is_kept() || stops
             });
-        simulation = match relative == absolute {
-            true => simulation.tolerance(relative),
-            false => simulation.relative(relative).absolute(absolute),
-        };
+        simulation = if relative == absolute {
+simulation.tolerance(relative)
+} else {
+simulation.relative(relative).absolute(absolute)
+};
         if let Some(step) = self.first_step {
             simulation = simulation.first_step(step);
         }

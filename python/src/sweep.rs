@@ -265,12 +265,13 @@ impl Stop {
 fn checked(py: Python<'_>, text: &str, chunk: u64) -> PyResult<Arc<Sweep>> {
     let sweep = made(py, text)?;
     let chunks = sweep.plan().chunks();
-    match chunk < chunks {
-        true => Ok(sweep),
-        false => Err(PyValueError::new_err(format!(
+    if chunk < chunks {
+Ok(sweep)
+} else {
+Err(PyValueError::new_err(format!(
             "there is no chunk {chunk}: the plan has {chunks}"
-        ))),
-    }
+        )))
+}
 }
 
 /// A chunk, which Ctrl-C ends.

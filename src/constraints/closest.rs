@@ -205,9 +205,10 @@ impl Search {
         let missed = rows.filter(|((_, left), _)| left.abs() > BESIDE * most);
         let level = self.level as usize;
         let misses = missed.map(|((k, left), size)| (*k, level, left * size));
-        match most <= self.nothing {
-            true => Vec::new(),
-            false => misses.collect(),
+        if most <= self.nothing {
+            Vec::new()
+        } else {
+            misses.collect()
         }
     }
 }

@@ -82,9 +82,10 @@ pub(super) fn solve(problem: &Problem) -> Result<(Vec<f64>, f64), Unsolved> {
             break;
         }
     }
-    match best.0 <= TOLERABLE {
-        true => Ok((best.1, best.0)),
-        false => Err(Unsolved),
+    if best.0 <= TOLERABLE {
+        Ok((best.1, best.0))
+    } else {
+        Err(Unsolved)
     }
 }
 
@@ -191,9 +192,10 @@ impl Problem {
                 Part::Normal(i) => {
                     let presses = z[*i] - self.rate(*i, z) > 0.0;
                     let row = &mut slopes[i * n..][..n];
-                    match presses {
-                        true => row.copy_from_slice(self.row(*i)),
-                        false => row[*i] = 1.0,
+                    if presses {
+                        row.copy_from_slice(self.row(*i))
+                    } else {
+                        row[*i] = 1.0
                     }
                 }
                 Part::Disc {

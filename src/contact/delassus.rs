@@ -98,9 +98,10 @@ pub(super) fn matrix(images: &[Vec<f64>]) -> Vec<f64> {
         }
         let is_sparse = is_long && 2 * entries.len() < a.len();
         for (j, b) in images[..=i].iter().enumerate() {
-            let entry = match is_sparse {
-                true => entries.iter().fold(0.0, |sum, k| sum + a[*k] * b[*k]),
-                false => dot(a, b),
+            let entry = if is_sparse {
+                entries.iter().fold(0.0, |sum, k| sum + a[*k] * b[*k])
+            } else {
+                dot(a, b)
             };
             (g[i * width + j], g[j * width + i]) = (entry, entry);
         }

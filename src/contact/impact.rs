@@ -298,9 +298,10 @@ impl Touching {
                 .map(|(place, &k)| self.asked_of_impact(here, (place, k), beside))
                 .collect();
             let answer = problem::solve(&asked, g, b).map_err(|_| unsolved())?;
-            match answer.residual > 1e-8 {
-                true => Err(unsolved()),
-                false => Ok(answer),
+            if answer.residual > 1e-8 {
+                Err(unsolved())
+            } else {
+                Ok(answer)
             }
         };
         let after = |b: &[f64], impulses: &[[f64; 2]]| -> Vec<f64> {

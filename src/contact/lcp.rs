@@ -56,9 +56,10 @@ pub(crate) fn lemke(m: &[f64], q: &[f64]) -> Result<Solution, Unsolved> {
     let rounded: Vec<f64> = (q.iter())
         .map(|q| if q.abs() <= ZERO * size { 0.0 } else { *q })
         .collect();
-    let z = match rounded.iter().all(|q| *q >= 0.0) {
-        true => Some(vec![0.0; n]),
-        false => along_paths(m, &rounded, size).map(|found| found.z),
+    let z = if rounded.iter().all(|q| *q >= 0.0) {
+        Some(vec![0.0; n])
+    } else {
+        along_paths(m, &rounded, size).map(|found| found.z)
     };
     let other = z.map(|z| Solution {
         residual: residual(m, q, &z),

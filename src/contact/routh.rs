@@ -49,9 +49,10 @@ pub(super) fn impulse(meeting: Meeting, expansion: Expansion) -> Option<[f64; 2]
         };
         let normal_rate = nn + share * nt;
         let slip_rate = nt + share * tt;
-        let to_rest = match slip * slip_rate < 0.0 {
-            true => -slip / slip_rate,
-            false => f64::INFINITY,
+        let to_rest = if slip * slip_rate < 0.0 {
+            -slip / slip_rate
+        } else {
+            f64::INFINITY
         };
         let to_end = match until {
             None if normal_rate > 0.0 => -normal / normal_rate,
@@ -76,9 +77,10 @@ pub(super) fn impulse(meeting: Meeting, expansion: Expansion) -> Option<[f64; 2]
         work += by * (normal + 0.5 * normal_rate * by);
         impulse[0] += by;
         impulse[1] += share * by;
-        slip = match to_rest <= to_end || is_stuck {
-            true => 0.0,
-            false => slip + slip_rate * by,
+        slip = if to_rest <= to_end || is_stuck {
+            0.0
+        } else {
+            slip + slip_rate * by
         };
         normal += normal_rate * by;
         if to_end <= to_rest {

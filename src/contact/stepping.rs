@@ -94,9 +94,12 @@ impl Touching {
             let touches = lasts(*k) || here.is_shut(*k);
             touches && here.is_within(*k, q.as_slice())
         };
-        let way_back = |k: usize| match lasts(k) {
-            true => 2.0 / h * here.gaps[k].max(0.0),
-            false => 0.0,
+        let way_back = |k: usize| {
+            if lasts(k) {
+                2.0 / h * here.gaps[k].max(0.0)
+            } else {
+                0.0
+            }
         };
         let active: Vec<usize> = (0..count).filter(is_active).collect();
         let mut modes = vec![Mode::Open; count];

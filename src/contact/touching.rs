@@ -305,9 +305,12 @@ impl Touching {
     pub fn new<S: System>(system: &S) -> Touching {
         let rubs: Vec<bool> = system.unilateral_contacts().map(|c| c.rubs).collect();
         let leans = system.unilateral_contacts().enumerate();
-        let leans = leans.map(|(k, c)| match c.rolls || c.across {
-            true => k.checked_sub(1),
-            false => None,
+        let leans = leans.map(|(k, c)| {
+            if c.rolls || c.across {
+                k.checked_sub(1)
+            } else {
+                None
+            }
         });
         let leans = leans.collect();
         let across = system.unilateral_contacts().map(|c| c.across).collect();
@@ -435,9 +438,10 @@ impl Touching {
         }
         let ahead = heading[0] * slip[0] + heading[1] * slip[1];
         let direction = slip[part] / speed;
-        match self.follows && ahead < 0.0 {
-            true => -direction,
-            false => direction,
+        if self.follows && ahead < 0.0 {
+            -direction
+        } else {
+            direction
         }
     }
 
@@ -773,9 +777,10 @@ impl Touching {
         if m > 0 {
             system.constraint_rates(t, q, &v.zeros_like(), &mut moving);
         }
-        let work = match moving.iter().any(|rate| *rate != 0.0) {
-            true => taken,
-            false => on_coordinates + taken,
+        let work = if moving.iter().any(|rate| *rate != 0.0) {
+            taken
+        } else {
+            on_coordinates + taken
         };
         Powers {
             work,
@@ -802,9 +807,10 @@ impl Touching {
             // Where a torque resists rolling, the normal force is that of the contact, which says itself whether it presses.
             let pressed = self.leans[k].unwrap_or(k);
             let normal = reaction.forces[pressed][0];
-            let size = match pressed == k {
-                true => reaction.sizes[k],
-                false => reaction.sizes[k].max(here.friction(k)[1] * reaction.sizes[pressed]),
+            let size = if pressed == k {
+                reaction.sizes[k]
+            } else {
+                reaction.sizes[k].max(here.friction(k)[1] * reaction.sizes[pressed])
             };
             let rounding = ROUNDING_OF_FORCES * size;
             let stays = match here.on_face(k) {
@@ -814,15 +820,16 @@ impl Touching {
                     rounding: here.gap_rounding(k),
                 },
             };
-            let [presses, loads] = match pressed == k {
-                false => [Margin::ENDLESS; 2],
-                true => self.margins_of_yielding(&here, k).unwrap_or([
+            let [presses, loads] = if pressed == k {
+                self.margins_of_yielding(&here, k).unwrap_or([
                     Margin {
                         value: normal,
                         rounding,
                     },
                     Margin::ENDLESS,
-                ]),
+                ])
+            } else {
+                [Margin::ENDLESS; 2]
             };
             *margin = match self.modes[k] {
                 Mode::Open => continue,
@@ -1103,9 +1110,10 @@ impl Touching {
                                 (breaks[place], breaks_away) = (true, true);
                                 breaks[place + 1] = true;
                             }
-                            match size > 0.0 {
-                                true => Mode::Skids(used.map(|used| -used / size)),
-                                false => Mode::Skids(slips.map(|(slip, _)| slip / speeds_up)),
+                            if size > 0.0 {
+                                Mode::Skids(used.map(|used| -used / size))
+                            } else {
+                                Mode::Skids(slips.map(|(slip, _)| slip / speeds_up))
                             }
                         }
                     }

@@ -204,10 +204,7 @@ impl<V: LaneVector<W>, L: Default, const W: usize> InSeries<V, L, W> {
                 }
             }
             is_last[i] = control.is_last(left, self.longest);
-            lengths[i] = match is_last[i] {
-                true => left,
-                false => control.step,
-            };
+            lengths[i] = if is_last[i] { left } else { control.step };
             control.last_step = lengths[i];
         }
         (lengths, is_last)
@@ -383,9 +380,10 @@ impl<V: LaneVector<W>, const W: usize> Kernel<Lanes<W>> for Lengths<'_, V, W> {
         // A loop, not a closure for each: that would not be compiled into its caller for wide registers.
         let mut lengths = one;
         for (one, other) in lengths.iter_mut().zip(other) {
-            *one = match are_usual {
-                true => taylor::usual_length([*one, other], powers),
-                false => taylor::length([*one, other], powers),
+            *one = if are_usual {
+                taylor::usual_length([*one, other], powers)
+            } else {
+                taylor::length([*one, other], powers)
             };
         }
         lengths

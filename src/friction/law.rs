@@ -177,9 +177,12 @@ impl Parts<'_> {
         let direction = [0, 1, 2].map(|i| self.values[first + i]);
         let along = dot(&direction, &vector);
         let on_surface = self.layout.is_second(contact) || self.layout.has_second(contact);
-        [0, 1, 2].map(|i| match on_surface {
-            true => along * direction[i],
-            false => vector[i] - along * direction[i],
+        [0, 1, 2].map(|i| {
+            if on_surface {
+                along * direction[i]
+            } else {
+                vector[i] - along * direction[i]
+            }
         })
     }
 
@@ -359,9 +362,10 @@ impl Parts<'_> {
     /// How large the friction of a contact is, along both tangents if it has two.
     pub fn used(&self, contact: usize, friction_forces: &Each) -> f64 {
         let along = friction_forces[contact];
-        match self.layout.has_second(contact) {
-            true => length([along, friction_forces[contact + 1]]),
-            false => along.abs(),
+        if self.layout.has_second(contact) {
+            length([along, friction_forces[contact + 1]])
+        } else {
+            along.abs()
         }
     }
 
@@ -419,9 +423,10 @@ impl Parts<'_> {
                     let Some([value, _]) = grows(&along(middle)) else {
                         break;
                     };
-                    match (value > 0.0) == (aside > 0.0) {
-                        true => (from, aside) = (middle, value),
-                        false => to = middle,
+                    if (value > 0.0) == (aside > 0.0) {
+                        (from, aside) = (middle, value)
+                    } else {
+                        to = middle
                     }
                 }
                 from = 0.5 * (from + to);
@@ -614,9 +619,10 @@ impl Question {
             };
             let mut is_open = true;
             for (k, &digit) in digits[..count].iter().enumerate() {
-                (mode.motion[k], mode.press[k]) = match layout.is_second(k) {
-                    true => (mode.motion[k - 1], 1.0),
-                    false => states(k)[digit],
+                (mode.motion[k], mode.press[k]) = if layout.is_second(k) {
+                    (mode.motion[k - 1], 1.0)
+                } else {
+                    states(k)[digit]
                 };
                 if mode.motion[k] == Motion::Skids {
                     mode.course[k] = self.course[k];
@@ -662,13 +668,14 @@ impl Sizes {
                 self.of_one(look);
                 true
             }
-            _ => match self.is_contraction() {
-                true => {
+            _ => {
+                if self.is_contraction() {
                     self.by_newton().iter().for_each(look);
                     true
+                } else {
+                    false
                 }
-                false => false,
-            },
+            }
         }
     }
 
@@ -692,9 +699,10 @@ impl Sizes {
             found(0.0);
         } else if first > 0.0 {
             // The other root is negative. No difference of numbers that are nearly the same.
-            found(match half >= 0.0 {
-                true => (half + root) / first,
-                false => last / (root - half),
+            found(if half >= 0.0 {
+                (half + root) / first
+            } else {
+                last / (root - half)
             });
         } else if half < 0.0 && discriminant >= 0.0 {
             // Where pressing harder would hold it the more, there are two motions or none (P. Painlevé).
@@ -744,9 +752,10 @@ impl Sizes {
                 let length = crate::math::sqrt(dot(&vector, &vector));
                 contracted[i] = self.coefficients[i] * length;
                 here = here.max((sizes[i] - contracted[i]).abs());
-                let factor = match length > 0.0 {
-                    true => self.coefficients[i] / length,
-                    false => 0.0,
+                let factor = if length > 0.0 {
+                    self.coefficients[i] / length
+                } else {
+                    0.0
                 };
                 for (j, x) in row[..number].iter_mut().enumerate() {
                     *x = -factor * dot(&vector, &self.pressing[i][1 + j]);
@@ -771,9 +780,10 @@ impl Sizes {
 pub(super) fn length([x, y]: [f64; 2]) -> f64 {
     // Neither square may be lost or overflow.
     let most = x.abs().max(y.abs());
-    match most > 0.0 && most.is_finite() {
-        true => most * crate::math::sqrt((x / most) * (x / most) + (y / most) * (y / most)),
-        false => most,
+    if most > 0.0 && most.is_finite() {
+        most * crate::math::sqrt((x / most) * (x / most) + (y / most) * (y / most))
+    } else {
+        most
     }
 }
 

@@ -252,9 +252,10 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
         let left = (end - self.t).to_f64();
         let length = self.tolerable_length()?;
         let is_last = 1.01 * length >= left.abs();
-        let h = match is_last {
-            true => end - self.t,
-            false => N::from_f64(length.copysign(left)),
+        let h = if is_last {
+            end - self.t
+        } else {
+            N::from_f64(length.copysign(left))
         };
         if h.to_f64().abs() <= least::<N>(at).min(0.9 * left.abs()) {
             return Err(StepError::StepTooSmall {

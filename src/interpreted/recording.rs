@@ -149,9 +149,10 @@ impl Recording {
             let name = quantity.name;
             let mut others = system.output_values(&outputs);
             let is_taken = others.any(|(other, _)| other.name == name);
-            let name = match is_taken {
-                true => format!("input({name})"),
-                false => name.into(),
+            let name = if is_taken {
+                format!("input({name})")
+            } else {
+                name.into()
             };
             column(name, quantity.unit.into(), Kind::Input);
         }
@@ -167,9 +168,10 @@ impl Recording {
         let has_books = !run.contact_energies().is_empty();
         for contact in system.unilateral_contacts() {
             let name = contact.name;
-            let [friction, slip] = match contact.rolls {
-                true => ["N*m", "rad/s"],
-                false => ["N", "m/s"],
+            let [friction, slip] = if contact.rolls {
+                ["N*m", "rad/s"]
+            } else {
+                ["N", "m/s"]
             };
             for (what, unit) in [
                 ("gap", "m"),

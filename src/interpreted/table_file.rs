@@ -103,14 +103,16 @@ impl TableFile {
                 text,
                 place: place(column),
             });
-            match is_header {
-                true => file.header = cells.collect(),
-                false => file.rows.push(cells.collect()),
+            if is_header {
+                file.header = cells.collect()
+            } else {
+                file.rows.push(cells.collect())
             }
         }
-        match file.header.is_empty() {
-            true => Err(file.wrong(None, "it is empty; its first line is to name its columns")),
-            false => Ok(file),
+        if file.header.is_empty() {
+            Err(file.wrong(None, "it is empty; its first line is to name its columns"))
+        } else {
+            Ok(file)
         }
     }
 
@@ -155,9 +157,10 @@ impl TableFile {
             rows: rows.collect(),
             is_text: false,
         };
-        match file.header.is_empty() {
-            true => Err(file.wrong(None, "it has no columns")),
-            false => Ok(file),
+        if file.header.is_empty() {
+            Err(file.wrong(None, "it has no columns"))
+        } else {
+            Ok(file)
         }
     }
 
@@ -230,14 +233,16 @@ impl TableFile {
             }
             times.push(time);
             let is_gap = |cell: &Cell| ["", "NaN", "nan"].contains(&cell.text.trim());
-            values.push(match may_have_gaps && row.get(place).is_none_or(is_gap) {
-                true => f64::NAN,
-                false => factor * self.number(row, place, name)?,
+            values.push(if may_have_gaps && row.get(place).is_none_or(is_gap) {
+                f64::NAN
+            } else {
+                factor * self.number(row, place, name)?
             });
         }
-        match times.is_empty() {
-            true => Err(self.wrong(None, "it has no rows below its header")),
-            false => Ok((times, values)),
+        if times.is_empty() {
+            Err(self.wrong(None, "it has no rows below its header"))
+        } else {
+            Ok((times, values))
         }
     }
 
@@ -294,9 +299,10 @@ impl TableFile {
         match text.parse::<f64>() {
             Ok(number) if number.is_finite() => Ok(number),
             _ => {
-                let help = match text.contains(',') {
-                    true => "; the decimal mark is a point",
-                    false => "",
+                let help = if text.contains(',') {
+                    "; the decimal mark is a point"
+                } else {
+                    ""
                 };
                 let message = format!("`{text}` in `{name}` is no finite number{help}");
                 Err(self.wrong(Some(cell.place), message))
@@ -341,9 +347,10 @@ fn factor(of: &str, unit: &str) -> Result<f64, String> {
     factor.ok_or_else(|| {
         let said = report.diagnostics().into_iter();
         let said: Vec<String> = said.map(|wrong| wrong.message.clone()).collect();
-        match said.is_empty() {
-            true => "it cannot be converted".into(),
-            false => said.join("; "),
+        if said.is_empty() {
+            "it cannot be converted".into()
+        } else {
+            said.join("; ")
         }
     })
 }

@@ -239,9 +239,12 @@ pub(super) fn check(tableau: &Tableau) -> Result<(), MethodError> {
 
 /// Counts, and numbers of the whole method.
 fn sizes(tableau: &Tableau) -> Result<(), MethodError> {
-    let field = |is_good: bool, field, needed| match is_good {
-        true => Ok(()),
-        false => Err(MethodError::Field { field, needed }),
+    let field = |is_good: bool, field, needed| {
+        if is_good {
+            Ok(())
+        } else {
+            Err(MethodError::Field { field, needed })
+        }
     };
     let Tableau { stages, .. } = *tableau;
     let rows = tableau.a.len();
@@ -427,9 +430,10 @@ fn estimates(tableau: &Tableau) -> Result<(), MethodError> {
     let fine = power(Weights::Error, tableau.error);
     let coarse = power(Weights::CoarseError, coarse);
     let found = (2 * fine).saturating_sub(coarse);
-    match found == stated {
-        true => Ok(()),
-        false => Err(MethodError::ErrorPower { found, stated }),
+    if found == stated {
+        Ok(())
+    } else {
+        Err(MethodError::ErrorPower { found, stated })
     }
 }
 

@@ -128,9 +128,10 @@ pub(super) fn first<S: System>(
     let tolerance = sharpest(tolerance);
     let cost = costs[usize::from(tolerance <= taylor::FINE)];
     let saved = EVALUATIONS * steps_for_one(tolerance);
-    match cost < saved {
-        true => (Method::TAYLOR, MethodReason::SeriesPays { cost, saved }),
-        false => (Method::DOP853, MethodReason::SeriesCosts { cost, saved }),
+    if cost < saved {
+        (Method::TAYLOR, MethodReason::SeriesPays { cost, saved })
+    } else {
+        (Method::DOP853, MethodReason::SeriesCosts { cost, saved })
     }
 }
 
@@ -235,9 +236,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let stable = rate * (self.stepper.t() - since).abs() / REACH;
         let explicit = EVALUATIONS * stable.max(steps as f64);
         let evaluations = (work.evaluations - before.evaluations) as f64;
-        self.choosing.paying = match explicit < evaluations {
-            true => self.choosing.paying + 1,
-            false => 0,
+        self.choosing.paying = if explicit < evaluations {
+            self.choosing.paying + 1
+        } else {
+            0
         };
         self.begin_window();
         if self.choosing.paying < self.choosing.needed {

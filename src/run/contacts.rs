@@ -335,9 +335,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         for &(contact, is_loaded) in &happened.turned {
             let (before, after) = (happened.before[contact], happened.after[contact]);
             if before != Mode::Open && after != Mode::Open {
-                let kind = match is_loaded {
-                    true => ContactEventKind::Crushes,
-                    false => ContactEventKind::Turns,
+                let kind = if is_loaded {
+                    ContactEventKind::Crushes
+                } else {
+                    ContactEventKind::Turns
                 };
                 told.push((contact, kind, [0.0; 2], None));
             }
@@ -453,9 +454,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 continue;
             }
             watch.side = value.signum();
-            let crossing = match value > 0.0 {
-                true => Crossing::Rising,
-                false => Crossing::Falling,
+            let crossing = if value > 0.0 {
+                Crossing::Rising
+            } else {
+                Crossing::Falling
             };
             if watch.crossing != Crossing::Any && watch.crossing != crossing {
                 continue;
@@ -536,24 +538,27 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 }
                 let interpolant = made(interpolant, stepper, system)?;
                 let at = |theta: f64| {
-                    let (t, q, v) = match theta == 0.0 {
-                        true => beginning.clone(),
-                        false => event::state_at(system, stepper, interpolant, theta)?,
+                    let (t, q, v) = if theta == 0.0 {
+                        beginning.clone()
+                    } else {
+                        event::state_at(system, stepper, interpolant, theta)?
                     };
                     let near = touching.clearances(system, (t, &q, &v))[k];
                     Ok([near.value, near.rate])
                 };
                 let yields = touching.yields(k);
-                let found = match yields {
-                    true => pressing(between, roundoff, at)?,
-                    false => closing(between, roundoff, at)?,
+                let found = if yields {
+                    pressing(between, roundoff, at)?
+                } else {
+                    closing(between, roundoff, at)?
                 };
                 if let Some(found) = found
                     && earliest.is_none_or(|(known, ..)| found < known)
                 {
-                    let cause = match yields {
-                        true => Cause::Presses(k),
-                        false => Cause::Asked,
+                    let cause = if yields {
+                        Cause::Presses(k)
+                    } else {
+                        Cause::Asked
                     };
                     earliest = Some((found, cause, Some(k)));
                 }
@@ -574,9 +579,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     }
                     let interpolant = made(interpolant, stepper, system)?;
                     let exactly = |theta: f64| -> Result<(Margin, bool), Error> {
-                        let at = match theta == 0.0 {
-                            true => beginning.clone(),
-                            false => event::state_at(system, stepper, interpolant, theta)?,
+                        let at = if theta == 0.0 {
+                            beginning.clone()
+                        } else {
+                            event::state_at(system, stepper, interpolant, theta)?
                         };
                         let margins = margins(&at)?;
                         Ok((margins.each[k][kind], margins.is_only))
@@ -616,12 +622,11 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 }
             }
             if let Some((theta, cause, closes)) = earliest {
-                let t = match theta == 0.0 {
-                    true => beginning.0,
-                    false => {
-                        let interpolant = made(interpolant, stepper, system)?;
-                        interpolant.time_at(theta)
-                    }
+                let t = if theta == 0.0 {
+                    beginning.0
+                } else {
+                    let interpolant = made(interpolant, stepper, system)?;
+                    interpolant.time_at(theta)
                 };
                 return Ok(Some((t, cause, closes)));
             }

@@ -91,10 +91,7 @@ impl Pace {
 
     /// Takes note of a step of time stepping.
     pub fn take_step(&mut self, is_quiet: bool) {
-        self.quiet = match is_quiet {
-            true => self.quiet + 1,
-            false => 0,
-        };
+        self.quiet = if is_quiet { self.quiet + 1 } else { 0 };
     }
 
     /// Takes note of what forces add to the rates at which gaps close.

@@ -93,9 +93,10 @@ pub(crate) fn run_all<'a, 'l, M: Machine>(
                 together |= 1 << number;
             }
         }
-        match together.count_ones() < FEWEST {
-            true => tries.skip(),
-            false => tries.attempt(together, machines),
+        if together.count_ones() < FEWEST {
+            tries.skip()
+        } else {
+            tries.attempt(together, machines)
         }
         for (number, lane) in lanes.iter_mut().enumerate() {
             let ending = lane

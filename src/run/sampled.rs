@@ -71,9 +71,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 .min(next(sampling.taken));
         }
         let direction = if forward { 1.0 } else { -1.0 };
-        self.stop = match stop.is_infinite() || is_beyond(stop, self.until, direction) {
-            true => self.until,
-            false => stop,
+        self.stop = if stop.is_infinite() || is_beyond(stop, self.until, direction) {
+            self.until
+        } else {
+            stop
         };
         self.stepper.set_end(self.stop);
         match (acting, entered) {

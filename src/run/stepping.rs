@@ -106,12 +106,13 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
 
 /// What stands in the way of time stepping for a machine; nothing where it is not asked for.
 pub(super) fn check_length(has_fixed_steps: bool, longest: f64) -> Result<(), Error> {
-    match has_fixed_steps && !longest.is_finite() {
-        true => Err(Error::InvalidSetting {
+    if has_fixed_steps && !longest.is_finite() {
+        Err(Error::InvalidSetting {
             setting: "longest_step",
             value: longest,
             needed: "the length of the steps, in s: the method takes steps of a fixed length",
-        }),
-        false => Ok(()),
+        })
+    } else {
+        Ok(())
     }
 }

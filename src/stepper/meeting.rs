@@ -84,14 +84,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let cause = match cause {
             Cause::Stops(k) => {
                 let at = (t, &now.q, &now.v, &model.inputs);
-                match touching.has_stopped(model.system.get(), at, k)? {
-                    true => cause,
-                    false => {
-                        // So close to where it was seen it cannot turn: its tangents jump here, and what follows is to begin behind that.
-                        move_by_rounding(&mut now.q, &now.v);
-                        model.set_inputs(t, &now.q, &now.v);
-                        Cause::Asked
-                    }
+                if touching.has_stopped(model.system.get(), at, k)? {
+                    cause
+                } else {
+                    // So close to where it was seen it cannot turn: its tangents jump here, and what follows is to begin behind that.
+                    move_by_rounding(&mut now.q, &now.v);
+                    model.set_inputs(t, &now.q, &now.v);
+                    Cause::Asked
                 }
             }
             cause => cause,

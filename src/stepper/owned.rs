@@ -226,13 +226,12 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         if t == to {
             return Ok(self.state());
         }
-        let (q, v) = match t == from {
-            true => (self.before.q.clone(), self.before.v.clone()),
-            false => {
-                let (mut q, mut v) = self.interpolant()?.state(t);
-                self.project(t, &mut q, &mut v)?;
-                (q, v)
-            }
+        let (q, v) = if t == from {
+            (self.before.q.clone(), self.before.v.clone())
+        } else {
+            let (mut q, mut v) = self.interpolant()?.state(t);
+            self.project(t, &mut q, &mut v)?;
+            (q, v)
         };
         let system = self.model.system.get();
         Ok(State {

@@ -545,20 +545,17 @@ fn what_rests_within_rounding_rests() {
         };
         // The acceleration of the block, at rest on the rail, and the direction of the rail.
         let (sin, cos) = (w * t).sin_cos();
-        let (system, v, acceleration, angle) = match is_carried {
-            false => {
-                let [theta, omega, alpha_dot] = [alpha + c * sin, c * w * cos, -c * w * w * sin];
-                let e = [theta.cos(), theta.sin()];
-                let shaken = [-a * w * w * sin, -b * u * u * (u * t).cos()];
-                let x = shaken[0] + place * (-alpha_dot * e[1] - omega * omega * e[0]);
-                let y = shaken[1] + place * (alpha_dot * e[0] - omega * omega * e[1]);
-                (set(SHAKEN, &[("c", c)]), 0.0, [x, y], theta)
-            }
-            true => {
-                let rate = a * (w * cos) - b * (u * (t * u).cos());
-                let x = -a * w * w * sin + b * u * u * (u * t).sin();
-                (set(CARRIED, &[]), rate, [x, 0.0], alpha)
-            }
+        let (system, v, acceleration, angle) = if is_carried {
+            let rate = a * (w * cos) - b * (u * (t * u).cos());
+            let x = -a * w * w * sin + b * u * u * (u * t).sin();
+            (set(CARRIED, &[]), rate, [x, 0.0], alpha)
+        } else {
+            let [theta, omega, alpha_dot] = [alpha + c * sin, c * w * cos, -c * w * w * sin];
+            let e = [theta.cos(), theta.sin()];
+            let shaken = [-a * w * w * sin, -b * u * u * (u * t).cos()];
+            let x = shaken[0] + place * (-alpha_dot * e[1] - omega * omega * e[0]);
+            let y = shaken[1] + place * (alpha_dot * e[0] - omega * omega * e[1]);
+            (set(SHAKEN, &[("c", c)]), 0.0, [x, y], theta)
         };
         let inputs = system.default_inputs();
         let (q, mut a) = (vec![place], vec![0.0]);

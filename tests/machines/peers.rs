@@ -114,9 +114,10 @@ fn the_chain_obeys_the_equations_of_task_t2() {
             for j in 0..n {
                 let (low, high) = (i.min(j), i.max(j));
                 let [l, m, c, inertia] = links[high];
-                let coupling = match i == j {
-                    true => inertia + m * c * c + l * l * above(i),
-                    false => links[low][0] * (m * c + l * above(high)),
+                let coupling = if i == j {
+                    inertia + m * c * c + l * l * above(i)
+                } else {
+                    links[low][0] * (m * c + l * above(high))
                 };
                 let (sin, cos) = (q[i] - q[j]).sin_cos();
                 let terms = [coupling * cos * a[j], coupling * sin * v[j] * v[j]];

@@ -323,10 +323,13 @@ fn an_event_may_be_on_what_is_observed() {
         let run = Simulation::new(&bob)
             .tolerance(1e-11)
             .until(2.0)
-            .until_event_on("slack", Crossing::Any, |seen| match output {
-                // The multiplier is the force with which the rod presses.
-                false => seen.multipliers[0],
-                true => seen.outputs.get("pull").unwrap(),
+            .until_event_on("slack", Crossing::Any, |seen| {
+                if output {
+                    seen.outputs.get("pull").unwrap()
+                } else {
+                    // The multiplier is the force with which the rod presses.
+                    seen.multipliers[0]
+                }
             })
             .run(bob.start())
             .unwrap();

@@ -632,9 +632,10 @@ fn what_comes_and_goes_within_a_step_is_an_event() {
                 // A thousand roundings of the longest way, as that of dense output has.
                 let way = highest.max((5.0 * end - 0.5 * 9.81 * end * end).abs());
                 let limit = 1e3 * f64::EPSILON * way / (9.81 * beside);
-                let crossings = match direction > 0.0 {
-                    true => [Crossing::Rising, Crossing::Falling],
-                    false => [Crossing::Falling, Crossing::Rising],
+                let crossings = if direction > 0.0 {
+                    [Crossing::Rising, Crossing::Falling]
+                } else {
+                    [Crossing::Falling, Crossing::Rising]
                 };
                 for (event, (at, crossing)) in [one, other]
                     .into_iter()

@@ -154,15 +154,12 @@ fn error_of(method: &'static Method, h: f64, lands: bool) -> f64 {
         .first_step(h)
         .longest_step(h)
         .until(2.7);
-    let end = match lands {
-        true => {
-            let simulation = simulation.table(table, |u, value| *u = value);
-            *simulation.run(machine.start()).unwrap().end()
-        }
-        false => {
-            let simulation = simulation.inputs(move |t, _, _, u| *u = table.value(t));
-            *simulation.run(machine.start()).unwrap().end()
-        }
+    let end = if lands {
+        let simulation = simulation.table(table, |u, value| *u = value);
+        *simulation.run(machine.start()).unwrap().end()
+    } else {
+        let simulation = simulation.inputs(move |t, _, _, u| *u = table.value(t));
+        *simulation.run(machine.start()).unwrap().end()
     };
     let [x, v] = held(2.7);
     (end.q[0] - x).abs().max((end.v[0] - v).abs())
@@ -254,9 +251,10 @@ fn splines_are_smooth() {
             .collect();
         let mut values: Vec<f64> = (0..count).map(|_| random() - 0.5).collect();
         let repeats = round % 2 == 1;
-        let beyond = match repeats {
-            true => Beyond::Repeat,
-            false => Beyond::Hold,
+        let beyond = if repeats {
+            Beyond::Repeat
+        } else {
+            Beyond::Hold
         };
         if repeats {
             values[count - 1] = values[0];

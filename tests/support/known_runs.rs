@@ -74,9 +74,12 @@ impl KnownRun {
                 let off = DoubleDouble::from(*y) - *exact;
                 off.hi().abs() / (scale + exact.hi().abs())
             })
-            .fold(0.0, |worst, error| match error.is_nan() {
-                true => f64::NAN,
-                false => f64::max(worst, error),
+            .fold(0.0, |worst, error| {
+                if error.is_nan() {
+                    f64::NAN
+                } else {
+                    f64::max(worst, error)
+                }
             })
     }
 }

@@ -240,14 +240,18 @@ fn quantities() -> String {
             (_, Needs::Stores) => "with `energies`",
             (_, Needs::Request) => "with `stages`",
         };
-        let code = |text: &str| match text.is_empty() {
-            true => String::new(),
-            false => format!("`{text}`"),
+        let code = |text: &str| {
+            if text.is_empty() {
+                String::new()
+            } else {
+                format!("`{text}`")
+            }
         };
         let of: Vec<&str> = of.iter().map(|of| of.letter()).collect();
-        let equation = match equation.is_empty() {
-            true => String::new(),
-            false => format!("({equation})"),
+        let equation = if equation.is_empty() {
+            String::new()
+        } else {
+            format!("({equation})")
         };
         text.push_str(&format!(
             "| `{name}` | {} | {numbers} | {} | {machines} | {equation} | {} |\n",

@@ -54,11 +54,12 @@ pub fn arrival(
     let way = from.iter().zip(to).map(|(from, to)| (to - from).abs());
     let off = far / way.fold(f64::MIN_POSITIVE, f64::max);
     // What sticks or lifts off is elsewhere altogether.
-    match off < 1e-3 {
-        true => Ok(Arrival { off }),
-        false => Err(format!(
+    if off < 1e-3 {
+        Ok(Arrival { off })
+    } else {
+        Err(format!(
             "the machine ends beside the end by {off:.1e} of the way"
-        )),
+        ))
     }
 }
 

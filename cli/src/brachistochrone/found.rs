@@ -222,18 +222,21 @@ impl<'a, 'd> Found<'a, 'd> {
 
     /// What the guides do that Coulomb's law does not allow, and what may be better than this.
     pub fn warnings(&self) -> Vec<String> {
-        let told = |lapse: &Lapse| match lapse.backwards {
-            true => format!(
-                "`{}` slides backwards from t = {} s: friction was taken to act against its `direction`",
-                lapse.guide,
-                shortest(lapse.time)
-            ),
-            false => format!(
-                "the normal reaction of `{}` is negative from t = {} s, {:.6} N at least: it would have to pull",
-                lapse.guide,
-                shortest(lapse.time),
-                lapse.least
-            ),
+        let told = |lapse: &Lapse| {
+            if lapse.backwards {
+                format!(
+                    "`{}` slides backwards from t = {} s: friction was taken to act against its `direction`",
+                    lapse.guide,
+                    shortest(lapse.time)
+                )
+            } else {
+                format!(
+                    "the normal reaction of `{}` is negative from t = {} s, {:.6} N at least: it would have to pull",
+                    lapse.guide,
+                    shortest(lapse.time),
+                    lapse.least
+                )
+            }
         };
         let arrival = self.arrival.as_ref().err();
         let lost = arrival.map(|why| format!("simulated under the control forces, {why}"));
@@ -499,14 +502,13 @@ fn compared<T: Terrain>(motion: &Sought<T>) -> String {
         _ => format!("{starts} starts"),
     };
     let others: Vec<String> = motion.others().into_iter().map(shortest).collect();
-    match others.is_empty() {
-        true => format!(
-            "the one motion found from {starts}; that none far from it is faster is not shown"
-        ),
-        false => format!(
+    if others.is_empty() {
+        format!("the one motion found from {starts}; that none far from it is faster is not shown")
+    } else {
+        format!(
             "the fastest found from {starts}, others take {} s; that none far from them is faster is not shown",
             others.join(", ")
-        ),
+        )
     }
 }
 

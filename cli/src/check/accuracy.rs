@@ -174,9 +174,10 @@ impl Found {
 
 /// To two digits behind the point, or, where it is large, in powers of ten.
 fn rounded(number: f64) -> String {
-    match number < 1e4 {
-        true => format!("{number:.2}"),
-        false => format!("{number:.1e}"),
+    if number < 1e4 {
+        format!("{number:.2}")
+    } else {
+        format!("{number:.1e}")
     }
 }
 

@@ -404,11 +404,12 @@ fn check_times(
             "--data {label}: it begins at t = {first} s, and the machine at 0: shift the times"
         )));
     }
-    match last > 0.0 {
-        true => Ok(()),
-        false => Err(Failure::Call(format!(
+    if last > 0.0 {
+        Ok(())
+    } else {
+        Err(Failure::Call(format!(
             "--data {label}: nothing is measured after the start at t = 0"
-        ))),
+        )))
     }
 }
 
@@ -433,10 +434,7 @@ pub fn spread(experiments: &[Experiment], class: usize) -> f64 {
         .collect();
     let mean = values.iter().sum::<f64>() / values.len() as f64;
     let square = values.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / values.len() as f64;
-    match square > 0.0 {
-        true => square.sqrt(),
-        false => 1.0,
-    }
+    if square > 0.0 { square.sqrt() } else { 1.0 }
 }
 
 /// Measured, computed, and by how much the first is more: a row a time, NaN where nothing was measured.

@@ -55,13 +55,14 @@ pub fn warnings(result: &Fitted<'_, '_>) -> Vec<String> {
             .iter()
             .map(|combination| combination.formula(&all))
             .collect();
-        let told = match told.is_empty() {
-            true => "nothing of them is".to_owned(),
-            false => format!(
+        let told = if told.is_empty() {
+            "nothing of them is".to_owned()
+        } else {
+            format!(
                 "only {} {}",
                 told.join(", "),
                 if told.len() == 1 { "is" } else { "are" }
-            ),
+            )
         };
         warnings.push(format!(
             "{} cannot be told apart: {told} told by these measurements",
@@ -108,26 +109,23 @@ fn rounded(value: f64, error: Option<f64>) -> (String, String) {
     let size = value.abs().max(error);
     // Beside an error that is nearly nothing not all digits are shown.
     let place = place.max(size.log10().floor() as i32 - 12);
-    match (-6..=6).contains(&(size.log10().floor() as i32)) {
-        true => {
-            let digits = usize::try_from(-place).unwrap_or(0);
-            let shown = match place > 0 {
-                true => {
-                    let unit = 10_f64.powi(place);
-                    ((value / unit).round() * unit, (error / unit).round() * unit)
-                }
-                false => (value, error),
-            };
-            let error = match shown.1 < 10_f64.powi(place) {
-                true => format!("{error:.1e}"),
-                false => format!("{:.digits$}", shown.1),
-            };
-            (format!("{:.digits$}", shown.0), error)
-        }
-        false => {
-            let digits = usize::try_from(size.log10().floor() as i32 - place).unwrap_or(1);
-            (format!("{value:.digits$e}"), format!("{error:.1e}"))
-        }
+    if (-6..=6).contains(&(size.log10().floor() as i32)) {
+        let digits = usize::try_from(-place).unwrap_or(0);
+        let shown = if place > 0 {
+            let unit = 10_f64.powi(place);
+            ((value / unit).round() * unit, (error / unit).round() * unit)
+        } else {
+            (value, error)
+        };
+        let error = if shown.1 < 10_f64.powi(place) {
+            format!("{error:.1e}")
+        } else {
+            format!("{:.digits$}", shown.1)
+        };
+        (format!("{:.digits$}", shown.0), error)
+    } else {
+        let digits = usize::try_from(size.log10().floor() as i32 - place).unwrap_or(1);
+        (format!("{value:.digits$e}"), format!("{error:.1e}"))
     }
 }
 
@@ -202,13 +200,15 @@ pub fn text(result: &Fitted<'_, '_>) -> String {
             let note = match (statistics.standing[j], error) {
                 (Standing::Told, Some(error)) => {
                     let share = (error / minimum.x[j]).abs();
-                    let share = match share.is_finite() && share > 0.0 {
-                        true => format!("   ({})", percent(share)),
-                        false => String::new(),
+                    let share = if share.is_finite() && share > 0.0 {
+                        format!("   ({})", percent(share))
+                    } else {
+                        String::new()
                     };
-                    match shown.is_empty() {
-                        true => "± 0".to_owned(),
-                        false => format!("± {shown}{share}"),
+                    if shown.is_empty() {
+                        "± 0".to_owned()
+                    } else {
+                        format!("± {shown}{share}")
                     }
                 }
                 (Standing::Bound, _) => "at its bound".to_owned(),
@@ -290,12 +290,13 @@ fn searches(result: &Fitted<'_, '_>) -> String {
         .copied()
         .filter(|sum| *sum > least * (1.0 + 1e-6));
     let next = other.fold(f64::INFINITY, f64::min);
-    let next = match next.is_finite() {
-        true => format!(
+    let next = if next.is_finite() {
+        format!(
             "; the next minimum has {:.3} times its sum of squares",
             next / least
-        ),
-        false => String::new(),
+        )
+    } else {
+        String::new()
     };
     format!(
         "  of {count} searches {} ended in a minimum, {same} of these in this one{next}\n",

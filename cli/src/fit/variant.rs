@@ -136,9 +136,10 @@ fn relative(spec: &Path, file: Option<&Path>) -> Result<String, Failure> {
     let Some(folder) = file.and_then(Path::parent) else {
         return Ok(spec_path.to_string_lossy().into_owned());
     };
-    let folder = match folder.as_os_str().is_empty() {
-        true => PathBuf::from("."),
-        false => folder.to_owned(),
+    let folder = if folder.as_os_str().is_empty() {
+        PathBuf::from(".")
+    } else {
+        folder.to_owned()
     };
     let folder = whole(&folder)?;
     let (from, to): (Vec<_>, Vec<_>) = (

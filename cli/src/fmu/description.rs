@@ -35,9 +35,10 @@ pub fn text(unit: &Unit<'_>) -> String {
     let rows: Vec<Row> = rows.collect();
     let mut document = Document::new();
     let docs = words(&program.docs);
-    let convention = match unit.variables.is_structured {
-        true => "structured",
-        false => "flat",
+    let convention = if unit.variables.is_structured {
+        "structured"
+    } else {
+        "flat"
     };
     let indicators = (program.assumptions.len() + unit.events.len()).to_string();
     let (token, count) = match unit.version {
@@ -95,9 +96,10 @@ pub fn text(unit: &Unit<'_>) -> String {
 }
 
 fn of_kind(document: &mut Document, unit: &Unit<'_>, kind: UnitKind) {
-    let derivatives = match unit.has_derivatives {
-        true => "true",
-        false => "false",
+    let derivatives = if unit.has_derivatives {
+        "true"
+    } else {
+        "false"
     };
     let (name, steps) = match kind {
         UnitKind::ModelExchange => ("ModelExchange", ""),
@@ -162,9 +164,10 @@ fn row(unit: &Unit<'_>, variable: &Variable, units: &mut Units) -> Row {
     let program = unit.program;
     let n = program.coordinates.len();
     let state = |i: usize| unit.start.get(i).map_or(0.0, |(x, _)| *x);
-    let shown = match variable.is_output {
-        true => "output",
-        false => "local",
+    let shown = if variable.is_output {
+        "output"
+    } else {
+        "local"
     };
     let calculated = |unit: String, docs: String| Row {
         causality: shown,

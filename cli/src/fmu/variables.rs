@@ -176,9 +176,10 @@ fn structured(name: &str) -> String {
         && base.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
     let is_count =
         index.is_some_and(|index| !index.is_empty() && index.chars().all(|c| c.is_ascii_digit()));
-    match is_word && is_count || !name.is_ascii() {
-        true => name.to_owned(),
-        false => format!("'{name}'"),
+    if is_word && is_count || !name.is_ascii() {
+        name.to_owned()
+    } else {
+        format!("'{name}'")
     }
 }
 

@@ -223,9 +223,10 @@ impl<'a> Writer<'a> {
 
     /// A vector of lengths: parameters where they are not 0.
     fn lengths(&mut self, entries: &mut Vec<String>, name: &str, xyz: &[Number; 3]) -> [String; 3] {
-        std::array::from_fn(|axis| match xyz[axis].is_zero() {
-            true => "0".to_owned(),
-            false => {
+        std::array::from_fn(|axis| {
+            if xyz[axis].is_zero() {
+                "0".to_owned()
+            } else {
                 let name = format!("{name}_{}", AXES[axis]);
                 self.parameter(entries, &name, "m", &xyz[axis].to_string())
             }
@@ -381,10 +382,11 @@ impl<'a> Writer<'a> {
             1 => [0, 2],
             _ => [0, 1],
         };
-        let [first, second] = match there.is_empty() {
-            true => across.map(|axis| AXES[axis]),
+        let [first, second] = if there.is_empty() {
+            across.map(|axis| AXES[axis])
+        } else {
             // Along axes of a frame that is turned towards the plane.
-            false => ["u", "v"],
+            ["u", "v"]
         };
         let list = [(first, "m"), (second, "m"), ("angle", "rad")];
         let q = self.several(&joint.name, comment, "joint", &list, None);
@@ -465,9 +467,10 @@ impl<'a> Writer<'a> {
                 value = format!("-{value}");
                 factor.insert_str(0, "-1*");
             } else if !is_alike || mimic.multiplier.value != 1.0 {
-                let unit = match is_alike {
-                    true => "1".to_owned(),
-                    false => format!("{own}/{of_leader}"),
+                let unit = if is_alike {
+                    "1".to_owned()
+                } else {
+                    format!("{own}/{of_leader}")
                 };
                 let text = mimic.multiplier.to_string();
                 let multiplier =
@@ -539,9 +542,10 @@ impl<'a> Writer<'a> {
             names.take(&format!("{mark}{}", links[link].name), part)
         };
         self.link_names[root] = name(&mut names, root);
-        self.frame_of[root] = match own[root] {
-            true => self.link_names[root].clone(),
-            false => "ground".to_owned(),
+        self.frame_of[root] = if own[root] {
+            self.link_names[root].clone()
+        } else {
+            "ground".to_owned()
         };
         if own[root] {
             let frame = text::frame(&self.link_names[root], "ground", &self.root_motion);
@@ -592,16 +596,18 @@ impl<'a> Writer<'a> {
             let Some(inertial) = &self.robot.links[link].inertial else {
                 continue;
             };
-            match self.is_moving[link] {
-                true => self.body(link, inertial, joint),
-                false => resting.push(quoted(&self.robot.links[link].name)),
+            if self.is_moving[link] {
+                self.body(link, inertial, joint)
+            } else {
+                resting.push(quoted(&self.robot.links[link].name))
             }
         }
         if !resting.is_empty() {
             let many = resting.len() > 1;
-            let (several, stand, masses) = match many {
-                true => ("s", "stand", "their masses are"),
-                false => ("", "stands", "its mass is"),
+            let (several, stand, masses) = if many {
+                ("s", "stand", "their masses are")
+            } else {
+                ("", "stands", "its mass is")
             };
             let part = match (self.robot.part, many) {
                 ("body", true) => "bodie",
@@ -638,9 +644,10 @@ impl<'a> Writer<'a> {
         let has_tensor = tensor.iter().any(|entry| !entry.is_zero());
         let [x, y, z] = self.lengths(&mut entries, &format!("{name}_com"), xyz);
         let is_centred = xyz.iter().all(Number::is_zero);
-        let place = match is_centred {
-            true => format!("{frame}.origin"),
-            false => format!("{frame}.point({x}, {y}, {z})"),
+        let place = if is_centred {
+            format!("{frame}.origin")
+        } else {
+            format!("{frame}.point({x}, {y}, {z})")
         };
         let mut parts = vec![format!("mass: {mass}")];
         if has_tensor {
@@ -649,9 +656,10 @@ impl<'a> Writer<'a> {
             let inertia: Vec<String> = labels
                 .iter()
                 .zip(&turned)
-                .map(|(label, entry)| match entry.is_zero() {
-                    true => "0".to_owned(),
-                    false => {
+                .map(|(label, entry)| {
+                    if entry.is_zero() {
+                        "0".to_owned()
+                    } else {
                         let name = format!("{name}_{label}");
                         self.parameter(&mut entries, &name, "kg*m^2", &entry.to_string())
                     }
@@ -665,12 +673,13 @@ impl<'a> Writer<'a> {
         if !has_tensor || !is_centred {
             parts.push(format!("at: {place}"));
         }
-        let comment = match has_tensor {
-            true => match self.robot.part {
+        let comment = if has_tensor {
+            match self.robot.part {
                 "link" => "mass, mass centre, and tensor of inertia about it in the link's axes",
                 _ => "mass, mass centre, and tensor of inertia about it in the body's axes",
-            },
-            false => "mass and mass centre",
+            }
+        } else {
+            "mass and mass centre"
         };
         let label = quoted(&self.robot.links[link].name);
         let (part, source) = (
@@ -702,14 +711,13 @@ impl<'a> Writer<'a> {
                 let text = joint.stiffness.to_string();
                 let stiffness =
                     self.parameter(&mut entries, &format!("{value}_stiffness"), unit, &text);
-                let stretch = match joint.free_at.is_zero() {
-                    true => value.clone(),
-                    false => {
-                        let (name, text) =
-                            (format!("{value}_free_at"), measured(joint, &joint.free_at));
-                        let free = self.parameter(&mut entries, &name, unit_of(joint), &text);
-                        format!("{value} - {free}")
-                    }
+                let stretch = if joint.free_at.is_zero() {
+                    value.clone()
+                } else {
+                    let (name, text) =
+                        (format!("{value}_free_at"), measured(joint, &joint.free_at));
+                    let free = self.parameter(&mut entries, &name, unit_of(joint), &text);
+                    format!("{value} - {free}")
                 };
                 let spring = format!("{value} {{ stiffness: {stiffness}, stretch: {stretch} }}");
                 self.text.add("springs", None, vec![spring]);
@@ -736,9 +744,10 @@ impl<'a> Writer<'a> {
                     let text = joint.friction.to_string();
                     let friction =
                         self.parameter(&mut entries, &format!("{value}_friction"), unit, &text);
-                    let (smoothing, name, unit) = match is_turning {
-                        true => (&mut smoothing, "smoothing", "rad/s"),
-                        false => (&mut smoothing_of_slides, "smoothing_of_slides", "m/s"),
+                    let (smoothing, name, unit) = if is_turning {
+                        (&mut smoothing, "smoothing", "rad/s")
+                    } else {
+                        (&mut smoothing_of_slides, "smoothing_of_slides", "m/s")
                     };
                     if smoothing.is_none() {
                         let mut entry = Vec::new();
@@ -854,9 +863,10 @@ impl<'a> Writer<'a> {
         }
         let value = self.value_of[drive.joint].clone();
         let is_turning = joint.kind != Kind::Prismatic;
-        let [force, travel, rate, stiffness, damping, mass] = match is_turning {
-            true => ["N*m", "rad", "rad/s", "N*m", "N*m*s", "kg*m^2"],
-            false => ["N", "m", "m/s", "N/m", "N*s/m", "kg"],
+        let [force, travel, rate, stiffness, damping, mass] = if is_turning {
+            ["N*m", "rad", "rad/s", "N*m", "N*m*s", "kg*m^2"]
+        } else {
+            ["N", "m", "m/s", "N/m", "N*s/m", "kg"]
         };
         let suffix = match (&drive.law, is_turning) {
             (Law::Force, true) => "torque",
@@ -865,9 +875,10 @@ impl<'a> Writer<'a> {
             (Law::Position { .. }, _) => "target",
             (Law::Rate { .. }, _) => "target_rate",
         };
-        let name = match drive.name.is_empty() || drive.name == joint.name {
-            true => format!("{}_{suffix}", joint.name),
-            false => drive.name.clone(),
+        let name = if drive.name.is_empty() || drive.name == joint.name {
+            format!("{}_{suffix}", joint.name)
+        } else {
+            drive.name.clone()
         };
         let input = self.values.take(&name, "input");
         let mut entries = Vec::new();
@@ -875,9 +886,10 @@ impl<'a> Writer<'a> {
             let name = format!("{input}_{suffix}");
             writer.parameter(&mut entries, &name, unit, &number.to_string())
         };
-        let gear = match drive.gear.value == 1.0 {
-            true => String::new(),
-            false => format!("{}*", added(self, "gear", "1", &drive.gear)),
+        let gear = if drive.gear.value == 1.0 {
+            String::new()
+        } else {
+            format!("{}*", added(self, "gear", "1", &drive.gear))
         };
         let (unit, law) = match &drive.law {
             Law::Force => (force, input.clone()),
@@ -922,9 +934,10 @@ impl<'a> Writer<'a> {
         };
         let (coordinate, factor) = self.coordinate_of[drive.joint].clone();
         let on = self.value_of[coordinate].clone();
-        let law = match factor.is_empty() || law.starts_with('(') {
-            true => law,
-            false => format!("({law})"),
+        let law = if factor.is_empty() || law.starts_with('(') {
+            law
+        } else {
+            format!("({law})")
         };
         let force = format!("{input} {{ on: {on}, value: {factor}{gear}{law} }}");
         if !drive.inertia.is_zero() {
@@ -933,15 +946,17 @@ impl<'a> Writer<'a> {
             self.text.add("rotors", None, vec![rotor]);
         }
         self.text.add("forces", None, vec![force]);
-        let shown = match drive.name.is_empty() {
-            true => String::new(),
-            false => format!(" {}", quoted(&drive.name)),
+        let shown = if drive.name.is_empty() {
+            String::new()
+        } else {
+            format!(" {}", quoted(&drive.name))
         };
         let comment = format!("Drive{shown} of joint {}.", quoted(&joint.name));
         self.text.add("parameters", Some(comment.clone()), entries);
-        let usual = match drive.usual.is_zero() {
-            true => String::new(),
-            false => format!(" = {}", drive.usual),
+        let usual = if drive.usual.is_zero() {
+            String::new()
+        } else {
+            format!(" = {}", drive.usual)
         };
         let entry = format!("{input}: {unit}{usual}");
         self.text.add("inputs", Some(comment), vec![entry]);
@@ -1062,9 +1077,12 @@ impl<'a> Writer<'a> {
         }
         if let Some(axes) = axes {
             let vector = |frame: &str, xyz: [f64; 3]| {
-                let [x, y, z] = xyz.map(|x| match x.abs() <= 4.0 * f64::EPSILON {
-                    true => "0".to_owned(),
-                    false => Number::computed(x).to_string(),
+                let [x, y, z] = xyz.map(|x| {
+                    if x.abs() <= 4.0 * f64::EPSILON {
+                        "0".to_owned()
+                    } else {
+                        Number::computed(x).to_string()
+                    }
                 });
                 match frame {
                     "ground" => format!("({x}, {y}, {z})"),
@@ -1102,29 +1120,25 @@ impl<'a> Writer<'a> {
         let is_down = x.is_zero() && y.is_zero() && z.value < 0.0;
         let g = self.gravity.clone();
         let mut entries = Vec::new();
-        let (comment, vector) = match is_down {
-            true => {
-                entries.push(format!("{g}: m/s^2 = {}", z.negated()));
-                (
-                    format!("The acceleration of gravity, against z{against}."),
-                    format!("(0, 0, -{g})"),
-                )
-            }
-            false => {
-                let parts: [String; 3] =
-                    std::array::from_fn(|axis| match numbers[axis].is_zero() {
-                        true => "0".to_owned(),
-                        false => {
-                            let (name, text) =
-                                (format!("{g}_{}", AXES[axis]), numbers[axis].to_string());
-                            self.parameter(&mut entries, &name, "m/s^2", &text)
-                        }
-                    });
-                (
-                    "The acceleration of gravity.".to_owned(),
-                    format!("({})", parts.join(", ")),
-                )
-            }
+        let (comment, vector) = if is_down {
+            entries.push(format!("{g}: m/s^2 = {}", z.negated()));
+            (
+                format!("The acceleration of gravity, against z{against}."),
+                format!("(0, 0, -{g})"),
+            )
+        } else {
+            let parts: [String; 3] = std::array::from_fn(|axis| {
+                if numbers[axis].is_zero() {
+                    "0".to_owned()
+                } else {
+                    let (name, text) = (format!("{g}_{}", AXES[axis]), numbers[axis].to_string());
+                    self.parameter(&mut entries, &name, "m/s^2", &text)
+                }
+            });
+            (
+                "The acceleration of gravity.".to_owned(),
+                format!("({})", parts.join(", ")),
+            )
         };
         self.text.add("parameters", Some(comment), entries);
         vector

@@ -352,9 +352,10 @@ impl Pose {
     /// A pose in a frame that has this one.
     fn then(&self, next: &Pose) -> Pose {
         let turned = steps::axes(&self.turns) * next.centre();
-        let xyz = match self.turns.is_empty() {
-            true => next.xyz.clone(),
-            false => turned.map(Number::computed).into(),
+        let xyz = if self.turns.is_empty() {
+            next.xyz.clone()
+        } else {
+            turned.map(Number::computed).into()
         };
         Pose {
             xyz: std::array::from_fn(|axis| added(&self.xyz[axis], &xyz[axis])),
@@ -622,9 +623,10 @@ impl<'e> Reader<'_, '_, 'e> {
 
     fn said(&self, item: &Item<'e>, name: &str) -> Option<&'e Attribute> {
         let own = [item.element.name.as_str()];
-        let tags = match DRIVES.contains(&own[0]) && OF_DRIVES.contains(&name) {
-            true => &DRIVES[..],
-            false => &own[..],
+        let tags = if DRIVES.contains(&own[0]) && OF_DRIVES.contains(&name) {
+            &DRIVES[..]
+        } else {
+            &own[..]
         };
         self.classes.find(item.element, item.class, tags, name)
     }
@@ -714,16 +716,18 @@ impl<'e> Reader<'_, '_, 'e> {
 
     /// An angle of the file in radians.
     fn radians(&self, number: Number) -> Number {
-        match self.compiler.is_in_degrees {
-            true => Number::computed(number.value.to_radians()),
-            false => number,
+        if self.compiler.is_in_degrees {
+            Number::computed(number.value.to_radians())
+        } else {
+            number
         }
     }
 
     fn angle(&self, number: &Number) -> Angle {
-        match self.compiler.is_in_degrees {
-            true => Angle::of_degrees(number),
-            false => Angle::of(number),
+        if self.compiler.is_in_degrees {
+            Angle::of_degrees(number)
+        } else {
+            Angle::of(number)
         }
     }
 
@@ -739,11 +743,11 @@ impl<'e> Reader<'_, '_, 'e> {
                     .value
                     .bytes()
                     .all(|letter| b"xyzXYZ".contains(&letter));
-            match is_fine {
-                true => self.compiler.sequence.clone_from(&sequence.value),
-                false => self
-                    .faults
-                    .add(sequence.at, "`eulerseq` has three of the letters xyzXYZ"),
+            if is_fine {
+                self.compiler.sequence.clone_from(&sequence.value)
+            } else {
+                self.faults
+                    .add(sequence.at, "`eulerseq` has three of the letters xyzXYZ")
             }
         }
         if element.own("inertiafromgeom").is_some() {
@@ -873,9 +877,10 @@ impl<'e> Reader<'_, '_, 'e> {
                 for (letter, angle) in self.compiler.sequence.bytes().zip(&angles) {
                     let axis = usize::from(letter.to_ascii_lowercase() - b'x');
                     let turn = (axis, self.angle(angle));
-                    match letter.is_ascii_lowercase() {
-                        true => turns.push(turn),
-                        false => turns.insert(0, turn),
+                    if letter.is_ascii_lowercase() {
+                        turns.push(turn)
+                    } else {
+                        turns.insert(0, turn)
                     }
                 }
                 turns.retain(|(_, angle)| !angle.is_zero());

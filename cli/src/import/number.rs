@@ -103,9 +103,10 @@ impl Number {
             _ => format!("{kept}e{exponent}"),
         };
         let sign = if is_negative { "-" } else { "" };
-        let text = match kept.len() <= LONGEST {
-            true => format!("{sign}{kept}"),
-            false => format!("{value:?}"),
+        let text = if kept.len() <= LONGEST {
+            format!("{sign}{kept}")
+        } else {
+            format!("{value:?}")
         };
         let all = [whole, fraction].concat();
         let counted = all.trim_start_matches('0').len();
@@ -126,9 +127,10 @@ impl Number {
     /// How it is written as an angle that a coordinate, a limit or an offset has: beyond a turn with its unit, since a bare
     /// number of that size may be meant in degrees.
     pub fn in_radians(&self) -> String {
-        match self.value.abs() > 2.0 * PI {
-            true => format!("{}*rad", self.text),
-            false => self.text.clone(),
+        if self.value.abs() > 2.0 * PI {
+            format!("{}*rad", self.text)
+        } else {
+            self.text.clone()
         }
     }
 }
@@ -160,9 +162,10 @@ impl Angle {
         let unit = 10_f64.powi(number.last);
         // The last digit may be rounded or cut off; the double that stands for it is rounded, too.
         let tolerance = unit.max(2.0 * f64::EPSILON * number.value.abs());
-        match number.digits >= DIGITS_OF_PI || number.is_zero() {
-            true => Angle::named(number, tolerance),
-            false => Angle::Radians(number.clone()),
+        if number.digits >= DIGITS_OF_PI || number.is_zero() {
+            Angle::named(number, tolerance)
+        } else {
+            Angle::Radians(number.clone())
         }
     }
 
@@ -175,9 +178,10 @@ impl Angle {
         let twelfths = (number.value / TWELFTH).round();
         let is_close = (number.value - twelfths * TWELFTH).abs() <= tolerance;
         let is_other_than_zero = twelfths != 0.0 || number.is_zero();
-        match is_close && is_other_than_zero && twelfths.abs() <= MOST_TWELFTHS {
-            true => Angle::Twelfths(twelfths as i32),
-            false => Angle::Radians(number.clone()),
+        if is_close && is_other_than_zero && twelfths.abs() <= MOST_TWELFTHS {
+            Angle::Twelfths(twelfths as i32)
+        } else {
+            Angle::Radians(number.clone())
         }
     }
 
@@ -193,9 +197,10 @@ impl Angle {
     pub fn of_degrees(number: &Number) -> Angle {
         let twelfths = number.value / 15.0;
         let is_whole = twelfths.fract() == 0.0 && twelfths.abs() <= MOST_TWELFTHS;
-        match is_whole {
-            true => Angle::Twelfths(twelfths as i32),
-            false => Angle::Radians(Number::computed(number.value.to_radians())),
+        if is_whole {
+            Angle::Twelfths(twelfths as i32)
+        } else {
+            Angle::Radians(Number::computed(number.value.to_radians()))
         }
     }
 

@@ -111,14 +111,16 @@ pub fn angles(rotation: &Matrix3<f64>, sequence: [usize; 3]) -> [Angle; 3] {
     } else {
         -1.0
     };
-    let (sin, cos) = match is_proper {
-        true => (r(first, middle).hypot(r(first, third)), r(first, first)),
-        false => (order * r(first, last), r(last, last).hypot(r(middle, last))),
+    let (sin, cos) = if is_proper {
+        (r(first, middle).hypot(r(first, third)), r(first, first))
+    } else {
+        (order * r(first, last), r(last, last).hypot(r(middle, last)))
     };
     let middle_angle = sin.atan2(cos);
-    let is_singular = match is_proper {
-        true => sin <= SINGULAR,
-        false => cos <= SINGULAR,
+    let is_singular = if is_proper {
+        sin <= SINGULAR
+    } else {
+        cos <= SINGULAR
     };
     let (start, end) = match (is_proper, is_singular) {
         (_, true) => ((order * r(third, middle)).atan2(r(middle, middle)), 0.0),
@@ -209,9 +211,12 @@ pub fn quaternion(rotation: &Matrix3<f64>) -> [f64; 4] {
     let largest = (0..4).max_by(|&a, &b| squares[a].total_cmp(&squares[b]));
     let row = products[largest.unwrap_or(0)];
     let length = row.iter().map(|x| x * x).sum::<f64>().sqrt();
-    row.map(|x| match (x / length).abs() <= ROUNDING {
-        true => 0.0,
-        false => x / length,
+    row.map(|x| {
+        if (x / length).abs() <= ROUNDING {
+            0.0
+        } else {
+            x / length
+        }
     })
 }
 

@@ -93,9 +93,10 @@ pub fn plant(robot: &Robot, faults: &mut Faults) -> Option<Tree> {
     }
     let mut roots = (0..links.len()).filter(|link| above[*link].is_none());
     let Some(root) = roots.next() else {
-        let message = match links.is_empty() {
-            true => "the robot has no links",
-            false => "every link hangs on another, in a circle: one must stand on the ground",
+        let message = if links.is_empty() {
+            "the robot has no links"
+        } else {
+            "every link hangs on another, in a circle: one must stand on the ground"
         };
         faults.add(0, message);
         return None;

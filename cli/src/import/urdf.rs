@@ -485,9 +485,10 @@ impl Reader<'_, '_> {
             xyz,
             turns: turns(&rpy),
             tensor,
-            source: match is_turned {
-                true => "; the file gives it in axes turned by `rpy`",
-                false => "",
+            source: if is_turned {
+                "; the file gives it in axes turned by `rpy`"
+            } else {
+                ""
             },
         })
     }

@@ -168,9 +168,10 @@ fn alike(one: &Mode, other: &Mode, mass: &DMatrix<f64>) -> f64 {
     let (x, y) = (vector(one), vector(other));
     let product = |x: &DVector<Complex<f64>>, y: &DVector<Complex<f64>>| x.dotc(&(&mass * y));
     let sizes = product(&x, &x).re * product(&y, &y).re;
-    let shapes = match sizes > 0.0 {
-        true => product(&x, &y).norm_sqr() / sizes,
-        false => 0.0,
+    let shapes = if sizes > 0.0 {
+        product(&x, &y).norm_sqr() / sizes
+    } else {
+        0.0
     };
     let apart = (one.lambda - other.lambda).norm();
     let sum = one.lambda.norm() + other.lambda.norm();

@@ -115,9 +115,10 @@ impl Files {
 
 /// A cell of comma-separated text; `der(x,2)` has a comma of its own.
 fn cell(text: &str) -> String {
-    match text.contains(',') {
-        true => format!("\"{text}\""),
-        false => text.to_owned(),
+    if text.contains(',') {
+        format!("\"{text}\"")
+    } else {
+        text.to_owned()
     }
 }
 

@@ -40,9 +40,10 @@ fn frequencies(result: &Linearization) -> Vec<f64> {
     let (low, high) = sizes.fold((f64::INFINITY, 0.0_f64), |(low, high), x| {
         (low.min(x), high.max(x))
     });
-    let (low, high) = match low <= high {
-        true => (low / 10.0, high * 10.0),
-        false => (0.01 * TAU, 100.0 * TAU),
+    let (low, high) = if low <= high {
+        (low / 10.0, high * 10.0)
+    } else {
+        (0.01 * TAU, 100.0 * TAU)
     };
     // Whole decades of Hz.
     let decade = |omega: f64, round: fn(f64) -> f64| round((omega / TAU).log10());

@@ -397,9 +397,10 @@ impl<'a> Tracer<'a> {
                     value: middle,
                     motion,
                 };
-                match Kinds::of(&at.motion.modes) == kinds {
-                    true => low = at,
-                    false => high = at,
+                if Kinds::of(&at.motion.modes) == kinds {
+                    low = at
+                } else {
+                    high = at
                 }
             }
             changes.push((low.value, low.motion, high.value, high.motion.clone()));

@@ -57,10 +57,13 @@ pub fn text(
         "start" => start(report),
         "energy" => energy(report),
         "marks" => marks(report),
-        "forces" => match scene.picture.contacts.is_empty() {
-            true => String::new(),
-            false => FORCES.to_owned(),
-        },
+        "forces" => {
+            if scene.picture.contacts.is_empty() {
+                String::new()
+            } else {
+                FORCES.to_owned()
+            }
+        }
         "events" => [events(report), contacts(report)].concat(),
         "statistics" => statistics(report, samples),
         "counts" => counts(&report.compiled.program),
@@ -329,9 +332,10 @@ fn parameters(report: &Report<'_, '_>) -> String {
         })
         .collect();
     if !inputs.is_empty() {
-        let title = match asked.inputs.is_empty() {
-            true => "Inputs, held constant",
-            false => "Inputs",
+        let title = if asked.inputs.is_empty() {
+            "Inputs, held constant"
+        } else {
+            "Inputs"
         };
         html.push_str(&html::table(title, &head, &inputs));
     }
@@ -472,9 +476,10 @@ fn marks(report: &Report<'_, '_>) -> String {
             )
         })
         .collect();
-    match marks.is_empty() {
-        true => marks,
-        false => format!("<div class=\"marks\">{marks}</div>\n"),
+    if marks.is_empty() {
+        marks
+    } else {
+        format!("<div class=\"marks\">{marks}</div>\n")
     }
 }
 
@@ -660,11 +665,10 @@ fn equations(compiled: &Compiled<'_>) -> String {
             left_out = true;
         }
     }
-    let note = match left_out {
-        true => {
-            "<p class=\"note\">Formulas too long for this page are printed by <code>lagrangian derive</code>.</p>\n"
-        }
-        false => "",
+    let note = if left_out {
+        "<p class=\"note\">Formulas too long for this page are printed by <code>lagrangian derive</code>.</p>\n"
+    } else {
+        ""
     };
     format!(
         "<h2>Derivation</h2>\n{note}{}",

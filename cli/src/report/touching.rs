@@ -37,9 +37,10 @@ pub fn site<'d>(model: &Model<'d>, circle: &Circle<'d>, surface: Surface) -> Sit
     let facts: Vec<_> = facts.map(|fact| (fact, fact.symbols())).collect();
     let length = distance(&line, &facts);
     let outward: Vec<Expr<'d>> = line.iter().map(|&c| c / length).collect();
-    let normal: Vec<Expr<'d>> = match is_inside {
-        true => outward.iter().map(|&e| -e).collect(),
-        false => outward.clone(),
+    let normal: Vec<Expr<'d>> = if is_inside {
+        outward.iter().map(|&e| -e).collect()
+    } else {
+        outward.clone()
     };
     let tangents: Vec<Vec<Expr<'d>>> = match outward.as_slice() {
         // From the centre of the other circle to that of this one, turned left.

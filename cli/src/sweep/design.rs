@@ -196,9 +196,10 @@ fn varied(text: &str, model: &Model<'_>) -> Result<Varied, String> {
 
 fn named(name: &str) -> Result<String, String> {
     let name: String = name.chars().filter(|c| !c.is_whitespace()).collect();
-    match name.is_empty() {
-        true => Err("expected a name first".into()),
-        false => Ok(normalized(&name).into_owned()),
+    if name.is_empty() {
+        Err("expected a name first".into())
+    } else {
+        Ok(normalized(&name).into_owned())
     }
 }
 

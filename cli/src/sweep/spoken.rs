@@ -70,9 +70,10 @@ impl Spoken {
             0.0
         };
         let left = (self.runs - progress.done.min(self.runs)) as f64 / speed;
-        let left = match left.is_finite() {
-            true => format!("{} left", duration(left)),
-            false => "time left unknown".to_owned(),
+        let left = if left.is_finite() {
+            format!("{} left", duration(left))
+        } else {
+            "time left unknown".to_owned()
         };
         let Progress { done, failed } = progress;
         let line = format!(

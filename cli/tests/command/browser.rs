@@ -535,9 +535,10 @@ fn a_page_runs_its_machine_again() {
                 growth += most.fold(0.0, f64::max) / 1e-6;
             }
             for i in (0..2 * n).filter(|_| !is_held) {
-                let (option, name) = match i < n {
-                    true => ("--start", &states[i]),
-                    false => ("--rate", &states[i - n]),
+                let (option, name) = if i < n {
+                    ("--start", &states[i])
+                } else {
+                    ("--rate", &states[i - n])
                 };
                 let mut moved: Vec<String> = options.clone();
                 let mark = format!("{name}=");

@@ -213,9 +213,10 @@ fn a_disc_slips_on_a_hump_and_leaves_it() {
     let (mut low, mut high) = (tilt, PI / 2.0);
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
-        match reserve(middle) > 0.0 {
-            true => low = middle,
-            false => high = middle,
+        if reserve(middle) > 0.0 {
+            low = middle
+        } else {
+            high = middle
         }
     }
     let slips = events(&run, "slips");

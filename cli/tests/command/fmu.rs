@@ -896,9 +896,10 @@ fn fmpy_validates_and_simulates() {
     }];
     let all = CASES.iter().chain(CONSTRAINED).chain(FURTHER).chain(&off);
     for case in all {
-        let spec = match case.machine.ends_with(".machine") {
-            true => case.machine.to_owned(),
-            false => format!("machines/{}.machine", case.machine),
+        let spec = if case.machine.ends_with(".machine") {
+            case.machine.to_owned()
+        } else {
+            format!("machines/{}.machine", case.machine)
         };
         let arguments = [
             "simulate",

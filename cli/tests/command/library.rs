@@ -259,9 +259,10 @@ fn check_of(
     for (i, (ours, expected)) in printed[..n].iter().zip(&expected).enumerate() {
         // Both are stable; they differ by the rounding of at most 2000 operations in which the condition of these mass
         // matrices, below 1e3, may show.
-        let limit = match is_exact {
-            false => 2000.0 * 1e3 * f64::EPSILON * greatest,
-            true => 0.0,
+        let limit = if is_exact {
+            0.0
+        } else {
+            2000.0 * 1e3 * f64::EPSILON * greatest
         };
         assert!(
             (ours - expected).abs() <= limit,

@@ -788,9 +788,10 @@ fn a_wheel_stays_upright_above_its_critical_speed() {
             let square = (m * g * r - unit * about * (about + 1.0) * speed * speed / across)
                 / (unit * (across + 1.0));
             let (free, rate) = ((0.0, 0.0), square.abs().sqrt());
-            match square > 0.0 {
-                true => assert_eigenvalues(&found, &[free, free, (-rate, 0.0), (rate, 0.0)]),
-                false => assert_eigenvalues(&found, &[free, free, (0.0, rate)]),
+            if square > 0.0 {
+                assert_eigenvalues(&found, &[free, free, (-rate, 0.0), (rate, 0.0)])
+            } else {
+                assert_eigenvalues(&found, &[free, free, (0.0, rate)])
             }
             // On any place of the table, in any direction, on any side.
             assert_eq!(found["equilibrium"]["free"], 4);

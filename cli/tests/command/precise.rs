@@ -138,14 +138,13 @@ fn units(decimal: &str) -> i128 {
     let digits = format!("{whole}{part}");
     let places = 32 + exponent - part.len() as i32;
     let digits: i128 = digits.parse().expect("digits");
-    let size = match places >= 0 {
-        true => digits * 10_i128.pow(places.unsigned_abs()),
-        false => {
-            digits
-                / 10_i128
-                    .checked_pow(places.unsigned_abs())
-                    .unwrap_or(i128::MAX)
-        }
+    let size = if places >= 0 {
+        digits * 10_i128.pow(places.unsigned_abs())
+    } else {
+        digits
+            / 10_i128
+                .checked_pow(places.unsigned_abs())
+                .unwrap_or(i128::MAX)
     };
     sign * size
 }

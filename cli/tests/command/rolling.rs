@@ -90,9 +90,10 @@ fn a_slope_holds_a_disc_up_to_its_resistance() {
         let slope = share * most;
         let run = simulate(SPEC, 2.0, &[&format!("slope={slope:?}"), "speed=0"]);
         is_good(&run);
-        let rate = match moves {
-            true => -2.0 / 3.0 * G * (slope.sin() - rho / r * slope.cos()) * 2.0,
-            false => 0.0,
+        let rate = if moves {
+            -2.0 / 3.0 * G * (slope.sin() - rho / r * slope.cos()) * 2.0
+        } else {
+            0.0
         };
         close(number(&run["v"]["x"]), rate, 1e-12);
         close(number(&run["q"]["x"]), rate, 1e-12);

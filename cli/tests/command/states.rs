@@ -280,19 +280,20 @@ fn a_family_of_states_is_the_states_one_by_one() {
 
 /// A bob on a rod that a filtered force pushes, with the rod as a constraint or as the radius of an angle.
 fn pendulum(is_closed: bool) -> String {
-    let (coordinates, body, rod, force) = match is_closed {
-        true => (
+    let (coordinates, body, rod, force) = if is_closed {
+        (
             "x: m = 0.6, y: m = -0.8",
             "bob { mass: m, at: (x, y) }",
             "constraints { rod: x^2 + y^2 = l^2 }",
             "pushes { on: x, value: c*u }",
-        ),
-        false => (
+        )
+    } else {
+        (
             "phi: rad = 0.6435011087932844",
             "bob { mass: m, at: (l*sin(phi), -l*cos(phi)) }",
             "",
             "pushes { at: bob.at, force: (c*u, 0) }",
-        ),
+        )
     };
     let place = if is_closed { "x" } else { "l*sin(phi)" };
     format!(
@@ -441,13 +442,14 @@ fn what_a_state_cannot_do_is_said_at_the_word() {
 
 /// A loudspeaker on a sine: a membrane of 20 g, and a coil of which it is half, tied to it or one with it.
 fn loudspeaker(is_tied: bool) -> String {
-    let (coordinates, parts, tie) = match is_tied {
-        true => (
+    let (coordinates, parts, tie) = if is_tied {
+        (
             "x: m, z: m",
             "membrane { mass: m/2, at: (x, 0) }, coil { mass: m/2, at: (z, 0) }",
             "constraints { glue: z = x }",
-        ),
-        false => ("x: m", "membrane { mass: m, at: (x, 0) }", ""),
+        )
+    } else {
+        ("x: m", "membrane { mass: m, at: (x, 0) }", "")
     };
     format!(
         "machine Loudspeaker in plane {{

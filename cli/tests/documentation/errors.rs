@@ -44,9 +44,10 @@ fn the_errors_of_an_entry_are_raised_by_its_section() {
     for (section, code, body) in mistakes() {
         assert!(body.contains(section), "{section}: {body}");
         let body = body.replace("{circles}", CIRCLES);
-        let text = match body.starts_with("machine ") {
-            true => body,
-            false => format!("machine Variant extends \"cart.machine\" {{ {body} }}"),
+        let text = if body.starts_with("machine ") {
+            body
+        } else {
+            format!("machine Variant extends \"cart.machine\" {{ {body} }}")
         };
         let (codes, printed) = said(&text);
         if !codes.contains(code) {

@@ -268,9 +268,10 @@ fn copy(folder: &Path, to: &Path) {
     for entry in std::fs::read_dir(folder).expect("the library") {
         let from = entry.expect("an entry").path();
         let to = to.join(from.file_name().expect("a name"));
-        match from.is_dir() {
-            true => copy(&from, &to),
-            false => std::fs::copy(from, to).map(|_| ()).expect("a copy"),
+        if from.is_dir() {
+            copy(&from, &to)
+        } else {
+            std::fs::copy(from, to).map(|_| ()).expect("a copy")
         }
     }
 }

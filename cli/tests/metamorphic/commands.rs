@@ -45,9 +45,10 @@ impl Folder {
             .stdin(Stdio::null())
             .output()
             .map_err(|error| error.to_string())?;
-        match output.status.success() {
-            true => Ok(String::from_utf8_lossy(&output.stdout).into_owned()),
-            false => Err(String::from_utf8_lossy(&output.stderr).into_owned()),
+        if output.status.success() {
+            Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+        } else {
+            Err(String::from_utf8_lossy(&output.stderr).into_owned())
         }
     }
 
@@ -243,9 +244,10 @@ pub fn modes(mut random: Random, number: usize, tally: &mut Tally) {
                 )));
                 return;
             }
-            let truth = match case.machine.constraints.is_empty() {
-                true => true_eigenvalues(&case.machine, &here),
-                false => None,
+            let truth = if case.machine.constraints.is_empty() {
+                true_eigenvalues(&case.machine, &here)
+            } else {
+                None
             };
             if let Some(truth) = truth {
                 let apart = distance(&one, &truth);
@@ -256,9 +258,10 @@ pub fn modes(mut random: Random, number: usize, tally: &mut Tally) {
                     return;
                 }
             }
-            tally.count(match is_same {
-                true => "modes",
-                false => "another equilibrium",
+            tally.count(if is_same {
+                "modes"
+            } else {
+                "another equilibrium"
             });
         }
         // What one spelling finds after a long search only, another need not find. Nor need a search in coordinates that are
@@ -506,9 +509,10 @@ fn friction_failures(
         let slides = slip.abs() >= 1e-12;
         let most = normal.abs() * coefficients[if slides { k } else { layout.contacts + k }];
         let bound = f64::EPSILON * 4096.0 * expected.size * expected.size / expected.pivot;
-        let error = match slides {
-            true => (friction + slip.signum() * most).abs(),
-            false => (friction.abs() - most).max(0.0),
+        let error = if slides {
+            (friction + slip.signum() * most).abs()
+        } else {
+            (friction.abs() - most).max(0.0)
         };
         if error.is_nan() || error > bound {
             let name = &program.contacts[k];
@@ -595,12 +599,13 @@ fn c_call(k: usize, program: &Proved, expected: &Expected) -> String {
     let arguments = arguments.join(", ");
     let State { t, q, v } = &expected.state;
     let n = q.len();
-    let inputs = match program.inputs.is_empty() {
-        true => String::new(),
-        false => format!(
+    let inputs = if program.inputs.is_empty() {
+        String::new()
+    } else {
+        format!(
             "    const {prefix}_inputs u = {{{}}};\n    (void)u;\n",
             defaults(&program.inputs)
-        ),
+        )
     };
     format!(
         "#include <math.h>\n#include <stdio.h>\n#include \"machine{k}.c\"\n\nint call{k}(void) {{\n    \

@@ -592,9 +592,10 @@ pub fn rewrite(case: &Case, random: &mut Random) -> (Rewritten, Rewritten) {
     for index in order {
         let (name, rewriting) = REWRITINGS[index];
         let doubles = name == "constraint doubled";
-        let wanted = match doubles {
-            true => random.chance(30),
-            false => rewritten.names.len() < most && random.chance(60),
+        let wanted = if doubles {
+            random.chance(30)
+        } else {
+            rewritten.names.len() < most && random.chance(60)
         };
         if !wanted || !rewriting(&mut rewritten, random) {
             continue;

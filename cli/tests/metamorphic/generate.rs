@@ -176,9 +176,10 @@ impl Builder<'_> {
             // Every coordinate moves a mass.
             if k < n {
                 let place = self.random.below(dimension);
-                at[place] = match self.random.chance(60) {
-                    true => q(k),
-                    false => sum(vec![q(k), at[place].clone()]),
+                at[place] = if self.random.chance(60) {
+                    q(k)
+                } else {
+                    sum(vec![q(k), at[place].clone()])
                 };
             }
             let angle = (!self.machine.spatial && self.random.chance(40)).then(|| {
@@ -339,18 +340,18 @@ impl Builder<'_> {
             let drum = num(self.random.number(1.0, 1.5));
             let turned = self.coordinate();
             let moved = self.random.chance(40);
-            let shift = match moved {
-                true => {
-                    let across = self.coordinate();
-                    vec![q(across), num(0.25)]
-                }
-                false => vec![num(0.125), num(-0.25)],
+            let shift = if moved {
+                let across = self.coordinate();
+                vec![q(across), num(0.25)]
+            } else {
+                vec![num(0.125), num(-0.25)]
             };
             let frame = self.shift(0, shift);
             let by_angle = self.random.chance(50);
-            let frame = match by_angle {
-                true => frame,
-                false => self.turn(frame, 2, q(turned)),
+            let frame = if by_angle {
+                frame
+            } else {
+                self.turn(frame, 2, q(turned))
             };
             let mass = self.positive();
             self.machine.bodies.push(Body {
@@ -361,10 +362,7 @@ impl Builder<'_> {
                 at: by_angle.then_some(Vector::Origin(frame)),
                 angle: by_angle.then_some(q(turned)),
             });
-            let on = match by_angle {
-                true => Err(1),
-                false => Ok(frame),
-            };
+            let on = if by_angle { Err(1) } else { Ok(frame) };
             self.machine.circles.push(Circle {
                 on,
                 centre: [num(0.0), num(0.0)],
@@ -376,9 +374,10 @@ impl Builder<'_> {
             if moved {
                 start[4].start = 0.125;
             }
-            match inside {
-                true => Surface::Inside(1),
-                false => Surface::Outside(1),
+            if inside {
+                Surface::Inside(1)
+            } else {
+                Surface::Outside(1)
             }
         };
         self.machine.rolling.push(Rolling {
@@ -393,9 +392,10 @@ impl Builder<'_> {
         let k = self.machine.sliding.len();
         let friction = num(self.random.number(0.0, 0.375));
         let sticking = self.random.chance(30).then(|| num(0.5));
-        let direction = match self.random.chance(40) {
-            true => Vector::Scaled(num(self.random.number(0.25, 4.0)), Box::new(direction)),
-            false => direction,
+        let direction = if self.random.chance(40) {
+            Vector::Scaled(num(self.random.number(0.25, 4.0)), Box::new(direction))
+        } else {
+            direction
         };
         self.machine.sliding.push(Guide {
             name: format!("g{k}"),
@@ -654,9 +654,10 @@ impl Builder<'_> {
                     let rate = Vector::Der(Box::new(Vector::Centre(body)));
                     // Its root has no derivative where a body rests.
                     let speed = self.value(&norm(rate.clone()));
-                    match speed > 0.125 {
-                        true => mul(num(0.125), power(dot(rate.clone(), rate), 3)),
-                        false => mul(mul(num(0.5), a), power(der(q(i)), 4)),
+                    if speed > 0.125 {
+                        mul(num(0.125), power(dot(rate.clone(), rate), 3))
+                    } else {
+                        mul(mul(num(0.5), a), power(der(q(i)), 4))
                     }
                 }
             };
@@ -729,9 +730,12 @@ impl Builder<'_> {
                     0 => 0,
                     _ => self.machine.frames[parent - 1].parent,
                 };
-                let local = (0..dimension).map(|_| match self.random.chance(50) {
-                    true => self.positive(),
-                    false => num(0.0),
+                let local = (0..dimension).map(|_| {
+                    if self.random.chance(50) {
+                        self.positive()
+                    } else {
+                        num(0.0)
+                    }
                 });
                 let line = Vector::Point(frame, local.collect()).less(Vector::Origin(before));
                 let distance = self.value(&norm(line.clone()));
@@ -756,9 +760,10 @@ impl Builder<'_> {
                     return;
                 }
                 let length = rounded(distance);
-                match self.random.chance(50) {
-                    true => (norm(line), length, true),
-                    false => (dot(line.clone(), line), power(length, 4), true),
+                if self.random.chance(50) {
+                    (norm(line), length, true)
+                } else {
+                    (dot(line.clone(), line), power(length, 4), true)
                 }
             }
             3 if a != b => {
@@ -851,9 +856,10 @@ impl Builder<'_> {
             && self.random.chance(12)
         {
             let i = self.any_coordinate();
-            let kind = match self.random.chance(50) {
-                true => Approximation::Frozen,
-                false => Approximation::Small,
+            let kind = if self.random.chance(50) {
+                Approximation::Frozen
+            } else {
+                Approximation::Small
             };
             if kind == Approximation::Small {
                 // Far from where it is expanded, the kinetic energy need not be positive.
@@ -945,9 +951,10 @@ pub fn chain(random: &mut Random) -> (Machine, String) {
         });
     }
     machine.gravity = Some(vec![num(0.5), num(-9.0)]);
-    let hold = match held {
-        true => "constraints { h: q[1] + q[N] = 0.5 + 0.25*sin(t/one_s) }",
-        false => "",
+    let hold = if held {
+        "constraints { h: q[1] + q[N] = 0.5 + 0.25*sin(t/one_s) }"
+    } else {
+        ""
     };
     let text = format!(
         "machine Chain in plane {{

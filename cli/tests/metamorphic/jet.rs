@@ -44,9 +44,10 @@ impl<S: Scalar> Jet<S> {
     }
 
     pub fn add(&self, other: &Jet<S>) -> Jet<S> {
-        let (long, short) = match self.0.len() >= other.0.len() {
-            true => (self, other),
-            false => (other, self),
+        let (long, short) = if self.0.len() >= other.0.len() {
+            (self, other)
+        } else {
+            (other, self)
         };
         let mut sum = long.clone();
         for (x, y) in sum.0.iter_mut().zip(&short.0) {

@@ -482,9 +482,12 @@ fn particles(r: &mut Rewritten, random: &mut Random) -> bool {
         [moment] => vec![power(quotient(moment.clone(), mass.clone()), 1)],
         moments => (0..3)
             .map(|i| {
-                let parts = (0..3).map(|j| match i == j {
-                    true => neg(moments[j].clone()),
-                    false => moments[j].clone(),
+                let parts = (0..3).map(|j| {
+                    if i == j {
+                        neg(moments[j].clone())
+                    } else {
+                        moments[j].clone()
+                    }
                 });
                 let parts = mul(num(1.5), sum(parts.collect()));
                 power(quotient(parts, mass.clone()), 1)
@@ -603,20 +606,17 @@ fn torsions_otherwise(r: &mut Rewritten, random: &mut Random) -> bool {
     let torsions = std::mem::take(&mut r.machine.torsions);
     let some = !torsions.is_empty();
     for (k, (stiffness, twist)) in torsions.into_iter().enumerate() {
-        match random.chance(50) {
-            true => {
-                let energy = mul(mul(num(0.5), stiffness), power(twist, 4));
-                r.machine.potentials.push(energy);
-            }
-            false => {
-                // A stretch has a direction, and how it pulls across a guide is not said.
-                r.refusable |= is_guided_at_all(&r.machine);
-                r.machine.springs.push(Elastic {
-                    name: format!("t{k}"),
-                    factor: stiffness,
-                    stretch: Stretch::Number(twist),
-                });
-            }
+        if random.chance(50) {
+            let energy = mul(mul(num(0.5), stiffness), power(twist, 4));
+            r.machine.potentials.push(energy);
+        } else {
+            // A stretch has a direction, and how it pulls across a guide is not said.
+            r.refusable |= is_guided_at_all(&r.machine);
+            r.machine.springs.push(Elastic {
+                name: format!("t{k}"),
+                factor: stiffness,
+                stretch: Stretch::Number(twist),
+            });
         }
     }
     some
@@ -802,17 +802,15 @@ fn constraints_scaled(r: &mut Rewritten, random: &mut Random) -> bool {
     let factors = [2.0, -1.0, 0.125, -4.0, 16.0];
     let factor = factors[random.below(factors.len())];
     let one = &mut r.machine.constraints[k];
-    match random.chance(50) {
-        true => {
-            one.left = mul(num(factor), one.left.clone());
-            one.right = mul(num(factor), one.right.clone());
-        }
+    if random.chance(50) {
+        one.left = mul(num(factor), one.left.clone());
+        one.right = mul(num(factor), one.right.clone());
+    } else {
         // The other way round, all on one side.
-        false => {
-            let left = std::mem::replace(&mut one.left, mul(num(factor), one.right.clone()));
-            one.left = sum(vec![one.left.clone(), mul(num(-factor), left)]);
-            one.right = num(0.0);
-        }
+
+        let left = std::mem::replace(&mut one.left, mul(num(factor), one.right.clone()));
+        one.left = sum(vec![one.left.clone(), mul(num(-factor), left)]);
+        one.right = num(0.0);
     }
     let factor = match one.right {
         Expr::Number(0.0) if matches!(one.left, Expr::Sum(_)) => -factor,
@@ -1057,9 +1055,10 @@ fn derivatives_and_stages(r: &mut Rewritten, random: &mut Random) -> bool {
         return false;
     }
     if r.machine.derivatives == [false; 4] && r.machine.stages == [false; 2] {
-        match random.chance(50) {
-            true => r.machine.derivatives = [true, random.chance(50), false, false],
-            false => r.machine.stages = [random.chance(50), true],
+        if random.chance(50) {
+            r.machine.derivatives = [true, random.chance(50), false, false]
+        } else {
+            r.machine.stages = [random.chance(50), true]
         }
     } else {
         r.machine.derivatives = [false; 4];

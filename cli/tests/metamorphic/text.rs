@@ -22,9 +22,10 @@ fn unit_text([m, s, n]: Unit) -> String {
     let text: Vec<String> = factors
         .map(|(name, power)| format!("{name}^({power})"))
         .collect();
-    match text.is_empty() {
-        true => "1".into(),
-        false => text.join("*"),
+    if text.is_empty() {
+        "1".into()
+    } else {
+        text.join("*")
     }
 }
 
@@ -262,9 +263,10 @@ pub fn items(machine: &Machine) -> Vec<Item> {
     }
     for (k, (body, torque)) in machine.torques.iter().enumerate() {
         let parts = p.list(torque, [1, 0, 1]);
-        let torque = match machine.spatial {
-            true => format!("({parts})"),
-            false => parts,
+        let torque = if machine.spatial {
+            format!("({parts})")
+        } else {
+            parts
         };
         let name = &machine.bodies[*body].name;
         let text = format!("m{k} {{ on: {name}, torque: {torque} }}");

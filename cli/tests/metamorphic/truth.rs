@@ -570,9 +570,10 @@ impl<'m, S: Scalar> World<'m, S> {
                 let velocity = self.rates(|world| world.circle(*other));
                 let there = point(&velocity, &self.turning(*other), &scaled(&e, &of_other));
                 let slip = product(&left(&e), &minus(&own, &there));
-                let gap = match inside {
-                    true => of_other.sub(&radius).sub(&distance),
-                    false => distance.sub(&radius).sub(&of_other),
+                let gap = if inside {
+                    of_other.sub(&radius).sub(&distance)
+                } else {
+                    distance.sub(&radius).sub(&of_other)
                 };
                 (gap, slip)
             }
@@ -681,14 +682,18 @@ impl<'m, S: Scalar> World<'m, S> {
     fn row(&self, holonomic: bool, f: impl Fn(&Self) -> Jet<S>) -> (Vec<Jet<S>>, Jet<S>) {
         let n = self.q.len();
         let f = |world: &Self| vec![f(world)];
-        let row = (0..n).map(|i| match holonomic {
-            true => self.by_coordinate(i, f).remove(0),
-            false => self.by_rate(i, f).remove(0),
+        let row = (0..n).map(|i| {
+            if holonomic {
+                self.by_coordinate(i, f).remove(0)
+            } else {
+                self.by_rate(i, f).remove(0)
+            }
         });
         let row = row.collect();
-        let drift = match holonomic {
-            true => self.rates(|world| world.rates(f)),
-            false => self.rates(f),
+        let drift = if holonomic {
+            self.rates(|world| world.rates(f))
+        } else {
+            self.rates(f)
         };
         (row, drift[0].neg())
     }
@@ -909,14 +914,16 @@ impl<'m, S: Scalar> World<'m, S> {
         let (matrix, _) = self.system(&e, &[]);
         // K x = r, so K x' = r' − K' x.
         let right = (0..n + m).map(|i| {
-            let mut sum = match i < n {
-                true => e.applied[i].sub(&e.bias[i]).part(bit).value(),
-                false => e.drift[i - n].part(bit).value(),
+            let mut sum = if i < n {
+                e.applied[i].sub(&e.bias[i]).part(bit).value()
+            } else {
+                e.drift[i - n].part(bit).value()
             };
             for (j, a) in accelerations.iter().enumerate() {
-                let entry = match i < n {
-                    true => &e.mass[i][j],
-                    false => &e.rows[i - n][j],
+                let entry = if i < n {
+                    &e.mass[i][j]
+                } else {
+                    &e.rows[i - n][j]
                 };
                 sum = sum - entry.part(bit).value() * *a;
             }
@@ -1021,9 +1028,10 @@ pub fn on_constraints<S: Scalar>(machine: &Machine, state: &State<S>) -> Option<
     let world = World::new(machine, &state);
     let rate = |world: &World<'_, S>, k: usize| -> Jet<S> {
         let all = world.constraints();
-        match all[k].1 {
-            true => world.rate(|world| world.constraints()[k].0.clone()),
-            false => all[k].0.clone(),
+        if all[k].1 {
+            world.rate(|world| world.constraints()[k].0.clone())
+        } else {
+            all[k].0.clone()
         }
     };
     let rows: Vec<Vec<S>> = (0..count)

@@ -175,9 +175,10 @@ impl<'a> Curve<'a> {
             if !(low < middle && middle < high) {
                 break;
             }
-            match (self.at(middle) - level) * side > 0.0 {
-                true => low = middle,
-                false => high = middle,
+            if (self.at(middle) - level) * side > 0.0 {
+                low = middle
+            } else {
+                high = middle
             }
         }
         0.5 * (low + high)

@@ -69,9 +69,10 @@ pub fn difference(times: &[f64], one: &Curve<'_>, other: &Curve<'_>) -> Option<D
     }
     let size = least.abs().max(greatest.abs());
     let is_constant = greatest - least <= CONSTANT * size;
-    let mean = match length > 0.0 {
-        true => area / length,
-        false => squares / count as f64,
+    let mean = if length > 0.0 {
+        area / length
+    } else {
+        squares / count as f64
     };
     Some(Difference {
         largest,

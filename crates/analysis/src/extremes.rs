@@ -90,9 +90,10 @@ fn turning([x0, x1]: [f64; 2], [d0, d1]: [f64; 2]) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
-        match (slope(middle) > 0.0) == (d0 > 0.0) {
-            true => low = middle,
-            false => high = middle,
+        if (slope(middle) > 0.0) == (d0 > 0.0) {
+            low = middle
+        } else {
+            high = middle
         }
     }
     0.5 * (low + high)
@@ -113,9 +114,10 @@ fn by_values(times: &[f64], values: &[f64]) -> Vec<Extreme> {
         };
         let (up, down) = (values[row] - before, values[row] - behind);
         if up * down > 0.0 {
-            let (t, value) = match end == row {
-                true => parabola([row - 1, row, row + 1].map(|k| (times[k], values[k]))),
-                false => (0.5 * (times[row] + times[end]), values[row]),
+            let (t, value) = if end == row {
+                parabola([row - 1, row, row + 1].map(|k| (times[k], values[k])))
+            } else {
+                (0.5 * (times[row] + times[end]), values[row])
             };
             found.push(Extreme {
                 t,

@@ -68,14 +68,13 @@ impl Window {
 fn dirichlet(x: f64, count: usize) -> Complex<f64> {
     let count = count as f64;
     let below = (PI * x / count).sin();
-    match below == 0.0 {
-        true => Complex::new(1.0, 0.0),
-        false => {
-            // The sine of π x from its distance to a whole number: it is 0 where x is one.
-            let whole = x.round();
-            let sine = (PI * (x - whole)).sin() * if whole % 2.0 == 0.0 { 1.0 } else { -1.0 };
-            Complex::from_polar(sine / (count * below), PI * x * (count - 1.0) / count)
-        }
+    if below == 0.0 {
+        Complex::new(1.0, 0.0)
+    } else {
+        // The sine of π x from its distance to a whole number: it is 0 where x is one.
+        let whole = x.round();
+        let sine = (PI * (x - whole)).sin() * if whole % 2.0 == 0.0 { 1.0 } else { -1.0 };
+        Complex::from_polar(sine / (count * below), PI * x * (count - 1.0) / count)
     }
 }
 
@@ -227,19 +226,19 @@ impl Spectrum {
         // How large the neighbour is beside the top grows with the distance of the line, from 0 to 1.
         let seen = |x: f64| self.window.seen(x, self.count).norm();
         let at_rest = seen(1.0);
-        let shift = match ratio <= at_rest {
-            true => 0.0,
-            false => {
-                let (mut low, mut high) = (0.0, 1.0);
-                for _ in 0..60 {
-                    let middle = 0.5 * (low + high);
-                    match seen(1.0 - middle) < ratio * seen(middle) {
-                        true => low = middle,
-                        false => high = middle,
-                    }
+        let shift = if ratio <= at_rest {
+            0.0
+        } else {
+            let (mut low, mut high) = (0.0, 1.0);
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if seen(1.0 - middle) < ratio * seen(middle) {
+                    low = middle
+                } else {
+                    high = middle
                 }
-                0.5 * (low + high)
             }
+            0.5 * (low + high)
         };
         let place = top as f64 + side * shift;
         let amplitude = transform[top] / self.window.seen(place - top as f64, self.count);

@@ -66,9 +66,10 @@ impl Arc {
         };
         // What is seen is a mean of directions, and so less than the last one.
         let (mut low, mut high) = (angle, widest * (1.0 - NEAREST));
-        let reach = match kappa >= 0.0 {
-            true => FRAC_PI_2 - kappa.atan(),
-            false => seen(high),
+        let reach = if kappa >= 0.0 {
+            FRAC_PI_2 - kappa.atan()
+        } else {
+            seen(high)
         };
         if angle.is_nan() || angle >= reach || low >= high {
             return Err(Beyond { reach });
@@ -128,9 +129,10 @@ impl Arc {
         let (sin, cos) = u.sin_cos();
         let [left, _] = self.factors(u);
         // `p′ = 2 sin(δ − 2u)/sin δ`; without friction nobody asks, and of a whole arch it is infinite.
-        let steeper = match self.kappa == 0.0 {
-            true => 0.0,
-            false => 2.0 * self.kappa * (self.delta - 2.0 * u).sin() / self.delta.sin(),
+        let steeper = if self.kappa == 0.0 {
+            0.0
+        } else {
+            2.0 * self.kappa * (self.delta - 2.0 * u).sin() / self.delta.sin()
         };
         (sin / left, (cos * left + steeper * sin) / (left * left))
     }

@@ -292,8 +292,9 @@ pub(super) fn check_list(what: &'static str, list: &[f64], n: usize) -> Result<(
             found: list.len(),
         });
     }
-    match list.iter().all(|x| x.is_finite()) {
-        true => Ok(()),
-        false => Err(Unsolved::NotFinite { what }),
+    if list.iter().all(|x| x.is_finite()) {
+        Ok(())
+    } else {
+        Err(Unsolved::NotFinite { what })
     }
 }

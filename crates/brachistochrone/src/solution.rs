@@ -98,12 +98,13 @@ impl Problem {
         if rise >= 0.0 {
             return Unsolved::NotBelow { rise };
         }
-        match rise + friction < 0.0 {
-            true => Unsolved::TurnsTooFar { angle, reach },
-            false => Unsolved::Held {
+        if rise + friction < 0.0 {
+            Unsolved::TurnsTooFar { angle, reach }
+        } else {
+            Unsolved::Held {
                 descent: -rise,
                 friction,
-            },
+            }
         }
     }
 }
@@ -267,9 +268,12 @@ pub(super) fn lapses(
     let mut lapses = Vec::new();
     for (index, guide) in guides.iter().enumerate() {
         for backwards in [true, false] {
-            let value = |moment: &Moment| match backwards {
-                true => slip(index, moment),
-                false => moment.contacts[index].reaction,
+            let value = |moment: &Moment| {
+                if backwards {
+                    slip(index, moment)
+                } else {
+                    moment.contacts[index].reaction
+                }
             };
             let least = moments.iter().map(value).fold(f64::INFINITY, f64::min);
             if let Some(moment) = moments.iter().find(|moment| value(moment) < 0.0) {

@@ -247,9 +247,10 @@ pub fn unchecked(
 
 /// Whether an expression is too long to be put into another one.
 fn is_long(text: &str) -> bool {
-    let longest = match text.contains(".mul_") || text.contains(".neg_mul_") {
-        true => LONGEST_CALL,
-        false => LONGEST_INLINE,
+    let longest = if text.contains(".mul_") || text.contains(".neg_mul_") {
+        LONGEST_CALL
+    } else {
+        LONGEST_INLINE
     };
     width(text) > longest
 }
@@ -285,9 +286,10 @@ impl<'a, L: Language> Body<'a, L> {
         wanted: &'a [String],
     ) -> Body<'a, L> {
         let n = function.code.len();
-        let contractions = match language.is_for_speed() {
-            true => Contractions::of(function),
-            false => Contractions::none(function),
+        let contractions = if language.is_for_speed() {
+            Contractions::of(function)
+        } else {
+            Contractions::none(function)
         };
         let mut names = vec![None; n];
         for (value, name) in function.results.iter().zip(wanted) {

@@ -456,13 +456,12 @@ impl<'a> Emitter<'a> {
             _ => {}
         }
         if role.inverts() {
-            docs.push_str(match self.program.constraints.is_empty() {
-                true => " Returns 0, or 1 + the number of the coordinate whose pivot vanishes.",
-                false => {
+            docs.push_str(if self.program.constraints.is_empty() {
+" Returns 0, or 1 + the number of the coordinate whose pivot vanishes."
+} else {
                     " Returns 0, or 1 + the number of the coordinate whose pivot vanishes; constraints are counted behind all \
                      coordinates."
-                }
-            });
+                });
         }
         docs
     }
@@ -690,9 +689,10 @@ impl Language for Emitter<'_> {
 fn condition(guard: &Guard, pivot: &str, scale: &str) -> String {
     let tolerance = number(guard.tolerance).text;
     // A scale may be a sum, and all of it is meant.
-    match scale.contains(' ') {
-        true => format!("!({pivot} > ({scale}) * {tolerance})"),
-        false => format!("!({pivot} > {scale} * {tolerance})"),
+    if scale.contains(' ') {
+        format!("!({pivot} > ({scale}) * {tolerance})")
+    } else {
+        format!("!({pivot} > {scale} * {tolerance})")
     }
 }
 
@@ -705,13 +705,14 @@ fn number(x: f64) -> Expression {
     } else {
         format!("{:?}", x.abs())
     };
-    match x < 0.0 {
-        true => Expression {
+    if x < 0.0 {
+        Expression {
             text: format!("-{magnitude}"),
             binding: Binding::Sign,
             is_leaf: false,
-        },
-        false => Expression::leaf(magnitude),
+        }
+    } else {
+        Expression::leaf(magnitude)
     }
 }
 

@@ -151,9 +151,10 @@ pub fn paths(fields: &[Field]) -> Vec<String> {
     let mut paths = vec![String::new(); fields.iter().map(|field| field.slots.len()).sum()];
     for field in fields {
         for (index, &slot) in field.slots.iter().enumerate() {
-            paths[slot] = match field.is_family {
-                true => format!("{}[{index}]", field.ident),
-                false => field.ident.clone(),
+            paths[slot] = if field.is_family {
+                format!("{}[{index}]", field.ident)
+            } else {
+                field.ident.clone()
             };
         }
     }

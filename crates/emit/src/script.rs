@@ -357,13 +357,14 @@ impl Language for Speaker<'_> {
 /// A number of double precision, as all of these languages write it.
 fn number(x: f64) -> Expression {
     let text = format!("{x:?}");
-    match x < 0.0 {
-        true => Expression {
+    if x < 0.0 {
+        Expression {
             text,
             binding: Binding::Sign,
             is_leaf: false,
-        },
-        false => Expression::leaf(text),
+        }
+    } else {
+        Expression::leaf(text)
     }
 }
 

@@ -272,9 +272,10 @@ impl Combination {
 
 /// A unit as a factor.
 fn bracketed(unit: &str) -> String {
-    match unit.contains(['*', '/', '^']) {
-        true => format!("({unit})"),
-        false => unit.to_owned(),
+    if unit.contains(['*', '/', '^']) {
+        format!("({unit})")
+    } else {
+        unit.to_owned()
     }
 }
 
@@ -297,9 +298,10 @@ fn product(terms: &[(usize, f64)], names: &[String]) -> String {
         own.map(|(j, e)| power(&names[*j], e.abs())).collect()
     };
     let (above, below) = (side(1.0), side(-1.0));
-    let above = match above.is_empty() {
-        true => "1".to_owned(),
-        false => above.join("*"),
+    let above = if above.is_empty() {
+        "1".to_owned()
+    } else {
+        above.join("*")
     };
     match below.as_slice() {
         [] => above,

@@ -217,9 +217,10 @@ pub fn minimize(
             options.derivatives,
         );
         let is_level = promise(&at, &whole) <= options.reduction * half;
-        let step = match is_level {
-            true => whole,
-            false => step(&at, &free, bounds, &scale, radius, options.derivatives),
+        let step = if is_level {
+            whole
+        } else {
+            step(&at, &free, bounds, &scale, radius, options.derivatives)
         };
         let trial: Vec<f64> = (0..at.x.len())
             .map(|j| (at.x[j] + step[j]).clamp(bounds[j][0], bounds[j][1]))
@@ -247,9 +248,10 @@ pub fn minimize(
         };
         let is_still = taken <= options.step * length(&scale, &trial) || taken == 0.0;
         if is_still || is_level {
-            let ending = match is_still {
-                true => Ending::Step,
-                false => Ending::Reduction,
+            let ending = if is_still {
+                Ending::Step
+            } else {
+                Ending::Reduction
             };
             let next = match residuals {
                 Some(residuals) => moved(problem, &at, trial, residuals)?,
@@ -269,9 +271,10 @@ pub fn minimize(
             continue;
         }
         if ratio < 0.25 {
-            radius = match ratio > 0.0 {
-                true => 0.5 * taken,
-                false => 0.2 * taken.min(radius),
+            radius = if ratio > 0.0 {
+                0.5 * taken
+            } else {
+                0.2 * taken.min(radius)
             };
         } else if ratio > 0.75 {
             radius = radius.max(2.0 * taken);
@@ -384,15 +387,14 @@ impl Parts {
         });
         let mut right = DVector::from_column_slice(residuals);
         // The small triangle has the same singular values, and as many rows as there are columns.
-        let (triangle, part) = match matrix.nrows() > matrix.ncols() {
-            true => {
-                let qr = matrix.qr();
-                qr.q_tr_mul(&mut right);
-                let triangle = qr.r();
-                let part = right.rows(0, triangle.nrows()).into_owned();
-                (triangle, part)
-            }
-            false => (matrix, right),
+        let (triangle, part) = if matrix.nrows() > matrix.ncols() {
+            let qr = matrix.qr();
+            qr.q_tr_mul(&mut right);
+            let triangle = qr.r();
+            let part = right.rows(0, triangle.nrows()).into_owned();
+            (triangle, part)
+        } else {
+            (matrix, right)
         };
         let svd = triangle.svd(true, true);
         let (Some(u), Some(v)) = (svd.u, svd.v_t) else {
@@ -439,17 +441,19 @@ impl Parts {
                 if (long - radius).abs() <= 0.1 * radius {
                     break;
                 }
-                match long > radius {
-                    true => low = damping,
-                    false => high = damping,
+                if long > radius {
+                    low = damping
+                } else {
+                    high = damping
                 }
                 // Newton's method on 1/|δ|, which is nearly linear.
                 let pairs = self.values.iter().zip(&step);
                 let bend: f64 = pairs.map(|(s, d)| d * d / (s * s + damping)).sum::<f64>() / long;
                 let next = damping + (long - radius) / radius * long / bend;
-                damping = match next > low && next < high {
-                    true => next,
-                    false => (low * high).sqrt().max(0.5 * (low + high) * 1e-3),
+                damping = if next > low && next < high {
+                    next
+                } else {
+                    (low * high).sqrt().max(0.5 * (low + high) * 1e-3)
                 };
             }
         }
@@ -520,10 +524,7 @@ fn grow(scale: &mut [f64], jacobian: &DMatrix<f64>) {
 
 /// A scale to divide by: a number on which nothing depends has none.
 fn unit(scale: f64) -> f64 {
-    match scale > 0.0 {
-        true => scale,
-        false => 1.0,
-    }
+    if scale > 0.0 { scale } else { 1.0 }
 }
 
 fn length(scale: &[f64], x: &[f64]) -> f64 {

@@ -288,31 +288,31 @@ impl Fit<'_> {
         let statistics = Statistics::of(&minimum, &self.bounds(), &sizes, exact, is_scaled);
         let mut is_stopped = false;
         let entangled = statistics.standing.contains(&Standing::Entangled);
-        let combinations = match entangled {
-            false => Vec::new(),
-            true => {
-                let most = (SAME + exact) * self.size(&minimum.residuals);
-                let mut is_same = |from: &[f64], to: &[f64]| {
-                    let pair = [self.residuals(from), self.residuals(to)];
-                    is_stopped |= pair.contains(&Err(Trouble::Stopped));
-                    let [Ok(from), Ok(to)] = pair else {
-                        return false;
-                    };
-                    let pairs = from.iter().zip(&to);
-                    pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt() <= most
+        let combinations = if entangled {
+            let most = (SAME + exact) * self.size(&minimum.residuals);
+            let mut is_same = |from: &[f64], to: &[f64]| {
+                let pair = [self.residuals(from), self.residuals(to)];
+                is_stopped |= pair.contains(&Err(Trouble::Stopped));
+                let [Ok(from), Ok(to)] = pair else {
+                    return false;
                 };
-                combinations(&minimum.x, &sizes, &statistics.null, exact, &mut is_same)
-            }
+                let pairs = from.iter().zip(&to);
+                pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt() <= most
+            };
+            combinations(&minimum.x, &sizes, &statistics.null, exact, &mut is_same)
+        } else {
+            Vec::new()
         };
-        match is_stopped {
-            true => Err(Trouble::Stopped),
-            false => Ok(Found {
+        if is_stopped {
+            Err(Trouble::Stopped)
+        } else {
+            Ok(Found {
                 minimum,
                 statistics,
                 combinations,
                 derivatives: self.derivatives().0,
                 exact,
-            }),
+            })
         }
     }
 
@@ -474,17 +474,21 @@ impl Fit<'_> {
             x[sought].abs()
         };
         let change = starts::derivative(&machine, at, width, parameter);
-        let change = change.map_err(|why| match (self.running.stop)() {
-            true => Lost::Trouble(Trouble::Stopped),
-            false => Lost::Held(format!("{}: {why}", self.sought[sought].name)),
+        let change = change.map_err(|why| {
+            if (self.running.stop)() {
+                Lost::Trouble(Trouble::Stopped)
+            } else {
+                Lost::Held(format!("{}: {why}", self.sought[sought].name))
+            }
         })?;
         Ok(change.map(|list| list.into_iter().map(|by| by * size).collect()))
     }
 
     fn trouble(&self, experiment: &Experiment, error: lagrangian::Error) -> Trouble {
-        match (self.running.stop)() {
-            true => Trouble::Stopped,
-            false => Trouble::NoValue(format!("{}: {error}", experiment.name)),
+        if (self.running.stop)() {
+            Trouble::Stopped
+        } else {
+            Trouble::NoValue(format!("{}: {error}", experiment.name))
         }
     }
 
@@ -615,9 +619,10 @@ impl Fit<'_> {
             };
             let rows: Result<Vec<Row>, _> = own.times.iter().map(row).collect();
             let rows = rows.map_err(|error| self.trouble(own, error))?;
-            let off = match is_held {
-                true => self.off_constraints(experiment, x, run.end(), &here),
-                false => 0.0,
+            let off = if is_held {
+                self.off_constraints(experiment, x, run.end(), &here)
+            } else {
+                0.0
             };
             return self.checked(experiment, rows, off);
         }
@@ -642,9 +647,10 @@ impl Fit<'_> {
         });
         let run = VariedLaw::run(simulation, start);
         let run = run.map_err(|error| self.trouble(own, error))?;
-        let off = match is_held {
-            true => self.off_constraints(experiment, x, run.end(), &here),
-            false => 0.0,
+        let off = if is_held {
+            self.off_constraints(experiment, x, run.end(), &here)
+        } else {
+            0.0
         };
         self.checked(experiment, rows, off)
     }
@@ -728,14 +734,13 @@ impl Fit<'_> {
                 continue;
             };
             let length = to - from;
-            let column: Vec<f64> = match length > 0.0 {
-                true => {
-                    let pairs = after.iter().zip(before);
-                    pairs
-                        .map(|(after, before)| (after - before) / length)
-                        .collect()
-                }
-                false => vec![0.0; before.len()],
+            let column: Vec<f64> = if length > 0.0 {
+                let pairs = after.iter().zip(before);
+                pairs
+                    .map(|(after, before)| (after - before) / length)
+                    .collect()
+            } else {
+                vec![0.0; before.len()]
             };
             columns.push(nalgebra::DVector::from_vec(column));
         }
@@ -777,9 +782,12 @@ impl Fit<'_> {
         }
         let pairs = sums.iter().zip(&counts).zip(&self.sigmas);
         pairs
-            .map(|((sum, count), sigma)| match *count > 0.5 && *sum > 0.0 {
-                true => (sum / count).sqrt(),
-                false => *sigma,
+            .map(|((sum, count), sigma)| {
+                if *count > 0.5 && *sum > 0.0 {
+                    (sum / count).sqrt()
+                } else {
+                    *sigma
+                }
             })
             .collect()
     }

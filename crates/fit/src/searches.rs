@@ -126,14 +126,16 @@ pub fn spread(sought: &[Sought], index: usize) -> Vec<f64> {
         let share = (0.5 + step * index as f64).fract();
         let [low, high] = one.bounds;
         if low.is_finite() && high.is_finite() {
-            return match low > 0.0 && high > 10.0 * low {
-                true => low * (high / low).powf(share),
-                false => low + (high - low) * share,
+            return if low > 0.0 && high > 10.0 * low {
+                low * (high / low).powf(share)
+            } else {
+                low + (high - low) * share
             };
         }
-        let x = match one.from == 0.0 {
-            true => 2.0 * share - 1.0,
-            false => one.from * 3.0_f64.powf(2.0 * share - 1.0),
+        let x = if one.from == 0.0 {
+            2.0 * share - 1.0
+        } else {
+            one.from * 3.0_f64.powf(2.0 * share - 1.0)
         };
         x.clamp(low, high)
     };

@@ -132,9 +132,10 @@ impl Statistics {
     /// The correlation of two numbers; none where one of them is not told.
     pub fn correlation(&self, j: usize, k: usize) -> Option<f64> {
         let errors = self.standard_error(j)? * self.standard_error(k)?;
-        Some(match j == k {
-            true => 1.0,
-            false => (self.covariance[(j, k)] / errors).clamp(-1.0, 1.0),
+        Some(if j == k {
+            1.0
+        } else {
+            (self.covariance[(j, k)] / errors).clamp(-1.0, 1.0)
         })
     }
 
@@ -154,13 +155,12 @@ fn singular(matrix: DMatrix<f64>) -> (Vec<f64>, DMatrix<f64>) {
         return (Vec::new(), DMatrix::zeros(0, 0));
     }
     // With as many rows as columns at least there is a vector for each column.
-    let square = match matrix.nrows() >= columns {
-        true => matrix.qr().r(),
-        false => {
-            let mut square = DMatrix::zeros(columns, columns);
-            square.rows_mut(0, matrix.nrows()).copy_from(&matrix);
-            square
-        }
+    let square = if matrix.nrows() >= columns {
+        matrix.qr().r()
+    } else {
+        let mut square = DMatrix::zeros(columns, columns);
+        square.rows_mut(0, matrix.nrows()).copy_from(&matrix);
+        square
     };
     let svd = square.svd(false, true);
     let right = svd

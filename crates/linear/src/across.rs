@@ -557,9 +557,10 @@ impl<'m> Passing<'_, 'm> {
             }
         };
         // Contacts that do not change each other's rates meet one after the other, in any order.
-        let apart: &[usize] = match is_sequence || closing.len() == 1 {
-            true => &[first],
-            false => &closing,
+        let apart: &[usize] = if is_sequence || closing.len() == 1 {
+            &[first]
+        } else {
+            &closing
         };
         let mut phase = change.before.clone();
         for (round, &contact) in apart.iter().enumerate() {
@@ -711,9 +712,10 @@ impl<'m> Passing<'_, 'm> {
         (hits, ended): (&[Hit], &[usize]),
     ) -> Result<Vec<Number>, (usize, &'static str)> {
         let is_sequence = hits.len() > 1 && self.laws[hits[0].0].1 == ImpactOrder::Sequence;
-        let rounds: Vec<&[Hit]> = match is_sequence {
-            true => hits.chunks(1).collect(),
-            false => vec![hits],
+        let rounds: Vec<&[Hit]> = if is_sequence {
+            hits.chunks(1).collect()
+        } else {
+            vec![hits]
         };
         for round in rounds {
             self.impact(place, (before, after), round)?;
@@ -807,9 +809,10 @@ impl<'m> Passing<'_, 'm> {
                 let most = friction.value * hit.impulse[0];
                 let row = place.row(2 * j + 1).to_vec();
                 let is_idle = hit.impulse[0] <= 1e-12 * greatest;
-                let sticks = match is_idle {
-                    true => after.modes[j] == ContactMode::Sticks,
-                    false => own.impulse[1].abs() < most * (1.0 - SATURATED),
+                let sticks = if is_idle {
+                    after.modes[j] == ContactMode::Sticks
+                } else {
+                    own.impulse[1].abs() < most * (1.0 - SATURATED)
                 };
                 if sticks {
                     let change = zero() - (one + tangential) * place.rates[2 * j + 1];
@@ -1005,9 +1008,10 @@ impl<'m> Passing<'_, 'm> {
                 let [.., most] = place.coefficients(contact);
                 let reaction = place.reaction(before, direction).ok()?;
                 let [normal, tangential] = reaction.forces[contact];
-                let normal = match before.rolls[contact] {
-                    true => reaction.forces[contact - 1][0],
-                    false => normal,
+                let normal = if before.rolls[contact] {
+                    reaction.forces[contact - 1][0]
+                } else {
+                    normal
                 };
                 match cause {
                     PhaseCause::Lifts(_) => Some(normal),

@@ -228,9 +228,12 @@ pub fn near(reduced: &mut Reduced<'_>, found: Found, steady: &[bool]) -> Result<
         c,
         p: DMatrix::from_fn(followers.len(), kept.len(), |i, j| p[(followers[i], j)]),
         b,
-        k_bounds: DMatrix::from_fn(kept.len(), kept.len(), |i, j| match i < moving {
-            true => k_bounds[(i, j)],
-            false => p_bounds[(followers[i - moving], j)],
+        k_bounds: DMatrix::from_fn(kept.len(), kept.len(), |i, j| {
+            if i < moving {
+                k_bounds[(i, j)]
+            } else {
+                p_bounds[(followers[i - moving], j)]
+            }
         }),
         c_bounds,
     };
@@ -274,10 +277,7 @@ fn of_states(mut modes: Modes, integrals: &[bool]) -> Modes {
     modes.modes.retain_mut(|mode| {
         let is_free = mode.lambda == zero;
         for (x, _) in mode.shape.iter_mut().zip(integrals).filter(|(_, is)| **is) {
-            *x = match is_free {
-                true => zero,
-                false => *x * mode.lambda,
-            };
+            *x = if is_free { zero } else { *x * mode.lambda };
         }
         if is_free {
             for other in &free {

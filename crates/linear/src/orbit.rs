@@ -385,9 +385,12 @@ pub fn find(machine: &InterpretedMachine, sought: &Sought) -> Result<Orbit, NoOr
 
 impl Search<'_> {
     fn run(&self) -> Result<Orbit, NoOrbit> {
-        let drive = self.drives().and_then(|()| match self.walls_move() {
-            true => Err(Vec::new()),
-            false => Ok(()),
+        let drive = self.drives().and_then(|()| {
+            if self.walls_move() {
+                Err(Vec::new())
+            } else {
+                Ok(())
+            }
         });
         let is_autonomous = drive.is_ok();
         let x = self.state()?;
@@ -449,9 +452,10 @@ impl Search<'_> {
         let size = passage.monodromy.amax();
         let by_integration =
             (&passage.monodromy - &coarse.monodromy).map(|x| x.abs().max(tolerance * size));
-        let bounds = match is_autonomous {
-            true => by_integration + self.by_period(chart, (&x, period), [&passage, &coarse])?,
-            false => by_integration,
+        let bounds = if is_autonomous {
+            by_integration + self.by_period(chart, (&x, period), [&passage, &coarse])?
+        } else {
+            by_integration
         };
         let (multipliers, family) = self.multipliers(
             chart,
@@ -759,9 +763,10 @@ impl Search<'_> {
         let names: Vec<&str> = system.coordinates().map(|of| of.name).collect();
         let mut sensitive = Sensitive::new(self.machine).with_start_on_constraints();
         for &of in chart.picked() {
-            sensitive = match of < n {
-                true => sensitive.by_start(names[of]),
-                false => sensitive.by_start_rate(names[of - n]),
+            sensitive = if of < n {
+                sensitive.by_start(names[of])
+            } else {
+                sensitive.by_start_rate(names[of - n])
             }
             .map_err(failed)?;
         }
@@ -942,9 +947,12 @@ impl Search<'_> {
                     let along: f64 = terms.map(|i| state.q.values[*i] * place[*i]).sum();
                     if along < 0.0 { -1.0 } else { 1.0 }
                 };
-                let number = |k: usize| match k < n {
-                    true => sign(k) * state.q.values[k],
-                    false => sign(k - n) * state.v.values[k - n],
+                let number = |k: usize| {
+                    if k < n {
+                        sign(k) * state.q.values[k]
+                    } else {
+                        sign(k - n) * state.v.values[k - n]
+                    }
                 };
                 let terms = picked.iter().zip(normal.iter());
                 terms
@@ -1132,9 +1140,10 @@ impl Search<'_> {
         let scale = self.scale(&chart, &x, *period)?;
         let moves = (&scale * &passage.rate).norm() * *period;
         let size = (&scale * chart.of(&x).map(|x| x.abs().max(1.0))).norm();
-        match is_autonomous && self.advance.amax() == 0.0 && moves <= 1e-6 * size {
-            true => Err(NoOrbit::Rest),
-            false => Ok((x, rounds)),
+        if is_autonomous && self.advance.amax() == 0.0 && moves <= 1e-6 * size {
+            Err(NoOrbit::Rest)
+        } else {
+            Ok((x, rounds))
         }
     }
 
@@ -1211,9 +1220,10 @@ impl Search<'_> {
         let size = passage.monodromy.amax().max(1.0);
         let known = 4.0 * (&coarse - &fine).amax() + CLOSED * tolerance * size / 1e-5;
         let significant = 1e-3 * size;
-        match off > known.max(significant) {
-            true => Err(NoOrbit::Jump(said.amax(), fine.amax())),
-            false => Ok(()),
+        if off > known.max(significant) {
+            Err(NoOrbit::Jump(said.amax(), fine.amax()))
+        } else {
+            Ok(())
         }
     }
 
@@ -1238,23 +1248,22 @@ impl Search<'_> {
         let rate = &scale * &passage.rate;
         let has_phase = is_autonomous && rate.norm() > 0.0;
         let mut multipliers = Vec::new();
-        let across = match has_phase {
-            false => DMatrix::identity(size, size),
-            true => {
-                let along = &rate / rate.norm();
-                let off = (&scaled * &along - &along).norm();
-                multipliers.push(Multiplier {
-                    value: Complex::new(1.0, 0.0),
-                    error: off,
-                    is_trivial: true,
-                });
-                // The first column of Q is the direction of the rate.
-                let mut all = DMatrix::identity(size, size);
-                let pivot = along.icamax();
-                all.swap_columns(0, pivot);
-                all.set_column(0, &along);
-                all.qr().q().columns(1, size - 1).into_owned()
-            }
+        let across = if has_phase {
+            let along = &rate / rate.norm();
+            let off = (&scaled * &along - &along).norm();
+            multipliers.push(Multiplier {
+                value: Complex::new(1.0, 0.0),
+                error: off,
+                is_trivial: true,
+            });
+            // The first column of Q is the direction of the rate.
+            let mut all = DMatrix::identity(size, size);
+            let pivot = along.icamax();
+            all.swap_columns(0, pivot);
+            all.set_column(0, &along);
+            all.qr().q().columns(1, size - 1).into_owned()
+        } else {
+            DMatrix::identity(size, size)
         };
         let rest = across.transpose() * &scaled * &across;
         let rest_bounds = across.abs().transpose() * &scaled_bounds * across.abs();
@@ -1472,14 +1481,16 @@ fn located<E>(
         let Ok(orbit) = solve(middle, &from)? else {
             break;
         };
-        match orbit.outside() == low.1.outside() {
-            true => low = (middle, orbit),
-            false => high = (middle, orbit),
+        if orbit.outside() == low.1.outside() {
+            low = (middle, orbit)
+        } else {
+            high = (middle, orbit)
         }
     }
-    let outer = match low.1.outside() > high.1.outside() {
-        true => &low.1,
-        false => &high.1,
+    let outer = if low.1.outside() > high.1.outside() {
+        &low.1
+    } else {
+        &high.1
     };
     let outside = outer
         .multipliers

@@ -190,9 +190,10 @@ pub fn find(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> Result<Fou
             None => return Err(fault.unwrap_or(Lost::NoEnd(steps))),
         }
     }
-    match here.is_stuck() {
-        true => here.settled(wanted.steps),
-        false => Err(Lost::NoEnd(wanted.steps)),
+    if here.is_stuck() {
+        here.settled(wanted.steps)
+    } else {
+        Err(Lost::NoEnd(wanted.steps))
     }
 }
 

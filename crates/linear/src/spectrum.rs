@@ -134,9 +134,12 @@ impl Linear {
     /// 1 over B: how all coordinates move with those that may.
     fn along(&self) -> DMatrix<f64> {
         let (n, moving) = self.len();
-        DMatrix::from_fn(n, moving, |i, j| match i < moving {
-            true => f64::from(u8::from(i == j)),
-            false => self.b[(i - moving, j)],
+        DMatrix::from_fn(n, moving, |i, j| {
+            if i < moving {
+                f64::from(u8::from(i == j))
+            } else {
+                self.b[(i - moving, j)]
+            }
         })
     }
 
@@ -309,10 +312,7 @@ fn amplitudes(
     let matrix = DMatrix::from_diagonal_element(followers, followers, lambda) - own;
     let solved = matrix.lu().solve(&pull);
     match solved.filter(|y| y.iter().all(|y| y.is_finite()) && rates.norm() > 1e-9 * right.norm()) {
-        Some(y) => DVector::from_fn(n, |i, _| match i < moving {
-            true => rates[i],
-            false => y[i - moving],
-        }),
+        Some(y) => DVector::from_fn(n, |i, _| if i < moving { rates[i] } else { y[i - moving] }),
         // What follows moves by itself.
         None => complex(bound.clone()) * right.rows(0, m),
     }
@@ -412,12 +412,13 @@ impl Split {
             rank::directions_beyond(&by_places, &linear.k_bounds)?
                 .into_iter()
                 .partition(rank::Direction::is_free);
-        let bound: Vec<DVector<f64>> = match free.is_empty() {
+        let bound: Vec<DVector<f64>> = if free.is_empty() {
             // Without any rounding.
-            true => (0..n)
+            (0..n)
                 .map(|i| DVector::from_fn(n, |j, _| f64::from(u8::from(i == j))))
-                .collect(),
-            false => bound.into_iter().map(|direction| direction.right).collect(),
+                .collect()
+        } else {
+            bound.into_iter().map(|direction| direction.right).collect()
         };
         let rights: Vec<DVector<f64>> = free.iter().map(|d| d.right.clone()).collect();
         let lefts: Vec<DVector<f64>> = free.iter().map(|d| d.left.clone()).collect();
@@ -438,50 +439,47 @@ impl Split {
         }
         let count = n - bound.ncols();
         // Along these directions it may move.
-        let may: Vec<DVector<f64>> = match moving == n {
-            true => rights.clone(),
-            false => {
-                let across = bound.transpose() * &along;
-                null_space(&across, rank::tolerance(n) * along.norm())?[0].clone()
-            }
+        let may: Vec<DVector<f64>> = if moving == n {
+            rights.clone()
+        } else {
+            let across = bound.transpose() * &along;
+            null_space(&across, rank::tolerance(n) * along.norm())?[0].clone()
         };
         let z = columns(moving, &may);
-        let drifts = match is_driven {
-            false => {
-                // What brakes along free directions, and the size of its terms.
-                let y = columns(n, &lefts).rows(0, moving).into_owned();
-                let brakes = y.tr_mul(&(c * &z));
-                let terms = y.abs().tr_mul(&(c.abs() * z.abs()));
-                let limit = rank::tolerance(n) * terms.norm();
-                let braked = match brakes.is_empty() {
-                    true => 0,
-                    false => brakes
-                        .try_svd(false, false, f64::EPSILON, 10_000)?
-                        .rank(limit),
-                };
-                z.ncols() - braked
-            }
-            true => {
-                // Constant rates s that some place w balances: P w + B s = 0, K w + C s = 0. Nothing may be asked of s but what
-                // is across all that w gives.
-                let m = bound.ncols();
-                let mut by_place = DMatrix::zeros(m + moving, m);
-                by_place
-                    .rows_mut(0, m)
-                    .copy_from(&(bound.transpose() * linear.driven() * &bound));
-                by_place.rows_mut(m, moving).copy_from(&(k * &bound));
-                let mut by_rate = DMatrix::zeros(m + moving, moving);
-                by_rate
-                    .rows_mut(0, m)
-                    .copy_from(&(bound.transpose() * &along));
-                by_rate.rows_mut(m, moving).copy_from(c);
-                let [across, _] =
-                    null_space(&by_place.transpose(), rank::tolerance(n) * by_place.norm())?;
-                let across = columns(m + moving, &across);
-                let asked = across.tr_mul(&by_rate);
-                let terms = across.abs().tr_mul(&by_rate.abs());
-                null_space(&asked, rank::tolerance(n) * terms.norm())?[0].len()
-            }
+        let drifts = if is_driven {
+            // Constant rates s that some place w balances: P w + B s = 0, K w + C s = 0. Nothing may be asked of s but what
+            // is across all that w gives.
+            let m = bound.ncols();
+            let mut by_place = DMatrix::zeros(m + moving, m);
+            by_place
+                .rows_mut(0, m)
+                .copy_from(&(bound.transpose() * linear.driven() * &bound));
+            by_place.rows_mut(m, moving).copy_from(&(k * &bound));
+            let mut by_rate = DMatrix::zeros(m + moving, moving);
+            by_rate
+                .rows_mut(0, m)
+                .copy_from(&(bound.transpose() * &along));
+            by_rate.rows_mut(m, moving).copy_from(c);
+            let [across, _] =
+                null_space(&by_place.transpose(), rank::tolerance(n) * by_place.norm())?;
+            let across = columns(m + moving, &across);
+            let asked = across.tr_mul(&by_rate);
+            let terms = across.abs().tr_mul(&by_rate.abs());
+            null_space(&asked, rank::tolerance(n) * terms.norm())?[0].len()
+        } else {
+            // What brakes along free directions, and the size of its terms.
+            let y = columns(n, &lefts).rows(0, moving).into_owned();
+            let brakes = y.tr_mul(&(c * &z));
+            let terms = y.abs().tr_mul(&(c.abs() * z.abs()));
+            let limit = rank::tolerance(n) * terms.norm();
+            let braked = if brakes.is_empty() {
+                0
+            } else {
+                brakes
+                    .try_svd(false, false, f64::EPSILON, 10_000)?
+                    .rank(limit)
+            };
+            z.ncols() - braked
         };
         let slowest = |z: &DVector<f64>| {
             if (k.abs() * z.abs()).iter().all(|x| *x == 0.0) {
@@ -508,9 +506,10 @@ impl Split {
 }
 
 fn columns(rows: usize, vectors: &[DVector<f64>]) -> DMatrix<f64> {
-    match vectors.is_empty() {
-        true => DMatrix::zeros(rows, 0),
-        false => DMatrix::from_columns(vectors),
+    if vectors.is_empty() {
+        DMatrix::zeros(rows, 0)
+    } else {
+        DMatrix::from_columns(vectors)
     }
 }
 

@@ -56,9 +56,12 @@ fn start_is_unsteady(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> O
     let mut wide: Vec<_> = q.iter().map(|x| (*x).into()).collect();
     reduced.project(&mut wide, &|_| true).ok()?;
     let choice = reduced.choose(q, &wanted.steady).ok()?;
-    let s = choice.independent.iter().map(|j| match wanted.steady[*j] {
-        true => wanted.rates[*j].into(),
-        false => 0.0.into(),
+    let s = choice.independent.iter().map(|j| {
+        if wanted.steady[*j] {
+            wanted.rates[*j].into()
+        } else {
+            0.0.into()
+        }
     });
     let place = Place {
         s: s.collect(),
@@ -204,13 +207,15 @@ impl Fault {
 
 fn why_lost(system: &InterpretedSystem, wanted: &Wanted, lost: &Lost, options: Options) -> String {
     let Options { start, steady } = options;
-    let kind = match wanted.steady.contains(&true) {
-        true => "steady motion",
-        false => "equilibrium",
+    let kind = if wanted.steady.contains(&true) {
+        "steady motion"
+    } else {
+        "equilibrium"
     };
-    let place = match wanted.steady.contains(&true) {
-        true => format!("{start} sets another place to look from, {steady} other rates"),
-        false => format!("{start} sets another place to look from"),
+    let place = if wanted.steady.contains(&true) {
+        format!("{start} sets another place to look from, {steady} other rates")
+    } else {
+        format!("{start} sets another place to look from")
     };
     match lost {
         Lost::Fault(fault) => fault.in_words(system, options),

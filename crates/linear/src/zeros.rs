@@ -39,9 +39,10 @@ pub fn zeros(model: &Model) -> Option<Vec<Complex<f64>>> {
     let wide = system.with_independent_outputs(tolerance)?;
     let square = wide.dual().with_independent_outputs(tolerance)?.dual();
     let System { a, b, c, d } = square;
-    let left = match d.is_empty() {
-        true => a,
-        false => a - b * d.lu().solve(&c)?,
+    let left = if d.is_empty() {
+        a
+    } else {
+        a - b * d.lu().solve(&c)?
     };
     let n = left.nrows();
     // Rotations leave roundings of the largest numbers everywhere.

@@ -92,8 +92,9 @@ fn emitted_series(model: &Model<'_>) -> Result<ProvedSeries, String> {
         let reason = "emitted code multiplies positions, their sines and forces only; the interpreter has it";
         return Err(reason.into());
     }
-    match series.is_short() {
-        true => Ok(series),
-        false => Err("it is too long to be written down".into()),
+    if series.is_short() {
+        Ok(series)
+    } else {
+        Err("it is too long to be written down".into())
     }
 }

@@ -416,9 +416,10 @@ fn exact<'d>(model: &Model<'d>) -> Option<Equations<'d>> {
         unilateral: Vec::new(),
         reduction: None,
         forces: projection.project(&forces, all),
-        unbalanced: match model.derivatives.is_empty() {
-            true => Vec::new(),
-            false => projection.unbalanced(),
+        unbalanced: if model.derivatives.is_empty() {
+            Vec::new()
+        } else {
+            projection.unbalanced()
         },
         slopes: Vec::new(),
         work_rate: power::work_rate(model, &x, &projection, potential_energy),
@@ -472,9 +473,10 @@ fn approximate<'d>(
         .zip(&bias)
         .map(|(&applied, &bias)| applied - bias)
         .collect();
-    let unbalanced = match model.derivatives.is_empty() {
-        true => Vec::new(),
-        false => derivatives::unbalanced(model, &mass_matrix, &forces),
+    let unbalanced = if model.derivatives.is_empty() {
+        Vec::new()
+    } else {
+        derivatives::unbalanced(model, &mass_matrix, &forces)
     };
     Some(Equations {
         kinetic_energy,

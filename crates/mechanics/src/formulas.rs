@@ -64,12 +64,11 @@ fn lines<'d>(values: impl Iterator<Item = (String, Expr<'d>)>) -> Vec<String> {
             lines.push("…".to_owned());
             break;
         }
-        lines.push(match size > LONGEST_LINE {
-            true => format!("{name} = …"),
-            false => {
-                let value = readable(value, READABLE_BUDGET);
-                format!("{name} = {}", text(value, value.dag()))
-            }
+        lines.push(if size > LONGEST_LINE {
+            format!("{name} = …")
+        } else {
+            let value = readable(value, READABLE_BUDGET);
+            format!("{name} = {}", text(value, value.dag()))
         });
     }
     lines

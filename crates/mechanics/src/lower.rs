@@ -232,9 +232,10 @@ fn build<'d>(
         let drafts = of_quantity(&mut lowering, quantity, source.expanded);
         take(drafts, &lowering.graph);
     }
-    let mut ways = match source.sliding.is_empty() {
-        true => accelerations(&mut lowering, source.whole(model)),
-        false => friction::friction(&mut lowering, source),
+    let mut ways = if source.sliding.is_empty() {
+        accelerations(&mut lowering, source.whole(model))
+    } else {
+        friction::friction(&mut lowering, source)
     };
     if let Some(reduced) = source.reduced {
         let offsets = reduced.reduction.into_iter().flat_map(|r| &r.dependents);
@@ -251,9 +252,10 @@ fn build<'d>(
         }
         _ => (Vec::new(), None),
     };
-    let stages = match staged.is_empty() {
-        true => Stages::default(),
-        false => model.stages,
+    let stages = if staged.is_empty() {
+        Stages::default()
+    } else {
+        model.stages
     };
     let derivatives = match drafts.last() {
         Some(last) if last.form.role == Role::Accelerations => {
@@ -299,9 +301,10 @@ fn build<'d>(
             .iter()
             .map(|kept| start_name(model, *kept))
             .collect(),
-        derivatives: match has_derivatives {
-            true => model.derivatives.clone(),
-            false => Vec::new(),
+        derivatives: if has_derivatives {
+            model.derivatives.clone()
+        } else {
+            Vec::new()
         },
         stages,
         prepare,

@@ -349,9 +349,10 @@ fn asked_sides<'d>(machine: &Lagrange<'_, 'd>) -> Vec<(Expr<'d>, [bool; 2])> {
 fn work(program: &Program, nodes: usize) -> u64 {
     let code = |function: &lagrangian_program::Function| function.code.len() as u64;
     let functions: u64 = program.functions.iter().map(code).sum();
-    let slopes = match program.derivatives.is_empty() {
-        true => 0,
-        false => program.function(Role::Accelerations).map_or(0, code),
+    let slopes = if program.derivatives.is_empty() {
+        0
+    } else {
+        program.function(Role::Accelerations).map_or(0, code)
     };
     8 * nodes as u64 + functions + 2 * slopes
 }
@@ -496,9 +497,10 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             seen: vec![false; program.outputs.len()],
             called: BTreeSet::new(),
             has_moved: false,
-            sides: match R::IS_ORDERED {
-                true => asked_sides(parts.machine),
-                false => Vec::new(),
+            sides: if R::IS_ORDERED {
+                asked_sides(parts.machine)
+            } else {
+                Vec::new()
             },
             parts,
         }
@@ -526,9 +528,10 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
                 return self.covered();
             }
         }
-        match good >= points {
-            true => self.covered(),
-            false => Found::Nothing,
+        if good >= points {
+            self.covered()
+        } else {
+            Found::Nothing
         }
     }
 
@@ -589,22 +592,22 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         self.check_unilateral(&state, &w, &literal)?;
         self.check_rest(&state, facts)?;
 
-        let (state, computed) = match self.parts.settled.is_empty() {
-            true => (state, computed),
-            false => {
-                let state = self.follow(state)?;
-                let computed = self.computed(&state)?;
-                (state, computed)
-            }
+        let (state, computed) = if self.parts.settled.is_empty() {
+            (state, computed)
+        } else {
+            let state = self.follow(state)?;
+            let computed = self.computed(&state)?;
+            (state, computed)
         };
         if self.has_no_accelerations(&state, &computed)? {
             return Ok(());
         }
         self.has_moved = true;
         self.check_pivots(&state, &computed)?;
-        match literal.sliding.is_empty() {
-            true => self.check_motion(&state, &computed)?,
-            false => self.check_friction(&state, &computed, &signs)?,
+        if literal.sliding.is_empty() {
+            self.check_motion(&state, &computed)?
+        } else {
+            self.check_friction(&state, &computed, &signs)?
         }
         self.check_derivatives(&state)?;
         self.check_stages(&state, &computed)
@@ -631,9 +634,10 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         if !difference.value.is_finite() {
             return Err(Verdict::Elsewhere);
         }
-        match difference.vanishes()? {
-            true => Ok(()),
-            false => Err(self.wrong(role, index)),
+        if difference.vanishes()? {
+            Ok(())
+        } else {
+            Err(self.wrong(role, index))
         }
     }
 
@@ -657,9 +661,10 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
     fn call(&mut self, role: Role, at: &State<R>, len: usize) -> Result<Vec<R>, Verdict> {
         let results = Self::try_call(&mut self.interpreter, role, at, len);
         self.called.insert(role);
-        match results.iter().all(|x| x.is_finite()) {
-            true => Ok(results),
-            false => Err(Verdict::Elsewhere),
+        if results.iter().all(|x| x.is_finite()) {
+            Ok(results)
+        } else {
+            Err(Verdict::Elsewhere)
         }
     }
 
@@ -781,9 +786,10 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         let model = self.parts.machine.model;
         let n = at.q.len();
         let damped = model.dissipated().next().is_some();
-        let lost = match damped {
-            true => self.parts.machine.damping(at, &at.v),
-            false => R::ZERO,
+        let lost = if damped {
+            self.parts.machine.damping(at, &at.v)
+        } else {
+            R::ZERO
         };
         let lost = lost + literal.lost;
         let found = self.call(Role::DissipationRate, at, 1)?[0];
@@ -809,9 +815,10 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             moves |= !at_rest.vanishes()?;
         }
         let is_balanced = (!moves && without.vanishes()?) || with_constraints.vanishes()?;
-        match is_balanced {
-            true => Ok(()),
-            false => Err(self.wrong(Role::WorkRate, 0)),
+        if is_balanced {
+            Ok(())
+        } else {
+            Err(self.wrong(Role::WorkRate, 0))
         }
     }
 
@@ -1082,15 +1089,17 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         let lower = self.lower(computed);
         let n = at.q.len() + self.parts.program.constraints.len();
         let determinant = determinant(&lower, n);
-        let is_singular = match R::IS_ORDERED {
-            false => !determinant.is_finite() || determinant.look(0.0) == Sight::Zero,
+        let is_singular = if R::IS_ORDERED {
             // Of numbers that are rounded nobody knows a determinant to be 0, but a constraint may
             // be seen to say nothing that the others do not say.
-            true => has_dependent(&computed.rows, at.q.len()),
+            has_dependent(&computed.rows, at.q.len())
+        } else {
+            !determinant.is_finite() || determinant.look(0.0) == Sight::Zero
         };
-        match is_singular {
-            true => Ok(true),
-            false => Err(Verdict::Elsewhere),
+        if is_singular {
+            Ok(true)
+        } else {
+            Err(Verdict::Elsewhere)
         }
     }
 
@@ -1116,9 +1125,10 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             if !open.vanishes()? {
                 // What the others say already may contradict them; then no accelerations exist, and it
                 // is for the run to say so where it comes to it.
-                return match is_dependent(&computed.rows, n, constraint) {
-                    true => Ok(()),
-                    false => Err(Disagreement::Constraint { constraint, point }.into()),
+                return if is_dependent(&computed.rows, n, constraint) {
+                    Ok(())
+                } else {
+                    Err(Disagreement::Constraint { constraint, point }.into())
                 };
             }
         }
@@ -1253,9 +1263,10 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             })
             .collect();
         // In a field nobody knows on which side a body is: there any will do. In space there are no sides.
-        let patterns = match R::IS_ORDERED || relaxed.model.space == Space::Space {
-            true => 1,
-            false => 1u32 << contacts.len(),
+        let patterns = if R::IS_ORDERED || relaxed.model.space == Space::Space {
+            1
+        } else {
+            1u32 << contacts.len()
         };
         let count = self.parts.program.reaction_axes;
         let mut wrong = 0;

@@ -47,9 +47,10 @@ impl ProvedSeries {
     /// If it does not obey the equations of motion, or no state was found to tell by.
     pub fn new(series: Series, model: &Model<'_>) -> Result<ProvedSeries, NoSeries> {
         let series = Arc::new(series);
-        match is_proved(&series, model) {
-            true => Ok(ProvedSeries(series)),
-            false => Err(NoSeries::Unproved),
+        if is_proved(&series, model) {
+            Ok(ProvedSeries(series))
+        } else {
+            Err(NoSeries::Unproved)
         }
     }
 

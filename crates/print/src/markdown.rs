@@ -20,11 +20,13 @@ pub fn text(document: &Document) -> String {
                 }
                 Block::Formula(rows) => text.push_str(&format!("$$\n{}\n$$\n", aligned(rows))),
                 Block::Table(head, rows) => {
-                    let rule =
-                        (0..head.len()).map(|k| match super::document::is_numeric(rows, k) {
-                            true => "---:",
-                            false => "---",
-                        });
+                    let rule = (0..head.len()).map(|k| {
+                        if super::document::is_numeric(rows, k) {
+                            "---:"
+                        } else {
+                            "---"
+                        }
+                    });
                     let rule: Vec<&str> = rule.collect();
                     text.push_str(&row(head));
                     text.push_str(&format!("| {} |\n", rule.join(" | ")));

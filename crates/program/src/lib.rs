@@ -149,9 +149,10 @@ pub struct Slot {
 impl Slot {
     /// The unit as a label beside its number: as the spec writes it where that is no SI unit.
     pub fn label(&self) -> String {
-        match self.unit.is_scaled() || state_of(&self.name.base).is_some() {
-            true => self.unit_text.clone(),
-            false => self.unit.to_string(),
+        if self.unit.is_scaled() || state_of(&self.name.base).is_some() {
+            self.unit_text.clone()
+        } else {
+            self.unit.to_string()
         }
     }
 }
@@ -527,9 +528,10 @@ impl Program {
     /// The role of the function that solves the equations of motion: the accelerations, or what they
     /// are made of where contacts stick and slide.
     pub fn solving(&self) -> Role {
-        match self.contacts.is_empty() {
-            true => Role::Accelerations,
-            false => Role::Friction,
+        if self.contacts.is_empty() {
+            Role::Accelerations
+        } else {
+            Role::Friction
         }
     }
 

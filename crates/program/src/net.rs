@@ -97,12 +97,13 @@ impl Net {
 
     /// What the values need, their signs prepared with what belongs to them.
     pub fn of_values(graph: &mut Graph, values: &[Scaled], cut: bool) -> Net {
-        let root = |x: &Scaled| match cut && x.negative && x.factor != Id::ONE {
-            true => {
+        let root = |x: &Scaled| {
+            if cut && x.negative && x.factor != Id::ONE {
                 let x = graph.with_signed_factor(*x);
                 (graph.unsigned(x), false)
+            } else {
+                (graph.unsigned(*x), x.negative)
             }
-            false => (graph.unsigned(*x), x.negative),
         };
         let roots: Vec<(Id, bool)> = values.iter().map(root).collect();
         Net::new(graph, &roots, cut)

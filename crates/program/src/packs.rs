@@ -198,9 +198,10 @@ impl<'a> Finder<'a> {
             rate.map(|rate| (rate, columns))
         };
         let straight = rated([0, 1, 2]);
-        let crossed = match what.commutes() {
-            true => rated([1, 0, 2]),
-            false => None,
+        let crossed = if what.commutes() {
+            rated([1, 0, 2])
+        } else {
+            None
         };
         match (&straight, &crossed) {
             (Some(a), Some(b)) if b.0 > a.0 => crossed,

@@ -523,9 +523,10 @@ impl Program {
     pub fn docs(&self, role: Role) -> String {
         match role {
             Role::Accelerations => {
-                let equations = match self.constraints.is_empty() {
-                    true => "`M a = f`",
-                    false => "`M a = f + G^T lambda`, `G a = gamma`",
+                let equations = if self.constraints.is_empty() {
+                    "`M a = f`"
+                } else {
+                    "`M a = f + G^T lambda`, `G a = gamma`"
                 };
                 let form = match self.choice(role) {
                     Some(choice) => format!(" {}", choice.chosen().form),

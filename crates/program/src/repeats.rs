@@ -108,9 +108,10 @@ impl Steps {
     /// The steps of a function. `is_for_speed`: products are contracted, and all angles that can be
     /// are taken at once, as early as they are known.
     pub fn of(function: &Function, is_for_speed: bool) -> Steps {
-        let contractions = match is_for_speed {
-            true => Contractions::of(function),
-            false => Contractions::none(function),
+        let contractions = if is_for_speed {
+            Contractions::of(function)
+        } else {
+            Contractions::none(function)
         };
         let mut circular: FxHashMap<Value, [Option<Value>; 2]> = FxHashMap::default();
         for (index, op) in function.code.iter().enumerate() {
@@ -121,9 +122,10 @@ impl Steps {
                 _ => {}
             }
         }
-        let angles = match is_for_speed {
-            true => early_angles(function),
-            false => Vec::new(),
+        let angles = if is_for_speed {
+            early_angles(function)
+        } else {
+            Vec::new()
         };
         let mut steps = Steps {
             steps: Vec::with_capacity(function.code.len()),
@@ -642,9 +644,10 @@ impl<'a> Finder<'a> {
                 return Some(Operand::Carried(carried, first)).filter(|_| place < start + period);
             }
             let column: Vec<Value> = (0..count).map(at).collect();
-            Some(match column.iter().all(|value| *value == first) {
-                true => Operand::Invariant(first),
-                false => Operand::Column(column),
+            Some(if column.iter().all(|value| *value == first) {
+                Operand::Invariant(first)
+            } else {
+                Operand::Column(column)
             })
         };
         let mut operands = Vec::with_capacity(period);

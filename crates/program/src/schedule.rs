@@ -275,9 +275,10 @@ impl Builder<'_> {
                 }
                 let denominator = self.product(down);
                 let numerator = self.product(up);
-                match self.is_zero(numerator) {
-                    true => numerator,
-                    false => self.op(Op::Div(numerator, denominator)),
+                if self.is_zero(numerator) {
+                    numerator
+                } else {
+                    self.op(Op::Div(numerator, denominator))
                 }
             }
             Item::Sum(terms) => {
@@ -344,9 +345,10 @@ impl Builder<'_> {
             error = self.op(Op::Add(error, first));
         }
         if let Some(second) = of_product(self, b) {
-            error = match is_difference {
-                true => self.op(Op::Sub(error, second)),
-                false => self.op(Op::Add(error, second)),
+            error = if is_difference {
+                self.op(Op::Sub(error, second))
+            } else {
+                self.op(Op::Add(error, second))
             };
         }
         Some(error)
@@ -398,9 +400,10 @@ impl Builder<'_> {
         }
         for (value, negative) in terms {
             let sought = (value, !negative);
-            let opposite = match is_long {
-                true => places.get_mut(&sought).and_then(Vec::pop),
-                false => left.iter().position(|term| *term == Some(sought)),
+            let opposite = if is_long {
+                places.get_mut(&sought).and_then(Vec::pop)
+            } else {
+                left.iter().position(|term| *term == Some(sought))
             };
             match opposite {
                 Some(opposite) => left[opposite] = None,

@@ -131,9 +131,10 @@ impl System {
             let row = self.row(k).to_vec();
             let own = (0..n).filter(|&j| !row[j].is_zero());
             let inertia = own.clone().fold(Residue::ZERO, |sum, j| sum + entry(j, j));
-            let inert: Vec<usize> = match inertia == Residue::ZERO {
-                true => (0..n).collect(),
-                false => own.clone().collect(),
+            let inert: Vec<usize> = if inertia == Residue::ZERO {
+                (0..n).collect()
+            } else {
+                own.clone().collect()
             };
             let inertia = inert.iter().map(|&j| self.matrix[Shape::index(j, j)]);
             let inertia = graph.sum(&inertia.collect::<Vec<_>>());
@@ -213,17 +214,18 @@ pub fn solve(graph: &mut Graph, system: &System, elimination: Elimination) -> So
             continue;
         }
         let pivot = left.total(graph, k, k);
-        pivots.push(match is_constraint(k) {
-            false => Pivot {
-                coordinate: k,
-                pivot,
-                scale: matrix[Shape::index(k, k)],
-            },
-            true => Pivot {
+        pivots.push(if is_constraint(k) {
+            Pivot {
                 coordinate: k,
                 pivot: pivot.negated(),
                 scale: total(graph, &compliance[k - coordinates]),
-            },
+            }
+        } else {
+            Pivot {
+                coordinate: k,
+                pivot,
+                scale: matrix[Shape::index(k, k)],
+            }
         });
         // Column k of the Schur complement: u, of which l = u/d.
         let mut column = Vec::new();

@@ -247,9 +247,10 @@ impl<'p> Lift<'p> {
                 Op::Unary(call, a) => graph.function(call, &[x(a)]),
                 Op::Binary(call, a, b) => graph.function(call, &[x(a), x(b)]),
             };
-            values.push(match is_shared[index] {
-                true => self.graph.whole(value),
-                false => value,
+            values.push(if is_shared[index] {
+                self.graph.whole(value)
+            } else {
+                value
             });
         }
         values
@@ -280,9 +281,10 @@ impl<'p> Lift<'p> {
                     self.over(sum, slopes.divisor)
                 }
             };
-            changes.push(match is_shared[index] {
-                true => self.graph.whole(change),
-                false => change,
+            changes.push(if is_shared[index] {
+                self.graph.whole(change)
+            } else {
+                change
             });
         }
         changes
@@ -452,9 +454,10 @@ impl<'p> Lift<'p> {
         let guards = function.guards.iter().map(|guard| Pivot {
             values: [guard.pivot, guard.scale].map(|x| values[x.index()]),
             tolerance: guard.tolerance,
-            coordinate: match guard.coordinate < n {
-                true => guard.coordinate,
-                false => guard.coordinate + further,
+            coordinate: if guard.coordinate < n {
+                guard.coordinate
+            } else {
+                guard.coordinate + further
             },
         });
         guards.collect()

@@ -95,9 +95,10 @@ impl Ball {
 
     /// A result whose slope is nowhere in the ball above `slope`.
     fn by_slope(self, centre: DoubleDouble, slope: f64) -> Ball {
-        match self.is_finite() {
-            true => Ball::rounded(centre, slope * self.radius),
-            false => Ball::UNKNOWN,
+        if self.is_finite() {
+            Ball::rounded(centre, slope * self.radius)
+        } else {
+            Ball::UNKNOWN
         }
     }
 }
@@ -184,12 +185,13 @@ impl Scalar for Ball {
 
     /// Exact.
     fn from_f64(x: f64) -> Self {
-        match x.is_finite() {
-            true => Ball {
+        if x.is_finite() {
+            Ball {
                 centre: x.into(),
                 radius: 0.0,
-            },
-            false => Ball::UNKNOWN,
+            }
+        } else {
+            Ball::UNKNOWN
         }
     }
 
@@ -360,9 +362,10 @@ impl Scalar for Ball {
     }
 
     fn to_f64(self) -> f64 {
-        match self.is_finite() {
-            true => self.centre.to_f64(),
-            false => f64::NAN,
+        if self.is_finite() {
+            self.centre.to_f64()
+        } else {
+            f64::NAN
         }
     }
 }

@@ -231,9 +231,10 @@ impl<S: Scalar, const N: usize> Scalar for Jet<S, N> {
 
     /// By the binomial series where the exponent is constant, else as `exp(y ln x)`.
     fn powf(self, exponent: Self) -> Self {
-        match exponent == Jet::constant(exponent.0[0]) {
-            true => self.power(self.0[0].powf(exponent.0[0]), exponent.0[0]),
-            false => (exponent * self.ln()).exp(),
+        if exponent == Jet::constant(exponent.0[0]) {
+            self.power(self.0[0].powf(exponent.0[0]), exponent.0[0])
+        } else {
+            (exponent * self.ln()).exp()
         }
     }
 

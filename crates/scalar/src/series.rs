@@ -210,9 +210,12 @@ fn invert<N: Scalar>(n: usize, m: &mut [N::Stored]) {
     // Σ over rows k of L⁻¹: element (i, j) reads rows from max(i, j) on, so the first rows may be overwritten first.
     for i in 0..n {
         for j in 0..=i {
-            let below = |k: usize, j: usize| match k == j {
-                true => N::ONE,
-                false => N::load(m[k * n + j]),
+            let below = |k: usize, j: usize| {
+                if k == j {
+                    N::ONE
+                } else {
+                    N::load(m[k * n + j])
+                }
             };
             let mut sum = N::ZERO;
             for k in i..n {

@@ -84,10 +84,13 @@ impl Distribution {
             Distribution::Uniform(a, b) => a + (b - a) * u,
             Distribution::LogUniform(a, b) => a * libm::exp(u * libm::log(b / a)),
             Distribution::Normal(mean, deviation) => mean + deviation * quantile(u),
-            Distribution::Triangular(a, b, peak) => match u * (b - a) < peak - a {
-                true => a + libm::sqrt(u * (b - a) * (peak - a)),
-                false => b - libm::sqrt((1.0 - u) * (b - a) * (b - peak)),
-            },
+            Distribution::Triangular(a, b, peak) => {
+                if u * (b - a) < peak - a {
+                    a + libm::sqrt(u * (b - a) * (peak - a))
+                } else {
+                    b - libm::sqrt((1.0 - u) * (b - a) * (b - peak))
+                }
+            }
         }
     }
 

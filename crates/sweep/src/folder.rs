@@ -117,9 +117,10 @@ impl Folder {
             .truncate(false)
             .open(&name);
         let mut lock = lock.map_err(|error| Trouble::File(name.clone(), error))?;
-        let locked = match is_shared {
-            true => lock.try_lock_shared(),
-            false => lock.try_lock(),
+        let locked = if is_shared {
+            lock.try_lock_shared()
+        } else {
+            lock.try_lock()
         };
         match locked {
             Ok(()) => {}
@@ -178,12 +179,11 @@ impl Folder {
     /// # Errors
     /// What the file system says.
     pub fn begin_shared(&self, plan: &Plan) -> Result<(), Trouble> {
-        match self.path.join("plan.json").is_file() {
-            true => Ok(()),
-            false => {
-                let text = plan.to_json() + "\n";
-                self.write("plan.json", |to| to.write_all(text.as_bytes()))
-            }
+        if self.path.join("plan.json").is_file() {
+            Ok(())
+        } else {
+            let text = plan.to_json() + "\n";
+            self.write("plan.json", |to| to.write_all(text.as_bytes()))
         }
     }
 

@@ -12,9 +12,10 @@ pub(crate) fn quantile(p: f64) -> f64 {
     }
     let tail = if q < 0.0 { p } else { 1.0 - p };
     let r = libm::sqrt(-libm::log(tail));
-    let size = match r <= 5.0 {
-        true => ratio(SIDE, r - 1.6),
-        false => ratio(FAR, r - 5.0),
+    let size = if r <= 5.0 {
+        ratio(SIDE, r - 1.6)
+    } else {
+        ratio(FAR, r - 5.0)
     };
     size.copysign(q)
 }

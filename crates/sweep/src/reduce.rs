@@ -134,16 +134,18 @@ impl Tracker {
             Function::Max if self.of_size => {
                 let (least, greatest) = (least?.0, greatest?.0);
                 // Not `max`, which passes over what is not a number.
-                Some(match least.abs() > greatest.abs() || least.is_nan() {
-                    true => least.abs(),
-                    false => greatest.abs(),
+                Some(if least.abs() > greatest.abs() || least.is_nan() {
+                    least.abs()
+                } else {
+                    greatest.abs()
                 })
             }
             Function::WhenMax if self.of_size => {
                 let (least, greatest) = (least?, greatest?);
-                Some(match least.0.abs() > greatest.0.abs() {
-                    true => least.1,
-                    false => greatest.1,
+                Some(if least.0.abs() > greatest.0.abs() {
+                    least.1
+                } else {
+                    greatest.1
                 })
             }
             Function::Max => greatest.map(|(value, _)| value),

@@ -185,15 +185,12 @@ pub fn table_file(path: &Path) -> Result<TableFile, String> {
         .extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("parquet"));
     let unread = |error: std::io::Error| format!("cannot read {shown}: {error}");
-    let file = match is_parquet {
-        true => {
-            let cells = table::cells(path).map_err(unread)?;
-            TableFile::from_cells(&shown, cells)
-        }
-        false => {
-            let bytes = std::fs::read(path).map_err(unread)?;
-            TableFile::from_bytes(&shown, &bytes)
-        }
+    let file = if is_parquet {
+        let cells = table::cells(path).map_err(unread)?;
+        TableFile::from_cells(&shown, cells)
+    } else {
+        let bytes = std::fs::read(path).map_err(unread)?;
+        TableFile::from_bytes(&shown, &bytes)
     };
     file.map_err(|wrong| wrong.to_string())
 }

@@ -108,9 +108,10 @@ impl Place {
                     let own = c.name.to_string();
                     own == integral || (state_of(&own).is_some() && c.name.base == integral)
                 };
-                match model.coordinates.iter().any(is_meant) {
-                    true => Place::Rate(integral),
-                    false => Place::Start(name),
+                if model.coordinates.iter().any(is_meant) {
+                    Place::Rate(integral)
+                } else {
+                    Place::Start(name)
                 }
             }
             (_, Some(name)) => Place::Rate(name),
@@ -393,19 +394,18 @@ impl Sweep {
             .places
             .iter()
             .any(|place| matches!(place, Place::Set(_)));
-        let refuses = match sets || !self.plan.set.is_empty() {
-            true => {
-                let (mut sources, mut report) = (Sources::new(), Report::new());
-                model(
-                    &self.plan,
-                    &self.constants,
-                    &dag,
-                    &[],
-                    &mut sources,
-                    &mut report,
-                )
-            }
-            false => None,
+        let refuses = if sets || !self.plan.set.is_empty() {
+            let (mut sources, mut report) = (Sources::new(), Report::new());
+            model(
+                &self.plan,
+                &self.constants,
+                &dag,
+                &[],
+                &mut sources,
+                &mut report,
+            )
+        } else {
+            None
         };
         let mut chunk = Chunk {
             rows: self.empty(),
@@ -417,9 +417,10 @@ impl Sweep {
             if stop.load(Ordering::Relaxed) {
                 return None;
             }
-            let group = match self.may_run_in_lanes() {
-                true => self.group,
-                false => 1,
+            let group = if self.may_run_in_lanes() {
+                self.group
+            } else {
+                1
             };
             let last = numbers.end.min(numbers.start.saturating_add(group));
             let runs: Vec<(u64, Vec<f64>)> = (numbers.start..last)
@@ -573,9 +574,10 @@ impl Sweep {
             .energy_balance(true)
             .forget_steps();
         let asks_for_power = (plan.reduce.iter()).any(|of| of.function == Function::Power);
-        let simulation = match asks_for_power && plan.after.is_some() {
-            true => simulation,
-            false => simulation.forget_energies(),
+        let simulation = if asks_for_power && plan.after.is_some() {
+            simulation
+        } else {
+            simulation.forget_energies()
         };
         let mut simulation = self.signals.drive(simulation, machine);
         if let Some(keep) = &plan.keep {
@@ -592,16 +594,18 @@ impl Sweep {
                     let (q, v, u) = (&seen.q.values, &seen.v.values, &seen.inputs.values);
                     system.output(output, seen.t, q, v, &[], u)
                 };
-                simulation = match watch.ends {
-                    true => simulation.until_event_on(&watch.name, Crossing::Any, seen),
-                    false => simulation.event_on(&watch.name, Crossing::Any, seen),
+                simulation = if watch.ends {
+                    simulation.until_event_on(&watch.name, Crossing::Any, seen)
+                } else {
+                    simulation.event_on(&watch.name, Crossing::Any, seen)
                 };
                 continue;
             }
             let function = move |state: &State<Named>| function(output, state);
-            simulation = match watch.ends {
-                true => simulation.until_event(&watch.name, Crossing::Any, function),
-                false => simulation.event(&watch.name, Crossing::Any, function),
+            simulation = if watch.ends {
+                simulation.until_event(&watch.name, Crossing::Any, function)
+            } else {
+                simulation.event(&watch.name, Crossing::Any, function)
             };
         }
         let looks = self

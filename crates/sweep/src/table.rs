@@ -100,9 +100,10 @@ pub(crate) fn csv_lines(rows: &Rows, to: &mut dyn Write) -> io::Result<()> {
 
 /// A text as it stands in comma-separated text (RFC 4180).
 fn quoted(text: &str) -> String {
-    match text.contains([',', '"', '\n', '\r']) {
-        true => format!("\"{}\"", text.replace('"', "\"\"")),
-        false => text.to_owned(),
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
     }
 }
 

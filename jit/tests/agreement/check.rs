@@ -46,9 +46,10 @@ impl Numbers {
             1e22,
             std::f64::consts::FRAC_PI_2,
         ];
-        match is_wild && self.below(3) == 0 {
-            true => WILD[self.below(WILD.len())],
-            false => self.small(),
+        if is_wild && self.below(3) == 0 {
+            WILD[self.below(WILD.len())]
+        } else {
+            self.small()
         }
     }
 }
@@ -93,14 +94,15 @@ fn interpret(interpreter: &mut Interpreter<f64>, role: Role, len: usize, state: 
     }
     let arguments = arguments(state);
     let mut results = vec![0.0; len];
-    let called = match role.is_fast() {
-        true => f64::run(Call {
+    let called = if role.is_fast() {
+        f64::run(Call {
             interpreter,
             role,
             arguments,
             results: &mut results,
-        }),
-        false => interpreter.call(role, arguments, &mut results),
+        })
+    } else {
+        interpreter.call(role, arguments, &mut results)
     };
     called.map(|()| results)
 }
@@ -273,9 +275,10 @@ fn in_lanes<const N: usize>(
                         "{level:?}, {}, {N} lanes, shared {is_shared}, states {group}, lane {lane}",
                         role.name()
                     );
-                    let interpreter = match is_shared {
-                        true => &mut *interpreter,
-                        false => &mut others[lane],
+                    let interpreter = if is_shared {
+                        &mut *interpreter
+                    } else {
+                        &mut others[lane]
                     };
                     let expected = interpret(interpreter, role, len, state);
                     let own: Vec<f64> = results.iter().map(|lanes| lanes[lane]).collect();

@@ -95,16 +95,17 @@ fn function(
     // Of the last half, so that much depends on each other.
     let mut any = |from: usize| Value((from + numbers.below(count - from)) as u32);
     let results: Vec<Value> = (0..5).map(|_| any(count / 2)).collect();
-    let guards = match role.inverts() {
-        true => (0..3)
+    let guards = if role.inverts() {
+        (0..3)
             .map(|coordinate| Guard {
                 pivot: any(0),
                 scale: any(0),
                 tolerance: 1e-3,
                 coordinate,
             })
-            .collect(),
-        false => Vec::new(),
+            .collect()
+    } else {
+        Vec::new()
     };
     Function {
         role,

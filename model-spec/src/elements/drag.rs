@@ -104,9 +104,10 @@ fn speed<'d>(resolver: &Resolver<'_, 'd, '_>, velocity: &[Expr<'d>]) -> Expr<'d>
     let is_all = velocity.iter().zip(&slopes).all(|(&w, &slope)| {
         slope.stage() < stage::VELOCITY && identity::equal(w, slope * rate) == Some(true)
     });
-    match is_all {
-        true => rate.abs() * resolver.distance(&slopes),
-        false => whole(),
+    if is_all {
+        rate.abs() * resolver.distance(&slopes)
+    } else {
+        whole()
     }
 }
 

@@ -46,9 +46,10 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     let is_surface = resolver.space == Space::Space
         && record.get("direction").is_none()
         && record.get("normal").is_some();
-    let direction = match is_surface {
-        true => None,
-        false => resolver.field(member, record, "direction"),
+    let direction = if is_surface {
+        None
+    } else {
+        resolver.field(member, record, "direction")
     };
     let friction = resolver.field(member, record, "friction");
     let body = body.and_then(|body| resolver.body_at(member, body));

@@ -153,12 +153,11 @@ fn touching<'d>(
     let square = resolver.dag.sum(across.iter().map(|c| c.square()));
     // Where it always touches, |s| is h/r: no root, and no question of its sign.
     let touches = identity::equal(height.square(), radius.square() * square) == Some(true);
-    let (gap, length) = match touches {
-        true => (None, height / radius),
-        false => {
-            let length = resolver.distance(&across);
-            (Some(height - radius * length), length)
-        }
+    let (gap, length) = if touches {
+        (None, height / radius)
+    } else {
+        let length = resolver.distance(&across);
+        (Some(height - radius * length), length)
     };
     let lever = across.iter().map(|&s| -radius * s / length).collect();
     (gap, lever)

@@ -186,9 +186,10 @@ impl<'d> Model<'d> {
         broken
             .map(|(place, code, message)| {
                 let diagnostic = Diagnostic::new(code, self.bounds[place].said, message);
-                match self.bounds[place].kind.may_be_meant() {
-                    true => diagnostic.help(MEANT),
-                    false => diagnostic,
+                if self.bounds[place].kind.may_be_meant() {
+                    diagnostic.help(MEANT)
+                } else {
+                    diagnostic
                 }
             })
             .collect()

@@ -187,9 +187,10 @@ fn with_circle<'d>(
     let (r, big) = (first.radius, other.radius);
     let sign = if is_inside { 1 } else { -1 };
     Contact {
-        gap: match is_inside {
-            true => big - r - distance,
-            false => distance - r - big,
+        gap: if is_inside {
+            big - r - distance
+        } else {
+            distance - r - big
         },
         slip: sweep / distance + r * omega * sign - big * omega_of_other,
     }

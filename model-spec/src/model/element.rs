@@ -290,9 +290,10 @@ impl Sliding<'_> {
     /// The name in the spec.
     pub fn said(&self) -> String {
         let name = self.name.to_string();
-        match self.is_second() {
-            true => name.trim_end_matches(ACROSS).to_owned(),
-            false => name,
+        if self.is_second() {
+            name.trim_end_matches(ACROSS).to_owned()
+        } else {
+            name
         }
     }
 }

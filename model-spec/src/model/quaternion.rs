@@ -183,9 +183,10 @@ pub(crate) fn inertia<'d>(model: &Model<'d>, e: &[Expr<'d>; 4]) -> Expr<'d> {
         }
     }
     let known = dag.sum(terms) * 4 / 3;
-    match known.is_zero() {
+    if known.is_zero() {
         // Of particles whose places nobody says along frames: one that they have in a metre.
-        true => dag.sum(model.bodies.iter().map(|body| body.mass)) * dag.int(1),
-        false => known,
+        dag.sum(model.bodies.iter().map(|body| body.mass)) * dag.int(1)
+    } else {
+        known
     }
 }

@@ -122,9 +122,10 @@ fn with_sphere<'d>(
     let slip: Vec<Expr<'d>> = velocity.iter().zip(&turned).map(|(&v, &t)| v + t).collect();
     let normal: Vec<Expr<'d>> = direction.iter().map(|&e| -e * sign).collect();
     Contact {
-        gap: match is_inside {
-            true => big - r - distance,
-            false => distance - r - big,
+        gap: if is_inside {
+            big - r - distance
+        } else {
+            distance - r - big
         },
         slip: tangents(&normal).map(|tangent| dot(&tangent, &slip)),
     }

@@ -121,9 +121,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             docs: self.docs(member),
             unit,
             unit_text: self.unit_text(member, unit),
-            value: match measure.is_si() {
-                true => scalar.expr,
-                false => measure.of_si(self.dag) * scalar.expr,
+            value: if measure.is_si() {
+                scalar.expr
+            } else {
+                measure.of_si(self.dag) * scalar.expr
             },
             span,
         })

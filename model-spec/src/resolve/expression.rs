@@ -453,9 +453,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                     let mut found = namespaces.into_iter();
                     found.any(|namespace| self.find_group(namespace, word).is_some())
                 };
-                match is_taken || self.incomplete || is_declared() {
-                    true => None,
-                    false => Measure::named(word),
+                if is_taken || self.incomplete || is_declared() {
+                    None
+                } else {
+                    Measure::named(word)
                 }
             }
             ExpressionKind::Power(base, exponent) => {
@@ -504,9 +505,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         // The name that ended them, where a unit is called so too.
         let mut hides = None;
         for (place, factor) in factors.iter().enumerate() {
-            let measure = match measured && place > 0 {
-                true => self.unit_factor(&factor.value, scope),
-                false => None,
+            let measure = if measured && place > 0 {
+                self.unit_factor(&factor.value, scope)
+            } else {
+                None
             };
             if let (Some(declared), Some(name)) = (hides, first_name(&factor.value))
                 && measure.is_none()
@@ -1186,13 +1188,10 @@ fn with_factors(why: &str, found: Unit, expected: Unit) -> String {
     if let Some(help) = about_turns(found, expected) {
         return help;
     }
-    match found.to_string() == "1" {
-        true => {
-            format!(
-                "{why}; a bare number as a factor has none: declare it, `constants {{ l: m = 2 }}`"
-            )
-        }
-        false => why.to_owned(),
+    if found.to_string() == "1" {
+        format!("{why}; a bare number as a factor has none: declare it, `constants {{ l: m = 2 }}`")
+    } else {
+        why.to_owned()
     }
 }
 

@@ -231,9 +231,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         };
         let body = self.turning_body(member, on)?;
         let has_frame = self.record(body)?.field("frame").is_some();
-        match has_frame {
-            true => self.frame_of_body(body, on.span).map(Place::Frame),
-            false => Some(place),
+        if has_frame {
+            self.frame_of_body(body, on.span).map(Place::Frame)
+        } else {
+            Some(place)
         }
     }
 

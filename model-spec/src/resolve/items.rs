@@ -350,10 +350,11 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             mass: mass?,
             inertia: inertia?,
             at: at.components,
-            local: match self.guides.is_empty() {
-                true => at.local.map(|(pose, point)| Local { pose, point }),
+            local: if self.guides.is_empty() {
+                at.local.map(|(pose, point)| Local { pose, point })
+            } else {
                 // A guide that is relaxed moves origins of frames, and no step from frame to frame says so.
-                false => None,
+                None
             },
             rotation: rotation?,
             outline: outline?,

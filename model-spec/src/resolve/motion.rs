@@ -47,15 +47,14 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         scope: Scope<'a>,
     ) -> Value<'d> {
         let is_spin = link.name.text == "spin";
-        let point = match is_spin {
-            true => {
-                self.no_arguments(link);
-                None
-            }
-            false => match self.point_of_link(link, scope) {
+        let point = if is_spin {
+            self.no_arguments(link);
+            None
+        } else {
+            match self.point_of_link(link, scope) {
                 Some(point) => Some(point),
                 None => return Value::Unknown,
-            },
+            }
         };
         let record = self.record(body);
         let angle = match record.and_then(|record| self.rotation(body, record)) {

@@ -528,9 +528,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             _ => return,
         };
         let is_state = section == SectionKind::States;
-        let name = match is_state {
-            true => self.name(member).integral().to_string(),
-            false => self.name(member).to_string(),
+        let name = if is_state {
+            self.name(member).integral().to_string()
+        } else {
+            self.name(member).to_string()
         };
         let mut symbols = [self.symbol(&name, stage); 3];
         if is_state || section == SectionKind::Coordinates {
@@ -551,9 +552,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             // formulas are in SI units.
             let is_si = measure.is_si() || is_state || section == SectionKind::Coordinates;
             member.value = Value::Scalar(Scalar {
-                expr: match is_si {
-                    true => symbols[usize::from(is_state)],
-                    false => measure.in_si(dag) * symbols[0],
+                expr: if is_si {
+                    symbols[usize::from(is_state)]
+                } else {
+                    measure.in_si(dag) * symbols[0]
                 },
                 unit: Some(measure.unit),
                 number: None,
@@ -751,9 +753,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             .iter()
             .filter(|group| namespaces.contains(&group.namespace))
             .map(|group| group.base);
-        let habit = match namespaces.contains(&Namespace::Values) {
-            true => self.habit(&name.text),
-            false => None,
+        let habit = if namespaces.contains(&Namespace::Values) {
+            self.habit(&name.text)
+        } else {
+            None
         };
         let help = match elsewhere {
             _ if self.report.omitted() > 0 => None, // nobody will see it
@@ -898,9 +901,10 @@ pub(super) fn declared_measure(quantity: &Quantity) -> Option<Measure> {
     let mut measure = Measure::ONE;
     for factor in &quantity.unit.as_ref()?.factors {
         let named = Measure::named(&factor.name.text)?;
-        let power = match factor.halved {
-            true => named.half_power(factor.power)?,
-            false => named.power(factor.power)?,
+        let power = if factor.halved {
+            named.half_power(factor.power)?
+        } else {
+            named.power(factor.power)?
         };
         measure = measure.times(&power)?;
     }

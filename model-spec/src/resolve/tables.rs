@@ -238,9 +238,10 @@ fn measure(unit: &str) -> Option<Measure> {
     });
     let [unit, zero] = &texts;
     let said = Quantity::parse([(unit.0, &unit.1), (zero.0, &zero.1)], &mut report);
-    match report.has_errors() {
-        true => None,
-        false => declared_measure(&said),
+    if report.has_errors() {
+        None
+    } else {
+        declared_measure(&said)
     }
 }
 
@@ -265,14 +266,13 @@ fn cubics(x: &[Rational], y: &[Rational]) -> Option<Vec<[Rational; 3]>> {
     for k in 1..=last {
         let ([h0, h1], [s0, s1]) = ([&widths[k - 1], &widths[k]], [&slopes[k - 1], &slopes[k]]);
         let agree = !(s0 * s1).is_negative() && !s0.is_zero() && !s1.is_zero();
-        tangents.push(match agree {
-            false => Rational::ZERO,
-            true => {
-                // The harmonic mean, weighted by the lengths of both sides.
-                let (w0, w1) = (&(&two * h1) + h0, &(&two * h0) + h1);
-                let over = &w0.checked_div(s0)? + &w1.checked_div(s1)?;
-                (&w0 + &w1).checked_div(&over)?
-            }
+        tangents.push(if agree {
+            // The harmonic mean, weighted by the lengths of both sides.
+            let (w0, w1) = (&(&two * h1) + h0, &(&two * h0) + h1);
+            let over = &w0.checked_div(s0)? + &w1.checked_div(s1)?;
+            (&w0 + &w1).checked_div(&over)?
+        } else {
+            Rational::ZERO
         });
     }
     tangents.push(match last {

@@ -120,9 +120,12 @@ fn hanging<'d>(model: &Model<'d>) -> Option<(crate::source::Span, String)> {
             let slope = height.diff(symbol);
             let curvature = slope.diff(symbol);
             let stationary = (0..4).all(|point| {
-                let value = |other| match other == symbol {
-                    true => 0.0,
-                    false => identity::number(point, other),
+                let value = |other| {
+                    if other == symbol {
+                        0.0
+                    } else {
+                        identity::number(point, other)
+                    }
                 };
                 let values = evaluate(model.dag, &[slope, curvature], value);
                 values[0].abs() <= 1e-12 * values[1].abs()

@@ -117,9 +117,10 @@ impl Parser<'_> {
             let Some(name) = self.ident("a name") else {
                 break;
             };
-            let arguments = match self.is_open(Delimiter::Parenthesis) {
-                true => self.arguments(),
-                false => None,
+            let arguments = if self.is_open(Delimiter::Parenthesis) {
+                self.arguments()
+            } else {
+                None
             };
             let span = name.span.to(self.before());
             links.push(Link {

@@ -188,14 +188,16 @@ impl Parser<'_> {
             } else {
                 parser.declared(&format!("the name of {}", kind.item()))?
             };
-            let word = match is_rate {
-                true => format!("der({})", name.base.text),
-                false => name.base.text.clone(),
+            let word = if is_rate {
+                format!("der({})", name.base.text)
+            } else {
+                name.base.text.clone()
             };
             let content = parser.quantity(kind, &word, name.span, is_rate);
-            let items = match is_rate {
-                true => &mut spec.rates,
-                false => &mut spec.coordinates,
+            let items = if is_rate {
+                &mut spec.rates
+            } else {
+                &mut spec.coordinates
             };
             items.push(Item {
                 docs,
@@ -215,9 +217,10 @@ impl Parser<'_> {
             let is_rate = parser.begins_rate();
             let (name, content) = if is_rate {
                 let name = parser.rate_of()?;
-                let unit = match parser.eat_mark(':') {
-                    true => parser.unit(),
-                    false => None,
+                let unit = if parser.eat_mark(':') {
+                    parser.unit()
+                } else {
+                    None
                 };
                 parser.expect_equals();
                 let value = Some(parser.expression());
@@ -227,9 +230,10 @@ impl Parser<'_> {
                 let content = parser.quantity(kind, &name.base.text, name.span, false);
                 (name, content)
             };
-            let items = match is_rate {
-                true => &mut spec.state_rates,
-                false => &mut spec.states,
+            let items = if is_rate {
+                &mut spec.state_rates
+            } else {
+                &mut spec.states
             };
             items.push(Item {
                 docs,
@@ -277,11 +281,10 @@ impl Parser<'_> {
             let message = format!("`{word}` has no unit");
             let missing = Diagnostic::new(Code::MissingUnit, name, message);
             let is_rate = kind == SectionKind::Coordinates && needs_value;
-            self.complain(missing.help(match is_rate {
-                true => format!("write `{word}: m/s`, or the unit of its coordinate over `s`"),
-                false => format!(
-                    "write `{word}: m`, or whatever its unit is; a pure number is `{word}: 1`"
-                ),
+            self.complain(missing.help(if is_rate {
+                format!("write `{word}: m/s`, or the unit of its coordinate over `s`")
+            } else {
+                format!("write `{word}: m`, or whatever its unit is; a pure number is `{word}: 1`")
             }));
         }
         let value = if has_value {
@@ -514,9 +517,10 @@ impl Parser<'_> {
             let help = "write two facts: `0 < s, s < l`".to_owned();
             self.unexpected_because("`,`", Some(help));
         }
-        let range = match self.eat_word("for") {
-            true => self.range(),
-            false => None,
+        let range = if self.eat_word("for") {
+            self.range()
+        } else {
+            None
         };
         let span = left.span.to(self.before());
         Some(Relation {

@@ -68,9 +68,10 @@ impl Parser<'_> {
             ..Spec::default()
         };
         if self.is_word("in") || self.is_word("extends") {
-            let help = match self.is_word("in") {
-                true => "write `machine Name in plane { … }`",
-                false => "give it a name: `machine Name extends \"base.machine\" { … }`",
+            let help = if self.is_word("in") {
+                "write `machine Name in plane { … }`"
+            } else {
+                "give it a name: `machine Name extends \"base.machine\" { … }`"
             };
             self.unexpected_because("the name of the machine", Some(help.to_owned()));
             self.failed = false;
@@ -285,9 +286,10 @@ impl Parser<'_> {
             self.unexpected_because("a vector", Some(help.to_owned()));
             return;
         }
-        let value = match self.eat_word("none") {
-            true => None,
-            false => Some(self.expression()),
+        let value = if self.eat_word("none") {
+            None
+        } else {
+            Some(self.expression())
         };
         let span = heading.to(self.before());
         match spec.statement(section.word) {

@@ -486,9 +486,10 @@ fn doc_lines(text: &str) -> Vec<String> {
         .filter(|line| !line.trim().is_empty())
         .all(|line| line.trim_start().starts_with('*'));
     let lines = text.lines().enumerate().map(|(number, line)| {
-        let line = match number > 0 && stars {
-            true => line.trim_start().trim_start_matches('*'),
-            false => line,
+        let line = if number > 0 && stars {
+            line.trim_start().trim_start_matches('*')
+        } else {
+            line
         };
         line.strip_prefix(' ').unwrap_or(line).trim_end().to_owned()
     });

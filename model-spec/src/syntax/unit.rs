@@ -102,9 +102,10 @@ impl Parser<'_> {
     fn unit_exponent(&mut self) -> Option<(i32, bool)> {
         /// No mechanical quantity has a higher power of a unit.
         const HIGHEST: i32 = 12;
-        let brackets = match self.is_open(Delimiter::Parenthesis) {
-            true => self.enter(Delimiter::Parenthesis),
-            false => None,
+        let brackets = if self.is_open(Delimiter::Parenthesis) {
+            self.enter(Delimiter::Parenthesis)
+        } else {
+            None
         };
         let negative = self.eat_mark('-');
         let number = self.peek().filter(|word| word.kind == TokenKind::Number);
@@ -120,9 +121,10 @@ impl Parser<'_> {
         if let Some(group) = brackets {
             if power.is_some() && self.eat_mark('/') {
                 let two = self.peek().is_some_and(|word| word.text == "2");
-                match two {
-                    true => self.at += 1,
-                    false => self.unexpected("`2`: powers of units are whole or halves"),
+                if two {
+                    self.at += 1
+                } else {
+                    self.unexpected("`2`: powers of units are whole or halves")
                 }
                 halves = two;
             }
@@ -130,9 +132,10 @@ impl Parser<'_> {
         }
         // 4/2 is 2.
         let power = power.map(|power| if negative { -power } else { power })?;
-        Some(match halves && power % 2 == 0 {
-            true => (power / 2, false),
-            false => (power, halves),
+        Some(if halves && power % 2 == 0 {
+            (power / 2, false)
+        } else {
+            (power, halves)
         })
     }
 }

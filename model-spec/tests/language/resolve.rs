@@ -119,9 +119,10 @@ fn listed_mistakes() -> impl Iterator<Item = (&'static str, String, &'static str
         let mut parts = line.split(" |").map(str::trim);
         let mut part = || parts.next().unwrap_or_default();
         let (code, text, words) = (part(), part(), part());
-        let text = match text.starts_with("machine") {
-            true => text.to_owned(),
-            false => format!("machine Test extends \"base.machine\" {{ {text} }}"),
+        let text = if text.starts_with("machine") {
+            text.to_owned()
+        } else {
+            format!("machine Test extends \"base.machine\" {{ {text} }}")
         };
         (code, text, words)
     })

@@ -218,9 +218,10 @@ impl Touching {
         let [loading, unloading] = here.restitution(contact);
         match self.yielding[contact] {
             Some(own) if own.law == Compliance::Layer => {
-                let depth = match own.is_loaded {
-                    true => own.depth.max(here.depth(contact)[0]),
-                    false => own.depth,
+                let depth = if own.is_loaded {
+                    own.depth.max(here.depth(contact)[0])
+                } else {
+                    own.depth
                 };
                 0.5 * (1.0 - loading / unloading) * loading * depth * depth
             }
@@ -239,9 +240,10 @@ impl Touching {
         ContactEnergies {
             impact_loss,
             friction_loss: part.friction,
-            damping_loss: match self.is_layer(contact) {
-                true => 0.0,
-                false => part.yielding,
+            damping_loss: if self.is_layer(contact) {
+                0.0
+            } else {
+                part.yielding
             },
             crushing_work,
             work: part.work,

@@ -72,9 +72,10 @@ impl<V: Vector, M: Vector> Canonical<V, M> {
         system.bias(t, q, &canonical.rates, &mut canonical.ahead);
         let known = canonical.matrix.as_slice().iter();
         let mut known = known.chain(canonical.ahead.as_slice());
-        match known.all(|x| x.is_finite()) {
-            true => Ok(canonical),
-            false => unsuited(unknown),
+        if known.all(|x| x.is_finite()) {
+            Ok(canonical)
+        } else {
+            unsuited(unknown)
         }
     }
 
@@ -200,9 +201,10 @@ impl Rounds {
         if change == 0.0 || (is_close && change >= before) {
             return Some(true);
         }
-        match self.count < MOST_ROUNDS {
-            true => Some(false),
-            false => is_close.then_some(true),
+        if self.count < MOST_ROUNDS {
+            Some(false)
+        } else {
+            is_close.then_some(true)
         }
     }
 }

@@ -45,15 +45,12 @@ impl Helix {
         let (a, b) = (self.sin, self.mu * self.cos);
         let u = (self.curvature() * speed * speed / (G * self.cos)).asinh();
         let half = (0.5 * u).tanh();
-        let inner = match a > b {
-            true => {
-                let root = ((a - b) * (a + b)).sqrt();
-                2.0 / root * (half * ((a + b) / (a - b)).sqrt()).atanh()
-            }
-            false => {
-                let root = ((b - a) * (b + a)).sqrt();
-                -2.0 / root * (half * ((b + a) / (b - a)).sqrt()).atan()
-            }
+        let inner = if a > b {
+            let root = ((a - b) * (a + b)).sqrt();
+            2.0 / root * (half * ((a + b) / (a - b)).sqrt()).atanh()
+        } else {
+            let root = ((b - a) * (b + a)).sqrt();
+            -2.0 / root * (half * ((b + a) / (b - a)).sqrt()).atan()
         };
         self.cos / (2.0 * self.curvature()) * (a / b * inner - u / b)
     }
@@ -157,18 +154,15 @@ fn a_bead_on_a_hoop_that_is_turned_obeys_the_equations_typed_by_hand() {
             let (a, wire) = at(&machine, t, theta, rate).expect("it moves");
             let size = m * (G + r * rate * rate + omega * omega * r) + across.abs();
             assert_near(wire.normal, normal, 1e-13 * size);
-            let friction = match rate == 0.0 && pulls.abs() <= mu * normal {
-                true => {
-                    resting += 1;
-                    assert!(wire.sticks, "{theta}");
-                    -pulls
-                }
-                false => {
-                    sliding += 1;
-                    assert!(!wire.sticks, "{theta} {rate}");
-                    let way = if rate == 0.0 { pulls } else { rate };
-                    -mu * normal * way.signum()
-                }
+            let friction = if rate == 0.0 && pulls.abs() <= mu * normal {
+                resting += 1;
+                assert!(wire.sticks, "{theta}");
+                -pulls
+            } else {
+                sliding += 1;
+                assert!(!wire.sticks, "{theta} {rate}");
+                let way = if rate == 0.0 { pulls } else { rate };
+                -mu * normal * way.signum()
             };
             assert_near(wire.friction, friction, 1e-13 * size);
             assert_near(a, (pulls + friction) / (m * r), 1e-12 * size / (m * r));

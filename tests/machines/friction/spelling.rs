@@ -147,30 +147,31 @@ fn draw(random: &mut SplitMix, loose: f64) -> Drawn {
         let is_block = k >= carts;
         let angle = digits(random, -0.6, 0.6);
         names.push(format!("x{k}"));
-        let mut way = match is_block {
-            true => bodies[0].way.clone(),
-            false => vec![
+        let mut way = if is_block {
+            bodies[0].way.clone()
+        } else {
+            vec![
                 Piece::Offset([0.0, 2.0 * k as f64]),
                 Piece::Shaken(
                     [digits(random, -0.2, 0.2), digits(random, -0.2, 0.2)],
                     digits(random, 1.0, 4.0),
                 ),
-            ],
+            ]
         };
         let base = way.len();
         way.push(Piece::Along(k, angle));
-        let on = match is_block {
-            true => "c0".to_owned(),
-            false => {
-                let by = sum(&way[..base], &names);
-                write!(frames, "rail{k} = ground.shift({by}),").expect("a string");
-                format!("rail{k}")
-            }
+        let on = if is_block {
+            "c0".to_owned()
+        } else {
+            let by = sum(&way[..base], &names);
+            write!(frames, "rail{k} = ground.shift({by}),").expect("a string");
+            format!("rail{k}")
         };
         let is_loose = random.unit() < loose;
-        let frame = match is_loose {
-            true => format!("ground.shift({})", sum(&way, &names)),
-            false => format!("{on}.shift({})", sum(&way[base..], &names)),
+        let frame = if is_loose {
+            format!("ground.shift({})", sum(&way, &names))
+        } else {
+            format!("{on}.shift({})", sum(&way[base..], &names))
         };
         write!(frames, "c{k} = {frame},").expect("a string");
         let mass = digits(random, 0.5, 3.0);

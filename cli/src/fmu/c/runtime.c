@@ -837,49 +837,49 @@ static double tryStep(Unit *unit, double h) {
 }
 
 /*
- * Events and facts within a step: where a formula changes its sign along the motion there. A formula is as smooth as the motion, so its
- * interpolant in Chebyshev's polynomials is as good as the formula, and the coefficients bound it: where the first is greater than the
- * sum of the others there is no zero, and where that is so of the derivative there is one at most. Where neither holds the interval is
- * halved. L. N. Trefethen, Approximation Theory and Approximation Practice, 2013, chapters 3, 8 and 18. A body that turns uniformly needs
- * no short steps, and formulas of its angle swing many times in one: such a step is cut into parts that an interpolant has.
+ * Events and facts within a step: where a formula changes its sign along the motion. A formula is as smooth as the motion, so its
+ * Chebyshev interpolant represents it to rounding, and the coefficients bound it: if the first is greater than the sum of the others there
+ * is no root, and if the same holds of the derivative there is at most one. Where neither holds the interval is bisected. L. N. Trefethen,
+ * Approximation Theory and Approximation Practice, 2013, chapters 3, 8 and 18. A body that turns uniformly takes long steps in which
+ * formulas of its angle oscillate many times: such a step is divided into parts that the interpolant resolves.
  */
 enum {
-    /* Degrees of interpolants: of the first how often a formula may change its sign is told, of the second only whether it is far from zero. */
+    /* Degrees of interpolants: the first counts sign changes, the second only decides whether the formula is far from zero. */
     COARSE = 4,
-    /* So often a formula is looked at at first: at the nodes of the first, and beside three of them. */
-    GLANCED = COARSE + 4,
+    /* The number of values for the first: at its nodes, and beside three of them. */
+    SAMPLES = COARSE + 4,
     MIDDLE = 8,
     FINE = 16,
     FINEST = 64,
-    /* So often an interval is halved whose formula no interpolant has: what has a kink there is looked at in all nodes. */
+    /* How many times an interval is bisected that no interpolant resolves. If there is a kink, all nodes are looked at in the end. */
     HALVINGS = 2,
-    /* So often an interval is halved, all in all, in which a formula swings too often. */
+    /* How many times in total an interval is bisected because the formula oscillates too fast. */
     HALVINGS_OF_SWINGS = 14,
-    /* So often a step is halved in which the coarse interpolant is neither far from zero nor monotone. */
-    HALVINGS_OF_GLANCE = 5
+    /* How many times a step is bisected in which the coarse interpolant is neither far from zero nor monotone. */
+    MOST_BISECTIONS = 5
 };
 
-/* An interpolant has all of a formula where its last coefficients are below this share of the greatest. */
+/* An interpolant resolves a formula if its last coefficients are below this fraction of the largest. */
 #define CONVERGED 1e-12
 
-/* Where the formula swings, below this: a formula of an angle of 1e5 rad is known to 1e-11. */
+/* The same for a formula that oscillates fast: one of an angle of 1e5 rad is only accurate to 1e-11. */
 #define CONVERGED_WITH_NOISE 1e-7
 
-/* A formula swings too often for an interpolant where a coefficient in the upper half is more than this share of the greatest. Of a jump it
-   is a fortieth, of a kink less. */
+/* A formula oscillates too fast for an interpolant if a coefficient in the upper half exceeds this fraction of the largest. For a jump the
+   fraction is a fortieth, for a kink it is smaller. */
 #define SWINGS 0.1
 
-/* So far from a node, as a share of the step, a formula is looked at beside it, which tells its slope there. */
+/* Distance of the three other places from their nodes, as a fraction of the step. They test the slopes of the interpolant. */
 #define BESIDE 0.01
 
-/* Beside nodes values may differ from the interpolant by this share of the greatest, for their rounding. What is so much greater than its
-   changes has no zero. */
+/* Allowance for rounding when values beside the nodes are compared with the interpolant, relative to the largest value. A formula that
+   varies by less than this fraction of its size has no root. */
 #define ROUNDING_OF_VALUES 1e-6
 
-/* In rad: what turns by more than that in a step may have come back to where it was between two nodes. */
+/* In rad: a coordinate that turns by more than this in a step may have returned to the same angle between two nodes. */
 #define FARTHEST_TURN 3.14159265358979323846
 
-/* Above this tolerance a step may be so long that a glance does not tell what the motion does within it. */
+/* Above this tolerance a step may be so long that a few values do not tell what the motion does within it. */
 #define LOOSEST 1e-3
 
 /* A search along the step that was tried, forward in time, for changes of the signs of what is watched. */
@@ -1040,9 +1040,9 @@ static void takeSign(Signs *signs, int sign) {
 }
 
 /*
- * Follows a polynomial of degree 4 about a middle to half a width on either side, where each value may be wrong by `beyond`; whether its
- * signs are known. Pieces that are far from zero have one, and in pieces next to each other that are monotone it changes once at most. The
- * derivative of what is beyond degree 4 is at most the sum of k^2 |c_k|: of a motion of 10 rad that is 5.5 times `beyond`.
+ * Follows a polynomial of degree 4 from `middle - width` to `middle + width`, each value of which may be wrong by `beyond`. Returns whether
+ * its signs are known: in a piece that is far from zero the sign is constant, and in adjacent monotone pieces it changes at most once. The
+ * derivative of the truncated terms is at most the sum of k^2 |c_k|, for a motion of 10 rad 5.5 times `beyond`.
  */
 static int followSigns(Signs *signs, const double *p, double middle, double width, double beyond, int halvings) {
     const double m = middle, r = width;
@@ -1060,20 +1060,21 @@ static int followSigns(Signs *signs, const double *p, double middle, double widt
            followSigns(signs, p, m + half, half, beyond, halvings - 1);
 }
 
-/* The fractions of a step at which a formula is looked at at first: at the nodes of degree 4, from the end, and beside three of them. */
-static double glancedAt(int place) {
+/* The fractions of a step for signChanges: the nodes of degree 4, from the end, and three places beside nodes. */
+static double sampleAt(int place) {
     static const double beside[] = {BESIDE, 0.5 + BESIDE, 1.0 - BESIDE};
     return place <= COARSE ? nodeOf(place, COARSE, 0.0, 1.0) : beside[place - COARSE - 1];
 }
 
 /*
- * How often a formula changes its sign within a step, by its values at these fractions; -1 where they do not tell, since it turns too
- * near to zero, or is not as smooth as a motion. What swings many times may seem to be smooth at the nodes, but seldom has the slopes there. What the interpolant leaves out, and what the polynomial of the motion is wrong by, is
- * bounded by how fast the coefficients fall: a motion of the frequency w has 2 J_k(z), where z = wh/2, which fall by z/10 and more behind
- * the last one, and its quintic is wrong by (wh)^2/15 of the last one; so eight times the last is enough up to wh = 10. The last may be 0 by
- * chance: of the one before it a sixteenth counts at least.
+ * The number of sign changes of a formula within a step, from its values at these fractions; -1 if they do not decide it, because the
+ * formula has an extreme too near to zero or is not as smooth as a motion. A formula that oscillates many times can look smooth at the
+ * nodes, but hardly ever has the slopes of the interpolant as well. The truncation error and the error of the quintic are bounded by the
+ * decay of the coefficients: a motion of frequency w has 2 J_k(z) with z = wh/2, which fall by z/10 or faster after the last one, and the
+ * error of its quintic is (wh)^2/15 times the last one; so eight times the last suffices up to wh = 10. The last may be 0 by chance, so at
+ * least a sixteenth of the one before it counts.
  */
-static int glance(const double *values) {
+static int signChanges(const double *values) {
     double c[COARSE + 1];
     interpolate(values, COARSE, c);
     const double falls = sizeOf(c[3]) / sizeOf(c[1]);
@@ -1082,13 +1083,13 @@ static int glance(const double *values) {
     const double beyond = 8.0 * (of_third > sizeOf(c[4]) ? of_third : sizeOf(c[4]));
     /* The interpolant in powers. */
     const double p[] = {c[0] - c[2] + c[4], c[1] - 3.0 * c[3], 2.0 * c[2] - 8.0 * c[4], 4.0 * c[3], 8.0 * c[4]};
-    const double differs = 5.5 * beyond * 2.0 * BESIDE + ROUNDING_OF_VALUES * greatestOf(values, 0, GLANCED - 1);
-    for (int place = COARSE + 1; place < GLANCED; ++place) {
-        const double x = 2.0 * glancedAt(place) - 1.0, expected = p[0] + x * (p[1] + x * (p[2] + x * (p[3] + x * p[4])));
+    const double differs = 5.5 * beyond * 2.0 * BESIDE + ROUNDING_OF_VALUES * greatestOf(values, 0, SAMPLES - 1);
+    for (int place = COARSE + 1; place < SAMPLES; ++place) {
+        const double x = 2.0 * sampleAt(place) - 1.0, expected = p[0] + x * (p[1] + x * (p[2] + x * (p[3] + x * p[4])));
         if (!(sizeOf(values[place] - expected) <= differs)) return -1;
     }
     Signs signs = {signOf(values[COARSE]), 0};
-    if (!followSigns(&signs, p, 0.0, 1.0, beyond, HALVINGS_OF_GLANCE)) return -1;
+    if (!followSigns(&signs, p, 0.0, 1.0, beyond, MOST_BISECTIONS)) return -1;
     takeSign(&signs, signOf(values[0]));
     return signs.changes;
 }
@@ -1265,7 +1266,7 @@ static void lookBetween(Search *search, double a, double b, int halvings, int ha
     lookBetween(search, middle, b, halvings - 1, halvings_of_swings, share);
 }
 
-/* Whether an angle turns so far in the step that was tried that a glance does not tell what its functions do. */
+/* Whether an angle turns so far in the step that was tried that a few values do not tell what its functions do. */
 static int turnsFar(const Unit *unit, double h) {
     for (int k = 0; k < ANGLES; ++k) {
         const int i = ANGLE[k];
@@ -1280,13 +1281,13 @@ static int turnsFar(const Unit *unit, double h) {
    wherever the motion within the step has a zero. 0 where an event's formula is no number at the end. */
 static int lookAlong(Unit *unit, double h, int *is_near) {
     State *now = &unit->now;
-    double seen[GLANCED][WATCHED + 1], values[GLANCED];
+    double seen[SAMPLES][WATCHED + 1], values[SAMPLES];
     int is_any_near = 0;
     memcpy(unit->end, unit->point, sizeof unit->end);
     const int is_of_method = END < STAGES, is_long = turnsFar(unit, h) || !(now->tolerance <= LOOSEST);
     if (is_of_method) curveOfMethod(unit, h);
     else curveThroughEnds(unit, h);
-    for (int place = 0; place < GLANCED; ++place) watchAlong(unit, h, glancedAt(place), seen[place]);
+    for (int place = 0; place < SAMPLES; ++place) watchAlong(unit, h, sampleAt(place), seen[place]);
     for (int k = 0; k < WATCHED; ++k) {
         const double start = seen[COARSE][k], end = seen[0][k];
         if (k < EVENTS && end != end) {
@@ -1296,8 +1297,8 @@ static int lookAlong(Unit *unit, double h, int *is_near) {
         /* A step that ended behind a change was moved back before it, by what holds the constraints: that is none. */
         const int side = sideOf(unit, k), is_before = k < EVENTS ? side * start < 0.0 : (side > 0) != holds(k - EVENTS, start);
         if (is_before && 2.0 * sizeOf(start) > now->leave[k]) now->leave[k] = 2.0 * sizeOf(start);
-        for (int place = 0; place < GLANCED; ++place) values[place] = seen[place][k];
-        const int changes = is_long ? -1 : glance(values);
+        for (int place = 0; place < SAMPLES; ++place) values[place] = seen[place][k];
+        const int changes = is_long ? -1 : signChanges(values);
         is_near[k] = !(side && isBehind(k, side, start) && changes == !isBehind(k, side, end));
         is_any_near |= is_near[k];
     }

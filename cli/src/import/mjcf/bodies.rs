@@ -139,9 +139,10 @@ impl<'e> Reader<'_, '_, 'e> {
                 let place = self.numbers::<3>(item, "pos").unwrap_or_default();
                 let is_there = last == Vector3::zeros();
                 let here = Vector3::from(place.each_ref().map(|number| number.value));
-                let step = match is_there {
-                    true => place,
-                    false => (here - last).map(Number::computed).into(),
+                let step = if is_there {
+                    place
+                } else {
+                    (here - last).map(Number::computed).into()
                 };
                 // Behind the turns of the body's frame.
                 let step = Pose {
@@ -160,19 +161,18 @@ impl<'e> Reader<'_, '_, 'e> {
             joint.turns = std::mem::take(&mut turns);
             joint.shown = shown.clone();
             let is_last = number + 1 == joints.len() && last == Vector3::zeros();
-            above = match is_last {
-                true => link.name.clone(),
-                false => {
-                    // No name of a file has a line's end in it.
-                    let between = format!("{}\n{number}", link.name);
-                    self.robot.links.push(Link {
-                        name: between.clone(),
-                        is_between: true,
-                        at,
-                        ..Link::default()
-                    });
-                    between
-                }
+            above = if is_last {
+                link.name.clone()
+            } else {
+                // No name of a file has a line's end in it.
+                let between = format!("{}\n{number}", link.name);
+                self.robot.links.push(Link {
+                    name: between.clone(),
+                    is_between: true,
+                    at,
+                    ..Link::default()
+                });
+                between
             };
             joint.child.clone_from(&above);
             held.push(joint);
@@ -184,9 +184,10 @@ impl<'e> Reader<'_, '_, 'e> {
                 parent: above,
                 child: link.name.clone(),
                 shown,
-                xyz: match joints.is_empty() {
-                    true => shift,
-                    false => (-last).map(Number::computed).into(),
+                xyz: if joints.is_empty() {
+                    shift
+                } else {
+                    (-last).map(Number::computed).into()
                 },
                 turns,
                 at,
@@ -293,21 +294,20 @@ impl<'e> Reader<'_, '_, 'e> {
         joint.free_at = value(self, "springref");
         if let Some(axis) = self.numbers::<3>(item, "axis") {
             let axis = Vector3::from(axis.map(|number| number.value));
-            match axis.amax() > 0.0 {
-                true => joint.axis = unit(&axis),
-                false => {
-                    let message =
-                        format!("the axis of {} has no direction: three zeros", item.owner);
-                    self.faults.add(element.at, message);
-                }
+            if axis.amax() > 0.0 {
+                joint.axis = unit(&axis)
+            } else {
+                let message = format!("the axis of {} has no direction: three zeros", item.owner);
+                self.faults.add(element.at, message);
             }
         }
         if self.is_limited(item, "limited", "range")
             && let Some(range) = self.numbers::<2>(item, "range")
         {
-            joint.range = Some(match is_angle {
-                true => range.map(|bound| self.radians(bound)),
-                false => range,
+            joint.range = Some(if is_angle {
+                range.map(|bound| self.radians(bound))
+            } else {
+                range
             });
         }
         if self.is_limited(item, "actuatorfrclimited", "actuatorfrcrange") {
@@ -622,9 +622,10 @@ impl<'e> Reader<'_, '_, 'e> {
             );
             self.faults.add(element.at, message);
         }
-        let source = match turns.is_empty() || !has_tensor {
-            true => "",
-            false => "; the file gives it in axes that are turned",
+        let source = if turns.is_empty() || !has_tensor {
+            ""
+        } else {
+            "; the file gives it in axes that are turned"
         };
         (!mass.is_zero()).then_some(Inertial {
             mass,
@@ -648,9 +649,10 @@ impl<'e> Reader<'_, '_, 'e> {
         for inertial in &mut weights {
             inertial.mass = scaled(&inertial.mass);
             inertial.tensor = inertial.tensor.each_ref().map(scaled);
-            inertial.source = match inertial.source.contains("geoms") {
-                true => "; from its geoms, scaled to the total mass of the file",
-                false => "; scaled to the total mass of the file",
+            inertial.source = if inertial.source.contains("geoms") {
+                "; from its geoms, scaled to the total mass of the file"
+            } else {
+                "; scaled to the total mass of the file"
             };
         }
     }

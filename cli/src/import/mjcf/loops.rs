@@ -67,9 +67,10 @@ impl<'e> Reader<'_, '_, 'e> {
         self.only(
             element,
             &item.owner,
-            match is_weld {
-                true => "equality.weld",
-                false => "equality.connect",
+            if is_weld {
+                "equality.weld"
+            } else {
+                "equality.connect"
             },
         );
         if self.flag(&item, "active") == Some(false) {
@@ -84,9 +85,10 @@ impl<'e> Reader<'_, '_, 'e> {
                 return self.refuse(said.at, kind, &message);
             }
         }
-        let needed = match is_weld {
-            true => &["body1"][..],
-            false => &["body1", "anchor"],
+        let needed = if is_weld {
+            &["body1"][..]
+        } else {
+            &["body1", "anchor"]
         };
         for name in needed {
             if self.said(&item, name).is_none() {
@@ -106,30 +108,30 @@ impl<'e> Reader<'_, '_, 'e> {
         };
         let size = place.amax() + one.1.origin.amax() + other.1.origin.amax();
         let numbers = |place: Vector3<f64>| -> [Number; 3] {
-            let clean = |x: f64| match x.abs() <= ROUNDING * size {
-                true => Number::zero(),
-                false => Number::computed(x),
+            let clean = |x: f64| {
+                if x.abs() <= ROUNDING * size {
+                    Number::zero()
+                } else {
+                    Number::computed(x)
+                }
             };
             place.map(clean).into()
         };
-        let (anchors, axes) = match is_weld {
-            false => {
-                let there = between.axes.transpose() * (place - between.origin);
-                ([anchor, numbers(there)], None)
-            }
-            true => {
-                let mut axes = between.axes;
-                let mut there = between.origin + between.axes * place;
-                if let Some(pose) = self.numbers::<7>(&item, "relpose") {
-                    let [x, y, z, turn @ ..] = pose.map(|number| number.value);
-                    // Its place is that of the anchor.
-                    if turn.iter().any(|x| *x != 0.0) {
-                        axes = of_quaternion(turn);
-                        there = Vector3::new(x, y, z);
-                    }
+        let (anchors, axes) = if is_weld {
+            let mut axes = between.axes;
+            let mut there = between.origin + between.axes * place;
+            if let Some(pose) = self.numbers::<7>(&item, "relpose") {
+                let [x, y, z, turn @ ..] = pose.map(|number| number.value);
+                // Its place is that of the anchor.
+                if turn.iter().any(|x| *x != 0.0) {
+                    axes = of_quaternion(turn);
+                    there = Vector3::new(x, y, z);
                 }
-                ([numbers(there), anchor], Some(axes))
             }
+            ([numbers(there), anchor], Some(axes))
+        } else {
+            let there = between.axes.transpose() * (place - between.origin);
+            ([anchor, numbers(there)], None)
         };
         let [first, second] = anchors;
         self.robot.ties.push(Tie {

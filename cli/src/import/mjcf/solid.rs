@@ -121,9 +121,12 @@ impl Solid {
 
 fn cleaned(tensor: Matrix3<f64>) -> Matrix3<f64> {
     let largest = tensor.amax();
-    tensor.map(|entry| match entry.abs() <= ROUNDING * largest {
-        true => 0.0,
-        false => entry,
+    tensor.map(|entry| {
+        if entry.abs() <= ROUNDING * largest {
+            0.0
+        } else {
+            entry
+        }
     })
 }
 

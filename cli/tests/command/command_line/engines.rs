@@ -39,9 +39,10 @@ fn every_engine_prints_the_same() {
         "brachistochrone machines/prisms.machine --json",
     ] {
         let words: Vec<&str> = call.split(' ').collect();
-        let engines: &[&[&str]] = match has_machine_code() {
-            true => &[&["--engine", "auto"], &["--engine", "jit"], &[]],
-            false => &[&["--engine", "auto"], &[]],
+        let engines: &[&[&str]] = if has_machine_code() {
+            &[&["--engine", "auto"], &["--engine", "jit"], &[]]
+        } else {
+            &[&["--engine", "auto"], &[]]
         };
         let expected = printed(&words, &["--engine", "interpreter"]);
         for engine in engines {
@@ -56,11 +57,10 @@ fn an_engine_that_is_not_there_is_an_error_of_the_call() {
     let unknown = lagrangian(&[&call[..], &["rustc"]].concat());
     assert_eq!(status(&unknown), 2, "{}", err(&unknown));
     let forced = lagrangian(&[&call[..], &["jit"]].concat());
-    match has_machine_code() {
-        true => assert_eq!(status(&forced), 0, "{}", err(&forced)),
-        false => {
-            assert_eq!(status(&forced), 2, "{}", err(&forced));
-            assert!(err(&forced).contains("--engine jit"), "{}", err(&forced));
-        }
+    if has_machine_code() {
+        assert_eq!(status(&forced), 0, "{}", err(&forced))
+    } else {
+        assert_eq!(status(&forced), 2, "{}", err(&forced));
+        assert!(err(&forced).contains("--engine jit"), "{}", err(&forced));
     }
 }

@@ -371,17 +371,16 @@ fn what_is_killed_leaves_the_older_file() {
         child.kill().expect("a process"); // SIGKILL
         let status = child.wait().expect("a process");
         let now = folder.read("a.csv");
-        match status.success() {
+        if status.success() {
             // It was done before.
-            true => assert!(is_whole(&now, rows + 1), "{}", now.len()),
-            false => {
-                assert!(
-                    now == "older\n" || is_whole(&now, rows + 1),
-                    "{}",
-                    now.len()
-                );
-                killed += usize::from(now == "older\n");
-            }
+            assert!(is_whole(&now, rows + 1), "{}", now.len())
+        } else {
+            assert!(
+                now == "older\n" || is_whole(&now, rows + 1),
+                "{}",
+                now.len()
+            );
+            killed += usize::from(now == "older\n");
         }
         for name in folder.names().iter().filter(|name| is_partial(name)) {
             fs::remove_file(folder.path(name)).expect("a file");

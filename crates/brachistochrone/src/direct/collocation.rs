@@ -252,9 +252,10 @@ impl Path {
             };
         }
         for k in zero + 1..=last {
-            lambdas[k] = match k == last {
-                true => 1.0 / states[k].force,
-                false => beside(k - 1, k, lambdas[k - 1]),
+            lambdas[k] = if k == last {
+                1.0 / states[k].force
+            } else {
+                beside(k - 1, k, lambdas[k - 1])
             };
         }
         let mut found: Vec<Stage> = Vec::new();

@@ -165,9 +165,10 @@ impl<'a, T: Terrain> Descent<'a, T> {
         };
         // The rate from the energy, whose root has no slope at rest.
         let square = |energy: N| two * energy / mass.value;
-        let first = match rests {
-            true => N::ZERO,
-            false => square(kinetic).sqrt(),
+        let first = if rests {
+            N::ZERO
+        } else {
+            square(kinetic).sqrt()
         };
         let half_way = kinetic - half * against(first * first, first);
         let between = square(half_way);

@@ -20,17 +20,19 @@ impl<T: Terrain> Terrain for Blend<'_, T> {
     }
 
     fn inertia<N: Scalar>(&self, q: &[N]) -> Vec<N> {
-        let real = match self.part == 0.0 {
-            true => std::vec![N::ZERO; self.frozen.inertia.len()],
-            false => self.terrain.inertia(q),
+        let real = if self.part == 0.0 {
+            std::vec![N::ZERO; self.frozen.inertia.len()]
+        } else {
+            self.terrain.inertia(q)
         };
         self.between(&self.frozen.inertia, real)
     }
 
     fn resistance<N: Scalar>(&self, q: &[N], v: &[N]) -> Vec<N> {
-        let real = match self.part == 0.0 {
-            true => std::vec![N::ZERO; self.frozen.resistance.len()],
-            false => self.terrain.resistance(q, v),
+        let real = if self.part == 0.0 {
+            std::vec![N::ZERO; self.frozen.resistance.len()]
+        } else {
+            self.terrain.resistance(q, v)
         };
         self.between(&self.frozen.resistance, real)
     }

@@ -64,12 +64,11 @@ impl<T: Terrain> Driven<T> {
 
     /// The direction of a control, in coordinates; not of length 1 where it is an angle.
     pub(super) fn direction<N: Scalar>(&self, control: &[N]) -> Vec<N> {
-        match self.plane {
-            true => {
-                let (sin, cos) = control[0].sin_cos();
-                self.in_coordinates(&[cos, sin])
-            }
-            false => self.in_coordinates(&control[..self.n()]),
+        if self.plane {
+            let (sin, cos) = control[0].sin_cos();
+            self.in_coordinates(&[cos, sin])
+        } else {
+            self.in_coordinates(&control[..self.n()])
         }
     }
 
@@ -145,9 +144,10 @@ impl<T: Terrain> Driven<T> {
             column.push(value);
             column
         };
-        let unknown: Vec<usize> = match self.plane {
-            true => (0..n).collect(),
-            false => (0..n).chain([n + 1]).collect(),
+        let unknown: Vec<usize> = if self.plane {
+            (0..n).collect()
+        } else {
+            (0..n).chain([n + 1]).collect()
         };
         let columns: Vec<Vec<f64>> = unknown.into_iter().map(alone).collect();
         let known = alone(n);
@@ -254,16 +254,14 @@ impl<T: Terrain> Pontryagin for Driven<T> {
     }
 
     fn controls(&self) -> usize {
-        match self.plane {
-            true => 1,
-            false => self.n() + 1,
-        }
+        if self.plane { 1 } else { self.n() + 1 }
     }
 
     fn value<N: Scalar>(&self, y: &[N], z: &[N]) -> N {
-        match self.plane {
-            true => self.plane_value(y, z),
-            false => self.any_value(y, z),
+        if self.plane {
+            self.plane_value(y, z)
+        } else {
+            self.any_value(y, z)
         }
     }
 }

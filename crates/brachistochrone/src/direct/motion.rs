@@ -182,12 +182,11 @@ impl<T: Terrain> Sought<T> {
         let kinetic = length(&mass, &unit, &unit).sqrt();
         let first = self.system.direction(&self.path.stages[0][0].z);
         let along = length(&inertia, &first, &unit);
-        let turned = match self.system.is_plane() {
-            true => z[0] - self.path.stages[0][0].z[0],
-            false => {
-                let sizes = length(&inertia, &first, &first) * length(&inertia, &unit, &unit);
-                (along / sizes.sqrt()).clamp(-1.0, 1.0).acos()
-            }
+        let turned = if self.system.is_plane() {
+            z[0] - self.path.stages[0][0].z[0]
+        } else {
+            let sizes = length(&inertia, &first, &first) * length(&inertia, &unit, &unit);
+            (along / sizes.sqrt()).clamp(-1.0, 1.0).acos()
         };
         // ∂H/∂(speed in the metric of a): E dλ, as W = E U and U √(ê·a ê) is that speed.
         let measure = self.system.measure(&q, &unit, &z);

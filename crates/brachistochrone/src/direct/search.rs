@@ -119,9 +119,10 @@ impl Search {
         // What a potential takes, no way gives back. Level ends are a matter of rounding.
         let looks = rise.work <= 1e-9 * rise.size || !falls || skew.1 > SKEW;
         let is_level = rise.work.abs() <= 1e-9 * rise.size.max(drop(&terrain, &starts));
-        let level = match is_level && skew.1 <= SKEW && conserves(&terrain, &starts) {
-            true => level(&terrain, from, to),
-            false => None,
+        let level = if is_level && skew.1 <= SKEW && conserves(&terrain, &starts) {
+            level(&terrain, from, to)
+        } else {
+            None
         };
         let hunt = Hunt {
             system: Driven::new(counted.clone(), frame.clone()),
@@ -132,38 +133,38 @@ impl Search {
             stretches: self.stretches,
         };
         let mut tried = Vec::new();
-        let found = match looks {
-            true => {
-                let mut found = hunt.follow(starts, &mut tried);
-                if let Some(smooth) = smooth.filter(|_| leaves_doubts(&found, &tried)) {
-                    budget.allow(budget.spent() + self.budget);
-                    let smooth = Counted::new(&smooth, &budget);
-                    let starts = self.starts(&smooth, from, to);
-                    let without = Hunt {
-                        system: Driven::new(smooth.clone(), frame.clone()),
-                        descent: Descent::new(smooth, false, false),
-                        level: None,
-                        ..hunt
-                    };
-                    hunt.rub(&without, starts, &mut found, &mut tried);
-                }
-                // Closed forms have no multipliers at level ends.
-                if found.is_empty() && hunt.level.is_none() {
-                    let (outcome, smooth) = hunt.thawed(tried.len());
-                    tried.push(Trial {
-                        start: Start::Frozen,
-                        outcome,
-                    });
-                    found.extend(smooth);
-                }
-                fastest(found)
+        let found = if looks {
+            let mut found = hunt.follow(starts, &mut tried);
+            if let Some(smooth) = smooth.filter(|_| leaves_doubts(&found, &tried)) {
+                budget.allow(budget.spent() + self.budget);
+                let smooth = Counted::new(&smooth, &budget);
+                let starts = self.starts(&smooth, from, to);
+                let without = Hunt {
+                    system: Driven::new(smooth.clone(), frame.clone()),
+                    descent: Descent::new(smooth, false, false),
+                    level: None,
+                    ..hunt
+                };
+                hunt.rub(&without, starts, &mut found, &mut tried);
             }
-            false => None,
+            // Closed forms have no multipliers at level ends.
+            if found.is_empty() && hunt.level.is_none() {
+                let (outcome, smooth) = hunt.thawed(tried.len());
+                tried.push(Trial {
+                    start: Start::Frozen,
+                    outcome,
+                });
+                found.extend(smooth);
+            }
+            fastest(found)
+        } else {
+            None
         };
         let Some(Smooth { path, change, .. }) = found else {
-            return Err(match falls && rise.work >= 0.0 {
-                true => Unsolved::NotBelow { rise: rise.work },
-                false => Unsolved::NotFound { tried },
+            return Err(if falls && rise.work >= 0.0 {
+                Unsolved::NotBelow { rise: rise.work }
+            } else {
+                Unsolved::NotFound { tried }
             });
         };
         let ends = [from.to_vec(), to.to_vec()];
@@ -209,9 +210,10 @@ impl Search {
                 found: short.len(),
             });
         }
-        match from == to {
-            true => Err(Unsolved::SameEnds),
-            false => Ok(()),
+        if from == to {
+            Err(Unsolved::SameEnds)
+        } else {
+            Ok(())
         }
     }
 }
@@ -265,9 +267,10 @@ impl<T: Terrain> Hunt<'_, T> {
             found.extend(smooth);
         }
         if none {
-            let outcome = match self.budget.is_spent() {
-                true => Outcome::Unfinished,
-                false => Outcome::Nothing,
+            let outcome = if self.budget.is_spent() {
+                Outcome::Unfinished
+            } else {
+                Outcome::Nothing
             };
             tried.push(Trial {
                 start: Start::Frictionless { time: None },
@@ -533,9 +536,10 @@ fn skew(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> ([usize; 2], f64) {
 
 /// With three coordinates or more, no fastest motion survives friction that makes `A` skew.
 fn refuse_loops(n: usize, (coordinates, skew): ([usize; 2], f64)) -> Result<(), Unsolved> {
-    match n > 2 && skew > SKEW {
-        true => Err(Unsolved::LoopsFeed { coordinates, skew }),
-        false => Ok(()),
+    if n > 2 && skew > SKEW {
+        Err(Unsolved::LoopsFeed { coordinates, skew })
+    } else {
+        Ok(())
     }
 }
 

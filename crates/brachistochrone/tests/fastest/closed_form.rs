@@ -186,9 +186,10 @@ fn cycloid(x: f64, y: f64, g: f64) -> f64 {
     let (mut low, mut high) = (0.0_f64, std::f64::consts::TAU);
     for _ in 0..200 {
         let theta = (low + high) / 2.0;
-        match (theta - theta.sin()) / (1.0 - theta.cos()) < x / y {
-            true => low = theta,
-            false => high = theta,
+        if (theta - theta.sin()) / (1.0 - theta.cos()) < x / y {
+            low = theta
+        } else {
+            high = theta
         }
     }
     low * (y / (1.0 - low.cos()) / g).sqrt()

@@ -181,9 +181,10 @@ impl Terrain for Central {
     }
     fn resistance<N: Scalar>(&self, q: &[N], _: &[N]) -> Vec<N> {
         let square = q.iter().fold(N::ZERO, |sum, x| sum + *x * *x);
-        let slope = match self.attracts {
-            true => N::ONE / (square * square.sqrt()),
-            false => N::ONE,
+        let slope = if self.attracts {
+            N::ONE / (square * square.sqrt())
+        } else {
+            N::ONE
         };
         q.iter().map(|x| *x * slope).collect()
     }
@@ -241,9 +242,10 @@ fn kepler(angle: f64, depth: f64) -> f64 {
     let (mut low, mut high) = (0.0, greatest);
     for _ in 0..60 {
         let k = (low + high) / 2.0;
-        match integrals(k)[0] < angle {
-            true => low = k,
-            false => high = k,
+        if integrals(k)[0] < angle {
+            low = k
+        } else {
+            high = k
         }
     }
     integrals(low)[1]

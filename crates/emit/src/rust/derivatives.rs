@@ -31,9 +31,10 @@ impl Emitter<'_> {
                 .iter()
                 .map(|variable| format!("`{}`", self.program.variable_name(*variable)))
                 .collect();
-            let docs = match docs.is_empty() {
-                true => format!("By {}.", names.join(", ")),
-                false => docs.to_owned(),
+            let docs = if docs.is_empty() {
+                format!("By {}.", names.join(", "))
+            } else {
+                docs.to_owned()
             };
             let columns = first..first + chunk.len();
             first = columns.end;

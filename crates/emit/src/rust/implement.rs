@@ -72,9 +72,10 @@ impl Emitter<'_> {
         let n = self.program.dimension();
         let head = format!("coordinates {n} {coordinates}");
         self.group(&head, &program.coordinates, Some(empty), "");
-        let over = match self.inputs.is_empty() {
-            true => String::new(),
-            false => format!(" over {scalar}"),
+        let over = if self.inputs.is_empty() {
+            String::new()
+        } else {
+            format!(" over {scalar}")
         };
         let head = format!("inputs {inputs}");
         self.group(&head, &program.inputs, None, &over);
@@ -119,14 +120,16 @@ impl Emitter<'_> {
     /// Words between two texts, on one line or on as many as they need. A block begins behind them if it is to.
     fn filled(&mut self, before: &str, words: &[String], after: &str, opens: bool) {
         let all = words.join(", ");
-        let one = match all.is_empty() {
-            true => format!("{before}{after}"),
-            false => format!("{before} {all} {after}"),
+        let one = if all.is_empty() {
+            format!("{before}{after}")
+        } else {
+            format!("{before} {all} {after}")
         };
         if width(&one) <= self.writer.columns() {
-            return match opens {
-                true => self.writer.open(one),
-                false => self.writer.line(one),
+            return if opens {
+                self.writer.open(one)
+            } else {
+                self.writer.line(one)
             };
         }
         self.writer.open(before);
@@ -140,9 +143,10 @@ impl Emitter<'_> {
             line += ", ";
         }
         self.writer.line(line.trim_end());
-        match opens {
-            true => self.writer.middle(after),
-            false => self.writer.close(after),
+        if opens {
+            self.writer.middle(after)
+        } else {
+            self.writer.close(after)
         }
     }
 
@@ -211,9 +215,10 @@ impl Emitter<'_> {
                 let [call, _] = self.names(Role::Accelerations);
                 let arguments = self.arguments(self.needs(function));
                 let fields: Vec<&str> = arguments.iter().map(|(name, _)| *name).collect();
-                let call = match fields.is_empty() {
-                    true => format!("{call}(::core::marker::PhantomData)"),
-                    false => format!("{call} {{ {} }}", fields.join(", ")),
+                let call = if fields.is_empty() {
+                    format!("{call}(::core::marker::PhantomData)")
+                } else {
+                    format!("{call} {{ {} }}", fields.join(", "))
                 };
                 format!("accelerations {{ (p, t, q, v, u) {call} }}")
             }
@@ -255,9 +260,10 @@ impl Emitter<'_> {
             }
         }
         self.rows_of_quantities();
-        let value = match self.outputs.is_empty() {
-            true => Layout::Atom(format!("{} {{}}", self.types.outputs)),
-            false => self.called("outputs", self.needs_of_outputs()),
+        let value = if self.outputs.is_empty() {
+            Layout::Atom(format!("{} {{}}", self.types.outputs))
+        } else {
+            self.called("outputs", self.needs_of_outputs())
         };
         let arguments = ["p", "t", "q", "v", "a", "u"];
         self.row("outputs", "outputs", &arguments, Some(value));
@@ -327,12 +333,11 @@ impl Emitter<'_> {
             let rows = Layout::nested(rows);
             self.row("constraints", "constraints", &["p"], Some(rows));
             let arguments = ["p", "t", "q", "v", "u"];
-            match program.contacts.is_empty() {
-                true => {
-                    let call = self.called_role(Role::Multipliers);
-                    self.row("solved", "multipliers", &arguments, call);
-                }
-                false => self.row("with_friction", "multipliers", &arguments, None),
+            if program.contacts.is_empty() {
+                let call = self.called_role(Role::Multipliers);
+                self.row("solved", "multipliers", &arguments, call);
+            } else {
+                self.row("with_friction", "multipliers", &arguments, None)
             }
         }
         if !program.kept.is_empty() {

@@ -74,11 +74,10 @@ impl Emitter<'_> {
             .iter()
             .map(|(name, _)| *name)
             .collect();
-        let value = match names.is_empty() {
-            true => {
-                format!("{call}(::core::marker::PhantomData::<{scalar}>)")
-            }
-            false => format!("{call} {{ {} }}", names.join(", ")),
+        let value = if names.is_empty() {
+            format!("{call}(::core::marker::PhantomData::<{scalar}>)")
+        } else {
+            format!("{call} {{ {} }}", names.join(", "))
         };
         self.writer.line(format!("{scalar}::run({value})"));
         self.writer.close("}");
@@ -163,9 +162,10 @@ impl Emitter<'_> {
             }
         };
         let name = self.kept(function, &texts);
-        self.writer.line(match self.fails(function) {
-            true => format!("Ok({name})"),
-            false => name,
+        self.writer.line(if self.fails(function) {
+            format!("Ok({name})")
+        } else {
+            name
         });
         self.writer.close("}");
         self.writer.close("}");
@@ -296,9 +296,10 @@ impl Emitter<'_> {
     /// The type of what comes back.
     fn returned(&self, function: &Function) -> String {
         let result = self.result_type(function);
-        match self.fails(function) {
-            true => self.fallible(&result),
-            false => result,
+        if self.fails(function) {
+            self.fallible(&result)
+        } else {
+            result
         }
     }
 
@@ -430,9 +431,10 @@ impl Emitter<'_> {
 
 /// `'a, ` where any argument is a reference.
 fn lifetime(arguments: &[(&'static str, String)]) -> &'static str {
-    match arguments.iter().any(|(_, kind)| kind.starts_with('&')) {
-        true => "'a, ",
-        false => "",
+    if arguments.iter().any(|(_, kind)| kind.starts_with('&')) {
+        "'a, "
+    } else {
+        ""
     }
 }
 

@@ -19,17 +19,19 @@ pub(super) struct Rust<'a> {
 impl Rust<'_> {
     /// The type of the numbers.
     pub(super) fn number(&self) -> &str {
-        match self.in_registers {
-            true => &self.emitter.types.register,
-            false => &self.emitter.types.scalar,
+        if self.in_registers {
+            &self.emitter.types.register
+        } else {
+            &self.emitter.types.scalar
         }
     }
 
     /// A number that is kept outside of registers.
     fn loaded(&self, place: String) -> String {
-        match self.in_registers {
-            true => format!("n({place})"),
-            false => place,
+        if self.in_registers {
+            format!("n({place})")
+        } else {
+            place
         }
     }
 }
@@ -158,9 +160,10 @@ impl Language for Rust<'_> {
         let values = angles.iter().map(|angle| angle.angle.text.clone());
         writer.expression("let angles = ", &Layout::array(values), ";");
         let number = self.number();
-        writer.line(match self.emitter.asks_once {
-            true => format!("let (circular, are_near) = {number}::sin_cos_all_near(angles);"),
-            false => format!("let circular = {number}::sin_cos_all(angles);"),
+        writer.line(if self.emitter.asks_once {
+            format!("let (circular, are_near) = {number}::sin_cos_all_near(angles);")
+        } else {
+            format!("let circular = {number}::sin_cos_all(angles);")
         });
         let name = |name: &Option<String>| name.clone().unwrap_or_else(|| "_".into());
         for (i, angle) in angles.iter().enumerate() {
@@ -310,15 +313,14 @@ pub(super) fn rational(scalar: &str, value: &Rational) -> Text {
         _ => {
             let exact = Rational::exactly(nearest);
             let rest = exact.map_or(0.0, |exact| (value - &exact).to_f64());
-            match rest == 0.0 {
-                true => format!("{scalar}::from_f64({})", number(nearest)),
-                false => {
-                    return Text::sum(format!(
-                        "{scalar}::from_f64({}) + {scalar}::from_f64({})",
-                        number(nearest),
-                        number(rest)
-                    ));
-                }
+            if rest == 0.0 {
+                format!("{scalar}::from_f64({})", number(nearest))
+            } else {
+                return Text::sum(format!(
+                    "{scalar}::from_f64({}) + {scalar}::from_f64({})",
+                    number(nearest),
+                    number(rest)
+                ));
             }
         }
     })

@@ -158,9 +158,10 @@ impl Emitter<'_> {
             Some(&format!("{prepared}<R>")),
         );
         let field = |field: Field| {
-            let value = match field.is_family {
-                true => format!("self.{}.map(&f)", field.ident),
-                false => format!("f(self.{})", field.ident),
+            let value = if field.is_family {
+                format!("self.{}.map(&f)", field.ident)
+            } else {
+                format!("f(self.{})", field.ident)
             };
             (field.ident, Layout::Atom(value))
         };
@@ -317,9 +318,10 @@ impl Emitter<'_> {
         if self.may_be_singular_from_the_start(function) {
             conditions.insert(0, "p.singular.is_none()".into());
         }
-        self.writer.line(match conditions.is_empty() {
-            true => "true".into(),
-            false => conditions.join(" & "),
+        self.writer.line(if conditions.is_empty() {
+            "true".into()
+        } else {
+            conditions.join(" & ")
         });
         self.writer.close("}");
         self.writer.close("}");

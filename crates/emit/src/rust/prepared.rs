@@ -141,12 +141,13 @@ impl Emitter<'_> {
     ) -> Layout {
         let mut filled = filled.iter();
         let fields = self.prepared_fields().into_iter().map(|field| {
-            let value = match field.is_family {
-                true => match filled.next() {
+            let value = if field.is_family {
+                match filled.next() {
                     Some(array) => Layout::Atom(array.clone()),
                     None => Layout::array(field.slots.iter().map(|&slot| value(slot))),
-                },
-                false => Layout::Atom(value(field.slots[0])),
+                }
+            } else {
+                Layout::Atom(value(field.slots[0]))
             };
             (field.ident, value)
         });
@@ -155,9 +156,10 @@ impl Emitter<'_> {
 
     /// The loops of `prepare`, where others count what it prepares.
     pub(super) fn plan_of_prepare(&self, prepare: &Function) -> Option<Plan> {
-        match self.prepared_families.is_empty() {
-            true => None,
-            false => Plan::of(prepare, false, 0),
+        if self.prepared_families.is_empty() {
+            None
+        } else {
+            Plan::of(prepare, false, 0)
         }
     }
 

@@ -192,9 +192,10 @@ impl Emitter<'_> {
     /// The type of the packs of the series over such numbers: of nothing, where there are none.
     pub(super) fn lists_of_series(&self, scalar: &str) -> String {
         let packs = self.series().map(|series| self.packs_of_series(&series));
-        match packs.is_none_or(|packs| packs.is_empty()) {
-            true => "()".to_owned(),
-            false => format!("{}<{scalar}>", self.types.lists),
+        if packs.is_none_or(|packs| packs.is_empty()) {
+            "()".to_owned()
+        } else {
+            format!("{}<{scalar}>", self.types.lists)
         }
     }
 

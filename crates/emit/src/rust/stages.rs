@@ -93,13 +93,15 @@ impl Emitter<'_> {
             )
         };
         let (position_result, last_result) = (error("Self::AtPosition"), error("()"));
-        let after_time = match time {
-            true => self.types.at_time.clone(),
-            false => f64.clone(),
+        let after_time = if time {
+            self.types.at_time.clone()
+        } else {
+            f64.clone()
         };
-        let after_position = match coordinates {
-            true => self.types.at_position.clone(),
-            false => format!("({after_time}, {vector})"),
+        let after_position = if coordinates {
+            self.types.at_position.clone()
+        } else {
+            format!("({after_time}, {vector})")
         };
         let call = |role: Role| {
             let function = self.program.function(role)?;

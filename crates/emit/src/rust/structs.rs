@@ -35,9 +35,10 @@ impl Emitter<'_> {
         for field in &group.fields {
             let docs = field_docs(field, group.slots, with_default);
             self.docs(&docs);
-            let kind = match field.is_family {
-                true => format!("[{scalar}; {}]", field.slots.len()),
-                false => scalar.clone(),
+            let kind = if field.is_family {
+                format!("[{scalar}; {}]", field.slots.len())
+            } else {
+                scalar.clone()
             };
             self.writer.line(format!("pub {}: {kind},", field.ident));
         }
@@ -55,9 +56,10 @@ impl Emitter<'_> {
         let name = self.types.machine.clone();
         let scalar = self.types.scalar.clone();
         let bound = format!("{scalar}: {}::Scalar", self.options.runtime);
-        let docs = match self.program.docs.is_empty() {
-            true => format!("The machine `{}`: its parameters.", self.program.name),
-            false => prose(&self.program.docs),
+        let docs = if self.program.docs.is_empty() {
+            format!("The machine `{}`: its parameters.", self.program.name)
+        } else {
+            prose(&self.program.docs)
         };
         let group = Group::new(&self.program.parameters);
         self.structure(&name, &docs, &group, true);
@@ -91,9 +93,12 @@ impl Emitter<'_> {
         let scalar = self.types.scalar.clone();
         let arguments: Vec<String> = required
             .iter()
-            .map(|field| match field.is_family {
-                true => format!("{}: [{scalar}; {}]", field.ident, field.slots.len()),
-                false => format!("{}: {scalar}", field.ident),
+            .map(|field| {
+                if field.is_family {
+                    format!("{}: [{scalar}; {}]", field.ident, field.slots.len())
+                } else {
+                    format!("{}: {scalar}", field.ident)
+                }
             })
             .collect();
         self.docs(
@@ -198,9 +203,10 @@ impl Emitter<'_> {
         let rest = format!("let v = [{scalar}::ZERO; {n}];");
         let head = format!("{runtime}::State");
         let is_at_rest = self.program.start.results.len() == n;
-        self.docs(match is_at_rest {
-            true => "The start values of the description, at rest and `t = 0`.",
-            false => "The start values of the description, at `t = 0`.",
+        self.docs(if is_at_rest {
+            "The start values of the description, at rest and `t = 0`."
+        } else {
+            "The start values of the description, at `t = 0`."
         });
         self.writer
             .signature("pub fn start", &["&self".into()], Some(&result));

@@ -45,12 +45,13 @@ fn standstill(spec: &Spec) -> Program {
     }));
     let n = coordinates.len();
     let zeros = |role, shape: Shape| {
-        let (code, results) = match shape.is_empty() {
-            true => (Vec::new(), Vec::new()),
-            false => (
+        let (code, results) = if shape.is_empty() {
+            (Vec::new(), Vec::new())
+        } else {
+            (
                 vec![Op::Constant(Rational::ZERO)],
                 vec![Value(0); shape.len()],
-            ),
+            )
         };
         Function {
             role,

@@ -119,9 +119,10 @@ impl<'a> Group<'a> {
     /// A struct literal, each number written by `value`.
     pub(super) fn literal(&self, name: &str, value: impl Fn(usize) -> String) -> Layout {
         let field = |field: &Field| {
-            let value = match field.is_family {
-                true => Layout::array(field.slots.iter().map(|&slot| value(slot))),
-                false => Layout::Atom(value(field.slots[0])),
+            let value = if field.is_family {
+                Layout::array(field.slots.iter().map(|&slot| value(slot)))
+            } else {
+                Layout::Atom(value(field.slots[0]))
             };
             (field.ident.clone(), value)
         };

@@ -79,9 +79,12 @@ impl Syntax for Julia {
                     format!("String[{}]", texts.join(", "))
                 }
                 Entries::Numbers(numbers) => {
-                    let one = |x: &f64| match x.is_nan() {
-                        true => "NaN".to_owned(),
-                        false => format!("{x:?}"),
+                    let one = |x: &f64| {
+                        if x.is_nan() {
+                            "NaN".to_owned()
+                        } else {
+                            format!("{x:?}")
+                        }
                     };
                     let numbers: Vec<String> = numbers.iter().map(one).collect();
                     format!("Float64[{}]", numbers.join(", "))

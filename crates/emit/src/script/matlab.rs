@@ -75,9 +75,12 @@ impl Syntax for Matlab {
                     format!("{{{}}}", texts.join(", "))
                 }
                 Entries::Numbers(numbers) => {
-                    let one = |x: &f64| match x.is_nan() {
-                        true => "NaN".to_owned(),
-                        false => format!("{x:?}"),
+                    let one = |x: &f64| {
+                        if x.is_nan() {
+                            "NaN".to_owned()
+                        } else {
+                            format!("{x:?}")
+                        }
                     };
                     self.list(&numbers.iter().map(one).collect::<Vec<_>>())
                 }

@@ -31,9 +31,12 @@ impl Syntax for Sympy {
             let entries: Vec<String> = match &table.entries {
                 Entries::Texts(texts) => texts.iter().map(|text| quoted(text)).collect(),
                 Entries::Numbers(numbers) => {
-                    let one = |x: &f64| match x.is_nan() {
-                        true => "sp.nan".to_owned(),
-                        false => format!("{x:?}"),
+                    let one = |x: &f64| {
+                        if x.is_nan() {
+                            "sp.nan".to_owned()
+                        } else {
+                            format!("{x:?}")
+                        }
                     };
                     numbers.iter().map(one).collect()
                 }

@@ -87,12 +87,13 @@ fn main_of(program: &Program, prefix: &str, t: f64, q: &[f64], v: &[f64]) -> Str
     let length = |role: Role| program.function(role).map_or(1, |f| f.results.len().max(1));
     let mut text = String::new();
     let n = q.len();
-    let inputs = match program.inputs.is_empty() {
-        true => String::new(),
-        false => format!(
+    let inputs = if program.inputs.is_empty() {
+        String::new()
+    } else {
+        format!(
             "    const {prefix}_inputs u = {{{}}};\n",
             list(&vec![1.0; program.inputs.len()])
-        ),
+        )
     };
     // Writing to a String cannot fail.
     let _ = write!(

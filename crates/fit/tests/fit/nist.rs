@@ -65,9 +65,12 @@ impl Dataset {
     }
 
     fn at(&self, b: &[f64], seed: Option<usize>, x: f64) -> D {
-        let one = |(j, b): (usize, &f64)| match Some(j) == seed {
-            true => D::variable(*b),
-            false => D::constant(*b),
+        let one = |(j, b): (usize, &f64)| {
+            if Some(j) == seed {
+                D::variable(*b)
+            } else {
+                D::constant(*b)
+            }
         };
         let b: Vec<D> = b.iter().enumerate().map(one).collect();
         (self.model)(&b, x)

@@ -164,12 +164,11 @@ fn a_bouncing_ball_changes_as_its_parabolas_do() {
         for k in 0..3 {
             let mut numbers = [1.0, 0.8, 9.81].map(Dual::constant);
             numbers[k].derivative = numbers[k].value;
-            let truth = match t < 0.45 {
-                true => {
-                    let [h, _, g] = numbers;
-                    h - g * Dual::constant(t * t / 2.0)
-                }
-                false => bouncing(numbers, t, |x| x.value),
+            let truth = if t < 0.45 {
+                let [h, _, g] = numbers;
+                h - g * Dual::constant(t * t / 2.0)
+            } else {
+                bouncing(numbers, t, |x| x.value)
             };
             let off = at.q[1 + k] - truth.derivative;
             // Each of n bounces multiplies what the steps before have left.

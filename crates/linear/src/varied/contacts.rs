@@ -78,9 +78,10 @@ impl Phase {
 
     /// The contact whose normal force is that of a contact: itself, or the one whose rolling it is.
     pub(crate) fn presses(&self, contact: usize) -> usize {
-        match self.rolls[contact] {
-            true => contact - 1,
-            false => contact,
+        if self.rolls[contact] {
+            contact - 1
+        } else {
+            contact
         }
     }
 }

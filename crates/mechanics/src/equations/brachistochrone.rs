@@ -160,13 +160,14 @@ impl<'d> Brachistochronic<'d> {
                 told.push(condition);
             }
         }
-        match told.is_empty() {
-            true => Ok(Brachistochronic {
+        if told.is_empty() {
+            Ok(Brachistochronic {
                 mass,
                 slope,
                 guides,
-            }),
-            false => Err(told),
+            })
+        } else {
+            Err(told)
         }
     }
 }

@@ -145,9 +145,10 @@ impl Number for f64 {
     }
 
     fn size_beside(self, size: f64) -> f64 {
-        match self.abs() > CLEAR * size {
-            true => self.abs(),
-            false => 0.0,
+        if self.abs() > CLEAR * size {
+            self.abs()
+        } else {
+            0.0
         }
     }
 }
@@ -228,9 +229,10 @@ impl<'m, 'd> Relaxed<'m, 'd> {
     /// The value of a symbol where all guides are shut, or where they are ajar.
     fn value<T: Number>(&self, (point, guides): (u64, Guides), symbol: Symbol) -> T {
         let open = |symbols: &[Symbol]| symbols[self.coordinates..].contains(&symbol);
-        match guides == Guides::Shut && (open(&self.x.q) || open(&self.x.v)) {
-            true => T::ZERO,
-            false => T::random(point, symbol),
+        if guides == Guides::Shut && (open(&self.x.q) || open(&self.x.v)) {
+            T::ZERO
+        } else {
+            T::random(point, symbol)
         }
     }
 
@@ -245,9 +247,10 @@ impl<'m, 'd> Relaxed<'m, 'd> {
         let column = |&variable: &Symbol| {
             let values = evaluate(self.model.dag, expressions, |symbol| {
                 let value = self.value(point, symbol);
-                match symbol == variable {
-                    true => Dual::variable(value),
-                    false => Dual::constant(value),
+                if symbol == variable {
+                    Dual::variable(value)
+                } else {
+                    Dual::constant(value)
                 }
             });
             values.into_iter().map(|x: Dual<T>| x.derivative).collect()
@@ -784,13 +787,14 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
         };
         match contribution {
             Contribution::Stored(Energy::Quadratic(of))
-            | Contribution::Dissipated(Energy::Quadratic(of)) => match of.torsional {
-                true => acting(of.measure, by_place, &format!("the twist of `{name}`")),
-                false => {
+            | Contribution::Dissipated(Energy::Quadratic(of)) => {
+                if of.torsional {
+                    acting(of.measure, by_place, &format!("the twist of `{name}`"))
+                } else {
                     let what = format!("the stretch of {what}");
                     look(&|| self.stretch(of.measure, &what, *span));
                 }
-            },
+            }
             Contribution::Stored(Energy::Given(value)) => {
                 let parts = addends(*value).into_iter();
                 parts.for_each(|part| acting(part, by_place, &what));
@@ -808,10 +812,13 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
             }
             Contribution::Load(Load::Along {
                 measure, torsional, ..
-            }) => match torsional {
-                true => acting(*measure, by_place, &what),
-                false => look(&|| self.stretch(*measure, &what, *span)),
-            },
+            }) => {
+                if *torsional {
+                    acting(*measure, by_place, &what)
+                } else {
+                    look(&|| self.stretch(*measure, &what, *span))
+                }
+            }
             // A torque acts on a body that is known to turn; the rest acts on bodies by itself.
             Contribution::Load(Load::Torque { .. })
             | Contribution::Gravity(_)
@@ -869,9 +876,12 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
         }
         let pulls_across = |&guide: &usize| {
             let mut pulls = on_bodies.chunks_exact(self.motion.dimension).enumerate();
-            pulls.any(|(other, pull)| match other == self.motion.numbers[guide] {
-                true => self.motion.is_across(guide, pull),
-                false => pull.iter().any(|&pull| !self.is_zero(pull)),
+            pulls.any(|(other, pull)| {
+                if other == self.motion.numbers[guide] {
+                    self.motion.is_across(guide, pull)
+                } else {
+                    pull.iter().any(|&pull| !self.is_zero(pull))
+                }
             })
         };
         let across = otherwise.into_iter().find(pulls_across);
@@ -1059,10 +1069,10 @@ fn combination<T: Number>(columns: Vec<Vec<T>>, target: Vec<T>, size: f64) -> Op
     for column in 0..width {
         let done = pivots.len();
         let candidates = (done..height).map(|row| (row, rows[row][column].size_beside(size)));
-        let most = candidates.fold((done, 0.0), |most, next| match next.1 > most.1 {
-            true => next,
-            false => most,
-        });
+        let most = candidates.fold(
+            (done, 0.0),
+            |most, next| if next.1 > most.1 { next } else { most },
+        );
         if most.1 == 0.0 {
             continue;
         }

@@ -94,9 +94,10 @@ pub fn constraints<'d>(model: &Model<'d>) -> Vec<ConstraintEquation<'d>> {
             let gone = identity::irrelevant(model.dag, &[said], rates);
             said = identity::without(model.dag, vec![said], &gone)[0];
         }
-        let statement = match standing(said).is_empty() {
-            true => Statement::Position(said),
-            false => Statement::Rate(said),
+        let statement = if standing(said).is_empty() {
+            Statement::Position(said)
+        } else {
+            Statement::Rate(said)
         };
         let name = constraint.name.to_string();
         equation(model, &x, name, statement, constraint.unit)

@@ -75,9 +75,10 @@ pub fn freedom<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Freedom {
     let constraints = &equations.constraints;
     let coordinates = model.coordinates.len();
     let is_small = coordinates * constraints.len() <= MOST_ENTRIES;
-    let independent = match constraints.is_empty() || !is_small {
-        true => None,
-        false => Places::new(model, constraints).independent(),
+    let independent = if constraints.is_empty() || !is_small {
+        None
+    } else {
+        Places::new(model, constraints).independent()
     };
     Freedom {
         coordinates,

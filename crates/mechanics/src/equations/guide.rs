@@ -30,9 +30,10 @@ pub(crate) fn guides_of(model: &Model<'_>) -> Vec<usize> {
 /// Whether in the equation that says what the reaction of one contact is, that of another takes part: each guide once, said by its
 /// first contact, and the own one by the contact itself.
 pub(crate) fn counts(guides: &[usize], own: usize, other: usize) -> bool {
-    match guides[own] == guides[other] {
-        true => own == other,
-        false => other == 0 || guides[other] != guides[other - 1],
+    if guides[own] == guides[other] {
+        own == other
+    } else {
+        other == 0 || guides[other] != guides[other - 1]
     }
 }
 

@@ -195,9 +195,12 @@ fn sliding<'d>(model: &Model<'d>) -> Vec<OracleSliding<'d>> {
             // The two contacts of a surface have one reaction, which counts once.
             by_normals: (rates.iter().enumerate())
                 .flat_map(|(j, rate)| rate.off.iter().map(move |off| (j, off)))
-                .map(|(j, off)| match counts(&numbers, k, j) {
-                    true => along(axis, &|i| off.diff(x.v[i])),
-                    false => dag.zero(),
+                .map(|(j, off)| {
+                    if counts(&numbers, k, j) {
+                        along(axis, &|i| off.diff(x.v[i]))
+                    } else {
+                        dag.zero()
+                    }
                 })
                 .collect(),
         };
@@ -236,9 +239,10 @@ fn sliding<'d>(model: &Model<'d>) -> Vec<OracleSliding<'d>> {
 fn mass_matrix<'d>(model: &Model<'d>, momenta: &[Expr<'d>], v: &[Symbol]) -> Symmetric<Expr<'d>> {
     Symmetric::from_lower(v.len(), |i, j| {
         let entry = momenta[i].diff(v[j]);
-        match i == j {
-            true => with_state(model, i, entry),
-            false => entry,
+        if i == j {
+            with_state(model, i, entry)
+        } else {
+            entry
         }
     })
 }
@@ -328,9 +332,12 @@ pub(super) fn inertia<'d>(
         .zip(slopes)
         .map(|(&p, slope)| rate.of(p) - slope)
         .collect();
-    let entry = |i: usize, j: usize| match i == j {
-        true => with_state(model, i, rows[i][j]),
-        false => rows[i][j],
+    let entry = |i: usize, j: usize| {
+        if i == j {
+            with_state(model, i, rows[i][j])
+        } else {
+            rows[i][j]
+        }
     };
     Some((Symmetric::from_lower(x.q.len(), entry), bias))
 }

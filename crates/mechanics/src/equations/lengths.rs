@@ -149,9 +149,10 @@ impl<'d> Longer<'d> {
             Contribution::Load(Load::Coordinate { coordinate, .. }) => four.contains(coordinate),
             Contribution::Constraint(constraint) => {
                 let said = constraint.expression;
-                match said.stage() > stage::POSITION {
-                    true => self.is_slowed(said),
-                    false => self.moves(said),
+                if said.stage() > stage::POSITION {
+                    self.is_slowed(said)
+                } else {
+                    self.moves(said)
                 }
             }
             // These act on frames and bodies, or are no part of the equations of motion.

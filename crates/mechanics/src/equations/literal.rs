@@ -355,15 +355,12 @@ impl<'m, 'd> Lagrange<'m, 'd> {
     /// `w·∂D/∂v` alone.
     pub fn damping<R: Scalar>(&self, at: &State<R>, w: &[R]) -> R {
         let model = self.model;
-        let dissipation = match self.small.contains(&true) {
-            false => {
-                let values = all(model, &self.energies, |symbol| self.moving(symbol, at, w));
-                dissipation(model, &|e: Expr<'d>| values[&e.id()])
-            }
-            true => {
-                let values = all(model, &self.energies, |symbol| self.small(symbol, at, w));
-                expanded(dissipation(model, &|e: Expr<'d>| values[&e.id()]))
-            }
+        let dissipation = if self.small.contains(&true) {
+            let values = all(model, &self.energies, |symbol| self.small(symbol, at, w));
+            expanded(dissipation(model, &|e: Expr<'d>| values[&e.id()]))
+        } else {
+            let values = all(model, &self.energies, |symbol| self.moving(symbol, at, w));
+            dissipation(model, &|e: Expr<'d>| values[&e.id()])
         };
         dissipation.value.derivative
     }
@@ -415,9 +412,10 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         }
         let values = all(model, &roots, of_state);
         let x = |e: Expr<'d>| values[&e.id()];
-        let kinetic_energy = match is_frozen {
-            false => kinetic_energy(model, &x),
-            true => self.frozen_energy(of_state),
+        let kinetic_energy = if is_frozen {
+            self.frozen_energy(of_state)
+        } else {
+            kinetic_energy(model, &x)
         };
         [
             expanded(kinetic_energy),
@@ -434,18 +432,21 @@ impl<'m, 'd> Lagrange<'m, 'd> {
             Some(&Meaning::Coordinate(i) | &Meaning::Rate(i)) => self.small[i],
             _ => false,
         };
-        let scaled = |x: Varied<R>| match is_small {
-            false => Dual::constant(Dual::constant(x)),
-            true => Dual {
-                value: Dual {
-                    value: Varied::<R>::ZERO,
-                    derivative: x,
-                },
-                derivative: Dual {
-                    value: x,
-                    derivative: Varied::<R>::ZERO,
-                },
-            },
+        let scaled = |x: Varied<R>| {
+            if is_small {
+                Dual {
+                    value: Dual {
+                        value: Varied::<R>::ZERO,
+                        derivative: x,
+                    },
+                    derivative: Dual {
+                        value: x,
+                        derivative: Varied::<R>::ZERO,
+                    },
+                }
+            } else {
+                Dual::constant(Dual::constant(x))
+            }
         };
         Dual {
             value: scaled(value),
@@ -505,9 +506,12 @@ impl<'m, 'd> Lagrange<'m, 'd> {
             .constraints()
             .into_iter()
             .zip(&self.holonomic)
-            .map(|(constraint, holonomic)| match holonomic {
-                true => of_position(x(constraint.expression)),
-                false => of_rate(x(constraint.expression).value),
+            .map(|(constraint, holonomic)| {
+                if *holonomic {
+                    of_position(x(constraint.expression))
+                } else {
+                    of_rate(x(constraint.expression).value)
+                }
             })
             .collect();
         for rolling in model.rolling() {
@@ -1231,9 +1235,10 @@ fn on_circle<'d, R: Scalar>(
     let line = [0, 1].map(|k| centre[k] - other_centre[k]);
     let distance = (line[0] * line[0] + line[1] * line[1]).sqrt();
     let (small, large) = (x(first.radius), x(other.radius));
-    let gap = match is_inside {
-        true => large - small - distance,
-        false => distance - small - large,
+    let gap = if is_inside {
+        large - small - distance
+    } else {
+        distance - small - large
     };
     // The point that touches: the first circle's at c ± r e, the other's at R e.
     let e = line.map(|c| c.value / distance.value);

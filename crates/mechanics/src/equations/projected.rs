@@ -155,9 +155,12 @@ impl<'a, 'd> Projection<'a, 'd> {
             columns.push(self.project(&momenta, j..n));
         }
         let model = self.model;
-        Some(Symmetric::from_lower(n, |i, j| match i == j {
-            true => with_state(model, i, columns[j][0]),
-            false => columns[j][i - j],
+        Some(Symmetric::from_lower(n, |i, j| {
+            if i == j {
+                with_state(model, i, columns[j][0])
+            } else {
+                columns[j][i - j]
+            }
         }))
     }
 

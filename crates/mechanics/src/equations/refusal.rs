@@ -179,11 +179,10 @@ fn refuse_sliding(model: &Model<'_>, report: &mut Report) -> bool {
     if let Some(contact) = sliding.get(MOST_CONTACTS) {
         let count = sliding.len();
         let message = format!("{count} contacts that stick or slide are too many");
-        let help = match sliding.iter().any(|s| s.is_second()) {
-            true => {
-                format!("a machine may have {MOST_CONTACTS} of them, and a surface counts as two")
-            }
-            false => format!("a machine may have {MOST_CONTACTS} of them"),
+        let help = if sliding.iter().any(|s| s.is_second()) {
+            format!("a machine may have {MOST_CONTACTS} of them, and a surface counts as two")
+        } else {
+            format!("a machine may have {MOST_CONTACTS} of them")
         };
         refuse(Code::TooLarge, contact.span, message, help);
     }
@@ -219,12 +218,13 @@ pub(super) fn refuse_unturned(model: &Model<'_>, report: &mut Report) -> bool {
             let is_rotor = in_space && matches!(body.rotation, Rotation::Angle(_));
             if matches!(body.rotation, Rotation::Unspecified) || is_rotor {
                 let message = format!("nothing says how the body `{}` turns", body.name);
-                let help = match in_space {
-                    false => format!(
+                let help = if in_space {
+                    format!("`{}` is on it: give it a `frame`", circle.name)
+                } else {
+                    format!(
                         "the circle `{}` is on it: give it an `angle` or a `frame`",
                         circle.name
-                    ),
-                    true => format!("`{}` is on it: give it a `frame`", circle.name),
+                    )
                 };
                 report.push(Diagnostic::new(Code::MissingRotation, span, message).help(help));
                 refused = true;

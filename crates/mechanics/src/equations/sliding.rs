@@ -195,14 +195,15 @@ pub(super) fn sliding<'d>(
     for (sliding, guide) in all.iter().zip(&guides) {
         let slip = relative(model, sliding, guide, &mut coasting).slip;
         let (slip, row) = settled(model, &x, slip);
-        let reactions = match sliding.is_second() {
+        let reactions = if sliding.is_second() {
             // Both tangents have one reaction.
-            true => equations
+            equations
                 .last()
                 .map_or_else(Vec::new, |first: &SlidingEquation<'d>| {
                     first.reactions.clone()
-                }),
-            false => solved.by_ref().take(guide.axes.len()).collect(),
+                })
+        } else {
+            solved.by_ref().take(guide.axes.len()).collect()
         };
         equations.push(SlidingEquation {
             name: sliding.name.to_string(),

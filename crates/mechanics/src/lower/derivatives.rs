@@ -112,9 +112,12 @@ pub(super) fn of_elimination(solution: solve::Solution, system: &System) -> Solv
     let step = |(pivot, column): (&Pivot, &solve::Column)| Step {
         of: pivot.coordinate,
         // Pivots of constraints are guarded as positive numbers; without one a row depends on others.
-        pivot: (!pivot.pivot.is_zero()).then(|| match pivot.coordinate < system.coordinates {
-            true => pivot.pivot,
-            false => pivot.pivot.negated(),
+        pivot: (!pivot.pivot.is_zero()).then(|| {
+            if pivot.coordinate < system.coordinates {
+                pivot.pivot
+            } else {
+                pivot.pivot.negated()
+            }
         }),
         parts: column
             .below

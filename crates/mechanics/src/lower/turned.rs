@@ -200,9 +200,10 @@ impl<'d> Turned<'d> {
             let s = quaternion::square(&four.e);
             let places = four.coordinates(model);
             for (i, pivot) in of.iter_mut().filter(|(i, _)| places.contains(i)) {
-                *pivot = match *i == places[3] {
-                    true => *pivot / s,
-                    false => 4 * *pivot / s,
+                *pivot = if *i == places[3] {
+                    *pivot / s
+                } else {
+                    4 * *pivot / s
                 };
             }
         }

@@ -134,9 +134,10 @@ impl<'p, R: Number> Comparison<'p, R> {
         }
         let is_needed = |role: &Role| !matches!(role, Role::Output(_) | Role::Gradient(_));
         let mut needed = roles.iter().zip(&good).filter(|(role, _)| is_needed(role));
-        match needed.all(|(_, &good)| good >= points) {
-            true => Found::Equal,
-            false => Found::Nothing,
+        if needed.all(|(_, &good)| good >= points) {
+            Found::Equal
+        } else {
+            Found::Nothing
         }
     }
 
@@ -234,9 +235,10 @@ impl<'p, R: Number> Comparison<'p, R> {
                 return Err(self.wrong(role, index));
             }
         }
-        match found.len() == expected.len() {
-            true => Ok(()),
-            false => Err(self.wrong(role, 0)),
+        if found.len() == expected.len() {
+            Ok(())
+        } else {
+            Err(self.wrong(role, 0))
         }
     }
 
@@ -255,9 +257,10 @@ impl<'p, R: Number> Comparison<'p, R> {
             .zip(&weights)
             .map(|(&rate, &weight)| -(rate * weight));
         let sum = expected.fold(Sum::products(&found, &direction), Sum::plus);
-        match sum.vanishes()? && found.len() == direction.len() {
-            true => Ok(()),
-            false => Err(self.wrong(Role::Adjoint, 0)),
+        if sum.vanishes()? && found.len() == direction.len() {
+            Ok(())
+        } else {
+            Err(self.wrong(Role::Adjoint, 0))
         }
     }
 
@@ -278,9 +281,10 @@ impl<'p, R: Number> Comparison<'p, R> {
         let direction = [&by.q[..], &by.v, &by.parameters, &by.u, &by.a].concat();
         let expected = duals.first().map_or(R::ZERO, |x| x.derivative);
         let sum = Sum::products(&found, &direction).plus(-expected);
-        match sum.vanishes()? && found.len() == direction.len() {
-            true => Ok(()),
-            false => Err(self.wrong(role, 0)),
+        if sum.vanishes()? && found.len() == direction.len() {
+            Ok(())
+        } else {
+            Err(self.wrong(role, 0))
         }
     }
 }

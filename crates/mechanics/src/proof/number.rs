@@ -48,9 +48,10 @@ impl Number for Residue {
     }
 
     fn look(self, _: f64) -> Sight {
-        match self == Residue::ZERO {
-            true => Sight::Zero,
-            false => Sight::NotZero,
+        if self == Residue::ZERO {
+            Sight::Zero
+        } else {
+            Sight::NotZero
         }
     }
 
@@ -99,9 +100,10 @@ impl Number for Ball {
         if !self.contains(0.0) {
             return Sight::NotZero;
         }
-        match self.radius() <= SHARE * size.max(SHARE) {
-            true => Sight::Zero,
-            false => Sight::Hidden,
+        if self.radius() <= SHARE * size.max(SHARE) {
+            Sight::Zero
+        } else {
+            Sight::Hidden
         }
     }
 
@@ -141,9 +143,10 @@ impl Number for Ball {
         let width = 0.5f64.powi((number / 6) as i32);
         let places = model.coordinates.iter().zip(&starts);
         let q = places.map(|(coordinate, &start)| {
-            let half = match coordinate.unit.is_one() {
-                true => 3.2,
-                false => 0.02 + 0.5 * start.abs(),
+            let half = if coordinate.unit.is_one() {
+                3.2
+            } else {
+                0.02 + 0.5 * start.abs()
             };
             start + width * random.uniform(-half, half)
         });

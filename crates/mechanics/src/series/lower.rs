@@ -107,9 +107,10 @@ impl<'m, 'd> Lowering<'m, 'd> {
             Node::Sum(terms) => {
                 let mut sum = Vec::new();
                 for (term, coefficient) in terms.iter() {
-                    let coefficient = match coefficient.is_one() {
-                        true => None,
-                        false => Some(self.push(Row::Number(coefficient.clone()))?),
+                    let coefficient = if coefficient.is_one() {
+                        None
+                    } else {
+                        Some(self.push(Row::Number(coefficient.clone()))?)
                     };
                     self.add_term(&mut sum, coefficient, *term)?;
                 }
@@ -229,9 +230,10 @@ impl<'m, 'd> Lowering<'m, 'd> {
             return Ok(None);
         };
         for row in rows {
-            product = match row == product {
-                true => self.push(Row::Square(row))?,
-                false => self.push(Row::Product(product, row))?,
+            product = if row == product {
+                self.push(Row::Square(row))?
+            } else {
+                self.push(Row::Product(product, row))?
             };
         }
         Ok(Some(product))

@@ -173,9 +173,12 @@ fn turning<'d>(
             for (k, row) in pseudo.iter().enumerate() {
                 for component in 0..3 {
                     let terms = row.iter().zip(axes);
-                    let terms = terms.map(|(&j, axis)| match j.is_zero() {
-                        true => j,
-                        false => j * rates.second(axis[component]),
+                    let terms = terms.map(|(&j, axis)| {
+                        if j.is_zero() {
+                            j
+                        } else {
+                            j * rates.second(axis[component])
+                        }
                     });
                     let terms: Vec<Expr<'d>> = terms.collect();
                     loads.push((axes[k][component], model.dag.sum(terms)));
@@ -254,9 +257,10 @@ impl<'m, 'd> Rates<'m, 'd> {
 
     /// The symbol that stands for a derivative.
     fn symbol(&mut self, of: Expr<'d>, twice: bool) -> Expr<'d> {
-        let (mark, stage) = match twice {
-            false => ("d", stage::VELOCITY),
-            true => ("dd", stage::ACCELERATION),
+        let (mark, stage) = if twice {
+            ("dd", stage::ACCELERATION)
+        } else {
+            ("d", stage::VELOCITY)
         };
         // No name of a spec has a space in it.
         let name = format!("{mark} of {}", of.id().index());

@@ -149,9 +149,12 @@ fn the_rank_of_a_mixture_is_the_rank_of_what_was_mixed() {
             .collect();
         let constraints: Vec<String> = (0..rows)
             .map(|row| {
-                let weight = |k: usize, free: u64| match row < rank {
-                    true => i64::from(row == k),
-                    false => free as i64 - 3,
+                let weight = |k: usize, free: u64| {
+                    if row < rank {
+                        i64::from(row == k)
+                    } else {
+                        free as i64 - 3
+                    }
                 };
                 let terms: Vec<String> = h
                     .iter()
@@ -318,9 +321,10 @@ fn dependent_rows_contradict_where_something_is_added() {
                 rows.join(", ")
             );
             let told = told(&text);
-            let expected = match added == 0.0 {
-                true => Vec::new(),
-                false => vec!["the constraint `c2` contradicts `c0`, `c1` near the start"],
+            let expected = if added == 0.0 {
+                Vec::new()
+            } else {
+                vec!["the constraint `c2` contradicts `c0`, `c1` near the start"]
             };
             assert_eq!(told.len(), expected.len(), "{text}: {told:?}");
             for (told, expected) in told.iter().zip(expected) {

@@ -33,13 +33,15 @@ const SPATIAL: &str = "machine Spatial in space {
 
 /// A chain in the plane that closes, its angles measured from bar to bar or each from the ground.
 fn closed(from_the_ground: bool) -> String {
-    let frames = match from_the_ground {
-        true => "joint[0] = ground, joint[i in 1..N] = joint[i-1].shift(l*cos(q[i]), l*sin(q[i]))",
-        false => "joint[0] = ground, joint[i in 1..N] = joint[i-1].turn(q[i]).shift(l, 0)",
+    let frames = if from_the_ground {
+        "joint[0] = ground, joint[i in 1..N] = joint[i-1].shift(l*cos(q[i]), l*sin(q[i]))"
+    } else {
+        "joint[0] = ground, joint[i in 1..N] = joint[i-1].turn(q[i]).shift(l, 0)"
     };
-    let bar = match from_the_ground {
-        true => "at: joint[i-1].origin + polar(l/2, q[i]), angle: q[i]",
-        false => "frame: joint[i], at: joint[i].point(-l/2, 0)",
+    let bar = if from_the_ground {
+        "at: joint[i-1].origin + polar(l/2, q[i]), angle: q[i]"
+    } else {
+        "frame: joint[i], at: joint[i].point(-l/2, 0)"
     };
     format!(
         "machine Closed in plane {{

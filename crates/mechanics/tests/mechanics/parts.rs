@@ -544,9 +544,8 @@ fn a_table_is_in_the_units_of_its_file_and_ends_where_that_ends() {
         let torque = torque.expect("a torque");
         let rate = model.coordinates[0].v.as_symbol();
         for speed in [-50.0, 0.0, 10.0, 125.0] {
-            let found = evaluate(model.dag, &[torque], |symbol| match Some(symbol) == rate {
-                true => speed,
-                false => 0.0,
+            let found = evaluate(model.dag, &[torque], |symbol| {
+                if Some(symbol) == rate { speed } else { 0.0 }
             });
             let full = 1200.0 * std::f64::consts::TAU / 60.0;
             // Three pieces of ten operations each, of some N m.

@@ -34,9 +34,12 @@ impl<'d> Chapter<'_, 'd> {
         let letter = Math::letter;
         let equations = &self.compiled.equations;
         let stores = !equations.state_energy.is_zero();
-        let sum = || match stores {
-            true => letter('T') + letter('V') + letter('E'),
-            false => letter('T') + letter('V'),
+        let sum = || {
+            if stores {
+                letter('T') + letter('V') + letter('E')
+            } else {
+                letter('T') + letter('V')
+            }
         };
         match &self.facts.energy {
             Energy::Conserved => {

@@ -65,10 +65,11 @@ impl<'d> Chapter<'_, 'd> {
         let mut rows = self.equality(letter('w'), contact.slip, "slip");
         let constraints = &self.compiled.equations.constraints;
         let multipliers: Vec<Expr<'d>> = constraints.iter().map(|one| one.multiplier).collect();
-        let normals = match contact.is_second() {
+        let normals = if contact.is_second() {
             // It stands with the first tangent.
-            true => Vec::new(),
-            false => contact.normal(self.model, &multipliers),
+            Vec::new()
+        } else {
+            contact.normal(self.model, &multipliers)
         };
         let components = normals.len();
         for (normal, axis) in normals.into_iter().zip(['x', 'y', 'z']) {

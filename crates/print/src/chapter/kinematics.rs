@@ -41,9 +41,10 @@ impl<'d> Chapter<'_, 'd> {
                  body's own axes"
             }
         };
-        let exact = match self.model.approximations.is_empty() {
-            true => "",
-            false => "; all of these are exact, approximations begin with the energies",
+        let exact = if self.model.approximations.is_empty() {
+            ""
+        } else {
+            "; all of these are exact, approximations begin with the energies"
         };
         blocks.push(Block::Paragraph(words![format!(
             "The bodies: {turning}{exact}."

@@ -248,9 +248,12 @@ impl<'d> Chapter<'_, 'd> {
             return vec![Block::Paragraph(intro), Block::formula(&whole)];
         }
         let is_short = |i: usize, j: usize| written.get(i, j).width() <= SHORT_ENTRY;
-        let short = all(&|i, j| match is_short(i, j) {
-            true => written.get(i, j).clone(),
-            false => entry_name(i, j),
+        let short = all(&|i, j| {
+            if is_short(i, j) {
+                written.get(i, j).clone()
+            } else {
+                entry_name(i, j)
+            }
         });
         let long: Vec<_> = places()
             .filter(|&(i, j)| i <= j && !is_short(i, j))

@@ -96,9 +96,10 @@ impl<'d> Chapter<'_, 'd> {
         let term = if said.on_the_right { -term } else { term };
         let is_lost = term.size() <= READABLE
             && dots(&said.text) != dots(&lagrangian_symbolic::text(term, self.model.dag));
-        match is_lost {
-            true => Math::text(said.text.clone()),
-            false => self.shown(term),
+        if is_lost {
+            Math::text(said.text.clone())
+        } else {
+            self.shown(term)
         }
     }
 

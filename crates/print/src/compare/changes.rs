@@ -126,9 +126,10 @@ pub(super) fn differ_by_a_slip(a: Expr<'_>, b: Expr<'_>) -> bool {
             let [a, b] = [a, b].map(|symbol| dag.name(symbol));
             let ((dots_a, name_a), (dots_b, name_b)) = (undotted(&a), undotted(&b));
             let (letters_a, letters_b) = (without_index(name_a), without_index(name_b));
-            match dots_a == dots_b {
-                true => letters_a == letters_b,
-                false => name_a == name_b,
+            if dots_a == dots_b {
+                letters_a == letters_b
+            } else {
+                name_a == name_b
             }
         }
         (Node::Function(f, x), Node::Function(g, y)) => {

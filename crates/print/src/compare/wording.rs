@@ -33,9 +33,12 @@ pub(super) fn words<'d>(
     let dropped = mend.drop.iter().zip(&found);
     let drop = dropped.map(|(&term, found)| {
         let on_the_right = is_right(found);
-        let said = |found: &&PrintedTerm<'d>| match on_the_right && own_sides {
-            true => found.opposite().text(),
-            false => found.text(),
+        let said = |found: &&PrintedTerm<'d>| {
+            if on_the_right && own_sides {
+                found.opposite().text()
+            } else {
+                found.text()
+            }
         };
         Quoted {
             text: found.as_ref().map_or_else(|| usual(term), said),
@@ -104,9 +107,10 @@ fn in_the_order_of<'d>(printed: &PrintedTerm<'d>, term: Expr<'d>) -> Option<Stri
             kept: true,
         };
         if let Some(value) = factor.value.as_constant() {
-            number = match factor.divides {
-                true => number.checked_div(&value)?,
-                false => number.checked_mul(&value)?,
+            number = if factor.divides {
+                number.checked_div(&value)?
+            } else {
+                number.checked_mul(&value)?
             };
         } else {
             let [(base, power)] = Term::of(factor.value).factors[..] else {

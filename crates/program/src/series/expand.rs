@@ -515,9 +515,10 @@ impl<T: Copy, N: Scalar<Stored = T>> Arithmetic for At<'_, T, N> {
     #[inline(always)]
     fn motion(&mut self, coordinate: u32, is_rate: bool) -> N {
         let place = coordinate as usize * self.of.width + self.m;
-        N::load(match is_rate {
-            true => self.of.rates[place],
-            false => self.of.motion[place],
+        N::load(if is_rate {
+            self.of.rates[place]
+        } else {
+            self.of.motion[place]
         })
     }
     #[inline(always)]
@@ -556,17 +557,21 @@ impl<T: Copy, N: Scalar<Stored = T>> Arithmetic for At<'_, T, N> {
     fn second_factors(&mut self, row: RowId) -> [N; 2] {
         let m = self.m + 1;
         let order = self.of.number::<N>(m);
-        match self.of.series.is_integral(row) {
-            true => [order, N::load(self.of.newest[row.index()])],
-            false => [order * self.of.number::<N>(m + 1), self.read(row, m + 1)],
+        if self.of.series.is_integral(row) {
+            [order, N::load(self.of.newest[row.index()])]
+        } else {
+            [order * self.of.number::<N>(m + 1), self.read(row, m + 1)]
         }
     }
     #[inline(always)]
     fn convolution(&mut self, row: RowId, number: usize) -> N {
         let Sum { factors, along } = self.of.sums[row.index()][number];
-        let [a, b] = factors.map(|(place, weighted)| match weighted {
-            true => &self.of.weighted[place..place + self.of.width],
-            false => &self.of.coefficients[place..place + self.of.width],
+        let [a, b] = factors.map(|(place, weighted)| {
+            if weighted {
+                &self.of.weighted[place..place + self.of.width]
+            } else {
+                &self.of.coefficients[place..place + self.of.width]
+            }
         });
         convolve(a, b, self.m, along)
     }
@@ -594,9 +599,10 @@ impl<T: Copy, N: Scalar<Stored = T>> Arithmetic for At<'_, T, N> {
         let (mut sum, mut low) = (N::ZERO, N::ZERO);
         for (coefficient, of) in terms {
             let x = self.first(*of);
-            let x_low = match self.of.series.exact[of.index()] {
-                true => N::load(self.of.low[of.index()]),
-                false => N::ZERO,
+            let x_low = if self.of.series.exact[of.index()] {
+                N::load(self.of.low[of.index()])
+            } else {
+                N::ZERO
             };
             let (term, term_low) = match coefficient {
                 None => (x, x_low),

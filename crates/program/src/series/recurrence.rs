@@ -210,10 +210,13 @@ impl Series {
             Row::Acceleration(_) => to.zero(),
             Row::First(p) => to.derivative(p),
             Row::Second(p) => to.second_derivative(p),
-            Row::Sum(ref terms) => match self.has_phase(row) {
-                true => to.exact_sum(row, terms),
-                false => self.sum_of(terms, to, A::first),
-            },
+            Row::Sum(ref terms) => {
+                if self.has_phase(row) {
+                    to.exact_sum(row, terms)
+                } else {
+                    self.sum_of(terms, to, A::first)
+                }
+            }
             Row::Product(a, b) => {
                 let [a, b] = [a, b].map(|row| to.first(row));
                 to.multiply(a, b)

@@ -193,9 +193,10 @@ impl Paper {
                 }
                 for _ in 0..60 {
                     let middle = (low + high) / 2.0;
-                    match (delta(middle) > 0.0) == sign {
-                        true => low = middle,
-                        false => high = middle,
+                    if (delta(middle) > 0.0) == sign {
+                        low = middle
+                    } else {
+                        high = middle
                     }
                 }
                 let end = (low + high) / 2.0;

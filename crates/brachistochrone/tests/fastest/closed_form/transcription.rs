@@ -83,9 +83,10 @@ impl Plane {
                     }
                     (at(&[(i, by), (j, STEP)]) - at(&[(i, by), (j, -STEP)])) / (2.0 * STEP)
                 });
-                match i == j {
-                    true => (up - down) / STEP,
-                    false => (up - down) / (2.0 * STEP),
+                if i == j {
+                    (up - down) / STEP
+                } else {
+                    (up - down) / (2.0 * STEP)
                 }
             };
             let row = |i: usize| {

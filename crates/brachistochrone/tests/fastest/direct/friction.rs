@@ -104,9 +104,10 @@ fn too_much_friction_is_told_with_what_was_reached() {
     assert!(is_there(low) && !is_there(high));
     for _ in 0..50 {
         let middle = 0.5 * (low + high);
-        match is_there(middle) {
-            true => low = middle,
-            false => high = middle,
+        if is_there(middle) {
+            low = middle
+        } else {
+            high = middle
         }
     }
     println!("lost at {lost}, {low} is the greatest share");

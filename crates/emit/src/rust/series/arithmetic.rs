@@ -111,9 +111,10 @@ impl<'s> Symbolic<'s> {
     }
 
     pub fn carry(&mut self, Stream { row, weighted }: Stream) {
-        self.carried.insert(match weighted {
-            true => Carried::Weighted(row),
-            false => Carried::Plain(row),
+        self.carried.insert(if weighted {
+            Carried::Weighted(row)
+        } else {
+            Carried::Plain(row)
         });
     }
 
@@ -233,9 +234,10 @@ impl<'s> Symbolic<'s> {
 
     /// Sine and cosine turned by what rounding took from the angle.
     fn turned(&mut self, row: RowId, [sin, cos]: [X; 2]) -> [X; 2] {
-        let low = match self.series.exact[row.index()] {
-            true => self.low[row.index()].unwrap_or(X::Zero),
-            false => X::Zero,
+        let low = if self.series.exact[row.index()] {
+            self.low[row.index()].unwrap_or(X::Zero)
+        } else {
+            X::Zero
         };
         match low {
             X::Zero => [sin, cos],
@@ -399,9 +401,10 @@ impl<'s> Symbolic<'s> {
             finals.motion.push(q);
         }
         let share = self.multiply(over_v, over_q);
-        let applied = match is_applied {
-            true => Some(self.push(Op::Applied(self.forces.len(), a.to_vec()))),
-            false => None,
+        let applied = if is_applied {
+            Some(self.push(Op::Applied(self.forces.len(), a.to_vec())))
+        } else {
+            None
         };
         for (at, row) in self.forces.clone().into_iter().enumerate() {
             let change = match applied {
@@ -479,9 +482,10 @@ impl Symbolic<'_> {
             Carried::Plain(row) => self.kept(finals, stream(row, false), m),
             Carried::Weighted(row) => self.kept(finals, stream(row, true), m),
             Carried::Older(row, _) if m < 3 => self.linear[row.index()].unwrap_or(X::Zero),
-            Carried::Older(row, weighted) => self.variable(match weighted {
-                true => Carried::Weighted(row),
-                false => Carried::Plain(row),
+            Carried::Older(row, weighted) => self.variable(if weighted {
+                Carried::Weighted(row)
+            } else {
+                Carried::Plain(row)
             }),
             Carried::Rate(i) => finals.rates[i as usize],
         }
@@ -605,13 +609,12 @@ impl Arithmetic for Symbolic<'_> {
     }
     fn second_factors(&mut self, row: RowId) -> [X; 2] {
         let order = self.order(1);
-        match self.series.is_integral(row) {
-            true => [order, self.scaled[row.index()].unwrap_or(X::Zero)],
-            false => {
-                let both = self.order(2);
-                let both = self.multiply(order, both);
-                [both, self.newest[row.index()].unwrap_or(X::Zero)]
-            }
+        if self.series.is_integral(row) {
+            [order, self.scaled[row.index()].unwrap_or(X::Zero)]
+        } else {
+            let both = self.order(2);
+            let both = self.multiply(order, both);
+            [both, self.newest[row.index()].unwrap_or(X::Zero)]
         }
     }
     fn convolution(&mut self, row: RowId, number: usize) -> X {
@@ -630,9 +633,12 @@ impl Arithmetic for Symbolic<'_> {
         let (kind, lane) = self.places[&convolution];
         let letter = ["w", "s"][kind];
         let sum = self.given(format!("{letter}{}[{}]", lane / WIDTH, lane % WIDTH));
-        let carried = |Stream { row, weighted }: Stream| match weighted {
-            true => Carried::Weighted(row),
-            false => Carried::Plain(row),
+        let carried = |Stream { row, weighted }: Stream| {
+            if weighted {
+                Carried::Weighted(row)
+            } else {
+                Carried::Plain(row)
+            }
         };
         let linear = |symbolic: &Self, stream: Stream| {
             symbolic.linear[stream.row.index()].unwrap_or(X::Zero)
@@ -676,9 +682,10 @@ impl Arithmetic for Symbolic<'_> {
         let (mut sum, mut low) = (X::Zero, X::Zero);
         for (coefficient, of) in terms {
             let x = self.first(*of);
-            let x_low = match self.series.exact[of.index()] {
-                true => self.low[of.index()].unwrap_or(X::Zero),
-                false => X::Zero,
+            let x_low = if self.series.exact[of.index()] {
+                self.low[of.index()].unwrap_or(X::Zero)
+            } else {
+                X::Zero
             };
             let (term, term_low) = match coefficient {
                 None => (x, x_low),

@@ -65,9 +65,10 @@ pub fn contradictions<'d>(model: &Model<'d>, equations: &Equations<'d>, report: 
     };
     let name = |k: usize| format!("`{}`", constraints[order[k]].name);
     let spans = spans(model);
-    let unit = match found.of_rates {
-        true => constraints[order[last]].rate_unit(),
-        false => constraints[order[last]].unit,
+    let unit = if found.of_rates {
+        constraints[order[last]].rate_unit()
+    } else {
+        constraints[order[last]].unit
     };
     let others: Vec<String> = found.misses.iter().map(|(k, _)| name(*k)).collect();
     let others = &others[..others.len() - 1];

@@ -130,9 +130,10 @@ fn on_sphere<'d, R: Scalar>(
     let line = [0, 1, 2].map(|k| own[k] - theirs[k]);
     let distance = dot(line, line).sqrt();
     let (small, large) = (x(first.radius), x(other.radius));
-    let gap = match is_inside {
-        true => large - small - distance,
-        false => distance - small - large,
+    let gap = if is_inside {
+        large - small - distance
+    } else {
+        distance - small - large
     };
     let e = line.map(|c| c.value / distance.value);
     let arm = if is_inside { small.value } else { -small.value };
