@@ -179,6 +179,12 @@ impl Here {
         }
     }
 
+    /// Bound on the rounding of a rate that changes with an acceleration whose terms have this size: that of its own terms, and what the terms of the
+    /// acceleration make of the rounding of time. Where a machine is locked these terms cancel, and all its rates are rounding.
+    pub fn rate_rounding_in_time(&self, direction: usize, acceleration_terms: f64) -> f64 {
+        self.rate_rounding(direction) + 8.0 * f64::EPSILON * self.at.0.abs() * acceleration_terms
+    }
+
     /// Whether the gap of a contact is no more than rounding.
     pub fn is_shut(&self, contact: usize) -> bool {
         self.gaps[contact] <= self.gap_rounding(contact)
@@ -256,6 +262,8 @@ pub(crate) struct Reaction {
     pub forces: Vec<[f64; 2]>,
     /// What forces of a contact are made of, for their rounding.
     sizes: Vec<f64>,
+    /// For each closed contact the size of the terms of its tangential acceleration without the forces of contacts, in m/s².
+    slip_terms: Vec<f64>,
     /// Whether the forces are the only ones that go with the accelerations.
     pub is_only: bool,
 }
@@ -266,6 +274,7 @@ impl Reaction {
         Self {
             a,
             sizes: vec![0.0; forces.len()],
+            slip_terms: vec![0.0; forces.len()],
             forces,
             is_only: true,
         }
@@ -570,6 +579,7 @@ impl Touching {
         let mut reaction = Reaction {
             forces: vec![[0.0; 2]; self.modes.len()],
             sizes: vec![0.0; self.modes.len()],
+            slip_terms: vec![0.0; self.modes.len()],
             is_only: true,
             a,
         };
@@ -587,6 +597,9 @@ impl Touching {
             .collect();
         let g = matrix(&images);
         let width = images.len();
+        for &k in &closed {
+            [_, reaction.slip_terms[k]] = here.acceleration(2 * k + 1, &reaction.a);
+        }
         // Of what slides the tangential force is a share of the normal one; what sticks has two unknowns.
         let share = |k: usize| match self.modes[k] {
             Mode::Slides(sign) => -sign * here.friction(k)[0],
@@ -836,7 +849,10 @@ impl Touching {
                 // What a contact does along both tangents is asked of the first.
                 _ if self.across[k] => continue,
                 Mode::Skids(heading) => {
-                    let [slip, rounding] = self.slip(&here, k);
+                    let [slip, _] = self.slip(&here, k);
+                    let rounding = [k, k + 1].map(|tangent| {
+                        here.rate_rounding_in_time(2 * tangent + 1, reaction.slip_terms[tangent])
+                    });
                     let slips = Margin {
                         value: heading[0] * slip[0] + heading[1] * slip[1],
                         rounding: rounding[0].hypot(rounding[1]),
@@ -847,7 +863,7 @@ impl Touching {
                 Mode::Slides(sign) => {
                     let slips = Margin {
                         value: sign * here.rates[2 * k + 1],
-                        rounding: here.rate_rounding(2 * k + 1),
+                        rounding: here.rate_rounding_in_time(2 * k + 1, reaction.slip_terms[k]),
                     };
                     [presses, slips, loads, stays]
                 }
@@ -959,7 +975,8 @@ impl Touching {
         // How each slips: from its rate, or found out below; none where it may stick.
         let mut slipping: Vec<Option<f64>> = asked_of
             .iter()
-            .map(|&k| match (self.rubs[k], resting[k]) {
+            .enumerate()
+            .map(|(place, &k)| match (self.rubs[k], resting[k]) {
                 (false, _) => Some(0.0),
                 _ if known.is_some_and(|(known, _)| known == k) => match known {
                     Some((_, Mode::Slides(sign))) => Some(sign),
@@ -970,7 +987,20 @@ impl Touching {
                     let [slip, _] = self.slip(&here, k);
                     Some(slip[usize::from(self.across[k])] / slip[0].hypot(slip[1]))
                 }
-                (true, false) => Some(here.rates[2 * k + 1].signum()),
+                (true, false) => {
+                    let slip = here.rates[2 * k + 1];
+                    let [_, terms] = accelerations[2 * place + 1];
+                    match self.modes[k] {
+                        // The sign of a slip that is rounding says nothing: it slips as it did.
+                        Mode::Slides(sign)
+                            if sign != 0.0
+                                && slip.abs() <= here.rate_rounding_in_time(2 * k + 1, terms) =>
+                        {
+                            Some(sign)
+                        }
+                        _ => Some(slip.signum()),
+                    }
+                }
             })
             .collect();
         // Which contacts with two tangents are at rest and will skid: in which direction is for their friction to say.

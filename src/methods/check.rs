@@ -278,9 +278,9 @@ fn sizes(tableau: &Tableau) -> Result<(), MethodError> {
     let order = tableau.order;
     field(order >= 1, "order", "at least 1")?;
     field(
-        order <= most,
+        order <= most.min(MAX_VERTICES as u32),
         "order",
-        "at most the number of stages, and twice that of those that depend on each other",
+        "at most 16, the number of stages, and twice that of those that depend on each other",
     )?;
     field(tableau.error_power >= 1, "error_power", "at least 1")?;
     let is_good = (1..=MAX_VERTICES as u32).contains(&tableau.dense_order);

@@ -8,7 +8,6 @@ use super::{LastInterpolant, Run, VectorOf};
 use crate::balance::Quadratures;
 use crate::contact::{Impact, Mode};
 use crate::event::{self, Crossing, Event, Triple, made, state};
-use crate::friction::Margin;
 use crate::inputs::InputLaw;
 use crate::phases::{Book, Change};
 use crate::roots;
@@ -33,7 +32,7 @@ const BEYOND: f64 = 1e-9;
 /// Between two looks at a gap no angle that it depends on turns further than this, in rad.
 const TURN_BETWEEN_LOOKS: f64 = 0.5;
 
-/// A gap falls no faster than this many times the greatest of its rates at the looks.
+/// Between two looks a gap falls no faster than this many times the greatest of its rates at looks.
 const FALLS: f64 = 2.0;
 
 /// What opens at a look is looked at from this part of the way to the next one on.
@@ -522,8 +521,13 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 }
                 let (from, to) = (before[k], now[k]);
                 let mut between = [theta_before, theta];
-                let mut closes = to.value < 0.0 || from.rate < 0.0 && to.rate > 0.0;
-                let fall = FALLS * falls[k] * stepper.last_step().abs() * (theta - theta_before);
+                let part = stepper.last_step().abs() * (theta - theta_before);
+                let may_fall = |greatest_rate: f64| FALLS * greatest_rate * part;
+                let comes_back = from.rate < 0.0
+                    && to.rate > 0.0
+                    && from.value <= may_fall(to.rate.max(-from.rate));
+                let mut closes = to.value < 0.0 || comes_back;
+                let fall = may_fall(falls[k]);
                 if fall > 0.0 && to.value >= 0.0 && from.value.min(to.value) < fall {
                     let gap = |theta: f64| {
                         let (t, q, v) = event::interpolated_at(stepper, theta);
@@ -564,6 +568,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 }
             }
             if !touching.is_free() {
+                let mut exact = None;
                 let margins = |(t, q, v): &Triple<VectorOf<M>>| {
                     let inputs = model.inputs(*t, q, v);
                     touching
@@ -578,20 +583,22 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                         continue;
                     }
                     let interpolant = made(interpolant, stepper, system)?;
-                    let exactly = |theta: f64| -> Result<(Margin, bool), Error> {
-                        let at = if theta == 0.0 {
-                            beginning.clone()
-                        } else {
-                            event::state_at(system, stepper, interpolant, theta)?
-                        };
-                        let margins = margins(&at)?;
-                        Ok((margins.each[k][kind], margins.is_only))
+                    let exactly = |theta: f64| {
+                        if theta == 0.0 {
+                            return margins(&beginning);
+                        }
+                        margins(&event::state_at(system, stepper, interpolant, theta)?)
                     };
-                    let (value, is_only) = exactly(theta)?;
-                    if !value.is_lost_since(exactly(theta_before)?.0) {
+                    // At both looks, the same for all margins that are doubtful.
+                    let [at_first, at_second] = match &exact {
+                        Some(exact) => exact,
+                        None => exact.insert([exactly(theta_before)?, exactly(theta)?]),
+                    };
+                    if !at_second.each[k][kind].is_lost_since(at_first.each[k][kind]) {
                         continue;
                     }
-                    let margin = |theta| exactly(theta).map(|(margin, _)| margin.value);
+                    let is_only = at_second.is_only;
+                    let margin = |theta| Ok(exactly(theta)?.each[k][kind].value);
                     let mut found =
                         event::last_positive([theta_before, theta], roundoff, &mut &margin)?;
                     // Where a face ends and when a slip stops is seen in the motion itself, however a load is shared.
