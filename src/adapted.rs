@@ -1,4 +1,4 @@
-//! A machine with a force more than its description says.
+//! A machine with a force beside those of its description.
 
 use core::fmt::{self, Debug};
 
@@ -9,16 +9,16 @@ use crate::{
     least_multipliers,
 };
 
-/// A machine, and a generalized force `τ` beside those of its description: what no section of the language says, as a
-/// measured characteristic, a controller's own model, or a force taken out by its opposite.
+/// A machine with a generalized force `τ` beside those of its description, for forces that the language cannot express: a
+/// measured characteristic, a controller's own model, or the opposite of a force that is to be removed.
 ///
-/// The function is given time, coordinates, rates and inputs, and adds to a force for each coordinate, which begins at 0: in N
-/// for a length, in N·m for an angle. With it `M a = f + τ + Gᵀ λ`, the power `Σ τᵢ vᵢ` is part of the
-/// [work](System::work_rate), and the balance of energy closes as it does without. Accelerations cost a factorization of the mass
-/// matrix more than those of the machine.
+/// The function receives time, coordinates, rates and inputs, and adds to a force for each coordinate, which is initially 0: in
+/// N for a length, in N·m for an angle. With it `M a = f + τ + Gᵀ λ`, the power `Σ τᵢ vᵢ` is part of the
+/// [work](System::work_rate), and the energy balance closes as without it. Accelerations cost one more factorization of the mass
+/// matrix than those of the machine.
 ///
-/// It is a [`Machine`] itself: whatever runs machines runs it. What is derived from the description alone is not there:
-/// neither a Taylor series nor derivatives of the accelerations.
+/// It is a [`Machine`] itself, so everything that runs machines runs it. What is derived from the description alone is missing:
+/// it has neither a Taylor series nor derivatives of the accelerations.
 ///
 #[cfg_attr(all(feature = "macros", feature = "std"), doc = "```")]
 #[cfg_attr(not(all(feature = "macros", feature = "std")), doc = "```ignore")]
@@ -52,8 +52,8 @@ const NO_WORKSPACE: Singular = Singular {
     ratio: 0.0,
 };
 
-/// The machine has guided contacts, whose normal reactions answer to every force: only the forces of the description are
-/// among them.
+/// The error for a machine with guided contacts: their normal reactions depend on every force, and they are computed from the
+/// forces of the description only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct HasFriction;
@@ -75,7 +75,7 @@ where
     M: Machine,
     F: Fn(f64, &Coordinates<M>, &Coordinates<M>, &Inputs<M>, &mut Coordinates<M>) + Clone,
 {
-    /// `machine` with the force that `force(t, q, v, u, τ)` adds to `τ`.
+    /// `machine` with the additional force that `force(t, q, v, u, τ)` adds to `τ`.
     ///
     /// # Errors
     /// If the machine has friction at guides.
@@ -86,7 +86,7 @@ where
         }
     }
 
-    /// The machine without the further force.
+    /// The machine without the additional force.
     pub fn machine(&self) -> &M {
         &self.machine
     }
@@ -167,7 +167,7 @@ where
         write(to);
     }
 
-    /// The further force `τ`.
+    /// The additional force `τ`.
     fn further(&self, t: f64, q: &S::Vector, v: &S::Vector, u: &S::Inputs) -> S::Vector {
         let named = |vector: &S::Vector| self.system.to_coordinates(vector);
         let mut force = named(&q.zeros_like());
@@ -175,7 +175,7 @@ where
         self.system.to_vector(&force)
     }
 
-    /// All accelerations and multipliers, where constraints take up a part of the force.
+    /// All accelerations and multipliers, if constraints take up a part of the force.
     fn constrained(
         &self,
         (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
@@ -191,11 +191,11 @@ where
         })
     }
 
-    /// Whether the machine takes the power of its reactions from its accelerations, as one whose constraints move by
-    /// themselves does: `v·Gᵀλ = v·(M a − f)`. The further force is in that already.
+    /// Whether the machine computes the power of its reactions from its accelerations, as a machine with moving constraints does:
+    /// `v·Gᵀλ = v·(M a − f)`. Then that power already includes the additional force.
     ///
-    /// Its work rate is then linear in `a` with the slope `M v` more than that of its drives, which is `∂T/∂v` at rest:
-    /// along `v` these are `2 T₂` and `T₁`, the parts of `T` of second and first order in `v`.
+    /// In this case the work rate is linear in `a`, and its slope exceeds that of the drives, which is `∂T/∂v` at rest, by `M v`:
+    /// along `v` these are `T₁` and `2 T₂`, with the parts `T₂` and `T₁` of `T` of second and first order in `v`.
     fn counts_all_that_holds(
         &self,
         (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
@@ -210,7 +210,7 @@ where
         if twice_second == 0.0 {
             return false;
         }
-        // Far enough that rounding of the work rate is nothing beside the difference.
+        // So far that round-off of the work rate is negligible relative to the difference.
         let far = 1.0 + work_rate.abs() / twice_second;
         let mut ahead = a.clone();
         for (a, v) in ahead.as_mut_slice().iter_mut().zip(v.as_slice()) {
@@ -274,7 +274,7 @@ where
         with_workspace,
     );
 
-    /// Those of the machine and `M⁻¹ τ`; where constraints take up a part of `τ`, all of them anew.
+    /// The accelerations of the machine and `M⁻¹ τ`; with constraints, which take up a part of `τ`, all are computed anew.
     fn accelerations(
         &self,
         t: f64,
@@ -295,7 +295,7 @@ where
         let n = q.as_slice().len();
         let mut matrix = S::Matrix::zeros(n * n);
         if matrix.as_slice().len() != n * n {
-            // Without a mass matrix there is no answer to a force.
+            // Without a mass matrix the response to a force is unknown.
             return Err(Singular::new(0, 0.0, 1.0));
         }
         self.system.mass_matrix(t, q, &mut matrix);

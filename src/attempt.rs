@@ -1,4 +1,4 @@
-//! One try of an explicit step, in numbers of any kind: what every stepper does between two decisions.
+//! One try of an explicit step in numbers of any kind, which all steppers share.
 
 use crate::control;
 use crate::methods::{MAX_STAGES, Method};
@@ -8,10 +8,9 @@ use crate::step_number::StepNumber;
 use crate::tolerance::Tolerance;
 use crate::{Vector, math};
 
-/// The state at which a stage of a step of length `h` from `before` asks for accelerations, made in `q` and `v`; returns its time.
+/// Computes the state at a stage of a step of length `h` from `before` in `q` and `v`; returns its time.
 ///
-/// Whoever calls it goes through the stages by a loop of its own: a closure that evaluates them would not be compiled into its caller for
-/// wide registers.
+/// The caller loops over the stages itself: a closure that evaluates them would not be compiled into its caller for wide registers.
 #[inline(always)]
 pub(crate) fn go_to_stage<R: Scalar<Stored = N>, N: StepNumber, V: Vector<N>>(
     (method, stage): (&Method, usize),
@@ -26,7 +25,7 @@ pub(crate) fn go_to_stage<R: Scalar<Stored = N>, N: StepNumber, V: Vector<N>>(
     before.t + (before.t_low + ch)
 }
 
-/// The new point of a step of length `h` from `before`, which is at `end` where `is_last` holds.
+/// Computes the new point of a step of length `h` from `before`, which is at `end` where `is_last` holds.
 #[inline(always)]
 pub(crate) fn arrive<R: Scalar<Stored = N>, N: StepNumber, V: Vector<N>>(
     method: &Method,
@@ -40,9 +39,9 @@ pub(crate) fn arrive<R: Scalar<Stored = N>, N: StepNumber, V: Vector<N>>(
     now.set_time(before, h, to);
 }
 
-/// The errors of a step of length `h` in the root mean square over coordinates and rates, 1 being just tolerable.
+/// The errors of a step of length `h` relative to the tolerance, as root mean square over coordinates and rates.
 ///
-/// With a coarser estimate: *Solving Ordinary Differential Equations I*, eq. (II.10.17).
+/// For the combination with a coarser estimate see *Solving Ordinary Differential Equations I*, eq. (II.10.17).
 #[inline(always)]
 pub(crate) fn errors<R: Scalar<Stored = N>, N: StepNumber, V: Vector<N>>(
     method: &Method,
@@ -64,7 +63,7 @@ pub(crate) fn errors<R: Scalar<Stored = N>, N: StepNumber, V: Vector<N>>(
         }
     };
     let numbers = 2 * N::PARTS * ends[0].q.as_slice().len();
-    // A loop, not a closure for each: that would not be compiled into its caller for wide registers.
+    // A loop and not a closure for each trajectory: a closure would not be compiled into its caller for wide registers.
     let mut errors = fine;
     for (error, coarse) in errors.as_mut().iter_mut().zip(coarse.as_ref()) {
         *error = control::combined(*error, *coarse, numbers);
@@ -72,7 +71,7 @@ pub(crate) fn errors<R: Scalar<Stored = N>, N: StepNumber, V: Vector<N>>(
     errors
 }
 
-/// The coordinate with the greatest error in a step of one trajectory.
+/// The coordinate with the largest error in a step of one trajectory.
 pub(crate) fn worst<N: StepNumber, V: Vector<N>>(
     method: &Method,
     h: N,
@@ -99,11 +98,11 @@ pub(crate) fn worst<N: StepNumber, V: Vector<N>>(
     worst.0
 }
 
-/// A length for the first step of one trajectory from `now`, whose end is `left` away: from the size of the first two
-/// derivatives, *Solving Ordinary Differential Equations I*, section II.4, "Starting Step Size".
+/// A length for the first step of one trajectory from `now`, at the distance `left` from its end, from the sizes of the first two
+/// derivatives: *Solving Ordinary Differential Equations I*, section II.4, "Starting Step Size".
 ///
-/// `k[0]` is the acceleration now. `evaluate((t, q, v), a)` finds the acceleration a little ahead, and says whether there is one;
-/// where there is none, the guess is tried and will be shortened.
+/// `k[0]` is the present acceleration. `evaluate((t, q, v), a)` evaluates the acceleration a little ahead, and returns whether it exists;
+/// if not, the guess is returned, and a rejected step will shorten it.
 pub(crate) fn first_step<N: StepNumber, V: Vector<N>>(
     (method, tolerance): (&Method, &Tolerance<V>),
     now: &Point<V, N>,
@@ -160,7 +159,7 @@ pub(crate) fn not_finite<N: StepNumber, V: Vector<N>>(
 /// For each trajectory, whether all numbers of two vectors are finite.
 #[inline(always)]
 pub(crate) fn are_finite<N: StepNumber, V: Vector<N>>(one: &V, other: &V) -> N::Each<bool> {
-    // The sum of what is not finite is not finite, and one test is cheaper than many.
+    // If any number is not finite, the sum is not, and one test is cheaper than many.
     let mut sum = N::NOTHING;
     for (one, other) in one.as_slice().iter().zip(other.as_slice()) {
         sum = sum + *one + *other;

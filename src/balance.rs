@@ -1,4 +1,4 @@
-//! The balance of energy, integrated beside the motion.
+//! The energy balance, integrated along the motion.
 
 #[cfg(feature = "std")]
 use std::vec::Vec;
@@ -7,12 +7,12 @@ use crate::System;
 use crate::compensated::Sum;
 use crate::methods::MAX_STAGES;
 
-/// What is integrated beside a motion: nothing, or the integrals of its energy balance.
+/// Integrals along a motion: none, or those of its energy balance.
 ///
-/// The two implementations are [`NoBalance`], which compiles to nothing, and [`EnergyIntegrals`]; there are no others, since
-/// the steps of a run and its quadratures are made by the same weights.
+/// The two implementations are [`NoBalance`], which compiles to nothing, and [`EnergyIntegrals`]; there are no others, since the
+/// steps of a run and its quadratures must have the same weights.
 pub trait Quadratures<S: System>: Clone + sealed::Sealed {
-    /// Takes the rates at one stage of a step.
+    /// Evaluates the powers at one stage of a step.
     #[doc(hidden)]
     fn stage(
         &mut self,
@@ -22,41 +22,40 @@ pub trait Quadratures<S: System>: Clone + sealed::Sealed {
         u: &S::Inputs,
     );
 
-    /// Takes the rates at one stage of a step as they were evaluated elsewhere: work and what is lost, in W.
+    /// Takes the powers at one stage of a step that were evaluated elsewhere: work and losses, in W.
     #[doc(hidden)]
     #[inline(always)]
     fn take(&mut self, _stage: usize, _work: f64, _lost: f64) {}
 
-    /// Adds powers to the rates at a stage: work, and what is lost, in W.
+    /// Adds powers to those of a stage: work and losses, in W.
     #[doc(hidden)]
     #[inline(always)]
     fn add(&mut self, _stage: usize, _work: f64, _lost: f64) {}
 
-    /// Adds work and losses of an instant, in J.
+    /// Adds the work and losses of an instant, in J.
     #[doc(hidden)]
     #[inline(always)]
     fn add_at_once(&mut self, _work: f64, _lost: f64) {}
 
-    /// Says what of the rates at a stage each unilateral contact has a part in, in W; all of them have none where nothing is given.
+    /// Sets the share of each unilateral contact in the powers of a stage, in W; contacts without an entry have none.
     #[doc(hidden)]
     #[cfg(feature = "std")]
     fn share_out(&mut self, _stage: usize, _of_each: &[PartOfContact]) {}
 
-    /// Says what of work and losses of an instant a unilateral contact has a part in, in J.
+    /// Adds the share of a unilateral contact in the work and losses of an instant, in J.
     #[doc(hidden)]
     #[cfg(feature = "std")]
     fn share_out_at_once(&mut self, _contact: usize, _part: PartOfContact) {}
 
-    /// Adds a step of length `h` whose stages have the weights `b`; the stage after them is the
-    /// next step's first.
+    /// Adds a step of length `h` whose stages have the weights `b`; the stage after them is the first of the next step.
     #[doc(hidden)]
     fn advance(&mut self, h: f64, b: &[f64]);
 
-    /// Takes the last step, with weights `b`, back.
+    /// Undoes the last step, with weights `b`.
     #[doc(hidden)]
     fn retreat(&mut self, b: &[f64]);
 
-    /// The integrals of the energy balance, to be changed.
+    /// Mutable access to the integrals of the energy balance.
     #[doc(hidden)]
     fn integrals_mut(&mut self) -> Option<&mut EnergyIntegrals> {
         None
@@ -66,16 +65,16 @@ pub trait Quadratures<S: System>: Clone + sealed::Sealed {
     fn integrals(&self) -> Option<&EnergyIntegrals>;
 }
 
-/// What a unilateral contact has a part in: powers in W, or energies in J.
+/// The share of a unilateral contact: powers in W, or energies in J.
 #[cfg(feature = "std")]
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PartOfContact {
-    /// What its friction takes, beyond impacts.
+    /// Losses by its friction, without impacts.
     pub friction: f64,
-    /// What it takes as it yields, by its damping or by what it leaves when it opens; of a layer what crushes it.
+    /// Losses in its compliance, by damping or by the energy left when it opens; for a layer the work that crushes it.
     pub yielding: f64,
-    /// What walls that move by themselves do through it.
+    /// Work that moving walls do through it.
     pub work: f64,
 }
 
@@ -95,14 +94,14 @@ impl PartOfContact {
 }
 
 mod sealed {
-    /// What nobody else implements.
+    /// Prevents implementations elsewhere.
     pub trait Sealed {}
     impl Sealed for super::NoBalance {}
     impl Sealed for super::EnergyIntegrals {}
     impl Sealed for Option<super::EnergyIntegrals> {}
 }
 
-/// No energy balance is kept, and none costs anything.
+/// No energy balance is kept, at no cost.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoBalance;
 
@@ -128,13 +127,13 @@ impl<S: System> Quadratures<S> for NoBalance {
     }
 }
 
-/// The integrals over time of the powers of a machine, by the same method and steps as its motion.
-/// They have no part in the choice of steps; a run whose step is too long for them integrates them again along it.
+/// The time integrals of the powers of a machine, by the same method and steps as its motion. They do not affect the choice of
+/// steps; if a step is too long for them, a run integrates them again along it.
 #[derive(Clone, Debug, Default)]
 pub struct EnergyIntegrals {
-    /// Of work rate, its absolute value, and dissipation rate.
+    /// Those of work rate, its absolute value, and dissipation rate.
     own: Integrals,
-    /// For each unilateral contact those of its parts; nothing until one has a part in anything.
+    /// Those of the shares of each unilateral contact; empty until one has a share.
     #[cfg(feature = "std")]
     of_contacts: Vec<Integrals>,
 }
@@ -142,11 +141,11 @@ pub struct EnergyIntegrals {
 /// Three powers and their integrals.
 #[derive(Clone, Copy, Debug, Default)]
 struct Integrals {
-    /// At each stage.
+    /// The powers at each stage.
     rates: [[f64; 3]; MAX_STAGES],
     sums: [Sum; 3],
     sums_before: [Sum; 3],
-    /// By how much the last step added to the sums.
+    /// The last step's contribution to the sums.
     last: [f64; 3],
 }
 
@@ -192,8 +191,7 @@ impl EnergyIntegrals {
         self.own.sums[0].high
     }
 
-    /// The integral of the absolute value of the work rate, in J: work that went to and fro counts
-    /// twice.
+    /// The integral of the absolute value of the work rate, in J: work that is done and returned counts twice.
     pub fn work_turned_over(&self) -> f64 {
         self.own.sums[1].high
     }
@@ -203,14 +201,14 @@ impl EnergyIntegrals {
         self.own.sums[2].high
     }
 
-    /// What a unilateral contact has had a part in so far, in J.
+    /// The energies of a unilateral contact so far, in J.
     #[cfg(feature = "std")]
     pub(crate) fn of_contact(&self, contact: usize) -> PartOfContact {
         let sums = self.of_contacts.get(contact).map(|of| of.sums);
         PartOfContact::of(sums.unwrap_or_default().map(|sum| sum.high))
     }
 
-    /// How fast that grows at the beginning of the next step, in W.
+    /// Its powers at the beginning of the next step, in W.
     #[cfg(feature = "std")]
     pub(crate) fn power_of(&self, contact: usize) -> PartOfContact {
         let rates = self.of_contacts.get(contact).map(|of| of.rates[0]);
@@ -225,8 +223,8 @@ impl EnergyIntegrals {
         all.map(move |of| of.rates[stage])
     }
 
-    /// Puts other integrals over the last step in the place of those by the weights of the method, in J, in the order of
-    /// [`rates`](Self::rates).
+    /// Replaces the integrals over the last step, which used the weights of the method, by others, in J, in the order
+    /// of [`rates`](Self::rates).
     #[cfg(feature = "std")]
     pub(crate) fn replace_last(&mut self, by: &[[f64; 3]]) {
         let all = core::iter::once(&mut self.own).chain(&mut self.of_contacts);
@@ -316,8 +314,8 @@ impl<S: System> Quadratures<S> for EnergyIntegrals {
     }
 }
 
-/// Whether the balance is kept is known when the program runs. A simulation is compiled once for both: asking at each stage
-/// is lost in the time of an evaluation, and a second copy of the whole run would double what a user's build takes.
+/// Whether the balance is kept is known at run time. A simulation is compiled once for both: the test at each stage is negligible
+/// beside an evaluation, and a second copy of the whole run would double the build time.
 impl<S: System> Quadratures<S> for Option<EnergyIntegrals> {
     #[inline(always)]
     fn stage(
@@ -390,10 +388,10 @@ impl<S: System> Quadratures<S> for Option<EnergyIntegrals> {
     }
 }
 
-/// Where the energy of a run went.
+/// The energy balance of a run.
 ///
-/// `residual = (T + V)(now) − (T + V)(then) − work + dissipated` is 0 for exact equations, solved
-/// exactly; a wrong term in the equations of motion or in an energy shows here.
+/// `residual = (T + V)(now) − (T + V)(then) − work + dissipated` is 0 for exact equations that are solved exactly; it reveals a
+/// wrong term in the equations of motion or in an energy.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -406,18 +404,18 @@ pub struct EnergyBalance {
     pub work: f64,
     /// Energy lost in dampers and by friction, in J.
     pub dissipated: f64,
-    /// What the run had to do with, the scale of [`relative`](Self::relative), in J: the greatest
-    /// kinetic energy at the end of any step, `∫ |work rate| dt` and the energy dissipated.
+    /// The energy that the run turned over, in J, the scale of [`relative`](Self::relative): the largest kinetic energy at the end
+    /// of any step, `∫ |work rate| dt` and the energy dissipated.
     pub turned_over: f64,
-    /// How great the residual may be by tolerance and rounding, in J, with a margin of 20.
+    /// How large the residual may be by tolerance and rounding, in J, with a margin of 20.
     ///
-    /// A motion that leaves a trajectory by the error of a step goes on along another, whose balance
-    /// closes: so errors of steps add up in the residual, and none grows. In a step of tolerance
-    /// `δ` an energy changes by no more than `√(2n) (|∂T/∂v| δv + |∂(T + V)/∂q| δq)`, which is bounded by
-    /// kinetic energy, applied forces and accelerations at its end, in the metric of inertia; for implicit
-    /// methods by what `δ` changes in the powers, too, over the length of the step. Rounding adds some units
-    /// in the last place of the energies at each step, and what it makes of the potential energy, found
-    /// out by moving coordinates by theirs. Infinite for a method whose steps have a fixed length: nothing bounds their error.
+    /// After the error of a step the motion continues on another trajectory, whose balance closes, so the errors of steps add up
+    /// in the residual and none is amplified. In a step of tolerance `δ` an energy changes by at most
+    /// `√(2n) (|∂T/∂v| δv + |∂(T + V)/∂q| δq)`, which is bounded by kinetic energy, applied forces and accelerations at its end,
+    /// in the metric of inertia; for implicit methods the change of the powers by `δ` over the length of the step is added.
+    /// Rounding contributes some units in the last place of the energies at each step, and the round-off of the potential energy,
+    /// which is measured by moving coordinates by theirs. Infinite for a method with steps of a fixed length, since nothing bounds
+    /// their error.
     pub explained: f64,
 }
 
@@ -430,7 +428,7 @@ impl EnergyBalance {
     /// The residual relative to the energy turned over; 0 where nothing moved.
     pub fn relative(&self) -> f64 {
         let residual = self.residual();
-        // Nothing at all was turned over: nothing can be missing but roundoff of the potential.
+        // If nothing was turned over, only round-off of the potential energy can be missing.
         if self.turned_over == 0.0 {
             residual
         } else {
@@ -439,25 +437,25 @@ impl EnergyBalance {
     }
 }
 
-/// Where the energy of a run went in a unilateral contact.
+/// The energy balance of a unilateral contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ContactEnergies {
-    /// What its impacts took, their friction with it, in J.
+    /// Lost in its impacts, including their friction, in J.
     pub impact_loss: f64,
-    /// What friction took while it was closed, in J; of the rolling of a contact what resisted that.
+    /// Lost by friction while it was closed, in J; for the rolling of a contact, by rolling resistance.
     pub friction_loss: f64,
-    /// What it took as it yielded and was not crushed: its damping, and what it still held when it opened, in J.
+    /// Lost in its compliance without crushing: by damping, and the energy that it still stored when it opened, in J.
     pub damping_loss: f64,
-    /// The work that has crushed its layer, in J.
+    /// Work that crushed its layer, in J.
     pub crushing_work: f64,
-    /// What walls that move by themselves did through it, in J: part of the work of the drive.
+    /// Work that moving walls did through it, in J: a part of the work of the drive.
     pub work: f64,
 }
 
 impl ContactEnergies {
-    /// All that it took, in J.
+    /// The total loss, in J.
     pub fn lost(&self) -> f64 {
         self.impact_loss + self.friction_loss + self.damping_loss + self.crushing_work
     }
@@ -472,7 +470,7 @@ pub struct Energies {
     pub t: f64,
     /// Kinetic energy, in J.
     pub kinetic: f64,
-    /// Potential energy, with what contacts that yield and states of first order store, in J.
+    /// Potential energy, including the energy stored by compliant contacts and first-order states, in J.
     pub potential: f64,
     /// Work done since the start by drives, applied forces and inputs, in J.
     pub work: f64,
@@ -481,7 +479,7 @@ pub struct Energies {
 }
 
 impl Energies {
-    /// Whether all of them are.
+    /// Whether all of them are finite.
     #[cfg(feature = "std")]
     pub(crate) fn are_finite(&self) -> bool {
         let all = [self.kinetic, self.potential, self.work, self.dissipated];

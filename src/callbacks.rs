@@ -1,22 +1,22 @@
-//! Functions that a simulation was given, and what becomes of them where it is copied.
+//! The functions of a simulation, and their treatment when it is cloned.
 //!
-//! What steers a run (events, conditions, sampled controllers) is copied with it, so that each run has its own. What only looks
-//! (observers, progress) is shared by the copies.
+//! Functions that act on a run (events, conditions, sampled controllers) are cloned with it, so that each run has its own.
+//! Functions that only watch (observers, progress) are shared by the clones.
 
 use std::boxed::Box;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::{Coordinates, Error, Inputs, Machine, Observation, State};
 
-/// Everything about a machine in a state, if it is asked for.
+/// Evaluates everything that can be observed of a machine in a state, on demand.
 pub(crate) type Observe<'x, M> = &'x dyn Fn() -> Result<Observation<M>, Error>;
 
-/// Functions of one kind that can be copied.
+/// Declares a trait of functions that can be cloned.
 macro_rules! copied {
     ($(#[$docs:meta])* $name:ident, $function:path) => {
         $(#[$docs])*
         pub(crate) trait $name<'a, M: Machine>: $function + Send {
-            /// A copy of the function, with a state of its own.
+            /// A copy of the function with its own state.
             fn copy(&self) -> Box<dyn $name<'a, M> + 'a>;
         }
 
@@ -35,7 +35,7 @@ macro_rules! copied {
 }
 
 copied! {
-    /// A function that is watched: of a state, and of what can be observed in it.
+    /// A function that is watched, of a state and its observation.
     Watched, FnMut(&State<Coordinates<M>>, Observe<'_, M>) -> Result<f64, Error>
 }
 
@@ -45,11 +45,11 @@ copied! {
 }
 
 copied! {
-    /// What looks at a state and sets inputs.
+    /// A function that reads a state and sets inputs.
     Controller, FnMut(&State<Coordinates<M>>, &mut Inputs<M>)
 }
 
-/// A function that copies share.
+/// A function that clones share.
 pub(crate) struct Shared<F: ?Sized>(Arc<Mutex<Box<F>>>);
 
 impl<F: ?Sized> Shared<F> {
@@ -57,7 +57,7 @@ impl<F: ?Sized> Shared<F> {
         Self(Arc::new(Mutex::new(function)))
     }
 
-    /// The function, for a call. One that has panicked before is called again like any other.
+    /// Locks the function for a call. If it has panicked before, it is called again like any other.
     pub fn lock(&self) -> MutexGuard<'_, Box<F>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }

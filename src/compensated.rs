@@ -1,12 +1,12 @@
-//! Sums that remember what rounding took from them.
+//! Compensated sums.
 
 use core::ops::{Add, Sub};
 
-/// A sum and what rounding took from it: `high + low` is the value, `|low|` at most half a unit in
-/// the last place of `high`.
+/// A compensated sum: its value is `high + low`, with `|low|` at most half a unit in the last
+/// place of `high`.
 ///
-/// A million steps of 10⁻⁶ s make 1 s to the last bit; plain addition is off by 10⁻¹¹ s. D. E.
-/// Knuth, *The Art of Computer Programming*, vol. 2, section 4.2.2, theorem B.
+/// A million steps of 10⁻⁶ s add up to 1 s to the last bit; plain addition has an error of 10⁻¹¹ s.
+/// D. E. Knuth, *The Art of Computer Programming*, vol. 2, section 4.2.2, theorem B.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Sum<N = f64> {
     pub high: N,
@@ -22,7 +22,8 @@ impl Sum {
     }
 }
 
-/// `a + b` rounded, and exactly what rounding took from it; of double-doubles, nearly so.
+/// Returns `a + b` rounded and its exact rounding error; for double-doubles the error is
+/// nearly exact.
 #[inline(always)]
 pub(crate) fn two_sum<N: Copy + Add<Output = N> + Sub<Output = N>>(a: N, b: N) -> (N, N) {
     let sum = a + b;

@@ -1,13 +1,10 @@
-//! Constraints in numbers: states are projected onto them, and which of them depend on others is found
-//! out.
+//! Projects states onto the constraints, and detects constraints that depend on others.
 //!
-//! Everything is measured by inertia. With the Cholesky factor `M = L Lᵀ`, a row `Gₖ` becomes the
-//! vector `yₖ = L⁻¹ Gₖᵀ`; its length is the acceleration, in the metric of `M`, that a unit of the
-//! multiplier gives the machine. Lengths and angles, forces and torques are then of one kind, and how
-//! a constraint is scaled (`g = 0` or `2 g = 0`) makes no difference. `M` may be singular where the
-//! constraints hold what has no inertia: then `L` is that of `M + Gᵀ W G`, which has the same
-//! motion, since the constraints decide `G a`. (E. Eich-Soellner, C. Führer, *Numerical Methods in
-//! Multibody Dynamics*, 1998, sections 2.3 and 5.3.)
+//! All sizes are in the metric of inertia. With the Cholesky factor `M = L Lᵀ`, a row `Gₖ` becomes the vector `yₖ = L⁻¹ Gₖᵀ`; its length is
+//! the acceleration, in the metric of `M`, that a unit of the multiplier gives the machine. This makes lengths and angles, forces and
+//! torques comparable, and the scale of a constraint (`g = 0` or `2 g = 0`) has no effect. `M` may be singular if the constraints hold the
+//! parts without inertia: then `L` is the factor of `M + Gᵀ W G`, which gives the same motion, since the constraints determine `G a`. (E.
+//! Eich-Soellner, C. Führer, *Numerical Methods in Multibody Dynamics*, 1998, sections 2.3 and 5.3.)
 #![expect(
     clippy::neg_cmp_op_on_partial_ord,
     reason = "what is not a number passes no test here"
@@ -34,61 +31,58 @@ pub(crate) use closest::{Miss, closest};
 use scale::Scales;
 use workspace::{Workspace, in_workspace};
 
-/// Residuals are kept below this, relative to their [scale](Scales): 450 times the roundoff of `f64`, of which the constraints
-/// themselves lose some.
+/// Bound on residuals, relative to their [scale](Scales): 450 times the round-off of `f64`, some of which the evaluation of the
+/// constraints uses up.
 pub(crate) const RESIDUAL: f64 = 1e-13;
 
-/// Residuals above this are reduced: so what depends on several rows keeps the bound as well.
+/// Residuals above this are reduced, so that rows that depend on several others satisfy the bound as well.
 const WORKED_OFF: f64 = 0.25 * RESIDUAL;
 
-/// The bound of residuals where rows depend on others, or nearly so: which of them are chosen changes on the way, and the residual of
-/// those that are not must be as small. Newton's method goes on until rounding stops it.
+/// The same if rows are dependent, or nearly so: the chosen rows change along the motion, and the residuals of the other rows must be as
+/// small. Newton's method continues until rounding stops it.
 const WORKED_OFF_REDUNDANT: f64 = 4.0 * f64::EPSILON;
 
-/// What rounding alone may change in a residual, relative: some eight operations from a coordinate
-/// to a constraint.
+/// Relative change of a residual by rounding alone: some eight operations from a coordinate to a constraint.
 const ROUNDOFF: f64 = 8.0 * f64::EPSILON;
 
-/// A row depends on others if its part that is orthogonal to them is shorter than this, relative to its length.
-/// States are on the constraints to [`RESIDUAL`], so rows that depend on each other there do so to
-/// about a hundred times that; and a multiplier that is held by less has lost ten of its digits.
+/// A row depends on others if its component orthogonal to them is shorter than this, relative to its length. States satisfy the constraints
+/// to [`RESIDUAL`], so rows that are dependent where the constraints hold exactly are dependent at a state to about a hundred times that;
+/// and a multiplier that is held by less has lost ten of its digits.
 const INDEPENDENT: f64 = 1e-10;
 
-/// Beyond the rows that a run had, only those count as independent of which more than this is left: a
-/// pose in which rows depend on each other that do not elsewhere is left as soon as it is met.
+/// Beyond the rank that a run had so far, rows count as independent only above this value, since a pose in which rows are dependent that
+/// are independent elsewhere is left as soon as it is reached.
 const INDEPENDENT_AGAIN: f64 = 1e-6;
 
-/// Rows once chosen may come closer to each other before they have to be chosen anew.
+/// Chosen rows may come this close to dependence before they are chosen again.
 const STILL_INDEPENDENT: f64 = 1e-2 * INDEPENDENT;
 
-/// Rows that depend on others are left out, and contradict those if their residual is larger than this.
+/// Dependent rows are left out; they contradict the chosen rows if their residual is larger than this.
 const CONSISTENT: f64 = 1e-9;
 
-/// Residuals from which whole steps are taken: a step of an integrator is never farther off.
+/// Below this residual Newton's method takes full steps; the error of an integration step is never larger.
 const NEAR: f64 = 1e-3;
 
-/// Newton's method has converged by then, or will not.
+/// The number of iterations within which Newton's method converges, if at all.
 const ROUNDS: usize = 50;
 
-/// How many numbers the work on constraints needs, for a machine of so many coordinates and
-/// constraints: what [`System::with_workspace`] is asked for.
+/// The length of the workspace for constraints, for this number of coordinates and constraints: the length that is passed
+/// to [`System::with_workspace`].
 pub const fn constraint_workspace(coordinates: usize, constraints: usize) -> usize {
     let (n, m) = (coordinates, constraints);
     let rank = if m < n { m } else { n };
     m * n + rank * n + rank * rank + 3 * m + 3 * n
 }
 
-/// Accelerations and multipliers at a state, however constraints depend on each other: where some
-/// do, the motion is determined nevertheless, and of all multipliers that make it those of least norm
-/// are taken, `Σ λₖ² (G M⁻¹ Gᵀ)ₖₖ`. Each reaction counts by the acceleration that it alone would give
-/// the machine; so the same constraint stated twice is held in halves, in whatever units it is
-/// stated.
+/// Accelerations and multipliers at a state, even if constraints are dependent. Then the motion is still determined, and of all multipliers
+/// that produce it the ones of least norm are returned, `Σ λₖ² (G M⁻¹ Gᵀ)ₖₖ`. Each reaction is weighted by the acceleration that it alone
+/// would give the machine, so a constraint that is stated twice is shared equally, in whatever units each is stated.
 ///
-/// `multipliers` has a number for each constraint. Slower than [`System::accelerations`] and
-/// [`System::multipliers`], which do as well where no constraint depends on others.
+/// `multipliers` has a number for each constraint. This is slower than [`System::accelerations`] and [`System::multipliers`], which suffice
+/// if the constraints are independent.
 ///
 /// # Errors
-/// If the machine can move in a way that meets no inertia, or constraints contradict each other.
+/// If some motion of the machine meets no inertia, or constraints contradict each other.
 pub fn least_multipliers<S: System>(
     system: &S,
     t: f64,
@@ -105,38 +99,36 @@ pub fn least_multipliers<S: System>(
     constraints.check_accelerations(system, (t, q, v, u), a)
 }
 
-/// What a run knows of the constraints of its machine.
+/// State of the constraints of a machine during a run.
 #[derive(Clone, Debug)]
 pub(crate) struct Constraints<V> {
-    /// By which residuals are measured.
+    /// The scales of the residuals.
     scales: Scales<V>,
-    /// The rows that are kept; the others follow from them.
+    /// The rows that are enforced; the others follow from them.
     choice: Choice<V>,
     /// Whether there are other rows, which depend on these.
     pub redundant: bool,
-    /// Whether the motion passes a pose in which rows come to depend on each other.
+    /// Whether the motion passes a pose in which rows become dependent.
     pub at_fork: bool,
-    /// Whether rows hold so little where the state is that residuals are worked off to rounding.
+    /// Whether rows are so weak at this state that residuals are reduced to round-off.
     tight: bool,
-    /// Coordinates, and rates, that stay as they are while the start is projected onto the constraints:
-    /// those that are not 0.
+    /// Nonzero for coordinates, and rates, that stay fixed while the start is projected onto the constraints.
     kept: Option<[V; 2]>,
-    /// By how much the last state was moved, coordinates and rates.
+    /// The displacement of the last state, coordinates and rates.
     pub moved: [V; 2],
-    /// The residuals of the chosen rows at the last state, of positions and rates, relative to their
-    /// scale.
+    /// The residuals of the chosen rows at the last state, of positions and rates, relative to their scale.
     left: [f64; 2],
-    /// These residuals at the end of the last step: they are not an error of the next one.
+    /// These residuals at the end of the previous step, which do not count as an error of the next one.
     left_before: [f64; 2],
-    /// How much of the move made up for what the step itself was off by; the rest is older.
+    /// The fraction of the displacement that corrects the error of the step itself; the rest is older.
     pub share: [f64; 2],
-    /// The residual of the constraints then, relative to their scale.
+    /// The largest residual of the constraints at the last state, relative to their scale.
     pub residual: f64,
-    /// The greatest of these after any step.
+    /// The largest of these after any step.
     pub greatest_residual: f64,
 }
 
-/// A state to be projected onto the constraints, with what rounding took from it.
+/// A state to be projected onto the constraints, with the low parts of its compensated sums.
 pub(crate) struct Place<'p, V> {
     pub t: f64,
     pub q: [&'p mut V; 2],
@@ -144,7 +136,7 @@ pub(crate) struct Place<'p, V> {
 }
 
 impl<V: Vector> Constraints<V> {
-    /// No rows are chosen yet.
+    /// The state at the beginning of a run, before rows are chosen.
     pub fn new<S: System<Vector = V>>(system: &S, q: &V, v: &V) -> Self {
         let zeros = q.zeros_like();
         Self {
@@ -163,14 +155,14 @@ impl<V: Vector> Constraints<V> {
         }
     }
 
-    /// Takes note of a state that was projected onto the constraints.
+    /// Records a state that was projected onto the constraints.
     pub fn accept(&mut self, q: &V, v: &V) {
         self.scales.accept(q, v);
         self.greatest_residual = self.greatest_residual.max(self.residual);
         self.left_before = self.left;
     }
 
-    /// Chooses the rows anew at a state on the constraints.
+    /// Chooses the rows again at a state on the constraints.
     pub fn choose_again<S: System<Vector = V>>(
         &mut self,
         system: &S,
@@ -207,7 +199,7 @@ impl<V: Vector> Constraints<V> {
         Ok(())
     }
 
-    /// As many rows as before, but those that are best at a state.
+    /// Chooses as many rows as before, but those that are best at this state.
     pub fn choose_as_many<S: System<Vector = V>>(
         &mut self,
         system: &S,
@@ -233,8 +225,8 @@ impl<V: Vector> Constraints<V> {
         Ok(())
     }
 
-    /// Projects a state onto the constraints by the least move, in the metric of the mass matrix: first
-    /// the coordinates, then the rates. Says whether it moved.
+    /// Projects a state onto the constraints by the smallest move in the metric of the mass matrix: first the coordinates, then the rates.
+    /// Returns whether it moved.
     pub fn project<S: System<Vector = V>>(
         &mut self,
         system: &S,
@@ -284,7 +276,7 @@ impl<V: Vector> Constraints<V> {
         let hold = self.hold_of(&prepared, workspace, place.q[0]);
         self.tight = hold < fork::TIGHT;
         if self.kept.is_none() && hold < fork::WEAK {
-            // What holds so little would turn rounding of positions into a move.
+            // Rows this weak would turn round-off of positions into a move.
             let by = (&self.scales, None);
             let holding = Rank::Holding(fork::WEAK);
             self.choice = all.made(system, (t, place.q[0]), holding, by)?;
@@ -313,11 +305,10 @@ impl<V: Vector> Constraints<V> {
         }
     }
 
-    /// Newton's method on one level, with the matrices of one state while it contracts.
+    /// Newton's method on one level. It keeps the matrices of one state while it contracts.
     ///
-    /// Whether it does is judged by the length of the next correction with the same matrices, in the
-    /// metric of inertia: *natural monotonicity*, P. Deuflhard, *Newton Methods for Nonlinear
-    /// Problems*, 2004, section 3.3.
+    /// Contraction is measured by the length of the next correction with the same matrices, in the metric of inertia: *natural
+    /// monotonicity*, P. Deuflhard, *Newton Methods for Nonlinear Problems*, 2004, section 3.3.
     fn newton<S: System<Vector = V>>(
         &mut self,
         system: &S,
@@ -347,7 +338,7 @@ impl<V: Vector> Constraints<V> {
                 }
                 (left, worst) = self.left(system, workspace, place)[at];
                 near = self.distance(workspace, level);
-                // Far from the constraints a whole step may be too long.
+                // Far from the constraints a full step may be too long.
                 if near <= (1.0 - 0.25 * part) * far || part < 0.01 || left < NEAR {
                     break;
                 }
@@ -368,7 +359,7 @@ impl<V: Vector> Constraints<V> {
             }
             fresh = !(near <= 0.1 * far);
             if fresh {
-                // Where rows come to depend on each other on the way, there is no way on.
+                // If rows become dependent on the way, the iteration cannot continue.
                 let at = (place.t, &*place.q[0]);
                 if self.prepare(system, workspace, at, level).is_err() {
                     break;
@@ -377,7 +368,7 @@ impl<V: Vector> Constraints<V> {
             }
             far = near;
         }
-        // It may stand at the roundoff of the constraints themselves.
+        // It may have stagnated at the round-off of the constraints themselves.
         for _ in 0..=workspace.m {
             let promised = self.promised(workspace, place, level);
             let last = &*place.level(level)[0];
@@ -404,9 +395,8 @@ impl<V: Vector> Constraints<V> {
         })
     }
 
-    /// Whether the residual of a row is rounding in its evaluation, where the correction in
-    /// `workspace.column` did not take it away: along this, the row scatters by as much as the residual,
-    /// although its slope is the same.
+    /// Whether the residual of a row that the correction in `workspace.column` did not remove is round-off of its evaluation: along this
+    /// correction the row scatters by as much as the residual, while its slope stays the same.
     fn is_rounding<S: System<Vector = V>>(
         &self,
         system: &S,
@@ -450,8 +440,8 @@ impl<V: Vector> Constraints<V> {
         turns <= 1e-3 * length && scatters >= 0.0625 * left.abs()
     }
 
-    /// The greatest residuals of the rows at a state, relative to their scale, and where they are; all
-    /// residuals, and the constraint matrix, stay in the workspace.
+    /// The largest residuals of the rows at a state, relative to their scale, and their rows. Leaves all residuals and the constraint
+    /// matrix in the workspace.
     fn left<S: System<Vector = V>>(
         &self,
         system: &S,
@@ -466,11 +456,11 @@ impl<V: Vector> Constraints<V> {
         for k in 0..workspace.m {
             let is_chosen = self.choice.has(k);
             for (most, now) in most.iter_mut().zip(self.relative(workspace, k, q, v)) {
-                // Others come nearer with the chosen ones, unless they contradict them.
+                // Other rows approach together with the chosen ones, unless they contradict them.
                 if !is_chosen && !(now.now <= CONSISTENT) {
                     continue;
                 }
-                // What is not a number is the most of all.
+                // NaN counts as the largest.
                 if !(now.now <= most.0) {
                     *most = (now.now, k);
                 }
@@ -479,7 +469,7 @@ impl<V: Vector> Constraints<V> {
         most
     }
 
-    /// The greatest residual of the chosen rows on one level, relative to what is promised, and where it is.
+    /// The largest residual of the chosen rows on one level, relative to the scale of the guaranteed bound, and its row.
     fn promised<M>(
         &self,
         workspace: &Workspace<'_, M>,
@@ -509,8 +499,7 @@ impl<V: Vector> Constraints<V> {
         self.scales.relative(k, row, left, q, v)
     }
 
-    /// Whether the rows that were not chosen agree with those that were; notes the residual, and the
-    /// size of the terms.
+    /// Checks that the rows that were not chosen agree with the chosen ones; records the residual and the size of the terms.
     fn check<S: System<Vector = V>>(
         &mut self,
         system: &S,
@@ -546,13 +535,12 @@ impl<V: Vector> Constraints<V> {
         Ok(())
     }
 
-    /// Whether accelerations obey the rows that were not chosen, too.
+    /// Checks that accelerations satisfy the rows that were not chosen, too.
     ///
-    /// They are sums of what forces would give and of what constraints take away again, so the residual
-    /// is measured by the forces as well: in balance nothing else is there. And they come out of one
-    /// elimination that mixes all coordinates, so those that the constraints keep at 0 are as inexact as
-    /// the others are, and as what forces would give these, by inertia: `|Gₖ| (|a| + |M⁻¹f|)`, as for rates
-    /// in [`scale`].
+    /// They are sums of the accelerations by forces and of reactions that cancel them, so the residual is also relative to the forces: in
+    /// equilibrium nothing else is there. And they come from one elimination that mixes all coordinates, so coordinates that the
+    /// constraints keep at 0 are as inexact, in the metric of inertia, as the others and as their accelerations by forces:
+    /// `|Gₖ| (|a| + |M⁻¹f|)`, as for rates in [`scale`].
     pub fn check_accelerations<S: System<Vector = V>>(
         &self,
         system: &S,
@@ -601,7 +589,7 @@ impl<V: Vector> Constraints<V> {
         })
     }
 
-    /// Factorizes at a pose: metric, basis and triangle of the chosen rows.
+    /// Factorizes metric, basis and triangle of the chosen rows at a pose.
     fn prepare<S: System<Vector = V>>(
         &self,
         system: &S,
@@ -613,8 +601,7 @@ impl<V: Vector> Constraints<V> {
         prepare(system, workspace, at, (&self.choice, fixed))
     }
 
-    /// The least move, in the metric of inertia, that takes the residual of the constraints away to
-    /// first order: `−L⁻ᵀ Q R⁻ᵀ g`.
+    /// The smallest move, in the metric of inertia, that removes the residual of the constraints to first order: `−L⁻ᵀ Q R⁻ᵀ g`.
     fn correction<M: Vector>(&self, workspace: &mut Workspace<'_, M>, level: Level) {
         let count = self.along_basis(workspace, level);
         workspace.column.fill(0.0);
@@ -631,13 +618,13 @@ impl<V: Vector> Constraints<V> {
         backward(workspace.metric.as_slice(), workspace.column);
     }
 
-    /// How long that move is.
+    /// The length of that move.
     fn distance<M: Vector>(&self, workspace: &mut Workspace<'_, M>, level: Level) -> f64 {
         let count = self.along_basis(workspace, level);
         length(&workspace.row[..count])
     }
 
-    /// `R⁻ᵀ g` to `row`, for the rows of a level; says how many these are.
+    /// Writes `R⁻ᵀ g` to `row`, for the rows of a level; returns their number.
     fn along_basis<M: Vector>(&self, workspace: &mut Workspace<'_, M>, level: Level) -> usize {
         let count = match level {
             Level::Positions => self.choice.holonomic,
@@ -654,8 +641,8 @@ impl<V: Vector> Constraints<V> {
         count
     }
 
-    /// Accelerations that obey as many rows as were chosen, those that are best at the pose: `z = L⁻¹ f`, and what `z` has along the rows is
-    /// replaced by what these ask for. No multiplier is needed.
+    /// Accelerations that satisfy as many rows as were chosen, but those that are best at the pose: the components of `z = L⁻¹ f` along the
+    /// rows are replaced by the ones that the rows require. This needs no multipliers.
     pub fn accelerations<S: System<Vector = V>>(
         &self,
         system: &S,
@@ -696,7 +683,7 @@ impl<V: Vector> Constraints<V> {
         })
     }
 
-    /// As many rows as were chosen, but those that are best at a pose.
+    /// A choice of as many rows as were chosen, but those that are best at a pose.
     fn best_at<S: System<Vector = V>>(
         &self,
         system: &S,
@@ -734,7 +721,7 @@ impl<V: Vector> Constraints<V> {
     }
 }
 
-/// Factorizes at a pose, with rows of a choice and coordinates that are fixed.
+/// Factorizes at a pose, with chosen rows and fixed coordinates.
 fn prepare<S: System>(
     system: &S,
     workspace: &mut Workspace<'_, S::Matrix>,
@@ -752,7 +739,7 @@ fn prepare<S: System>(
         new.copy_from_slice(&workspace.matrix[k * n..][..n]);
         forward(workspace.metric.as_slice(), new);
         let whole = length(new);
-        // Twice is enough: W. Kahan in B. N. Parlett, The Symmetric Eigenvalue Problem, 6-9.
+        // Two passes suffice: W. Kahan in B. N. Parlett, The Symmetric Eigenvalue Problem, 6-9.
         for pass in 0..2 {
             for (i, known) in known.chunks_exact(n).enumerate() {
                 let along = remove(known, new);
@@ -771,7 +758,7 @@ fn prepare<S: System>(
     Ok(())
 }
 
-/// `z = L⁻¹ f` to `z`, and to `workspace.row` what the reactions add along the basis, `R⁻ᵀ γ − Qᵀ z`.
+/// Writes `z = L⁻¹ f` to `z`, and the contribution of the reactions along the basis, `R⁻ᵀ γ − Qᵀ z`, to `workspace.row`.
 fn reactions_along<S: System>(
     system: &S,
     workspace: &mut Workspace<'_, S::Matrix>,
@@ -798,8 +785,8 @@ fn reactions_along<S: System>(
     Ok(())
 }
 
-/// Where `M` is singular and the metric is that of `M + Gᵀ W G`, reactions along the basis are those of accelerations
-/// that meet this inertia; put into `workspace.row` in place of them are `M a − f`. `z` is used up.
+/// If `M` is singular and the metric is that of `M + Gᵀ W G`, the reactions along the basis belong to this inertia. Replaces them in
+/// `workspace.row` by those of `M a − f`. `z` is overwritten.
 fn reactions_of_inertia<S: System>(
     system: &S,
     workspace: &mut Workspace<'_, S::Matrix>,
@@ -832,7 +819,7 @@ fn reactions_of_inertia<S: System>(
     }
 }
 
-/// `R⁻ᵀ row` in place, for the first `count` rows of `rank`.
+/// Computes `R⁻ᵀ row` in place, for the first `count` rows of `rank`.
 fn solve_transposed<M>(workspace: &mut Workspace<'_, M>, rank: usize, count: usize) {
     for j in 0..count {
         let mut sum = workspace.row[j];
@@ -843,7 +830,7 @@ fn solve_transposed<M>(workspace: &mut Workspace<'_, M>, rank: usize, count: usi
     }
 }
 
-/// Positions or rates.
+/// The level of constraints: positions or rates.
 #[derive(Clone, Copy)]
 enum Level {
     Positions = 0,

@@ -1,5 +1,5 @@
-//! What emitted code names, under one path. It is no interface for others: it changes with the compiler, whose code is made for
-//! the runtime of the same version.
+//! The names that emitted code uses, under one path. This is not a public interface: it changes with the compiler, whose code
+//! requires the runtime of the same version.
 
 mod implement;
 mod pivots;

@@ -1,24 +1,23 @@
-//! Whether accelerations obey the equations of motion, once for each state that somebody asks about.
+//! Checks that accelerations satisfy the equations of motion at a state,
 //!
 //! ```text
 //! M a = f + Gᵀ λ + τᵀ F,   G a = γ
 //! ```
 //!
 //! with the multipliers `λ` of the constraints and the friction forces `F` of the contacts. `M`, `f`, `G`, `γ` and
-//! `a` come from different functions of a machine, and elimination has gone between them: an error in any
-//! of them shows here.
+//! `a` come from different functions of a machine and from an elimination, so an error in any of them shows here.
 //!
-//! What rounding does. With `dᵢ = √Mᵢᵢ`, elimination in a positive definite matrix, in any order and by any
-//! arrangement of its products, leaves no more than `c n ε dᵢ Σⱼ dⱼ |aⱼ|` in row `i`, however ill-conditioned
-//! `M` is: N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., 2002, theorems 10.3 and
-//! 10.4, with `|Mᵢⱼ| ≤ dᵢ dⱼ`. Forces of other rows come in as `dᵢ |fⱼ|/dⱼ`. Multipliers are found by a
-//! second elimination, in `G M⁻¹ Gᵀ`, and by a function of their own, so they differ from those that
-//! `a` obeys by that matrix's condition, which is reckoned with; and so is that of `M` for the rows of `G`.
+//! Round-off: with `dᵢ = √Mᵢᵢ`, elimination in a positive definite matrix, in any order and arrangement of
+//! products, leaves at most `c n ε dᵢ Σⱼ dⱼ |aⱼ|` in row `i`, however ill-conditioned `M` is: N. J. Higham,
+//! *Accuracy and Stability of Numerical Algorithms*, 2nd ed., 2002, theorems 10.3 and 10.4, with `|Mᵢⱼ| ≤ dᵢ dⱼ`.
+//! Forces of other rows contribute `dᵢ |fⱼ|/dⱼ`. Multipliers come from a second elimination, in `G M⁻¹ Gᵀ`, and
+//! from a function of their own, so they differ from those that belong to `a` by that matrix's condition number,
+//! which the bound includes; for the rows of `G` it includes that of `M`.
 //!
-//! What is inside of a force is not seen from here: `k x − k x₀` may have lost most of its digits. So the
-//! bound allows seven digits more than `ε`, and a state that exceeds it is held against states beside it,
-//! away from such cancellations, where a wrong equation is as wrong. Only where all of these exceed
-//! it too, the equations are violated.
+//! The terms within a force are not visible here: `k x − k x₀` may have lost most of its digits. Therefore the
+//! bound allows seven digits more than `ε`, and a state that exceeds it is compared with states nearby, away from
+//! such cancellations, where a wrong equation is equally wrong. The equations are violated only if all of these
+//! exceed it too.
 
 use std::string::String;
 use std::vec;
@@ -30,25 +29,25 @@ use crate::{
     ContactForce, Error, MOST_CONTACTS, Pivot, System, Vector, contact_forces, least_multipliers,
 };
 
-/// What may be left of an equation, relative to the sizes of its terms, for each coordinate: seven digits
-/// more than the roundoff of `f64`.
+/// The tolerable residual of an equation, relative to the sizes of its terms, for each coordinate: seven digits
+/// more than the round-off of `f64`.
 const TOLERANCE: f64 = 1e-9;
 
-/// A row that keeps less than this beside those before it depends on them.
+/// A row depends on those before it if less than this is orthogonal to them.
 const DEPENDENT: f64 = 1e-8;
 
-/// How far the states beside one are, relative to the sizes of its numbers, and how many there are.
+/// The distance of the states nearby, relative to the sizes of the numbers, and the number of such states.
 const BESIDE: (f64, usize) = (1e-3, 4);
 
-/// Checks that the accelerations, multipliers and friction forces of a machine at a state obey its equations of
+/// Checks that the accelerations, multipliers and friction forces of a machine at a state satisfy its equations of
 /// motion to rounding: `M a = f + Gᵀ λ + τᵀ F` and `G a = γ`.
 ///
-/// Every run checks this at its start. A machine that has no accelerations there, or no matrix of its
-/// own ([`System::Matrix`] of another length), is not judged.
+/// Every run checks this at its start. A machine that has no accelerations there, or no mass matrix
+/// ([`System::Matrix`] of another length), passes.
 ///
 /// # Errors
-/// [`Error::EquationsViolated`], which is a mistake in the functions of the machine and not in its
-/// description.
+/// [`Error::EquationsViolated`], which indicates a mistake in the functions of the machine and not in
+/// its description.
 pub fn check_equations<S: System>(
     system: &S,
     (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
@@ -80,7 +79,7 @@ pub fn check_equations<S: System>(
     })
 }
 
-/// The equation that is obeyed the worst.
+/// The equation with the largest residual relative to its tolerance.
 struct Worst {
     row: String,
     is_constraint: bool,
@@ -91,7 +90,7 @@ struct Worst {
     tolerance: f64,
 }
 
-/// None where there is nothing to judge: no accelerations, or none in numbers.
+/// Returns `None` if there is nothing to check: no accelerations, or none that are finite.
 fn worst<S: System>(
     system: &S,
     (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
@@ -122,7 +121,7 @@ fn worst<S: System>(
     let mut slips = vec![0.0; k * n];
     system.slip_matrix(t, q, &mut slips);
 
-    // Forces and the sizes of their terms.
+    // Forces with the sizes of their terms.
     let sizes = [applied.as_slice(), bias.as_slice()];
     let mut right: Vec<f64> = forces.as_slice().to_vec();
     let mut size: Vec<f64> = (0..n)
@@ -230,11 +229,12 @@ fn solve<S: System>(
     }
 }
 
-/// How much elimination may enlarge rounding, of the mass matrix and of the constraints: the inverse
-/// squares of the shortest part of a row of unit length that is orthogonal to those before it.
+/// Bounds on the amplification of round-off by elimination, for the mass matrix and for the constraints: the
+/// inverse squares of the shortest part of a row of unit length that is orthogonal to those before it.
 fn conditions(mass: &[f64], inertia: &[f64], matrix: &[f64]) -> [f64; 2] {
     let n = inertia.len();
-    // Something has no inertia of its own: the constraints hold it, in a way that is not looked into.
+    // Some coordinate has no inertia of its own and is held by the constraints; the amplification is not
+    // analysed then.
     const UNKNOWN: [f64; 2] = [1e4; 2];
     if inertia.contains(&0.0) {
         return UNKNOWN;
@@ -279,7 +279,7 @@ fn conditions(mass: &[f64], inertia: &[f64], matrix: &[f64]) -> [f64; 2] {
     [of_mass, of_constraints]
 }
 
-/// A state near another, the same for the same number.
+/// A state near another one, the same for the same `draw`.
 fn state_beside<S: System>(
     system: &S,
     q: &S::Vector,

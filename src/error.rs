@@ -1,4 +1,4 @@
-//! What can stand in the way of a run, with the numbers that explain it.
+//! Errors and warnings of runs, with the numbers that explain them.
 
 #[cfg(feature = "interpreter")]
 mod of_specs;
@@ -11,7 +11,7 @@ use std::string::{String, ToString};
 
 use crate::{ContactTrouble, Pivot, Quantity, StepError, System};
 
-/// Why a run could not begin, or not go on.
+/// Why a run could not begin or continue.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
@@ -19,22 +19,22 @@ pub enum Error {
     /// A spec has mistakes, or cannot be read.
     #[cfg(feature = "interpreter")]
     Spec {
-        /// What is wrong, by position: none is left out but those beyond a limit.
+        /// The errors in the order of their positions, up to a limit.
         diagnostics: std::vec::Vec<of_specs::Diagnostic>,
-        /// How many more there are.
+        /// The number of errors beyond the limit.
         omitted: usize,
     },
-    /// There is no parameter, coordinate or input of a name.
+    /// There is no parameter, coordinate or input with this name.
     UnknownName(crate::UnknownName),
-    /// Parameters have no value: the spec gives no default, and nobody set them.
+    /// Parameters have no value: the spec gives no default, and none was set.
     #[cfg(feature = "interpreter")]
     MissingParameters(of_specs::MissingParameters),
-    /// Machine code is asked for and cannot be had here.
+    /// Machine code was requested and is not available.
     #[cfg(feature = "interpreter")]
     NoMachineCode(of_specs::NoMachineCode),
-    /// A further force is to act on a machine with friction at guides ([`Adapted`](crate::Adapted)).
+    /// An additional force was requested for a machine with guided contacts ([`Adapted`](crate::Adapted)).
     HasFriction(crate::HasFriction),
-    /// The balance of energy is to be kept of a system that does not say what its energies are
+    /// The energy balance was requested for a system that does not define its energies
     /// ([`System::kinetic_energy`], [`System::potential_energy`]).
     EnergiesUnknown {
         /// Time, in s.
@@ -42,7 +42,7 @@ pub enum Error {
     },
     /// A simulation has no end: `until` was not called.
     NoEnd,
-    /// A setting of the simulation has a value that makes no sense.
+    /// A setting of the simulation has an invalid value.
     InvalidSetting {
         /// The method of [`Simulation`](crate::Simulation) that took it.
         setting: &'static str,
@@ -56,11 +56,11 @@ pub enum Error {
         /// The name.
         name: String,
     },
-    /// A motion is to be differentiated by what the accelerations' derivatives are not known by.
+    /// A motion is to be differentiated with respect to a variable for which the accelerations have no derivatives.
     UnknownVariable {
         /// The name.
         name: String,
-        /// What the description's `derivatives` asks for, of parameters and inputs.
+        /// The parameters and inputs in the description's `derivatives`.
         known: std::vec::Vec<String>,
     },
     /// The motion of a machine with constraints is to be differentiated.
@@ -68,12 +68,12 @@ pub enum Error {
         /// The first of its constraints.
         constraint: String,
     },
-    /// The motion of a machine was to be differentiated as a whole, and its contacts open and close.
+    /// The motion of a machine with unilateral contacts is to be differentiated.
     CollidingSensitivity {
         /// The first of its unilateral contacts.
         contact: String,
     },
-    /// There is no method of integration of that name.
+    /// There is no method of integration with this name.
     UnknownMethod {
         /// The name.
         name: String,
@@ -92,7 +92,7 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
-    /// The function that sets the inputs returned what is infinite or not a number.
+    /// The function that sets the inputs returned a value that is infinite or not a number.
     InputNotFinite {
         /// The input.
         input: String,
@@ -101,17 +101,16 @@ pub enum Error {
         /// Time, in s.
         t: f64,
     },
-    /// An input is not known from some instant on: its table ends, or changes more often there than times can tell apart.
+    /// An input is not known from some instant on: its table ends, or changes more often than the resolution of time.
     InputEnded {
-        /// What the input, or its table, is called.
+        /// The name of the input or of its table.
         input: String,
         /// Why, as the end of a sentence.
         why: &'static str,
         /// Time, in s.
         t: f64,
     },
-    /// A coordinate, its rate or its acceleration is infinite or not a number, and shorter steps do not avoid
-    /// it.
+    /// A coordinate, its rate or its acceleration is infinite or not a number, and shorter steps do not avoid it.
     NotFinite {
         /// The coordinate.
         coordinate: String,
@@ -122,43 +121,39 @@ pub enum Error {
     SingularMassMatrix {
         /// The coordinate at which the elimination stopped.
         coordinate: String,
-        /// What elimination left of its element on the diagonal of the mass matrix, relative to that element.
+        /// The pivot relative to the element on the diagonal of the mass matrix.
         ratio: f64,
         /// Time, in s.
         t: f64,
     },
-    /// A constraint depends on others, at a pose where it did not before, and shorter steps do not
-    /// avoid it.
+    /// A constraint depends on others at a pose where it did not before, and shorter steps do not avoid it.
     DependentConstraint {
         /// The constraint.
         constraint: String,
-        /// What elimination left of its element on the diagonal of `G M⁻¹ Gᵀ`, relative to that element.
+        /// The pivot relative to the element on the diagonal of `G M⁻¹ Gᵀ`.
         ratio: f64,
         /// Time, in s.
         t: f64,
     },
-    /// Constraints contradict each other, or no state near obeys them.
+    /// Constraints contradict each other, or no state nearby satisfies them.
     InconsistentConstraints {
-        /// The one that is violated the most.
+        /// The constraint that is violated most.
         constraint: String,
-        /// Others that it depends on at this state, which it contradicts; none if there just is no
-        /// solution near.
+        /// Other constraints that it depends on at this state and contradicts; empty if there is just no solution nearby.
         with: std::vec::Vec<String>,
         /// Its residual, relative to the size of its terms.
         residual: f64,
         /// Time, in s.
         t: f64,
     },
-    /// The constraints cannot be met at the start by moving only what is not
-    /// [kept](crate::Simulation::keep).
+    /// The constraints cannot be satisfied at the start by moving only the numbers that are not [kept](crate::Simulation::keep).
     KeptStart {
-        /// The constraints that are not met where all together are met best.
+        /// The constraints that are violated at the state that satisfies all of them best.
         contradictions: std::vec::Vec<KeptContradiction>,
         /// Time, in s.
         t: f64,
     },
-    /// The law of friction leaves no motion at all, or several: what Painlevé found of rods that slide
-    /// on rough ground.
+    /// The law of friction permits no motion, or several: Painlevé's paradox of rods that slide on rough ground.
     FrictionParadox {
         /// The contact.
         contact: String,
@@ -171,11 +166,11 @@ pub enum Error {
         /// Their rates.
         v: std::vec::Vec<f64>,
     },
-    /// A unilateral contact leaves the run no way on.
+    /// The run cannot continue because of a unilateral contact.
     Contact {
         /// The contact.
         contact: String,
-        /// Why.
+        /// The reason.
         trouble: ContactTrouble,
         /// Time, in s.
         t: f64,
@@ -184,81 +179,81 @@ pub enum Error {
         /// Their rates.
         v: std::vec::Vec<f64>,
     },
-    /// Constraints come to depend on each other where they did not before. The machine may go on in more
-    /// than one way from there, as a parallelogram whose bars come into line, and neither the motion before
-    /// nor inertia says in which: it is at rest there, or rounding hides it.
+    /// Constraints become dependent that were independent before. From there the machine may continue in more than one way, like a
+    /// parallelogram whose bars come into line. Neither the motion before nor inertia determines which: the machine is at rest there, or
+    /// rounding hides it.
     Fork {
-        /// The constraint that comes to depend on the others.
+        /// The constraint that becomes dependent on the others.
         constraint: String,
-        /// The length of its row across those of the others, in the metric of inertia, relative to that at the start.
+        /// The length of its row orthogonal to those of the others, in the metric of inertia, relative to that at the start.
         left: f64,
         /// Time, in s.
         t: f64,
     },
     /// The method is [`TAYLOR`](crate::TAYLOR), and the motion has no series.
     NoSeries {
-        /// Why not.
+        /// The reason.
         reason: String,
     },
-    /// The machine gives no workspace for the work on its constraints ([`System::with_workspace`]).
+    /// The machine provides no workspace for its constraints ([`System::with_workspace`]).
     NoWorkspaceForConstraints {
         /// Time, in s.
         t: f64,
     },
-    /// The machine gives no workspace for the work on its contacts ([`System::with_workspace`]).
+    /// The machine provides no workspace for its contacts ([`System::with_workspace`]).
     NoWorkspaceForContacts {
         /// Time, in s.
         t: f64,
     },
-    /// The derivatives of the accelerations are asked of a machine with contacts that stick or slide.
+    /// The derivatives of the accelerations were requested for a machine with contacts that stick or slide.
     ContactsNotDifferentiated {
         /// The first of them.
         contact: String,
         /// Time, in s.
         t: f64,
     },
-    /// The motion within a step was asked for after the inputs were changed at its end
-    /// ([`Stepper::inputs_changed`](crate::Stepper::inputs_changed)).
+    /// The motion within a step was requested after the inputs were changed at its
+    /// end ([`Stepper::inputs_changed`](crate::Stepper::inputs_changed)).
     InputsChanged {
         /// Time, in s.
         t: f64,
     },
-    /// The step has shrunk to the roundoff of time and its error is still too great: the motion has
-    /// a jump, a kink or a pole there, or the tolerance is too small.
+    /// The step has shrunk to the round-off of time and its error is still too large: the motion has a jump, a kink or a pole there, or
+    /// the tolerance is too small.
     StepTooSmall {
-        /// The coordinate whose error is the greatest.
+        /// The coordinate with the largest error.
         coordinate: String,
         /// The step, in s.
         step: f64,
         /// Time, in s.
         t: f64,
     },
-    /// The run would take more steps than it may.
+    /// The run needs more steps than allowed.
     TooManySteps {
-        /// How many it took.
+        /// The number of steps taken.
         steps: usize,
         /// Time reached, in s.
         t: f64,
         /// Time to be reached, in s.
         until: f64,
     },
-    /// A fact that the description assumes holds no longer; the equations of motion may rest on it.
+    /// An assumption of the description does not hold any more, on which the equations of motion may rest.
     AssumptionEnded {
-        /// The fact, as the description states it.
+        /// The assumption, as the description states it.
         assumption: String,
         /// When it ended, in s.
         t: f64,
     },
-    /// Accelerations, multipliers and friction forces do not obey the equations of motion at a state: the
-    /// functions of the machine contradict each other, and none of them can be trusted.
+    /// Accelerations, multipliers and friction forces do not satisfy the equations of motion at a state: the functions of the machine
+    /// contradict each other, so none of them can be trusted.
     EquationsViolated {
-        /// The coordinate, or the constraint, whose equation is violated the most.
+        /// The coordinate, or the constraint, whose equation is violated most.
         row: String,
         /// Whether it is a constraint: `G a = γ`, and not `M a = f + Gᵀ λ`.
         is_constraint: bool,
-        /// The left side less the right one.
+        /// The left side minus the right side.
         residual: f64,
-        /// The size of the terms that rounding of this row may come from.
+        /// The size of the terms from which round-off in this row may come.
         terms: f64,
         /// Time, in s.
         t: f64,
@@ -270,37 +265,37 @@ pub enum Error {
         /// Time, in s.
         t: f64,
     },
-    /// A time outside of the run was asked for.
+    /// A time outside of the run was requested.
     OutsideRun {
-        /// That time, in s.
+        /// The requested time, in s.
         t: f64,
         /// When the run began, in s.
         from: f64,
         /// When it ended, in s.
         to: f64,
     },
-    /// Energies were asked for, but their balance was not kept (`energy_balance(true)`).
+    /// Energies were requested, but their balance was not kept (`energy_balance(true)`).
     NoEnergyBalance,
-    /// A time within the run was asked for, but its steps were not kept (`forget_steps`).
+    /// A time within the run was requested, but its steps were not kept (`forget_steps`).
     StepsForgotten,
-    /// An [`ExplicitStepper`](crate::ExplicitStepper) or an [`Ensemble`](crate::Ensemble) cannot do what is asked of it.
+    /// An [`ExplicitStepper`](crate::ExplicitStepper) or an [`Ensemble`](crate::Ensemble) cannot do what was requested.
     Stepper {
-        /// Why, as its [`StepError`] says it.
+        /// The reason, as in the message of its [`StepError`].
         message: String,
     },
 }
 
-/// A constraint that a start cannot meet while some of its numbers are kept.
+/// A constraint that a start cannot satisfy while some of its numbers are kept.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct KeptContradiction {
     /// The constraint.
     pub constraint: String,
-    /// Whether it is its rate that cannot be met, its positions being met.
+    /// Whether its rate cannot be satisfied, while its positions can.
     pub of_rates: bool,
-    /// What is kept of the numbers in it; none where it contradicts through others.
+    /// The kept numbers that occur in it; empty if it contradicts them through other constraints.
     pub kept: std::vec::Vec<String>,
-    /// Its residual where all constraints together are met best, in `unit`.
+    /// Its residual at the state that satisfies all constraints best, in `unit`.
     pub residual: f64,
     /// The SI unit of the residual.
     pub unit: String,
@@ -322,7 +317,7 @@ impl Display for KeptContradiction {
 }
 
 impl Error {
-    /// The error of a step, in the words of its machine.
+    /// Converts the error of a step, with the names of its machine.
     pub fn of_step<S: System>(error: StepError, system: &S) -> Self {
         let name = |index| name_of(system.coordinates().nth(index));
         match error {
@@ -332,7 +327,7 @@ impl Error {
             },
             StepError::Singular { singular, t } => {
                 let name = singular.name(system).into();
-                // 0/0 is nothing of nothing.
+                // 0/0: nothing is left of an element that was 0.
                 let ratio = if singular.ratio.is_nan() {
                     0.0
                 } else {
@@ -427,7 +422,7 @@ impl Error {
     }
 }
 
-/// A number in a message, in as few digits as it takes: `0.25`, `1e300`.
+/// A number in a message, with as few digits as necessary: `0.25`, `1e300`.
 struct Short(f64);
 
 impl Display for Short {
@@ -776,9 +771,9 @@ impl Display for Error {
     }
 }
 
-/// Why the mass matrix cannot be inverted, and what is to be done.
+/// Writes why the mass matrix cannot be inverted, and what to do.
 fn no_inertia(f: &mut fmt::Formatter<'_>, coordinate: &str, ratio: f64, t: f64) -> fmt::Result {
-    /// Elimination that takes more than this away has not come to rounding.
+    /// Elimination that leaves more than this has not been stopped by rounding.
     const MORE_THAN_ROUNDING: f64 = 1e-9;
     let t = Short(t);
     if ratio.is_finite() && ratio.abs() > MORE_THAN_ROUNDING {
@@ -824,74 +819,74 @@ impl From<crate::HasFriction> for Error {
     }
 }
 
-/// What a run has to say, although it ended well.
+/// Warnings of a run that ended without an error.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Warning {
-    /// The relative tolerance asks for more digits than there are, and was raised.
+    /// The relative tolerance is finer than the numbers allow, and was raised.
     ToleranceRaised {
-        /// What was asked.
+        /// The requested tolerance.
         asked: f64,
-        /// What was used.
+        /// The tolerance used.
         used: f64,
     },
-    /// The steps are held short by stability and not by accuracy: something in the machine is far
-    /// stiffer, or far more strongly damped, than its motion shows.
+    /// Stability and not accuracy limits the steps: something in the machine is far stiffer, or far more strongly damped, than its
+    /// motion shows.
     Stiff {
-        /// When it was noticed, in s.
+        /// When it was detected, in s.
         t: f64,
     },
-    /// The residual of the energy balance is greater than what tolerance and rounding explain.
+    /// The residual of the energy balance is larger than tolerance and rounding explain.
     EnergyUnexplained {
         /// The residual, in J.
         residual: f64,
-        /// What tolerance and rounding explain, in J: see
-        /// [`EnergyBalance::explained`](crate::EnergyBalance::explained).
+        /// The part that tolerance and rounding explain, in J: see [`EnergyBalance::explained`](crate::EnergyBalance::explained).
         explained: f64,
         /// The residual relative to the energy turned over.
         relative: f64,
     },
     /// Impacts created energy, as Newton's law with friction may.
     ImpactGains {
-        /// The contact in whose impact it was the most.
+        /// The contact with the largest gain.
         contact: String,
-        /// When that was, in s.
+        /// The time of that impact, in s.
         t: f64,
-        /// How much it was, in J.
+        /// The energy that it created, in J.
         gain: f64,
-        /// How many impacts did so.
+        /// The number of impacts that created energy.
         impacts: usize,
     },
-    /// Unilateral contacts met too often for each instant to be found, and the run went on by time stepping, whose error nothing bounds.
+    /// Unilateral contacts changed too often for each instant to be located, and the run changed to time stepping, whose error
+    /// nothing bounds.
     HandedOver {
-        /// When it did so first, in s.
+        /// When it first did so, in s.
         t: f64,
         /// The length of the steps then, in s.
         step: f64,
-        /// At how many instants contacts had changed last, and within how long, in s; none where they did not settle at one
-        /// instant.
+        /// The number of instants at which contacts had changed last, and the time in which they did, in s; `None` if contacts did not
+        /// settle at one instant.
         crowd: Option<(usize, f64)>,
-        /// How often it did so.
+        /// The number of times that it did so.
         times: usize,
-        /// When it found every event again for good, in s, if it did.
+        /// When it returned for good to locating every event, in s, if it did.
         back_at: Option<f64>,
     },
-    /// A constraint follows from others at the start, so multipliers are not determined: those of
-    /// least norm are given, and the motion does not depend on the choice.
+    /// A constraint follows from others at the start, so multipliers are not unique: those of least norm are returned, and the motion
+    /// does not depend on this choice.
     RedundantConstraint {
         /// The constraint.
         constraint: String,
         /// The others.
         with: std::vec::Vec<String>,
     },
-    /// The start was not on the constraints, and was moved onto them.
+    /// The start violated the constraints, and was moved onto them.
     StartMoved {
         /// The coordinate, `s1`, or its rate, `der(s1)`.
         name: String,
-        /// Its value as it was given.
+        /// The given value.
         from: f64,
-        /// Its value as the run starts.
+        /// The value at the start of the run.
         to: f64,
     },
 }

@@ -1,4 +1,4 @@
-//! Everything that a machine computes at one state, apart from any run.
+//! Everything that a machine computes at one state, independent of a run.
 
 use std::vec;
 use std::vec::Vec;
@@ -22,12 +22,12 @@ pub struct Evaluation<O> {
     pub forces: Vec<f64>,
     /// Accelerations.
     pub accelerations: Vec<f64>,
-    /// Multipliers of the constraints: of those that depend on each other, the ones of least norm. With unilateral contacts
-    /// that are closed they are those without these.
+    /// Multipliers of the constraints, for dependent constraints the ones of least norm. The forces of closed unilateral
+    /// contacts are not taken into account.
     pub multipliers: Vec<f64>,
-    /// Generalized reactions of the constraints on each coordinate, `Gᵀ λ`; none without constraints.
+    /// Generalized reactions of the constraints on each coordinate, `Gᵀ λ`; empty without constraints.
     pub reactions: Vec<f64>,
-    /// The contacts that stick and slide, in their order.
+    /// The guided contacts, in their order.
     pub contacts: Vec<ContactForce>,
     /// The unilateral contacts, in their order.
     pub unilateral: Vec<UnilateralForce>,
@@ -45,7 +45,7 @@ impl<O> Evaluation<O> {
     /// Evaluates a system at time, coordinates, rates and inputs.
     ///
     /// # Errors
-    /// Where the machine has no accelerations.
+    /// If the machine has no accelerations.
     pub fn of<S: System<Outputs = O>>(
         system: &S,
         (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
@@ -59,9 +59,9 @@ impl<O> Evaluation<O> {
             .accelerations(t, q, v, u, &mut a)
             .and_then(|()| system.multipliers(t, q, v, u, &mut multipliers));
         if let Err(singular) = found {
-            // What depends on others may be held by these in many ways, all with the same motion.
+            // Dependent constraints have many possible multipliers, all with the same motion.
             match singular.at {
-                // Of what sticks and slides beside them nothing is known then.
+                // Not with guided contacts, whose states would be unknown here.
                 Pivot::Constraint(_) if system.contacts().len() == 0 => {
                     least_multipliers(system, t, q, v, u, &mut a, &mut multipliers)?;
                 }
@@ -85,7 +85,7 @@ impl<O> Evaluation<O> {
         };
         let mut contacts = vec![ContactForce::default(); system.contacts().len()];
         if !contacts.is_empty() {
-            // Where they have no value, the accelerations have none.
+            // If they have no value, the accelerations have none either.
             let _ = contact_forces(system, (t, q, v, u), &mut [], &mut [], &mut contacts);
         }
         system.mass_matrix(t, q, &mut matrix);

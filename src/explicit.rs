@@ -1,8 +1,8 @@
 //! Steps by explicit methods, in numbers of any kind and for several trajectories at once.
 //!
-//! What a [`Stepper`](crate::Stepper) does for machines without constraints and contacts, with the same sums, so `f64` have the same
-//! bits. Everything here is done for all trajectories of a number at once, except what is decided: whether a step was good, and
-//! how long the next one is. A trajectory whose step was not good tries again while others go on.
+//! These are the steps of a [`Stepper`](crate::Stepper) for machines without constraints and contacts, with the same sums, so in `f64`
+//! they have the same bits. Everything is computed for all trajectories of a number at once, except decisions: whether a step was good,
+//! and how long the next one is. A trajectory whose step was rejected tries again while others go on.
 
 mod ensemble;
 #[cfg(feature = "std")]
@@ -23,36 +23,36 @@ use crate::step_number::{Real, StepNumber};
 use crate::tolerance::Tolerance;
 use crate::{Singular, Vector};
 
-/// What steps ask of a machine: accelerations, with its inputs.
+/// The machine as steps see it: accelerations, with the inputs already set.
 pub(crate) trait Accelerate<N: StepNumber, V> {
-    /// Accelerations of all trajectories. An error says which of them have none; the others have theirs.
+    /// Evaluates the accelerations of all trajectories. An error holds the trajectories that have none; those of the others are valid.
     fn accelerate(&self, t: N, q: &V, v: &V, a: &mut V) -> Result<(), N::Each<Option<Singular>>>;
 }
 
-/// What became of one try of a trajectory.
+/// The outcome of one try of a trajectory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Outcome {
-    /// Nothing was tried: it is at its end.
+    /// Nothing was tried, because the trajectory is at its end.
     Idle,
     /// A step was taken.
     Taken,
-    /// The step was given up; the next try is a shorter one.
+    /// The step was rejected; the next try is shorter.
     GivenUp,
     /// No step can be taken.
     Failed(StepError),
 }
 
-/// One of the trajectories.
+/// State of one trajectory.
 #[derive(Clone, Copy, Debug)]
 struct Lane {
-    /// Whether it is to go on.
+    /// Whether it continues.
     is_running: bool,
-    /// Whether the acceleration now is that at the end of a step.
+    /// Whether the present acceleration is the one at the end of a step.
     is_after_step: bool,
     control: Control,
 }
 
-/// Trajectories side by side, with what a method needs of each.
+/// Trajectories in parallel, with everything that a method needs for each.
 #[derive(Clone, Debug)]
 pub(crate) struct Track<N: StepNumber, V> {
     method: &'static Method,
@@ -61,15 +61,15 @@ pub(crate) struct Track<N: StepNumber, V> {
     end: N,
     now: Point<V, N>,
     before: Point<V, N>,
-    /// Accelerations at the stages of the last step; the first is that at its beginning.
+    /// Accelerations at the stages of the last step; the first one is at its beginning.
     k: [V; MAX_STAGES],
     stage: (V, V),
-    /// The lengths of the steps tried last.
+    /// The lengths of the last steps tried.
     h: N,
     lanes: N::Each<Lane>,
 }
 
-/// Whether a method can be used in these numbers.
+/// Checks that a method can be used in these numbers.
 fn check<N: StepNumber>(method: &Method, t: f64) -> Result<(), StepError> {
     if method.tableau.spectrum.is_some() || method.kind != Kind::RungeKutta {
         return Err(StepError::NotExplicit { t });
@@ -80,7 +80,7 @@ fn check<N: StepNumber>(method: &Method, t: f64) -> Result<(), StepError> {
     Ok(())
 }
 
-/// One try of every trajectory, in the fastest arithmetic that there is for such numbers.
+/// One try of every trajectory, in the fastest arithmetic available for such numbers.
 struct Attempt<'a, N: StepNumber, V, M>(&'a mut Track<N, V>, &'a M);
 
 impl<N: StepNumber, V: Vector<N>, M: Accelerate<N, V>> Kernel<N> for Attempt<'_, N, V, M> {
@@ -94,10 +94,10 @@ impl<N: StepNumber, V: Vector<N>, M: Accelerate<N, V>> Kernel<N> for Attempt<'_,
 }
 
 impl<N: StepNumber, V: Vector<N>> Track<N, V> {
-    /// One trajectory at a state, in numbers that hold one: with its accelerations.
+    /// Begins one trajectory at a state, in numbers that hold one, and evaluates its accelerations.
     ///
     /// # Errors
-    /// Where it has none.
+    /// If it has none.
     pub fn begin(
         method: &'static Method,
         tolerance: Tolerance<V>,
@@ -109,7 +109,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         Ok(track)
     }
 
-    /// Trajectories that stand still.
+    /// Trajectories that do not move yet.
     pub fn resting(method: &'static Method, tolerance: Tolerance<V>, (t, q, v): (N, V, V)) -> Self {
         let zeros = q.zeros_like();
         let now = Point::new(t, q, v);
@@ -142,7 +142,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         self.control_mut().step = step;
     }
 
-    /// The control of one trajectory.
+    /// The step size control of the only trajectory.
     fn control(&self) -> &Control {
         &self.lanes.as_ref()[0].control
     }
@@ -163,12 +163,12 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         &self.now.v
     }
 
-    /// The accelerations of one trajectory now, where its last try was good.
+    /// The present accelerations of the only trajectory, if its last try was good.
     pub fn a(&self) -> &V {
         &self.k[self.newest()]
     }
 
-    /// Which stage of one trajectory has the acceleration now.
+    /// The stage of the only trajectory that holds its present acceleration.
     fn newest(&self) -> usize {
         if self.is_after_step() {
             self.method.tableau.stages
@@ -177,17 +177,17 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         }
     }
 
-    /// Whether one trajectory is at the end of a good step.
+    /// Whether the only trajectory is at the end of a good step.
     pub fn is_after_step(&self) -> bool {
         self.lanes.as_ref()[0].is_after_step
     }
 
-    /// Whether dense output asks for accelerations beyond those of a step.
+    /// Whether dense output needs evaluations beyond those of a step.
     pub fn dense_needs_evaluations(&self) -> bool {
         self.method.dense_needs_evaluations()
     }
 
-    /// Where the last step of one trajectory began; now, if it has taken none.
+    /// The beginning of the last step of the only trajectory; its present state if it has taken none.
     pub fn before(&self) -> &Point<V, N> {
         if self.is_after_step() {
             &self.before
@@ -196,7 +196,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         }
     }
 
-    /// The accelerations of one trajectory at the beginning of its last step.
+    /// The accelerations of the only trajectory at the beginning of its last step.
     pub fn a_before(&self) -> &V {
         &self.k[0]
     }
@@ -219,12 +219,12 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         self.now.t.are_same(self.end).as_ref()[lane]
     }
 
-    /// Lets a trajectory stand.
+    /// Stops a trajectory.
     pub fn stop(&mut self, lane: usize) {
         self.lanes.as_mut()[lane].is_running = false;
     }
 
-    /// Sends one trajectory to another end.
+    /// Sets another end for the only trajectory.
     pub fn set_end(&mut self, end: N) {
         self.end = end;
         let [to, from] = [end, self.now.t].map(|t| t.rounded().as_ref()[0]);
@@ -234,7 +234,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         lane.is_running = !is_done;
     }
 
-    /// Finds the accelerations of one trajectory now, as at its start or where the inputs have changed.
+    /// Evaluates the present accelerations of the only trajectory, at its start or after the inputs have changed.
     pub fn look(&mut self, machine: &impl Accelerate<N, V>) -> Result<(), StepError> {
         let newest = self.newest();
         let Self { now, k, .. } = self;
@@ -247,7 +247,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         failed.as_ref()[0].map_or(Ok(()), Err)
     }
 
-    /// Chooses the length of the first step of one trajectory, where nobody has.
+    /// Chooses the length of the first step of the only trajectory, unless it was given.
     pub fn choose_first_step(&mut self, machine: &impl Accelerate<N, V>) {
         if self.control().step == 0.0 && !self.is_done(0) {
             let step = self.first_step(machine);
@@ -255,7 +255,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         }
     }
 
-    /// A length for the first step of one trajectory.
+    /// A length for the first step of the only trajectory.
     fn first_step(&mut self, machine: &impl Accelerate<N, V>) -> f64 {
         let left = (self.end - self.now.t).rounded().as_ref()[0];
         let Self {
@@ -277,8 +277,8 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         })
     }
 
-    /// One try of every trajectory that is not at its end. Inlined with all that is done for each of them, since a caller may be
-    /// compiled for wide registers.
+    /// One try of every trajectory that is not at its end. Everything that is done per trajectory is inlined too, since the caller may
+    /// be compiled for wide registers.
     #[inline(always)]
     pub fn attempt<R: Scalar<Stored = N>>(
         &mut self,
@@ -290,7 +290,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         let mut failed = N::each(|_| None);
         let errors = self.try_steps::<R>((h, &is_last), machine, &mut failed);
         let h = h.rounded();
-        // For all at once, whatever becomes of them, and in a loop, not by a closure: in wide registers that costs what one alone costs.
+        // For all at once, whatever their outcome, and in a loop instead of a closure: in wide registers all cost as much as one.
         let mut growth = N::each(|lane| self.lanes.as_ref()[lane].control.error_before);
         for (growth, error) in growth.as_mut().iter_mut().zip(errors.as_ref()) {
             *growth = control::growth(self.method, *error, *growth);
@@ -304,7 +304,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         outcomes
     }
 
-    /// Makes now the beginning of a step, but where the last one is tried again.
+    /// Makes the present states the beginnings of steps, except where the last step is tried again.
     #[inline(always)]
     fn begin_steps(&mut self) {
         let lanes = self.lanes.as_mut();
@@ -319,7 +319,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         choose(&moves, &mut first[0], newest);
     }
 
-    /// The lengths of the next steps, 0 where there is none, and whether they are the last ones.
+    /// The lengths of the next steps, 0 for trajectories that take none, and whether they would be the last ones.
     #[inline(always)]
     fn choose_lengths(&mut self, outcomes: &mut N::Each<Outcome>) -> (N, N::Each<bool>) {
         let left = (self.end - self.before.t) - self.before.t_low;
@@ -354,8 +354,8 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         (h, is_last)
     }
 
-    /// Tries steps of lengths `h` from `before`, to `now`, which stays at `before` where a step is not good. Returns their errors,
-    /// 1 being just tolerable.
+    /// Tries steps of lengths `h` from `before` to `now`; `now` stays at `before` where a step fails. Returns their errors relative to
+    /// the tolerance.
     #[inline(always)]
     fn try_steps<R: Scalar<Stored = N>>(
         &mut self,
@@ -419,14 +419,14 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
             );
         }
         let found = attempt::errors::<R, N, V>(method, h, [before, now], k, tolerance);
-        // Where the state has left the range of numbers, the error says nothing.
+        // If the state has overflowed, the error estimate is meaningless.
         let are_numbers = attempt::are_finite(&now.q, &now.v);
         let errors = N::each(|lane| {
             let error = found.as_ref()[lane];
             if error.is_finite() && are_numbers.as_ref()[lane] {
                 error
             } else {
-                // An error beyond all measure.
+                // An infinite error.
                 f64::INFINITY
             }
         });
@@ -448,7 +448,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         errors
     }
 
-    /// What becomes of a trajectory after a try of a step with this error, after which the next may be longer by `growth`.
+    /// Decides about a try of a step with this error; after a good one the next may be longer by the factor `growth`.
     #[inline(always)]
     fn decide(
         &mut self,
@@ -471,7 +471,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
                 return Outcome::Taken;
             }
             None => h * control::reduction(self.method, error),
-            // Perhaps a stage reached beyond where the machine can be.
+            // A stage may have left the set of states in which the machine can be.
             Some(_) => 0.1 * h,
         };
         let t = self.before.t.rounded().as_ref()[lane];
@@ -491,7 +491,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
 }
 
 impl<N: Real, V: Vector<N>> Track<N, V> {
-    /// The motion of one trajectory within its last step, from the ends of the step alone.
+    /// The motion of the only trajectory within its last step, from the ends of the step alone.
     pub fn hermite(&self, theta: N) -> (V, V) {
         let before = self.before();
         hermite(
@@ -503,10 +503,10 @@ impl<N: Real, V: Vector<N>> Track<N, V> {
         )
     }
 
-    /// The continuous extension of the last step of one trajectory.
+    /// The continuous extension of the last step of the only trajectory.
     ///
     /// # Errors
-    /// Where a stage of it has no accelerations.
+    /// If a stage of it has no accelerations.
     pub fn interpolant(
         &mut self,
         machine: &impl Accelerate<N, V>,
@@ -535,7 +535,7 @@ impl<N: Real, V: Vector<N>> Track<N, V> {
     }
 }
 
-/// Accelerations of one trajectory, outside of kernels.
+/// Evaluates the accelerations of the only trajectory, outside of kernels.
 fn evaluate<N: StepNumber, V: Vector<N>>(
     machine: &impl Accelerate<N, V>,
     (t, q, v): (N, &V, &V),
@@ -547,8 +547,7 @@ fn evaluate<N: StepNumber, V: Vector<N>>(
     give_up(none, t, a, trying, failed);
 }
 
-/// Trajectories that have no accelerations try no more; these are 0 then, so that those of others are not disturbed by what is no
-/// number.
+/// Ends the tries of trajectories that have no accelerations, and sets these to 0, so that NaN does not disturb the other trajectories.
 fn give_up<N: StepNumber, V: Vector<N>>(
     none: Option<N::Each<Option<Singular>>>,
     t: N,
@@ -580,9 +579,9 @@ fn give_up<N: StepNumber, V: Vector<N>>(
     }
 }
 
-/// [`evaluate`], counted.
+/// Evaluates the accelerations and counts the evaluations.
 ///
-/// A function, not a closure: that would not be compiled into its caller for wide registers.
+/// A function and not a closure, since a closure would not be compiled into its caller for wide registers.
 #[inline(always)]
 fn ask<R, V>(
     (machine, asked): (&impl Accelerate<R::Stored, V>, &mut Each<R, usize>),
@@ -603,10 +602,10 @@ fn ask<R, V>(
     }
 }
 
-/// Something for each trajectory of those in a register.
+/// One value for each trajectory in a register.
 type Each<R, T> = <<R as Scalar>::Stored as StepNumber>::Each<T>;
 
-/// Copies a vector, in the trajectories for which `condition` holds.
+/// Copies a vector in the trajectories for which `condition` holds.
 #[inline(always)]
 fn choose<N: StepNumber, V: Vector<N>>(condition: &N::Each<bool>, to: &mut V, from: &V) {
     for (to, from) in to.as_mut_slice().iter_mut().zip(from.as_slice()) {
@@ -614,7 +613,7 @@ fn choose<N: StepNumber, V: Vector<N>>(condition: &N::Each<bool>, to: &mut V, fr
     }
 }
 
-/// Copies a state, in the trajectories for which `condition` holds.
+/// Copies a state in the trajectories for which `condition` holds.
 #[inline(always)]
 fn choose_point<N: StepNumber, V: Vector<N>>(
     condition: &N::Each<bool>,
@@ -629,7 +628,7 @@ fn choose_point<N: StepNumber, V: Vector<N>>(
     choose(condition, &mut to.v_low, &from.v_low);
 }
 
-/// Keeps a state in the trajectories for which `condition` holds, and puts `otherwise` in its place in all others.
+/// Keeps a state in the trajectories for which `condition` holds, and replaces it by `otherwise` in all others.
 #[inline(always)]
 fn keep_where<N: StepNumber, V: Vector<N>>(
     condition: &N::Each<bool>,

@@ -1,11 +1,11 @@
-//! What a system that wraps another one hands on to it, written once.
+//! Forwards methods of a system that wraps another one to that system.
 
-/// Methods of [`System`](crate::System) that ask the system inside, by name.
+/// Implements methods of [`System`](crate::System) by calling the wrapped system, by name.
 ///
-/// The wrapper says by methods of its own what is inside, and how vectors become those of it: `wrapped(&self)` is the
-/// system; `own(&self, vector)` is a vector of it, by value or by reference; `put` and `put_matrix` have a function write
-/// one, `(&self, to, |own| …)`. Names of coordinates, facts, constraints and contacts are handed on by wrappers whose vectors
-/// are those of what they wrap.
+/// The wrapper defines how to reach the wrapped system and its vectors: `wrapped(&self)` returns the system;
+/// `own(&self, vector)` returns one of its vectors, by value or by reference; `put` and `put_matrix` let a function write
+/// one, `(&self, to, |own| …)`. Names of coordinates, assumptions, constraints and contacts are forwarded by wrappers whose
+/// vectors are those of the wrapped system.
 macro_rules! forward {
     ($($method:ident),+ $(,)?) => { $(crate::forward::forward!(@ $method);)+ };
 

@@ -1,37 +1,34 @@
-//! Coulomb friction in guided contacts: what sticks, what slides, and with which forces.
+//! Coulomb friction in guided contacts: which contacts stick, which slide, and their forces.
 //!
 //! ```text
 //! slides   F = −s μ |N|,   s = sgn w         until w = 0
 //! sticks   dw/dt = 0,  |F| ≤ μ₀ |N|          until |F| = μ₀ |N|
 //! ```
 //!
-//! A machine says how accelerations, `dw/dt` and the normal reactions `N` depend on the friction forces `F`
-//! of all its contacts ([`System::friction`]): linearly. With the states of the contacts given, what
-//! is left is one equation for each of them, `F + s η μ N(F) = 0` or `dw/dt(F) = 0`, where η is the
-//! sign of `N`. They are solved with a full search for pivots: the matrix is not symmetric, and it
-//! may be singular (P. Painlevé, *Leçons sur le frottement*, 1895). In space `N` is a vector across the guide, and
-//! `|F| = μ |N(F)|` is no linear equation: of one contact it is of the second degree, and of several it has
-//! one solution where it is a contraction. Where that cannot be shown the run ends and says so.
+//! Accelerations, `dw/dt` and the normal reactions `N` are affine functions of the friction forces `F` of all contacts
+//! ([`System::friction`]). For given states of the contacts this leaves one equation for each of them, `F + s η μ N(F) = 0` or
+//! `dw/dt(F) = 0`, where η is the sign of `N`. They are solved with complete pivoting: the matrix is not symmetric, and it may be
+//! singular (P. Painlevé, *Leçons sur le frottement*, 1895). In space `N` is a vector across the guide, and `|F| = μ |N(F)|` is not
+//! linear: for one contact it is quadratic; for several it has a unique solution if it is a contraction. If that cannot be shown, the
+//! run ends with an error.
 //!
-//! On a surface the slip has two components, along two tangents, each of which stands as a contact, the second behind the first
-//! ([`System::second_tangents`]). Both together obey the same law, with the direction of the slip for its sign:
+//! On a surface the slip has two components, along two tangents. Each tangent is represented as a contact, the second behind the first
+//! ([`System::second_tangents`]). The two obey the same law together, with the direction of the slip in place of its sign:
 //!
 //! ```text
 //! skids    F = −μ |N| w/|w|                   until w = 0
 //! sticks   dw/dt = 0,  |F| ≤ μ₀ |N|           until |F| = μ₀ |N|
 //! ```
 //!
-//! What slides off from rest goes in the direction `e` in which `dw/dt` with `F = −μ |N| e` is along `e`. A slip that stops is a
-//! minimum of its speed and no change of a sign. So the direction in which a step begins is followed through rest as if it went
-//! on backwards, which is smooth; where the slip comes to be at right angles to it, the step ends there if the slip is gone, and
-//! shortly before if it has turned.
+//! A contact that starts to slide from rest goes in the direction `e` for which `dw/dt` with `F = −μ |N| e` is along `e`. When a slip
+//! stops, its speed has a minimum and no sign change. Therefore the motion is continued smoothly through rest, as if the slip reversed
+//! along the direction that it had at the beginning of the step. Where the slip becomes perpendicular to that direction, the step ends:
+//! there if the slip has vanished, and shortly before if it has turned.
 //!
-//! Which states the contacts are in is a question for all of them at once, and it is asked only where
-//! something comes to rest, breaks away, or changes the side on which it presses. Then every
-//! combination is looked at; that there is exactly one solution is found out and not presumed. (F.
-//! Pfeiffer, C. Glocker, *Multibody Dynamics with Unilateral Contacts*, 1996, chapters 5 and 6, write
-//! the same as a linear complementarity problem.) In between, the states stay as they are: the motion
-//! is smooth, and what sticks is held at `w = 0` itself.
+//! The states of all contacts have to be determined together. This is done only when a contact comes to rest, breaks away, or changes
+//! the side on which it presses. Then all combinations are examined, which shows whether there is exactly one solution. (F. Pfeiffer, C.
+//! Glocker, *Multibody Dynamics with Unilateral Contacts*, 1996, chapters 5 and 6, state the same as a linear complementarity problem.)
+//! In between, the states are kept: the motion is smooth, and sticking contacts are held at `w = 0` itself.
 
 mod law;
 
@@ -43,22 +40,21 @@ pub(crate) use law::{Mode, Motion};
 use crate::system::MOST_CONTACTS;
 use crate::{Pivot, Singular, StepError, System, Vector};
 
-/// Slips below this, relative to the greatest of the same contact in the run, count as rest where
-/// another contact comes to rest.
+/// When another contact comes to rest, slips below this, relative to the largest of the same contact in the run, count as rest.
 #[cfg(feature = "std")]
 const AT_REST: f64 = 1e-10;
 
-/// A slip on a surface that is so small beside the greatest of the run has no direction but that in which it began.
+/// A slip on a surface below this, relative to the largest in the run, keeps the direction that it had at the beginning of the step.
 const NO_DIRECTION: f64 = 1e-14;
 
-/// How many numbers the work on constraints and contacts needs: what [`System::with_workspace`] is asked for.
+/// The length of the workspace for constraints and contacts, which is passed to [`System::with_workspace`].
 ///
-/// In space reactions have three components, and it is [`contact_workspace_in_space`].
+/// In space reactions have three components; use [`contact_workspace_in_space`].
 pub const fn contact_workspace(coordinates: usize, constraints: usize, contacts: usize) -> usize {
     workspace(coordinates, constraints, contacts, 1)
 }
 
-/// As [`contact_workspace`], for a machine in space.
+/// Like [`contact_workspace`], for a machine in space.
 pub const fn contact_workspace_in_space(
     coordinates: usize,
     constraints: usize,
@@ -85,48 +81,47 @@ const fn workspace(coordinates: usize, constraints: usize, contacts: usize, axes
     }
 }
 
-/// A contact at a state.
+/// The state of a contact and its forces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactForce {
-    /// How fast it slides along its direction, in m/s: on a surface along one of two tangents, each of which stands as a
-    /// contact.
+    /// The slip rate along its direction, in m/s. On a surface it is the component along one of the two tangents, each of which is
+    /// represented as a contact.
     pub slip: f64,
-    /// The normal reaction, in N. In the plane it is positive where it presses the body to the side of the normal; in space it
-    /// is the length of the vector.
+    /// The normal reaction, in N. In the plane it is positive if it pushes the body to the side of the normal; in space it is the length
+    /// of the vector.
     pub normal: f64,
-    /// The friction on the body along the direction, in N.
+    /// The friction force on the body along the direction, in N.
     pub friction: f64,
     /// Whether it sticks.
     pub sticks: bool,
 }
 
-/// What a run knows of its contacts.
+/// State of the guided contacts during a run.
 #[derive(Clone, Debug)]
 pub(crate) struct Contacts {
     count: usize,
-    /// Which contacts are the second tangents of surfaces.
+    /// The contacts that are second tangents of surfaces, as a bit mask.
     seconds: usize,
-    /// What each does. Of what skids the direction is that at the beginning of the step: through rest it is followed as if it
-    /// went on backwards, which is smooth, and the step then ends there.
+    /// The state of each contact. The direction of a skidding contact is the one at the beginning of the step: the motion is continued
+    /// smoothly through rest, as if the slip reversed, and the step then ends there.
     pub mode: Mode,
-    /// The greatest slips so far.
+    /// The largest slips so far.
     sizes: Each,
-    /// Whether a direction is followed through rest.
+    /// Whether directions are continued through rest.
     follows: bool,
 }
 
-/// What ended the state of a contact.
+/// The end of a contact state.
 #[cfg(feature = "std")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Change {
-    /// Which contact.
+    /// The index of the contact.
     pub contact: usize,
     pub cause: Cause,
 }
 
-/// By how much the state of a contact holds, negative where it does not, and what rounding may take
-/// from that.
+/// The margin by which the state of a contact holds, negative if it does not, and the round-off of that margin.
 #[cfg(feature = "std")]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Margin {
@@ -136,15 +131,14 @@ pub(crate) struct Margin {
 
 #[cfg(feature = "std")]
 impl Margin {
-    /// Of what does not end.
+    /// The margin of a state that does not end.
     pub(crate) const ENDLESS: Margin = Margin {
         value: f64::INFINITY,
         rounding: 0.0,
     };
 
-    /// Whether a state has ended that had this margin before: it is clearly lost now, or it was
-    /// clearly there before. What is zero within rounding throughout has not ended. *When* a state
-    /// ended is a question of the value alone.
+    /// Whether a state with this margin has ended, given its margin before: it is clearly lost now, or it was clearly there before. A
+    /// margin that is zero to rounding throughout has not ended. The *time* at which a state ended depends on the value alone.
     pub fn is_lost_since(self, before: Margin) -> bool {
         self.value < -self.rounding || (self.value < 0.0 && before.value > before.rounding)
     }
@@ -155,24 +149,23 @@ impl Margin {
 pub(crate) enum Cause {
     /// It came to rest.
     Stopped,
-    /// Its friction would have to be greater than it can be.
+    /// Sticking would require more friction than is available.
     BrokeAway,
-    /// Its normal reaction went through zero.
+    /// Its normal reaction changed sign.
     Turned,
-    /// On a surface its slip came to be at right angles to what it was: it goes on along its own.
+    /// Its slip on a surface became perpendicular to its earlier direction; it continues along its own direction.
     Veered,
 }
 
-/// Accelerations and multipliers of a machine with contacts, and the forces in these, at a state.
+/// Accelerations and multipliers of a machine with contacts, and the contact forces, at a state.
 ///
-/// A contact whose slip is not 0 slides. Where it is 0 within rounding
-/// ([`System::slip_ranges`]), all contacts at rest are asked
-/// together whether they stick or slide off. A run knows more: there a contact that has come to rest
-/// stays so until its friction is used up.
+/// A contact whose slip is nonzero slides. For all contacts whose slip is 0 to rounding ([`System::slip_ranges`]) it is decided
+/// together whether they stick or start to slide. A run knows more: there a contact that has come to rest stays at rest until its
+/// friction is used up.
 ///
 /// # Errors
-/// Beside what makes the machine itself singular, where no motion has these contacts, or several have
-/// ([`Pivot::Contact`]), or the machine has no workspace ([`Pivot::NoWorkspace`]).
+/// If the machine itself is singular, if no motion or several motions are possible with these contacts ([`Pivot::Contact`]), or if the
+/// machine has no workspace ([`Pivot::NoWorkspace`]).
 pub fn contact_forces<S: System>(
     system: &S,
     (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
@@ -190,7 +183,7 @@ pub fn contact_forces<S: System>(
     })
 }
 
-/// [`System::accelerations`] of a machine with contacts, by [`contact_forces`].
+/// [`System::accelerations`] of a machine with contacts, from [`contact_forces`].
 pub fn accelerations_with_friction<S: System>(
     system: &S,
     t: f64,
@@ -208,7 +201,7 @@ pub fn accelerations_with_friction<S: System>(
     )
 }
 
-/// [`System::multipliers`] of a machine with contacts, by [`contact_forces`].
+/// [`System::multipliers`] of a machine with contacts, from [`contact_forces`].
 pub fn multipliers_with_friction<S: System>(
     system: &S,
     t: f64,
@@ -226,7 +219,7 @@ pub fn multipliers_with_friction<S: System>(
     )
 }
 
-/// What the machine says of friction forces, and the workspace beside it.
+/// Calls `work` with the response of the machine to friction forces, and with the remaining workspace.
 fn with_parts<S: System, R>(
     system: &S,
     t: f64,
@@ -244,7 +237,7 @@ fn with_parts<S: System, R>(
     };
     let length = workspace(layout.n, layout.m, layout.k, layout.axes);
     system.with_workspace(length, |workspace| {
-        // Without an allocator a machine with none, or too small a one, has no answer.
+        // Without an allocator, a machine without a workspace, or with one that is too small, returns an error.
         let workspace = workspace.filter(|workspace| workspace.len() >= length);
         let Some((values, rest)) =
             workspace.and_then(|workspace| workspace.split_at_mut_checked(layout.len()))
@@ -266,7 +259,7 @@ fn slips<S: System>(system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> Each {
     slips
 }
 
-/// The slips, 0 where a contact rests within rounding.
+/// The slips, with 0 for contacts that rest to rounding.
 fn resting_slips<S: System>(system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> Each {
     let mut slips = slips(system, t, q, v);
     if slips == [0.0; MOST_CONTACTS] {
@@ -282,7 +275,7 @@ fn resting_slips<S: System>(system: &S, t: f64, q: &S::Vector, v: &S::Vector) ->
     slips
 }
 
-/// Accelerations and multipliers with these friction forces, as far as they are asked for.
+/// Accelerations and multipliers with these friction forces, as many as the slices hold.
 fn results(parts: &Parts<'_>, friction_forces: &Each, a: &mut [f64], multipliers: &mut [f64]) {
     for (i, a) in a.iter_mut().enumerate() {
         *a = parts.sum(i, friction_forces)[0];
@@ -292,7 +285,7 @@ fn results(parts: &Parts<'_>, friction_forces: &Each, a: &mut [f64], multipliers
     }
 }
 
-/// The forces in contacts of these states with these friction forces.
+/// The contact forces in these states with these friction forces.
 fn in_contacts(
     parts: &Parts<'_>,
     mode: &Mode,
@@ -337,14 +330,14 @@ impl Contacts {
         Ok(contacts)
     }
 
-    /// Takes note of a state.
+    /// Records a state.
     pub fn accept<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
         for (size, slip) in self.sizes.iter_mut().zip(slips(system, t, q, v)) {
             *size = size.max(slip.abs());
         }
     }
 
-    /// Takes note of the directions in which contacts skid where a step begins.
+    /// Records the directions of skidding contacts at the beginning of a step.
     pub fn take_headings<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
         if self.skids() {
             let as_seen = Contacts {
@@ -355,7 +348,7 @@ impl Contacts {
         }
     }
 
-    /// As it is looked at after the run, at any time until something changes: by then a slip may have turned anywhere.
+    /// The contacts as seen after the run, at any time until their next change, by which a slip may have turned in any direction.
     #[cfg(feature = "std")]
     pub fn as_seen_later(&self) -> Contacts {
         Contacts {
@@ -368,13 +361,13 @@ impl Contacts {
         self.seconds != 0 && self.mode.motion[..self.count].contains(&Motion::Skids)
     }
 
-    /// The first of the two tangents of each contact that is on a surface.
+    /// The first of the two tangents of each contact on a surface.
     fn on_surfaces(&self) -> impl Iterator<Item = usize> + use<> {
         let (count, seconds) = (self.count, self.seconds);
         (0..count).filter(move |k| seconds >> (k + 1) & 1 != 0)
     }
 
-    /// Whether a slip is rest, beside the greatest so far of the same contact.
+    /// Whether a slip counts as rest, relative to the largest so far of the same contact.
     #[cfg(feature = "std")]
     fn is_slow(&self, contact: usize, slips: &Each) -> bool {
         let [first, second] = [contact, contact + 1];
@@ -382,8 +375,8 @@ impl Contacts {
             <= AT_REST * length([self.sizes[first], self.sizes[second]])
     }
 
-    /// What each contact does with these slips: what skids goes along its slip, or has come through rest since the step began,
-    /// and is then taken to go backwards.
+    /// The state of each contact with these slips. A skidding contact goes along its slip, or has come through rest since the step
+    /// began, in which case its slip counts as reversed.
     fn mode_of(&self, slips: &Each) -> Mode {
         let mut mode = self.mode;
         if !self.skids() {
@@ -410,7 +403,7 @@ impl Contacts {
         mode
     }
 
-    /// [`mode_of`](Self::mode_of) a state.
+    /// [`mode_of`](Self::mode_of) at a state.
     fn mode_at<S: System>(&self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> Mode {
         if self.skids() {
             self.mode_of(&slips(system, t, q, v))
@@ -419,7 +412,7 @@ impl Contacts {
         }
     }
 
-    /// Accelerations in the states that the contacts are in; of what sticks, without any creep.
+    /// Accelerations in the present states of the contacts; sticking contacts do not creep.
     pub fn accelerations<S: System>(
         &self,
         system: &S,
@@ -437,7 +430,7 @@ impl Contacts {
         })
     }
 
-    /// The forces in the contacts, and the multipliers.
+    /// The forces in the contacts and the multipliers.
     #[cfg(feature = "std")]
     pub fn forces<S: System>(
         &self,
@@ -455,8 +448,8 @@ impl Contacts {
         })
     }
 
-    /// The powers of the friction forces, in W: the work that what moves by itself does through them, and
-    /// what is lost, `−Σ Fₖ wₖ`. Together they are the power on the coordinates, `Σ Fₖ τₖ v`.
+    /// The powers of the friction forces, in W: the work that prescribed motion does through them, and the loss, `−Σ Fₖ wₖ`. Their
+    /// difference is the power on the coordinates, `Σ Fₖ τₖ v`.
     pub fn power<S: System>(
         &self,
         system: &S,
@@ -482,8 +475,8 @@ impl Contacts {
         power.unwrap_or([f64::NAN; 2])
     }
 
-    /// By how much the states of the contacts hold, two numbers for each: what slides is on its side
-    /// of rest and presses to its side; what sticks has friction left.
+    /// The margins by which the states of the contacts hold, two for each: a sliding contact is on its side of rest and presses to its
+    /// side; a sticking contact has friction in reserve.
     #[cfg(feature = "std")]
     pub fn margins<S: System>(
         &self,
@@ -495,7 +488,7 @@ impl Contacts {
             let friction_forces = friction_forces(parts, &self.mode_of(&slips))?;
             let mut margins = [[Margin::ENDLESS; 2]; MOST_CONTACTS];
             for (k, margin) in margins[..self.count].iter_mut().enumerate() {
-                // What a contact does along both tangents is asked of the first.
+                // The margins along both tangents are those of the first.
                 if parts.layout.is_second(k) {
                     continue;
                 }
@@ -536,7 +529,7 @@ impl Contacts {
         margins.map_err(|singular| StepError::Singular { singular, t })
     }
 
-    /// The states that seem to have ended, by their margins, and which of the two margins says so.
+    /// The states that have ended according to their margins, and the index of the margin.
     #[cfg(feature = "std")]
     pub fn seem_ended(
         &self,
@@ -560,8 +553,8 @@ impl Contacts {
         ended
     }
 
-    /// Whether the motion is determined: with what sticks and slides as it does, no other side to
-    /// press to gives another motion.
+    /// Checks that the motion is determined: with these contacts sticking and sliding, no other combination of pressing sides gives
+    /// another motion.
     #[cfg(feature = "std")]
     pub fn check<S: System>(
         &self,
@@ -578,15 +571,15 @@ impl Contacts {
         with_parts(system, t, q, v, u, |parts, _| {
             match question.answer(parts) {
                 Err(paradox) if paradox.several => Err(paradox.singular()),
-                // Where there is none, its state has ended: that is seen elsewhere.
+                // If there is no motion, the state has ended, which is detected elsewhere.
                 _ => Ok(()),
             }
         })
         .map_err(|singular| StepError::Singular { singular, t })
     }
 
-    /// Decides anew after the state of a contact has ended, and stops what has come to rest. Says whether the slip has only veered: then
-    /// everything goes on as it did.
+    /// Determines the states again after the state of a contact has ended, and stops contacts that have come to rest. Returns whether
+    /// the slip has only turned; then all states are kept.
     #[cfg(feature = "std")]
     pub fn change<S: System>(
         &mut self,
@@ -631,7 +624,7 @@ impl Contacts {
         let mut course = self.mode_of(&now).course;
         let at = |singular| StepError::Singular { singular, t };
         if change.cause == Cause::BrokeAway && self.seconds >> (k + 1) & 1 != 0 {
-            // On a surface it is a question of friction which way it goes.
+            // On a surface the law of friction determines the direction.
             (motion[k], motion[k + 1]) = (Some(Motion::Skids), Some(Motion::Skids));
             (course[k], course[k + 1]) = (0.0, 0.0);
         } else if change.cause == Cause::BrokeAway {
@@ -639,11 +632,11 @@ impl Contacts {
                 friction_forces(parts, &self.mode)
             });
             let held = held.map_err(at)?;
-            // Against what held it. Just here its slip may not even grow: it is where the friction of
-            // what sticks and of what slides are the same.
+            // It slides against the force that held it. At this instant its slip may not even grow, since the friction of sticking and
+            // of sliding may be equal.
             motion[k] = Some(Motion::Slides(-held[k].signum()));
         }
-        // What has come to rest may go on in any direction.
+        // A contact that has come to rest may continue in any direction.
         for k in 0..self.count {
             if motion[k].is_none() {
                 course[k] = 0.0;
@@ -654,10 +647,10 @@ impl Contacts {
             course,
             excluded: match change.cause {
                 Cause::BrokeAway | Cause::Veered => None,
-                // It may go on in another direction.
+                // It may continue in another direction.
                 Cause::Stopped if own.1 == Motion::Skids => None,
                 Cause::Turned => Some((own.0, own.1, Some(self.mode.press[k]))),
-                // It did not even begin to slide so.
+                // It did not even begin to slide in this direction.
                 Cause::Stopped if is_at_once => Some((own.0, own.1, None)),
                 Cause::Stopped => None,
             },
@@ -670,7 +663,7 @@ impl Contacts {
         Ok(false)
     }
 
-    /// Keeps what sticks at rest, after a step.
+    /// Keeps sticking contacts at rest after a step.
     #[inline]
     pub fn hold<S: System>(
         &self,
@@ -689,8 +682,8 @@ impl Contacts {
         self.mode.motion[..self.count].contains(&Motion::Sticks)
     }
 
-    /// Whether a contact that skids has come to rest where its slip is at right angles to what it was when the step began: then it
-    /// is what the step has left of it, and not a turn.
+    /// Whether a skidding contact whose slip has become perpendicular to its direction at the beginning of the step has come to rest:
+    /// then the slip is an error left by the step, and not a turn.
     #[cfg(feature = "std")]
     fn has_stopped<S: System>(
         &self,
@@ -702,7 +695,7 @@ impl Contacts {
         if self.is_slow(contact, &slips) {
             return Ok(true);
         }
-        // It has stopped if it does so before time goes on.
+        // It has stopped if friction stops it within the resolution of time.
         let braked = with_parts(system, t, q, v, u, |parts, _| {
             let forces = friction_forces(parts, &self.mode_of(&slips))?;
             Ok([contact, contact + 1].map(|k| parts.sum(parts.slip_rate(k), &forces)[0]))
@@ -712,8 +705,7 @@ impl Contacts {
         Ok(speed <= 64.0 * f64::EPSILON * t.abs() * length(braked))
     }
 
-    /// Whether a contact that is said to have stopped has a slip still: then it turns, or it stops where the step is too long to
-    /// tell.
+    /// Whether a contact that was reported as stopped still has a slip: then it turns, or the step is too long to find where it stops.
     #[cfg(feature = "std")]
     pub fn goes_on<S: System>(
         &self,
@@ -726,8 +718,8 @@ impl Contacts {
             && !self.is_slow(change.contact, &slips(system, t, q, v))
     }
 
-    /// Accelerations of what sticks that only rounding keeps from being what they must be: where one
-    /// coordinate alone makes the slip, its acceleration is known without any friction.
+    /// Corrects accelerations of sticking contacts by their round-off: if one coordinate alone produces the slip, its acceleration is
+    /// known without friction.
     fn still<S: System>(
         &self,
         system: &S,
@@ -748,8 +740,8 @@ impl Contacts {
         }
     }
 
-    /// Stops the contacts that are to rest, by the least change of the rates in the metric of
-    /// inertia. Where one coordinate alone makes the slip, to the last bit.
+    /// Stops the contacts that are to rest, by the smallest change of the rates in the metric of inertia. If one coordinate alone
+    /// produces the slip, it stops to the last bit.
     fn stop<S: System>(
         &self,
         system: &S,
@@ -765,7 +757,7 @@ impl Contacts {
         }
         let stopped = with_parts(system, t, q, &before, u, |parts, workspace| {
             let (n, count) = (parts.layout.n, self.count);
-            // dw = W Λ for impulses Λ along the contacts: those that rest get dw = −w.
+            // dw = W Λ for impulses Λ along the contacts, with dw = −w for those that rest.
             let mut rows = [[0.0; MOST_CONTACTS + 1]; MOST_CONTACTS];
             for (k, row) in rows[..count].iter_mut().enumerate() {
                 if !resting[k] {
@@ -813,7 +805,7 @@ fn friction_forces(parts: &Parts<'_>, mode: &Mode) -> Result<Each, Singular> {
     parts.friction_forces(mode).map_err(Paradox::singular)
 }
 
-/// The place of the only entry of a row that is not zero.
+/// The index of the only nonzero entry of a row, if there is exactly one.
 fn only_entry(row: &[f64]) -> Option<usize> {
     let mut entries = row.iter().enumerate().filter(|(_, x)| **x != 0.0);
     match (entries.next(), entries.next()) {

@@ -1,24 +1,22 @@
-//! Stages that depend on each other: the nonlinear equations of an implicit method, solved in each
-//! step.
+//! Implicit methods: solves the coupled nonlinear equations of the stages in each step.
 //!
-//! Unknown are the accelerations `kᵢ` of the stages alone, since positions and velocities follow from
-//! them ([`Scheme`](crate::methods::Scheme)): `rᵢ = a(tᵢ, qᵢ, vᵢ) − kᵢ = 0`. With `a_q = ∂a/∂q` and `a_v =
-//! ∂a/∂v` at the beginning of the step (or of one before), Newton's method is
+//! The unknowns are the accelerations `kᵢ` of the stages alone, since positions and velocities follow from them
+//! ([`Scheme`](crate::methods::Scheme)): `rᵢ = a(tᵢ, qᵢ, vᵢ) − kᵢ = 0`. With `a_q = ∂a/∂q` and `a_v = ∂a/∂v` at the beginning of this step
+//! or of an earlier one, Newton's method is
 //!
 //! ```text
 //! (I − h A ⊗ a_v − h² A² ⊗ a_q) Δk = r
 //! ```
 //!
-//! `A` and `A²` have the same eigenvectors, `w A = μ w`, so this is for each eigenvalue a system of only
-//! as many unknowns as coordinates, `(I − h μ a_v − h² μ² a_q) (w Δk) = w r`: a real one, and a complex
-//! one that stands for two, in methods of higher orders several. (They are never put together to one of twice as many, for `q` and `v`.) E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, 2nd ed.,
-//! 1996, section IV.8, of which the rules for convergence, errors and steps are, too.
+//! `A` and `A²` have the same eigenvectors, `w A = μ w`, so this decouples into one system for each eigenvalue with only as many unknowns
+//! as coordinates, `(I − h μ a_v − h² μ² a_q) (w Δk) = w r`: a real one, and a complex one for each conjugate pair, of which methods of
+//! higher orders have several. (They are never combined into one of twice the size, for `q` and `v`.) E. Hairer, G. Wanner, *Solving
+//! Ordinary Differential Equations II*, 2nd ed., 1996, section IV.8, which also gives the rules for convergence, errors and steps.
 //!
-//! One case has to be treated apart. Where the direction `n` of a stiff spring turns within a step, by an
-//! angle δ, what the derivatives at the beginning leave of the spring's force, `h² k/m δ` across `n`, is
-//! beyond all measure for a stiff spring: the rounds do not contract, unless h ~ k^(−1/3) (C. Lubich,
-//! *Integration of stiff mechanical systems by Runge–Kutta methods*, ZAMP 44 (1993) 1022–1053, section 5).
-//! Then the derivatives are taken at each stage, and all stages are solved for together.
+//! One case needs a separate treatment. If the direction `n` of a stiff spring turns within a step by an angle δ, the derivatives at the
+//! beginning leave `h² k/m δ` of the spring's force across `n`, which is arbitrarily large for a stiff spring: the iteration does not
+//! contract unless h ~ k^(−1/3) (C. Lubich, *Integration of stiff mechanical systems by Runge–Kutta methods*, ZAMP 44 (1993) 1022–1053,
+//! section 5). Then the derivatives are evaluated at each stage, and all stages are solved for simultaneously.
 
 pub(crate) mod jacobian;
 pub(crate) mod lu;
@@ -37,66 +35,64 @@ use newton::{Apart, ROUNDS, ROUNDS_OF_PAIR};
 use std::boxed::Box;
 use std::vec::Vec;
 
-/// Derivatives serve another step if each round took this much of the error, or more.
+/// The Jacobian is kept for the next step unless the contraction is slower than this factor.
 const FAST: f64 = 1e-2;
 
-/// So many steps are solved with the derivatives of each stage before those of the beginning are tried
-/// again.
+/// Number of steps that are solved with the Jacobians of each stage before the one of the beginning is tried again.
 const STEPS_APART: usize = 50;
 
-/// A step that would be longer by no more than this stays as it is, and so do its matrices.
+/// A step that could be longer by at most this factor keeps its length, and so its matrices.
 const HARDLY_LONGER: f64 = 1.2;
 
-/// The work of an implicit method, and what it remembers from step to step.
+/// The solver of an implicit method, and what it keeps from step to step.
 #[derive(Clone, Debug)]
 pub(crate) struct Implicit {
     spectrum: Spectrum,
     n: usize,
     jacobian: Jacobian,
     age: Age,
-    /// `I − h μ a_v − h² μ² a_q` of all eigenvalues, and the `h` for which they are; 0 for none.
+    /// `I − h μ a_v − h² μ² a_q` for all eigenvalues, factorized, and their `h`; 0 for none.
     real: Lu<f64>,
     complex: Vec<Lu<Complex>>,
     factored: f64,
     in_real: Vec<f64>,
     in_complex: Vec<Vec<Complex>>,
-    /// The residuals of the stages, then their changes.
+    /// The residuals of the stages, later their changes.
     change: Vec<Vec<f64>>,
-    /// What it takes to treat stages apart, once that was needed; and for how many steps more.
+    /// Memory for Jacobians at each stage, once they were needed, and the number of steps for which they remain in use.
     apart: Option<Box<Apart>>,
     steps_apart: usize,
 
-    /// Accelerations at the stages of the last step that was solved, its beginning and its length; 0 for
-    /// none.
+    /// Accelerations at the stages of the last step solved, its beginning and its length; 0 for none.
     known: Vec<Vec<f64>>,
     known_from: Sum,
     known_length: f64,
 
-    /// By which factor the last round left more error than its change was.
+    /// The error after the last iteration, relative to its change.
     left: f64,
-    /// By which factor rounds contracted.
+    /// The contraction factor of the iterations.
     contraction: f64,
     rounds: usize,
-    /// By which factor a step has to be shorter that could not be solved.
+    /// The factor by which a step that could not be solved has to be shorter.
     shorter: f64,
-    /// The estimate of the error, of positions and of velocities.
+    /// The error estimate of positions and of velocities.
     error: [Vec<f64>; 2],
-    /// Length and error of the last good step; length 0 for none.
+    /// Length and error of the last good step; length 0 if there is none.
     step_before: f64,
     error_before: f64,
 }
 
-/// Of derivatives.
+/// Age of the Jacobian.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Age {
     None,
-    /// Those of a step before.
+    /// That of an earlier step.
     Old,
-    /// Those of this step's beginning.
+    /// That of the beginning of this step.
     Fresh,
 }
 
-/// A step to be solved: its beginning, its length, and how exact it shall be.
+/// A step to be solved: its beginning, its length, and its tolerance.
 pub(crate) struct Task<'t, V> {
     pub method: &'static Method,
     pub before: &'t Point<V>,
@@ -114,7 +110,7 @@ enum Solved {
 }
 
 impl Implicit {
-    /// All memory that a run needs.
+    /// Allocates all memory that a run needs.
     pub fn new<S: System>(system: &S, spectrum: Spectrum) -> Self {
         let n = system.coordinates().len();
         let zeros = || std::vec![0.0; n];
@@ -146,12 +142,12 @@ impl Implicit {
         }
     }
 
-    /// The fastest rate of the motion, in 1/s, as the derivatives have it that are kept.
+    /// The fastest rate of the motion, in 1/s, according to the Jacobian that is kept.
     pub fn fastest_rate(&self) -> f64 {
         self.jacobian.fastest_rate()
     }
 
-    /// Forgets what was: the accelerations have jumped.
+    /// Forgets the previous steps, since the accelerations have jumped.
     pub fn forget(&mut self) {
         self.age = Age::None;
         self.known_length = 0.0;
@@ -159,11 +155,11 @@ impl Implicit {
         self.left = 1.0;
     }
 
-    /// Solves for the accelerations `k` of the stages of a step. `scratch` holds a state;
-    /// `accelerations(t, q, v, a)` are those of the machine. Says whether they are found; if not, the
-    /// step is too long.
+    /// Solves for the accelerations `k` of the stages of a step. `scratch` holds a state; `accelerations(t, q, v, a)` evaluates those of
+    /// the machine. Returns whether a solution was found; if not, the step is too long.
     ///
-    /// An error is what stands in the way of an evaluation.
+    /// # Errors
+    /// Those of `accelerations`.
     pub fn solve<V: Vector>(
         &mut self,
         task: &Task<'_, V>,
@@ -213,12 +209,12 @@ impl Implicit {
         }
     }
 
-    /// Newton's method has converged by so many rounds, or the step is too long for it.
+    /// The number of iterations within which Newton's method converges; otherwise the step is too long.
     fn most_rounds(&self) -> usize {
         ROUNDS + ROUNDS_OF_PAIR * (self.spectrum.pairs.len() - 1)
     }
 
-    /// Makes all matrices for a step of length `h`.
+    /// Factorizes all matrices for a step of length `h`.
     fn factor(&mut self, h: f64) -> bool {
         if self.factored == h {
             return true;
@@ -253,11 +249,11 @@ impl Implicit {
         real && complex
     }
 
-    /// The error of the step just solved, in the root mean square over coordinates and rates, 1 being
-    /// just tolerable: the estimate of the method, through the matrix of the real eigenvalue.
+    /// The error of the step just solved relative to the tolerance, as root mean square over coordinates and rates. It is the estimate of
+    /// the method, filtered by the matrix of the real eigenvalue.
     ///
-    /// If that is too much and `again`, once more with the acceleration at the beginning less the error
-    /// found: a transient that the method damps is no error of it (eq. (IV.8.20)).
+    /// If it is too large and `again` is set, the estimate is repeated with the acceleration at the beginning reduced by the error found,
+    /// so that a transient that the method damps does not count as an error (eq. (IV.8.20)).
     pub fn error_of_step<V: Vector>(
         &mut self,
         task: &Task<'_, V>,
@@ -296,7 +292,7 @@ impl Implicit {
         self.size_of_error(task, now)
     }
 
-    /// The estimate of the error to `error`.
+    /// Writes the error estimate to `error`.
     fn estimate<V: Vector>(&mut self, row: &Row, h: f64, k: &[V; MAX_STAGES]) {
         for change in &mut self.change {
             change.fill(0.0);
@@ -304,9 +300,8 @@ impl Implicit {
         self.estimate_again(row, h, k);
     }
 
-    /// The estimate of the error with `change[0]` and `change[1]` added to the estimate before it is filtered:
-    /// `(I − h μ J)⁻¹ e` for `J` of the system of first order, `x_v = (I − h μ a_v − h² μ² a_q)⁻¹ (e_v + h
-    /// μ a_q e_q)`, `x_q = e_q + h μ x_v`.
+    /// Adds `change[0]` and `change[1]` to the error estimate and filters it: `(I − h μ J)⁻¹ e` with `J` of the first-order system,
+    /// `x_v = (I − h μ a_v − h² μ² a_q)⁻¹ (e_v + h μ a_q e_q)`, `x_q = e_q + h μ x_v`.
     fn estimate_again<V: Vector>(&mut self, row: &Row, h: f64, k: &[V; MAX_STAGES]) {
         let [positions, rates] = &mut self.error;
         for i in 0..self.n {
@@ -345,8 +340,8 @@ impl Implicit {
         sqrt(sum / (2 * self.n.max(1)) as f64)
     }
 
-    /// By how much the step is to be shorter after one with that error; infinite if it could not be
-    /// solved.
+    /// The factor for the step length after a step that was rejected with that error. The error is infinite if the step could
+    /// not be solved.
     pub fn reject(&self, error: f64, exponent: f64, shrink: f64) -> f64 {
         if error.is_finite() {
             self.step_factor(error, exponent).max(shrink)
@@ -355,19 +350,18 @@ impl Implicit {
         }
     }
 
-    /// By how much a step may be longer or shorter than the last one, with that error.
+    /// The factor by which a step may be longer or shorter than the last one, given its error.
     ///
-    /// The more rounds it took, the more careful.
+    /// It is smaller after more iterations.
     fn step_factor(&self, error: f64, exponent: f64) -> f64 {
         let most = 2 * self.most_rounds();
         let care = (1 + most) as f64 / (self.rounds + most) as f64;
         SAFETY * care * rough_power(error, -exponent)
     }
 
-    /// Takes note of a good step; says by how much the next one may be longer.
+    /// Accepts a good step; returns the factor by which the next one may be longer.
     ///
-    /// K. Gustafsson's predictive controller (eq. (IV.8.25)): errors that grew from step to step will
-    /// go on to.
+    /// K. Gustafsson's predictive controller (eq. (IV.8.25)) extrapolates the growth of errors from step to step.
     pub fn accept(&mut self, h: f64, error: f64, exponent: f64, (shrink, grow): (f64, f64)) -> f64 {
         let mut factor = self.step_factor(error, exponent);
         if self.step_before != 0.0 {
@@ -378,8 +372,7 @@ impl Implicit {
         self.error_before = error.max(1e-2);
         let mut stays = self.contraction <= FAST;
         if self.steps_apart > 0 {
-            // The errors of the next step are filtered with the derivatives at its beginning, which is the
-            // last stage of this one.
+            // The error of the next step is filtered with the Jacobian at its beginning, which is the last stage of this one.
             self.steps_apart -= 1;
             stays = self.steps_apart > 0;
             if let Some(apart) = &self.apart {

@@ -1,35 +1,32 @@
-//! How inputs are set while a machine runs.
+//! Laws that set the inputs while a machine runs.
 
 use crate::piece::{NoPiece, Piece};
 use crate::{Real, System, SystemIn};
 
-/// How a machine's inputs are set while it runs.
+/// A law that sets the inputs of a machine while it runs.
 ///
-/// Must depend on its arguments alone: a step is tried more than once, and looks ahead. A law that
-/// reads a cell may change between steps, if the stepper is told
-/// ([`Stepper::inputs_changed`](crate::Stepper::inputs_changed)): it goes on with the acceleration at the end of the last step, which
-/// is another one then.
+/// It must depend on its arguments alone, because steps are tried more than once and evaluate it ahead of time. A law that reads a
+/// cell may change between steps, if the stepper is notified ([`Stepper::inputs_changed`](crate::Stepper::inputs_changed)): otherwise
+/// the stepper would use the acceleration at the end of the last step, which is outdated then.
 pub trait InputLaw<S: System> {
-    /// Sets the inputs for an instant. `inputs` holds the defaults, or what this very law set
-    /// before.
+    /// Sets the inputs for an instant. `inputs` holds the defaults, or what this law set before.
     fn set(&self, system: &S, t: f64, q: &S::Vector, v: &S::Vector, inputs: &mut S::Inputs);
 
-    /// Whether the inputs are the same at all times and states: then the motion may be expanded in a series. False by
-    /// default.
+    /// Whether the inputs are the same at all times and states, so that the motion may be expanded in a series. False by default.
     fn is_constant(&self) -> bool {
         false
     }
 
-    /// The piece of time that a run enters at `t`, later or earlier, in which the inputs are smooth enough for a method of this
-    /// order: a step of a [`Simulation`](crate::Simulation) ends where it ends. All of time by default.
+    /// The piece of time that a run enters at `t`, forward or backward in time, in which the inputs are smooth enough for a method of
+    /// this order. Steps of a [`Simulation`](crate::Simulation) end at the end of the piece. By default all of time.
     ///
     /// # Errors
-    /// Where the inputs are not known from there on.
+    /// If the inputs are not known from there on.
     fn piece(&self, _t: f64, _forward: bool, _order: u32) -> Result<Piece, NoPiece<'_>> {
         Ok(Piece::ALL)
     }
 
-    /// Sets the inputs for an instant of a piece: at its ends what they tend to from within. As [`set`](Self::set) by default.
+    /// Sets the inputs for an instant of a piece, and at its ends the limits from within. By default calls [`set`](Self::set).
     #[inline(always)]
     fn set_in(
         &self,
@@ -43,26 +40,26 @@ pub trait InputLaw<S: System> {
         self.set(system, t, q, v, inputs);
     }
 
-    /// Whether the inputs are the same at all times and states within each [piece](Self::piece). As
-    /// [`is_constant`](Self::is_constant) by default.
+    /// Whether the inputs are the same at all times and states within each [piece](Self::piece). By
+    /// default [`is_constant`](Self::is_constant).
     fn is_constant_in_pieces(&self) -> bool {
         self.is_constant()
     }
 
-    /// Whether it leaves some inputs as they are, so that somebody else may set these:
-    /// [`sampled`](crate::Simulation::sampled). False by default.
+    /// Whether it leaves some inputs unchanged, which a [`sampled`](crate::Simulation::sampled) controller may then set.
+    /// False by default.
     fn is_partial(&self) -> bool {
         false
     }
 
-    /// Whether it sets nothing at all, and so need not be called. False by default.
+    /// Whether it sets nothing and need not be called. False by default.
     #[doc(hidden)]
     fn sets_nothing(&self) -> bool {
         false
     }
 }
 
-/// Everything but `set`, as another law has it.
+/// Forwards everything except `set` to another law.
 macro_rules! as_of {
     ($self:ident, $law:expr) => {
         fn is_constant(&$self) -> bool {
@@ -109,8 +106,8 @@ impl<S: System, L: InputLaw<S>> InputLaw<S> for &L {
     as_of!(self, (**self));
 }
 
-/// How a machine's inputs are set while it runs in numbers `N` by an [`ExplicitStepper`](crate::ExplicitStepper): an [`InputLaw`]
-/// for numbers of any kind. Must depend on its arguments alone.
+/// A law that sets the inputs in numbers `N` for an [`ExplicitStepper`](crate::ExplicitStepper): an [`InputLaw`] for numbers of any
+/// kind. It must depend on its arguments alone.
 pub trait InputLawIn<S: SystemIn<N>, N: Real> {
     /// Sets the inputs for an instant. `inputs` holds the defaults.
     fn set(&self, system: &S, t: N, q: &S::Vector, v: &S::Vector, inputs: &mut S::Inputs);
@@ -137,7 +134,7 @@ impl<S: System> InputLaw<S> for DefaultInputs {
     }
 }
 
-/// The inputs are what a function makes of time and state: `|t, q, v, u| u.torque = -k * q.theta`.
+/// The inputs are a function of time and state: `|t, q, v, u| u.torque = -k * q.theta`.
 #[derive(Clone, Copy, Debug)]
 pub struct InputFunction<F>(pub F);
 
@@ -175,7 +172,7 @@ where
     }
 }
 
-/// The inputs are what was set last, and stay so.
+/// The inputs are constant until others are set.
 #[derive(Clone, Debug)]
 pub struct HeldInputs<I>(pub I);
 
@@ -197,14 +194,13 @@ impl<S: SystemIn<N>, N: Real> InputLawIn<S, N> for HeldInputs<S::Inputs> {
     }
 }
 
-/// Inputs that are set in whatever way: of one type for all laws, at the price of a call through a pointer at each evaluation. Copies
-/// share the law.
+/// A law of any type behind a pointer, at the cost of an indirect call at each evaluation. Clones share the law.
 #[cfg(feature = "std")]
 pub struct AnyInputs<'a, S: System>(std::sync::Arc<dyn InputLaw<S> + Send + Sync + 'a>);
 
 #[cfg(feature = "std")]
 impl<'a, S: System> AnyInputs<'a, S> {
-    /// The inputs of this law.
+    /// Wraps a law.
     pub fn new(law: impl InputLaw<S> + Send + Sync + 'a) -> Self {
         Self(std::sync::Arc::new(law))
     }
@@ -241,8 +237,8 @@ impl<S: System> InputLaw<S> for AnyInputs<'_, S> {
     as_of!(self, self.0);
 }
 
-/// The law of a simulation, whatever its type: a run is compiled once for a machine, and not again for each law that drives it. Of
-/// inputs that keep their defaults it knows so, and makes no call.
+/// The law of a simulation, of any type, so that a run is compiled once for a machine and not for each law. It makes no call for
+/// inputs that keep their defaults.
 #[cfg(feature = "std")]
 pub(crate) struct Law<'r, S: System>(Option<&'r dyn InputLaw<S>>);
 
@@ -301,14 +297,14 @@ impl<S: System> InputLaw<S> for Law<'_, S> {
     }
 }
 
-/// The law of a simulation within a piece of time, and what a sampled controller holds.
+/// The law of a simulation within a piece of time, and the inputs of a sampled controller.
 #[cfg(feature = "std")]
 #[derive(Debug)]
 pub(crate) struct Held<'r, L, I> {
     pub law: &'r L,
-    /// What a sampled controller holds; the law may set other inputs beside these.
+    /// The inputs of a sampled controller; the law may set other inputs.
     pub held: Option<I>,
-    /// Where the run is.
+    /// The piece of time that contains the present time.
     pub piece: Piece,
 }
 

@@ -1,4 +1,4 @@
-//! The motion within a step: dense output.
+//! Dense output: the motion within a step.
 
 use crate::methods::{MAX_STAGES, Method};
 use crate::scalar::Scalar;
@@ -7,7 +7,7 @@ use crate::step_error::StepError;
 use crate::step_number::{Real, StepNumber};
 use crate::{Vector, compensated::Sum};
 
-/// The most coefficients that a polynomial has: four of the cubic, and those of the method.
+/// The largest number of coefficients of a polynomial: four of the cubic, and those of the method.
 const MAX_COEFFICIENTS: usize = 9;
 
 /// The motion from one end of a step to the other, as polynomials in time.
@@ -18,11 +18,11 @@ const MAX_COEFFICIENTS: usize = 9;
 /// y(θ) = c₀ + θ (c₁ + ϑ (c₂ + θ (c₃ + ϑ (c₄ + θ (c₅ + …)))))
 /// ```
 ///
-/// in steps of Runge–Kutta methods, where `c₀ … c₃` make the cubic through values and slopes of both ends, and the others `h Σⱼ dⱼ
-/// kⱼ` belong to the method. E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential
-/// Equations I*, 2nd ed., 1993, section II.6. In steps by Taylor series it is the polynomial of the step itself.
+/// in steps of Runge–Kutta methods, where `c₀ … c₃` form the cubic through values and slopes at both ends, and the others,
+/// `h Σⱼ dⱼ kⱼ`, depend on the method. E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.,
+/// 1993, section II.6. In steps by Taylor series it is the polynomial of the step itself.
 ///
-/// In numbers `N`, those of the step.
+/// The numbers `N` are those of the step.
 #[derive(Clone, Debug)]
 pub struct Interpolant<V, N = f64> {
     start: Sum<N>,
@@ -33,14 +33,14 @@ pub struct Interpolant<V, N = f64> {
 /// The polynomials of a step.
 #[derive(Clone, Debug)]
 enum Curve<V> {
-    /// Of a Runge–Kutta method.
+    /// The polynomials of a Runge–Kutta method.
     Stages(Stages<V>),
     /// The Taylor coefficients of the coordinates.
     #[cfg(feature = "std")]
     Series(std::vec::Vec<V>),
 }
 
-/// `c₀ … ` of coordinates and rates.
+/// `c₀ …` of coordinates and rates.
 #[derive(Clone, Debug)]
 struct Stages<V> {
     length: usize,
@@ -48,7 +48,7 @@ struct Stages<V> {
     v: [V; MAX_COEFFICIENTS],
 }
 
-/// The ends of a step: time of the beginning, length, state before and after.
+/// The ends of a step: time at its beginning, length, states before and after.
 pub(crate) struct Ends<'a, V, N = f64> {
     pub start: Sum<N>,
     pub h: N,
@@ -57,9 +57,8 @@ pub(crate) struct Ends<'a, V, N = f64> {
 }
 
 impl<N: StepNumber + Scalar<Stored = N>, V: Vector<N>> Interpolant<V, N> {
-    /// The polynomials of a step of `method` with the accelerations `k`. `accelerations(t, q, v,
-    /// a)` is called for the stages beyond the step that they need, whose accelerations go into
-    /// `k`.
+    /// The polynomials of a step of `method` with the accelerations `k`. Calls `accelerations(t, q, v, a)` for stages beyond those
+    /// of the step and stores their accelerations in `k`.
     pub(crate) fn new(
         method: &Method,
         ends: &Ends<'_, V, N>,
@@ -83,7 +82,7 @@ impl<N: StepNumber + Scalar<Stored = N>, V: Vector<N>> Interpolant<V, N> {
 
         for stage in tableau.stages + 1..scheme.length {
             let ch = h.weighted(tableau.c[stage], scheme.c_beyond[stage]);
-            // The stages are kept where coefficients are not yet set.
+            // The vectors of coefficients that are not yet set hold the state of the stage.
             let (q, v) = (&mut interpolant.q[0], &mut interpolant.v[0]);
             stage_state::<N, _>((&scheme.rows[stage], ch, h), [q0, v0], k, [q, v]);
             accelerations(start.high + (start.low + ch), q, v, &mut k[stage])?;
@@ -113,7 +112,7 @@ impl<N: StepNumber + Scalar<Stored = N>, V: Vector<N>> Interpolant<V, N> {
 }
 
 impl<V: Vector> Interpolant<V> {
-    /// The quintic through both ends of a step, their rates and the accelerations `a`; rates are its derivative.
+    /// The quintic through both ends of a step, their rates and the accelerations `a`. The rates are its derivative.
     pub(crate) fn quintic(ends: &Ends<'_, V>, [a0, a1]: [&V; 2]) -> Self {
         let &Ends {
             start,
@@ -136,7 +135,7 @@ impl<V: Vector> Interpolant<V> {
             // Second derivatives of the cubic are −2 bend + 2 twist and −2 bend − 4 twist.
             *c4 = 0.5 * h * bends[0] + *bend - *twist;
             *c5 = 0.5 * h * bends[1] + *bend + 2.0 * *twist - *c4;
-            // The integral of rates is the rise. That of θ² (1 − θ)² is 1/30.
+            // The integral of the rates is the rise. That of θ² (1 − θ)² is 1/30.
             let of_cubic = 0.5 * (slopes[0] + slopes[1]) + h * (bends[0] - bends[1]) / 12.0;
             let of_rate = 30.0 * (*rise - of_cubic) / h;
             let v = cubic([at(v0), at(v1)], bends);
@@ -155,7 +154,7 @@ impl<V: Vector> Interpolant<V> {
         }
     }
 
-    /// The motion in a step of length `h`, by its Taylor coefficients.
+    /// The motion in a step of length `h`, from its Taylor coefficients.
     #[cfg(feature = "std")]
     pub(crate) fn of_series(start: Sum, h: f64, coefficients: &[V]) -> Self {
         Self {
@@ -197,7 +196,7 @@ impl<N: Real, V: Vector<N>> Interpolant<V, N> {
         }
     }
 
-    /// [`state_at`](Self::state_at), into vectors that are there.
+    /// [`state_at`](Self::state_at) into existing vectors.
     pub(crate) fn state_into(&self, theta: N, [q, v]: [&mut V; 2]) {
         match &self.curve {
             Curve::Stages(stages) => stages.state_at(theta, q, v),
@@ -241,9 +240,8 @@ fn evaluate<N: Real, V: Vector<N>>(coefficients: &[V], theta: N, y: &mut V) {
     }
 }
 
-/// Coordinates and rates at the fraction `theta` of a step of length `h`, from its ends alone: the
-/// quintic through positions, velocities and accelerations. Costs no evaluation and is of order 5;
-/// good enough to look for events with.
+/// Coordinates and rates at the fraction `theta` of a step of length `h`, from its ends alone: the quintic through positions,
+/// velocities and accelerations. It costs no evaluation and is of order 5, which is accurate enough for the search for events.
 pub(crate) fn hermite<N: Real, V: Vector<N>>(
     h: N,
     [q0, q1]: [&V; 2],

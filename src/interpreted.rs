@@ -1,7 +1,8 @@
-//! Machines read from a spec while the program runs, without a Rust compiler.
+//! Machines that are read from a spec at run time, without a Rust compiler.
 //!
-//! Interpreted they are slower than emitted code by a factor of about ten, and otherwise the same: the same operations
-//! in the same order. With the feature `jit` an [`Engine`] makes machine code of what is called often, which is as fast.
+//! Interpreted machines are slower than emitted code by a factor of about ten, and otherwise the same: they execute the same
+//! operations in the same order. With the feature `jit` an [`Engine`] compiles frequently called functions to machine code,
+//! which is as fast as emitted code.
 
 use core::fmt;
 use std::string::{String, ToString};
@@ -62,8 +63,7 @@ pub struct InterpretedMachine {
     machine_code: engine::MachineCode,
 }
 
-/// Numbers under the names of coordinates, inputs or outputs; a member of a family is called
-/// `q[3]`.
+/// Numbers under the names of coordinates, inputs or outputs; a member of a family is called `q[3]`.
 #[derive(Clone, PartialEq)]
 pub struct Named {
     labels: Arc<[Label]>,
@@ -71,7 +71,7 @@ pub struct Named {
     pub values: Vec<f64>,
 }
 
-/// A run to be made, and its start.
+/// The settings and the start of a run.
 type ToBeMade<'a, 'l> = (
     Task<'a, InterpretedMachine, Law<'l, InterpretedSystem>>,
     State<Named>,
@@ -98,10 +98,9 @@ pub struct InterpretedSystem {
     program: Arc<Program>,
     names: Arc<Names>,
     inputs: Vec<f64>,
-    /// What calls write to.
+    /// Memory that calls write to.
     running: SharedWorkspace<Running>,
-    /// The parameters, and the same program over intervals once it is asked for; of machines with
-    /// contacts.
+    /// The parameters, and the same program over intervals once it is needed; for machines with contacts.
     parameters: Vec<f64>,
     enclosing: SharedWorkspace<Option<Interpreter<Interval>>>,
     series: Result<Arc<Series>, String>,
@@ -109,18 +108,18 @@ pub struct InterpretedSystem {
     expander: SharedWorkspace<Option<Expander<f64>>>,
 }
 
-/// What runs the functions of a system.
+/// Executes the functions of a system.
 #[derive(Clone, Debug)]
 struct Running {
-    /// With the registers that a call writes.
+    /// The interpreter with its registers.
     interpreter: Interpreter<f64>,
-    /// What runs the same in its place, where it can.
+    /// Machine code that replaces the interpreter where there is any.
     compiled: engine::Compiled,
 }
 
 impl InterpretedMachine {
-    /// The machine of a program, its parameters and inputs at their defaults. A parameter without a
-    /// default is not a number until [`set`](Self::set).
+    /// The machine of a program, with its parameters and inputs at their defaults. A parameter without a default is NaN until
+    /// it is [`set`](Self::set).
     pub fn new(program: Proved) -> InterpretedMachine {
         let program = program.into_program();
         let default = |slot: &Slot, otherwise: f64| {
@@ -152,8 +151,8 @@ impl InterpretedMachine {
         }
     }
 
-    /// This machine with the Taylor series of its motion, or with the reason why it has none: what
-    /// [`TAYLOR`](crate::TAYLOR) needs.
+    /// This machine with the Taylor series of its motion, which [`TAYLOR`](crate::TAYLOR) needs, or with the reason
+    /// why it has none.
     ///
     /// ```
     /// use lagrangian::interpreted::InterpretedMachine;
@@ -188,18 +187,16 @@ impl InterpretedMachine {
         self
     }
 
-    /// Sets what runs its functions: the interpreter, as long as nobody says otherwise. Systems that were prepared before
-    /// keep theirs.
+    /// Sets the engine that executes its functions, by default the interpreter. Systems that were prepared before keep theirs.
     ///
     /// # Errors
-    /// If it is to be machine code and there is none here, or none in this build; then everything stays as it is.
+    /// If machine code is requested and is not available on this processor or in this build; then nothing is changed.
     pub fn set_engine(&mut self, engine: Engine) -> Result<(), NoMachineCode> {
         self.machine_code = engine::MachineCode::new(engine, &self.program)?;
         Ok(())
     }
 
-    /// Sets a parameter, or the value that an input has while nobody sets it. The name of a family
-    /// sets all its members.
+    /// Sets a parameter, or the default of an input. The name of a family sets all its members.
     ///
     /// # Errors
     /// If there is no such name.
@@ -210,8 +207,7 @@ impl InterpretedMachine {
         assign(all, name, value)
     }
 
-    /// The unit in which the parameter or input of this name is measured, or those of the family; none if
-    /// there is none.
+    /// The unit of the parameter or input with this name, or of the members of the family; `None` if there is none.
     pub fn unit(&self, name: &str) -> Option<&str> {
         unit(
             self.names.parameters.iter().chain(self.names.inputs.iter()),
@@ -219,9 +215,9 @@ impl InterpretedMachine {
         )
     }
 
-    /// Whether [`run_interpreted_in_lanes`](crate::Simulation::run_interpreted_in_lanes) makes runs of this machine, with
-    /// any parameters, in lanes, by an explicit method and with inputs that stay as they are: where it has machine code
-    /// and no contacts. Of [`Engine::Auto`] that is so as soon as code has paid for one run.
+    /// Whether [`run_interpreted_in_lanes`](crate::Simulation::run_interpreted_in_lanes) makes runs of this machine in lanes,
+    /// with any parameters, by an explicit method and with constant inputs: it does if the machine has machine code and no
+    /// contacts. With [`Engine::Auto`] it does so once code has paid off for one run.
     pub fn may_run_in_lanes(&self) -> bool {
         let Program {
             contacts,
@@ -244,7 +240,7 @@ impl InterpretedMachine {
     /// Whether every parameter has a value.
     ///
     /// # Errors
-    /// The names of those that have none.
+    /// The error holds the names of those that have none.
     pub fn check_parameters(&self) -> Result<(), MissingParameters> {
         let slots = self.program.parameters.iter().zip(&self.parameters);
         let missing = slots.filter(|(slot, value)| slot.default.is_none() && value.is_nan());
@@ -311,7 +307,7 @@ impl Machine for InterpretedMachine {
 }
 
 impl InterpretedSystem {
-    /// Runs one function of the program; what the machine has no function for is 0.
+    /// Calls a function of the program; functions that the machine does not have return 0.
     fn call(
         &self,
         role: Role,
@@ -323,24 +319,24 @@ impl InterpretedSystem {
         called.map_err(|singular| where_it_stopped(&self.program, singular))
     }
 
-    /// A function whose values exist at every state: nothing in it can be singular.
+    /// Calls a function whose values exist at every state, so it cannot be singular.
     fn fill(&self, role: Role, arguments: Arguments<'_, f64>, results: &mut [f64]) {
         let _ = self.call(role, arguments, results);
     }
 
-    /// The output of this number: one of those that [`outputs`](System::outputs) gives together. `a` may be empty where the
-    /// output does not depend on accelerations.
+    /// The output with this index among those of [`outputs`](System::outputs). `a` may be empty if the output does not depend
+    /// on accelerations.
     pub fn output(&self, index: usize, t: f64, q: &[f64], v: &[f64], a: &[f64], u: &[f64]) -> f64 {
         self.number(Role::Output(index), Arguments { t, q, v, u, a })
     }
 
-    /// The numbers of a quantity of the program ([`program`](Self::program)), to the bits of compiled machines.
+    /// The numbers of a quantity of the program ([`program`](Self::program)), with the bits of compiled machines.
     ///
     /// # Errors
-    /// Where the machine is singular, if the quantity depends on accelerations.
+    /// If the machine is singular and the quantity depends on accelerations.
     ///
     /// # Panics
-    /// If an argument that the quantity depends on, or `results`, has another length than the program says.
+    /// If an argument that the quantity depends on, or `results`, has another length than in the program.
     pub fn quantity(
         &self,
         role: Role,
@@ -350,7 +346,7 @@ impl InterpretedSystem {
         self.call(role, arguments, results)
     }
 
-    /// A function that yields one number, and whose value exists at every state.
+    /// Calls a function that returns one number, whose value exists at every state.
     fn number(&self, role: Role, arguments: Arguments<'_, f64>) -> f64 {
         let mut result = [0.0];
         match self.call(role, arguments, &mut result) {
@@ -375,7 +371,7 @@ impl Running {
             return Ok(());
         }
         if role.is_fast() {
-            // In the arithmetic of compiled machines, to the last bit.
+            // In the arithmetic of compiled machines, with the same bits.
             f64::run(Call {
                 interpreter,
                 role,
@@ -388,7 +384,7 @@ impl Running {
     }
 }
 
-/// The row at which elimination stopped, which the program counts through.
+/// The row at which elimination stopped; the program counts coordinates and constraints consecutively.
 fn where_it_stopped(program: &Program, singular: program::Singular) -> Singular {
     let program::Singular { coordinate, ratio } = singular;
     let at = match coordinate.checked_sub(program.dimension()) {
@@ -398,7 +394,7 @@ fn where_it_stopped(program: &Program, singular: program::Singular) -> Singular 
     Singular { at, ratio }
 }
 
-/// A call of the interpreter, to be run with whatever instructions the processor has.
+/// A call of the interpreter, executed with the instructions that the processor supports.
 struct Call<'a> {
     interpreter: &'a mut Interpreter<f64>,
     role: Role,
@@ -416,7 +412,7 @@ impl Kernel<f64> for Call<'_> {
     }
 }
 
-/// The expansion of a series, to be run with whatever instructions the processor has.
+/// The expansion of a series, executed with the instructions that the processor supports.
 struct Expand<'a> {
     expander: &'a mut Expander<f64>,
     at: ([f64; 2], &'a [f64], &'a [f64], &'a [f64]),
@@ -753,7 +749,7 @@ impl System for InterpretedSystem {
             u: &[],
             a: &[],
         };
-        // No slip divides by a pivot.
+        // Slips do not divide by a pivot.
         let _ = enclosing.call(Role::Slips, arguments, &mut slips);
         for (range, slip) in ranges.iter_mut().zip(slips) {
             *range = [slip.lo(), slip.hi()];
@@ -793,7 +789,7 @@ impl Linearize for InterpretedSystem {
     ) -> Result<(), Singular> {
         let n = q.len();
         if !self.program.contacts.is_empty() || !self.program.unilateral.is_empty() {
-            // What sticks has no linearization, and the law of what slides is not differentiated.
+            // Sticking contacts have no linearization, and the law of sliding ones is not differentiated.
             return Err(Singular {
                 at: Pivot::NotDifferentiated(0),
                 ratio: 0.0,
@@ -827,7 +823,7 @@ impl Staged for InterpretedSystem {
         };
         if self.program.stages.time {
             stage.values = self.values_of(Role::AtTime);
-            // Time alone makes no machine singular.
+            // Values that depend on time alone cannot be singular.
             let _ = self.call(Role::AtTime, at(t, &[], &[], &[]), &mut stage.values);
         }
         stage
@@ -869,24 +865,24 @@ impl Staged for InterpretedSystem {
     }
 }
 
-/// What a stage of the accelerations of an [`InterpretedSystem`] leaves to the next.
+/// The results of one stage of the accelerations of an [`InterpretedSystem`] that the next one needs.
 #[derive(Clone, Debug)]
 pub struct Stage {
-    /// The results of the stage; the time, where it is none.
+    /// The results of the stage, or the time if there is no such stage.
     values: Vec<f64>,
-    /// The coordinates, where they are no stage.
+    /// The coordinates if they are not a stage.
     q: Vec<f64>,
 }
 
 impl InterpretedSystem {
-    /// Zeros, as many as the values that a stage computes for later ones.
+    /// Zeros, one for each value that a stage computes for later ones.
     fn values_of(&self, role: Role) -> Vec<f64> {
         let function = self.program.function(role);
         vec![0.0; function.map_or(0, |function| function.results.len())]
     }
 
-    /// Runs a function with what a stage has left; or with the time, where that is no stage. Both at once: in between, another
-    /// thread could hand on what it has.
+    /// Calls a function with the results of a stage, or with the time if that is not a stage. Both happen under one lock,
+    /// because otherwise another thread could set its own results in between.
     fn call_after(
         &self,
         (stage, left): (Role, &[f64]),
@@ -899,7 +895,7 @@ impl InterpretedSystem {
         } else {
             running.interpreter.stand(stage, left);
             running.compiled.stand(stage, left);
-            f64::NAN // nobody reads the time any more
+            f64::NAN // the time is not used
         };
         let called = running.call(role, at(t, q, v, u), results);
         called.map_err(|singular| where_it_stopped(&self.program, singular))
@@ -963,8 +959,8 @@ impl Differentiate for InterpretedSystem {
 }
 
 impl InterpretedSystem {
-    /// The derivatives where the description asks for none: the accelerations over dual numbers,
-    /// once for each coordinate and each rate.
+    /// The derivatives if the description does not request any: the accelerations over dual numbers, evaluated once for each
+    /// coordinate and each rate.
     fn linearize_by_duals(
         &self,
         t: f64,
@@ -1027,7 +1023,7 @@ impl Named {
         assign(self.labels.iter().zip(&mut self.values), name, value)
     }
 
-    /// The unit of the number of this name, or of those of the family; none if there is none.
+    /// The unit of the number with this name, or of the members of the family; `None` if there is none.
     pub fn unit(&self, name: &str) -> Option<&str> {
         unit(self.labels.iter(), name)
     }
@@ -1039,7 +1035,7 @@ impl Named {
     }
 }
 
-/// A map from names to numbers.
+/// Serializes as a map from names to numbers.
 #[cfg(feature = "serde")]
 impl serde::Serialize for Named {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -1047,7 +1043,7 @@ impl serde::Serialize for Named {
     }
 }
 
-/// A map from the names of the parameters to their values.
+/// Serializes as a map from the names of the parameters to their values.
 #[cfg(feature = "serde")]
 impl serde::Serialize for InterpretedMachine {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -1085,7 +1081,7 @@ fn assign<'a>(
     }
 }
 
-/// The unit of the first that is meant by a name.
+/// The unit of the first number that a name refers to.
 fn unit<'a>(mut labels: impl Iterator<Item = &'a Label>, name: &str) -> Option<&'a str> {
     let name = &*normalized(name);
     let label = labels.find(|label| label.is_meant_by(name));
@@ -1093,7 +1089,7 @@ fn unit<'a>(mut labels: impl Iterator<Item = &'a Label>, name: &str) -> Option<&
 }
 
 impl Label {
-    /// Whether it is what a name says, composed as those of a spec are, or a member of the family.
+    /// Whether a name, in the normal form of specs, is this label or the family that it belongs to.
     fn is_meant_by(&self, name: &str) -> bool {
         let family = self.name.split_once('[').map(|(base, _)| base);
         self.name == name || family == Some(name)

@@ -1,4 +1,4 @@
-//! The same machine at several states, or with several sets of parameters, at once.
+//! Evaluates the same machine at several states, or with several sets of parameters, at once.
 
 use core::fmt::{self, Display};
 
@@ -8,14 +8,12 @@ use crate::scalar::Kernel;
 use crate::system::SERIES_ROWS;
 use crate::{Singular, System, Vector};
 
-/// `N` systems of one kind, evaluated at once, in the lanes of the processor's registers: for
-/// sweeps over parameters or start values, where one evaluation does not wait for another. `N` is
-/// 2, 4 or 8.
+/// `N` systems of one type, evaluated at once in the lanes of vector registers: for sweeps over parameters or start values, in which
+/// evaluations do not wait for each other. `N` is 2, 4 or 8.
 ///
-/// A lane's result is that of the system alone, bit for bit, whatever the other lanes hold. No lane
-/// stops the others: one that has no accelerations has its error, which is that of the system
-/// alone, and the others have their numbers. (They are then evaluated one by one, which takes `N`
-/// times as long.)
+/// The result of a lane has the bits of the system alone, whatever the other lanes hold. No lane stops the others: a lane without
+/// accelerations has its error, which is that of the system alone, and the others have their numbers. (They are then evaluated one
+/// by one, which takes `N` times as long.)
 ///
 /// ```
 /// use lagrangian::{Batch, Lanes};
@@ -37,16 +35,16 @@ use crate::{Singular, System, Vector};
 #[derive(Clone, Copy, Debug)]
 pub struct Batch<S: Batched<N>, const N: usize> {
     equations: S::Batch,
-    /// The systems by themselves, for where one of them stops the others.
+    /// The individual systems, used when one of them has no accelerations.
     systems: [S; N],
-    /// The lanes that have no accelerations at all, where there are any.
+    /// The lanes whose parameters leave them without accelerations, if there are any.
     singular: Option<[bool; N]>,
 }
 
 /// Some of several systems have no accelerations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SomeSingular<const N: usize> {
-    /// What each lane stopped at; the accelerations of such a lane are not numbers.
+    /// The error of each lane; the accelerations of such a lane are NaN.
     pub lanes: [Option<Singular>; N],
 }
 
@@ -68,7 +66,7 @@ impl<S: Batched<N>, const N: usize> Batch<S, N> {
     /// A system for each lane.
     pub fn new(systems: [&S; N]) -> Self {
         let singular = systems.map(S::is_singular);
-        // Nothing comes of equations that have no accelerations: others take their place.
+        // Systems without accelerations cannot be evaluated together with others; a regular one takes their place.
         let whole = systems.into_iter().find(|system| !system.is_singular());
         let stand_in = |system: &S| if system.is_singular() { whole } else { None };
         let evaluated = systems.map(|system| stand_in(system).unwrap_or(system));
@@ -84,17 +82,15 @@ impl<S: Batched<N>, const N: usize> Batch<S, N> {
         Batch::new([system; N])
     }
 
-    /// What emitted functions take for these systems. A system that has no accelerations at all is
-    /// represented by another one.
+    /// The data that emitted functions take for these systems. A system without accelerations is represented by another one.
     pub fn equations(&self) -> &S::Batch {
         &self.equations
     }
 
-    /// Accelerations `a = M⁻¹ f` of every lane: at time `t`, coordinates `q`, rates `v` and inputs
-    /// `u` of that lane.
+    /// Accelerations `a = M⁻¹ f` of every lane at its time `t`, coordinates `q`, rates `v` and inputs `u`.
     ///
     /// # Errors
-    /// If there are lanes that have none. All others have got theirs.
+    /// If some lanes have none. The results of all others are valid.
     #[inline]
     pub fn accelerations(
         &self,
@@ -112,7 +108,7 @@ impl<S: Batched<N>, const N: usize> Batch<S, N> {
         }
     }
 
-    /// The accelerations of these lanes, each by itself.
+    /// The accelerations of all lanes, evaluated one by one.
     #[cold]
     fn one_by_one(
         &self,
@@ -142,12 +138,12 @@ impl<S: Batched<N>, const N: usize> Batch<S, N> {
         }
     }
 
-    /// The Taylor series of the motion of every lane through its state, as [`System::series`] has it, with 24 rows at the most. The
-    /// time is the sum of two numbers. To be asked for only where [`System::check_series`] is fine. `lists` is a buffer of
-    /// some kilobytes, whose content does not matter; a caller that keeps it from one step to the next saves clearing it.
+    /// The Taylor series of the motion of every lane through its state, as in [`System::series`], with at most 24 rows. The time is
+    /// the sum of two numbers. Call it only if [`System::check_series`] succeeds. `lists` is a buffer of some kilobytes with any
+    /// content; a caller that keeps it between steps saves the time of clearing it.
     ///
     /// # Errors
-    /// If there are lanes that have none. All others have got theirs.
+    /// If some lanes have none. The results of all others are valid.
     #[inline]
     pub fn series(
         &self,
@@ -164,7 +160,7 @@ impl<S: Batched<N>, const N: usize> Batch<S, N> {
         }
     }
 
-    /// The series of all lanes, each by itself.
+    /// The series of all lanes, evaluated one by one.
     #[cold]
     fn series_one_by_one(
         &self,
@@ -202,7 +198,7 @@ impl<S: Batched<N>, const N: usize> Batch<S, N> {
         }
     }
 
-    /// A vector for each lane, side by side.
+    /// The vectors of all lanes, side by side.
     pub fn vectors(&self, vectors: [&S::Vector; N]) -> S::Vectors {
         let mut rows = S::Vectors::ZEROS;
         for (lane, vector) in vectors.iter().enumerate() {
@@ -213,19 +209,18 @@ impl<S: Batched<N>, const N: usize> Batch<S, N> {
         rows
     }
 
-    /// Inputs for each lane, side by side.
+    /// The inputs of all lanes, side by side.
     pub fn inputs(&self, inputs: [&S::Inputs; N]) -> S::BatchInputs {
         S::batch_inputs(inputs)
     }
 
-    /// The inputs that nobody sets, in every lane.
+    /// The default inputs in every lane.
     pub fn default_inputs(&self, system: &S) -> S::BatchInputs {
         S::batch_inputs([&system.default_inputs(); N])
     }
 }
 
-/// Equations of motion of which `N` can be evaluated at once, by [`Batch`]. Emitted code
-/// implements it.
+/// Equations of motion that [`Batch`] can evaluate `N` at a time. Emitted code implements it.
 pub trait Batched<const N: usize>: System + Copy {
     /// The equations of `N` systems.
     type Batch: Clone + Copy + core::fmt::Debug;
@@ -233,7 +228,7 @@ pub trait Batched<const N: usize>: System + Copy {
     type Vectors: LaneVector<N, Vector = Self::Vector>;
     /// The inputs of `N` systems by name.
     type BatchInputs;
-    /// What [`batch_series`](Self::batch_series) works with: coefficients of which it makes products; `()` where there is no series.
+    /// Memory for [`batch_series`](Self::batch_series): coefficients whose products it computes; `()` if there is no series.
     type SeriesLists: Default;
 
     /// The equations of these systems.
@@ -248,7 +243,7 @@ pub trait Batched<const N: usize>: System + Copy {
     /// Whether the parameters alone leave the system without accelerations.
     fn is_singular(&self) -> bool;
 
-    /// [`System::accelerations`] of every lane, or of none if one of them has none.
+    /// [`System::accelerations`] of every lane, or an error if one of them has none.
     fn batch_accelerations(
         several: &Self::Batch,
         t: Lanes<N>,
@@ -258,8 +253,8 @@ pub trait Batched<const N: usize>: System + Copy {
         a: &mut Self::Vectors,
     ) -> Result<(), Singular>;
 
-    /// [`System::series`] of every lane, with 24 rows at the most, or of none if one of them has none. To be asked for only where
-    /// [`System::check_series`] is fine. What `lists` holds before does not matter.
+    /// [`System::series`] of every lane, with at most 24 rows, or an error if one of them has none. Call it only if
+    /// [`System::check_series`] succeeds. The content of `lists` before the call does not matter.
     fn batch_series(
         _several: &Self::Batch,
         _t: [Lanes<N>; 2],
@@ -286,7 +281,7 @@ pub trait LaneVector<const N: usize>:
     /// The numbers of a lane, which is less than N.
     fn lane(&self, lane: usize) -> Self::Vector;
 
-    /// Runs a computation on lanes in the widest registers that the processor has: [`Number::run`].
+    /// Runs a computation on lanes in the widest registers of the processor: [`Number::run`].
     fn run<K: Kernel<Lanes<N>>>(kernel: K) -> K::Output;
 }
 

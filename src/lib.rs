@@ -1,4 +1,4 @@
-//! Machines that run: the equations of motion that `machine!` derives, integrated.
+//! Integrates the equations of motion that `machine!` derives.
 //!
 //! ```
 //! # #[cfg(all(feature = "std", feature = "macros"))]
@@ -30,24 +30,23 @@
 //! # fn main() {}
 //! ```
 //!
-//! The macro derives the equations of motion while the crate compiles. A spec can also stand in a file,
-//! `machine!(file = "machines/oscillator.machine")`, and the command `lagrangian` runs such a file as it is. The tutorial,
-//! the reference of the language and the equations stand in `docs/`.
+//! The macro derives the equations of motion while the crate compiles. A spec can also be a file of its own,
+//! `machine!(file = "machines/oscillator.machine")`, which the command `lagrangian` runs as it is. The tutorial, the language reference
+//! and the equations are in `docs/`.
 //!
-//! What the macro writes is a struct of parameters with public fields, which is a [`Machine`]; its
-//! [`prepare`](Machine::prepare) gives a [`System`], the equations of motion for these parameters. [`Simulation`] integrates
-//! them and returns a [`Solution`]: the state at every instant, events, and the balance of energy. A [`Stepper`] takes
-//! single steps, without an allocator.
+//! The macro emits a struct with a public field for each parameter, which implements [`Machine`]; its [`prepare`](Machine::prepare) returns
+//! a [`System`], the equations of motion for these parameters. [`Simulation`] integrates them and returns a [`Solution`]: the state at
+//! every instant, events, and the energy balance. A [`Stepper`] takes single steps and needs no allocator.
 //!
 //! | feature | |
 //! | --- | --- |
 //! | `std` (default) | simulations, solutions, events, the implicit method `radau5`; without it the crate allocates nothing and needs no operating system |
 //! | `macros` (default) | `machine!` |
-//! | `interpreter` | specs that are read while the program runs |
-//! | `jit` | these at compiled speed, by machine code that is made while the program runs |
+//! | `interpreter` | specs that are read at run time |
+//! | `jit` | specs that are read at run time, at compiled speed: they are compiled to machine code while the program runs |
 //! | `strict-libm` | the same bits on every machine: no fused multiply-add, `libm`'s sines |
 //! | `nalgebra` | vectors and matrices of that crate at the interface |
-//! | `serde` | states, solutions, statistics, events, balances and messages are serialized |
+//! | `serde` | serialization of states, solutions, statistics, events, balances and messages |
 #![no_std]
 
 #[cfg(feature = "std")]
@@ -201,8 +200,7 @@ pub use lagrangian_native::{self as native, Lanes, Number};
 pub use lagrangian_scalar as scalar;
 pub use lagrangian_scalar::Scalar;
 
-/// The programs of the docs, compiled and run as they are printed. They share one compilation with the examples in this
-/// crate's own docs.
+/// Compiles and runs the programs in the Markdown documents, in one compilation with the examples in this crate's own docs.
 #[cfg(all(doctest, feature = "std", feature = "macros"))]
 mod documentation {
     #[doc = include_str!("../README.md")]

@@ -1,4 +1,4 @@
-//! Functions that `core` lacks, the same bits on every platform.
+//! Functions that `core` lacks, with the same bits on every platform.
 
 use lagrangian_scalar::Scalar;
 
@@ -12,15 +12,16 @@ pub(crate) fn power(x: f64, exponent: f64) -> f64 {
     Scalar::powf(x, exponent)
 }
 
-/// 2⁵², whose last digit is 1: in front of it stand the digits of a whole number.
+/// 2⁵²: adding it to a number leaves the digits of the nearest integer in the low bits.
 const WHOLE: f64 = 4_503_599_627_370_496.0;
 
-/// The binary logarithm of a positive number, to 1e-7: more than the root of a high order needs.
+/// The binary logarithm of a positive number, to 1e-7, which is more than sufficient for a root of high order.
 ///
-/// Here and in [`rough_exp2`] are only sums, products and digits moved, which lanes have as well, and the same bits everywhere.
+/// This function and [`rough_exp2`] use only sums, products and bit operations, which lanes have as well, and which give the same
+/// bits everywhere.
 #[inline(always)]
 pub(crate) fn rough_log2(x: f64) -> f64 {
-    // Below the smallest normal number exponents say nothing.
+    // Subnormal numbers are scaled first, since their exponent bits are zero.
     let is_small = x < f64::MIN_POSITIVE;
     let (scale, shift) = if is_small {
         (1.801_439_850_948_198_4e16, 1023.0 + 54.0)
@@ -30,8 +31,8 @@ pub(crate) fn rough_log2(x: f64) -> f64 {
     let bits = (x * scale).to_bits();
     let exponent = f64::from_bits(((bits >> 52) & 0x7ff) | WHOLE.to_bits()) - WHOLE;
     let mantissa = f64::from_bits((bits & ((1 << 52) - 1)) | (1023 << 52));
-    // The interpolant of degree 8 in Chebyshev's nodes between 1 and 2, whose error is 5.7e-8: no division to wait for, and pairs of
-    // terms that do not wait for each other.
+    // The interpolant of degree 8 at Chebyshev nodes between 1 and 2, whose error is 5.7e-8. It needs no division, and pairs of terms are
+    // independent of each other.
     let x = 2.0 * (mantissa - 1.5);
     let square = x * x;
     let fourth = square * square;
@@ -42,28 +43,28 @@ pub(crate) fn rough_log2(x: f64) -> f64 {
     exponent - shift + (low + fourth * (high - fourth * 0.000_033_850_387_969_1))
 }
 
-/// 2 to a power, to 2e-7 of it; 0 and infinity where that is beyond `f64`.
+/// 2 to a power, with a relative error of 2e-7; 0 or infinity outside of the range of `f64`.
 #[inline(always)]
 pub(crate) fn rough_exp2(x: f64) -> f64 {
     /// Makes all exponents positive.
     const BIAS: f64 = 2200.0;
     let x = if x < -1100.0 { -1100.0 } else { x };
     let x = if x > 1100.0 { 1100.0 } else { x };
-    // The last digits of this sum are the nearest whole number.
+    // The low bits of this sum are the nearest integer.
     let whole = x + (WHOLE + BIAS);
     let y = (x - (whole - (WHOLE + BIAS))) * core::f64::consts::LN_2;
     let square = y * y;
     let high = (1.0 / 24.0 + y * (1.0 / 120.0)) + square * (1.0 / 720.0);
     let series = (1.0 + y) + square * ((0.5 + y * (1.0 / 6.0)) + square * high);
-    // In two factors, each of which has an exponent.
+    // Split into two factors whose exponents are in range.
     let whole = whole.to_bits() & 0xffff;
     let half = whole >> 1;
     let power = |n: u64| f64::from_bits((n + 1023 - 1100) << 52);
     series * power(half) * power(whole - half)
 }
 
-/// `x` to a real power, `x ≥ 0`, to six digits for exponents of at most 1: more than the choice of a step needs, at a tenth of the time of a
-/// function that is right in the last digit. 0 and infinity stay what they are, or become each other.
+/// `x` to a real power, `x ≥ 0`, to six digits for exponents of at most 1: sufficient for the choice of a step, in a tenth of the time of a
+/// correctly rounded function. 0 and infinity are kept, or exchanged for negative exponents.
 #[inline]
 pub(crate) fn rough_power(x: f64, exponent: f64) -> f64 {
     let logarithm = match x {
@@ -83,7 +84,7 @@ mod tests {
 
     #[test]
     fn rough_powers_are_within_their_bounds() {
-        // Against the functions of the standard library, over all exponents and between them.
+        // Compared with the functions of the standard library, over all exponents and between them.
         let mut x = 5e-324_f64;
         while x.is_finite() {
             let error = rough_log2(x) - x.log2();
@@ -93,7 +94,7 @@ mod tests {
         for i in -10_700..10_230 {
             let x = f64::from(i) * 0.1 + 0.03;
             let exact = x.exp2();
-            // A denormal number has its own rounding.
+            // Subnormal numbers are rounded more coarsely.
             let bound = 2e-7 * exact + 5e-324;
             assert!((rough_exp2(x) - exact).abs() <= bound, "exp2 {x}");
         }

@@ -1,4 +1,4 @@
-//! Vectors and matrices of `nalgebra`.
+//! Vectors and matrices of `nalgebra` at the interface.
 //!
 //! ```
 //! # mod by_hand { include!("../tests/by_hand/double_pendulum.rs"); }
@@ -72,8 +72,8 @@ pub trait Matrices: System {
         DVector::from_iterator(2 * q.as_slice().len(), numbers)
     }
 
-    /// The state at time `t` with coordinates, then rates, in one vector; none if it has another
-    /// length.
+    /// The state at time `t` with coordinates, then rates, in one vector; `None` if its
+    /// length is wrong.
     fn state_from_vector(&self, t: f64, vector: &DVector<f64>) -> Option<State<Self::Coordinates>> {
         let n = self.coordinates().len();
         if vector.len() != 2 * n {
@@ -89,7 +89,7 @@ pub trait Matrices: System {
         })
     }
 
-    /// Many states, a row each: time, coordinates, rates.
+    /// States as rows of a table: time, coordinates, rates.
     fn state_table(&self, states: &[State<Self::Coordinates>]) -> DMatrix<f64> {
         let n = self.coordinates().len();
         let mut table = DMatrix::zeros(states.len(), 1 + 2 * n);

@@ -1,23 +1,23 @@
-//! The motion within one step, shown while the run is made.
+//! The motion within one step, as an observer sees it during a run.
 
 use crate::{Coordinates, Error, Inputs, Machine, State, System};
 
 type VectorOf<M> = <<M as Machine>::System as System>::Vector;
 
-/// The motion within one step of a run, as [`Simulation::each_step`](crate::Simulation::each_step) shows it: the continuous
-/// extension of the method, on the constraints.
+/// The motion within one step of a run, which [`Simulation::each_step`](crate::Simulation::each_step) passes to its observer: the
+/// continuous extension of the method, projected onto the constraints.
 pub trait StepMotion<M: Machine> {
     /// Time at its beginning and at its end, in s.
     fn span(&self) -> [f64; 2];
 
-    /// Whether it is one by Taylor series, whose motion is of a much higher degree than that of other methods.
+    /// Whether it is a step by Taylor series, whose polynomials are of a much higher degree than those of other methods.
     fn is_series(&self) -> bool;
 
-    /// Goes to a fraction of the step, from 0 to 1: makes `q` and `v` the state there, of which nothing but their lengths was known, and
-    /// returns its time in s.
+    /// Evaluates the state at a fraction of the step, from 0 to 1, and returns its time in s. Of `q` and `v` only the lengths matter
+    /// before the call.
     ///
     /// # Errors
-    /// Where the method needs accelerations for it that do not exist, or the constraints cannot be met.
+    /// If the method needs accelerations that do not exist, or the constraints cannot be satisfied.
     fn state_at(
         &mut self,
         theta: f64,
@@ -25,7 +25,7 @@ pub trait StepMotion<M: Machine> {
         v: &mut VectorOf<M>,
     ) -> Result<f64, Error>;
 
-    /// The state at a time within the step: the one that a sample of the run has there, bit for bit.
+    /// The state at a time within the step, with the bits of a sample of the run at this time.
     ///
     /// # Errors
     /// As [`state_at`](Self::state_at).
@@ -34,10 +34,10 @@ pub trait StepMotion<M: Machine> {
     /// The inputs at a state.
     fn inputs(&self, t: f64, q: &VectorOf<M>, v: &VectorOf<M>) -> Inputs<M>;
 
-    /// Accelerations at time, state and inputs, with the contacts as they are in this step.
+    /// Accelerations at a time, state and inputs, with the contacts in their states of this step.
     ///
     /// # Errors
-    /// Where there are none.
+    /// If there are none.
     fn accelerations(
         &self,
         at: (f64, &VectorOf<M>, &VectorOf<M>),

@@ -1,4 +1,4 @@
-//! A name that does not exist, and the one that was probably meant.
+//! Unknown names, with the name that was probably meant.
 
 use core::fmt::{self, Display};
 use std::string::String;
@@ -11,9 +11,9 @@ use std::vec::Vec;
 pub struct UnknownName {
     /// The name.
     pub name: String,
-    /// The one that was probably meant, if one is near.
+    /// The name that was probably meant, if there is a similar one.
     pub near: Option<String>,
-    /// What there is.
+    /// The existing names.
     pub known: Vec<String>,
 }
 
@@ -21,15 +21,15 @@ impl UnknownName {
     /// The error that there is no `name` among the `known` ones.
     pub fn new<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Self {
         let known: Vec<String> = known.into_iter().map(String::from).collect();
-        // Near is the same but for case, or at most one slip in three characters.
+        // Similar names differ only in case, or by at most one edit in three characters.
         let allowed = (name.chars().count() / 3).max(1);
         let slips =
             |known: &&String| strsim::osa_distance(&known.to_lowercase(), &name.to_lowercase());
-        // The work is the product of the lengths; and one letter is one slip away from every other.
+        // The cost is the product of the lengths; and a single letter is one edit away from every other.
         let near = known
             .iter()
             .filter(|known| name.len() <= LONGEST && known.len() <= LONGEST)
-            // Of two that differ from it in as much but case, the one in its case.
+            // Among equally similar names, prefer the one in the same case.
             .min_by_key(|known| (slips(known), strsim::osa_distance(known, name)))
             .filter(|known| slips(known) <= allowed)
             .filter(|known| {
@@ -59,8 +59,8 @@ impl Display for UnknownName {
 
 impl core::error::Error for UnknownName {}
 
-/// The name of the rate of a coordinate: `der(phi)`. Of the integral of a state of first order, `integral(i)` or
-/// `integral(T)[3]`, it is the state: `i`, `T[3]`.
+/// The name of the rate of a coordinate: `der(phi)`. For the integral of a first-order state, `integral(i)` or
+/// `integral(T)[3]`, it is the name of the state: `i`, `T[3]`.
 pub(crate) fn rate_name(coordinate: &str) -> std::string::String {
     let integral = coordinate.strip_prefix("integral(");
     match integral.and_then(|integral| integral.split_once(')')) {

@@ -1,4 +1,4 @@
-//! Everything about a machine at an instant of a run.
+//! Observations: everything about a machine at an instant of a run.
 
 use std::vec;
 use std::vec::Vec;
@@ -30,27 +30,27 @@ pub struct Observation<M: Machine> {
     pub inputs: Inputs<M>,
     /// Outputs.
     pub outputs: Outputs<M>,
-    /// Multipliers of the constraints, in their order: those of least norm where constraints depend
-    /// on each other.
+    /// Multipliers of the constraints, in their order; the ones of least norm if constraints are dependent.
     pub multipliers: Vec<f64>,
-    /// The contacts that stick and slide, in their order.
+    /// The guided contacts, in their order.
     pub contacts: Vec<ContactForce>,
     /// The unilateral contacts, in their order.
     pub unilateral: Vec<UnilateralForce>,
     /// Kinetic energy, in J.
     pub kinetic_energy: f64,
-    /// Potential energy, in J, with what contacts that yield hold.
+    /// Potential energy, in J, including the energy stored by compliant contacts.
     pub potential_energy: f64,
 }
 
-/// What a run knows of constraints and contacts at an instant: which rows are kept, what sticks and what is closed.
+/// The state of constraints and contacts at an instant of a run: the chosen rows, the states of guided contacts,
+/// and the closed unilateral ones.
 pub(crate) struct Known<'x, V> {
     pub constraints: &'x Option<Constraints<V>>,
     pub contacts: Option<&'x Contacts>,
     pub touching: Option<&'x Touching>,
 }
 
-/// A system with the law of its inputs: what can be seen of it as a run goes.
+/// A system with the law of its inputs, for observation during a run.
 pub(crate) struct Sight<'r, S: System, L> {
     pub system: &'r S,
     pub law: Held<'r, L, S::Inputs>,
@@ -63,7 +63,7 @@ impl<S: System, L: InputLaw<S>> Sight<'_, S, L> {
         inputs
     }
 
-    /// Everything about the machine in a state within the last step.
+    /// Observes the machine in a state within the last step.
     pub fn observe<M: Machine<System = S>, A: Quadratures<S>>(
         &self,
         stepper: &Stepper<'_, S, Held<'_, L, S::Inputs>, A>,
@@ -87,7 +87,7 @@ type At<'x, S> = (
 );
 
 impl<'x, V: Vector> Known<'x, V> {
-    /// What a stepper knows of its last step.
+    /// The constraints and contacts of a stepper during its last step.
     pub fn of<S: System<Vector = V>, L: InputLaw<S>, A: Quadratures<S>>(
         stepper: &'x Stepper<'_, S, L, A>,
     ) -> Self {
@@ -98,7 +98,7 @@ impl<'x, V: Vector> Known<'x, V> {
         }
     }
 
-    /// The accelerations at a state, as the run finds them.
+    /// The accelerations at a state, computed as in the run.
     pub fn accelerations<S: System<Vector = V>>(
         &self,
         system: &S,
@@ -151,7 +151,7 @@ impl<'x, V: Vector> Known<'x, V> {
         Ok(multipliers)
     }
 
-    /// Everything about the machine in a state.
+    /// Observes the machine in a state.
     pub fn observe<M: Machine<System: System<Vector = V>>>(
         &self,
         system: &M::System,

@@ -1,4 +1,4 @@
-//! What unilateral contacts did in a run, from one change to the next.
+//! Phases of the unilateral contacts in a run, from one change to the next.
 
 use std::vec::Vec;
 
@@ -8,18 +8,18 @@ use crate::contact::{Impact, Mode as ContactMode, Touching};
 use crate::stepper::Cause;
 use crate::{ContactEnergies, ContactEvent, ContactImpact, System, Warning};
 
-/// What contacts did from some instant on.
+/// The states of the contacts from some instant on.
 #[derive(Clone, Debug)]
 pub(crate) struct Phase<V> {
     pub since: f64,
     pub touching: Touching,
-    /// Why they changed, and how.
+    /// The change with which it began, and its cause.
     pub change: Change,
-    /// What is known of what they hold.
+    /// The constraints that hold the closed contacts.
     pub constraints: Option<Constraints<V>>,
 }
 
-/// Where energy went in each contact until an instant, and how fast it goes there.
+/// The energies of each contact up to an instant, and their rates there.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Book {
     pub of_each: Vec<ContactEnergies>,
@@ -27,12 +27,13 @@ pub(crate) struct Book {
 }
 
 impl Book {
-    /// Where energy went in a contact until a share of the time `h` to another instant, before which nothing jumps.
+    /// The energies of a contact at the fraction `share` of the time `h` to another instant, if nothing
+    /// jumps in between.
     pub fn towards(&self, next: &Book, contact: usize, h: f64, share: f64) -> ContactEnergies {
         let [from, to] = [self, next].map(|book| book.of_each[contact]);
         let power = |book: &Book| book.powers.get(contact).copied().unwrap_or_default();
         let [begins, ends] = [power(self), power(next)];
-        // Hermite's cubic.
+        // Cubic Hermite interpolation.
         let between = |[from, to]: [f64; 2], [begins, ends]: [f64; 2]| {
             let rest = 1.0 - share;
             let of_powers = h * share * rest * (rest * begins - share * ends);
@@ -57,34 +58,34 @@ impl Book {
     }
 }
 
-/// Why contacts changed at an instant, and how.
+/// A change of contacts at an instant, and its cause.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Change {
     pub cause: Option<Cause>,
     pub impacts: Vec<Impact>,
-    /// Contacts whose bounces came to their end.
+    /// Contacts whose bounces ended.
     pub ended: Vec<usize>,
 }
 
-/// Unilateral contacts between two changes of what they do in a run.
+/// Unilateral contacts between two changes of their states in a run.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct ContactPhase<'s> {
-    /// Since when, in s.
+    /// When it began, in s.
     pub since: f64,
-    /// What each contact does.
+    /// The state of each contact.
     pub modes: &'s [ContactMode],
-    /// Of each contact whether it is a layer that is loaded further.
+    /// For each contact whether it is a layer under increasing load.
     pub loaded: Vec<bool>,
-    /// Why it began, and at which contact if one is the cause.
+    /// Why it began, and which contact is the cause, if one is.
     pub cause: PhaseCause,
-    /// The impacts with which it began, of all contacts that took part in the order in which they did.
+    /// The impacts with which it began, in their order, each with the index of its contact.
     pub impacts: Vec<(usize, ContactImpact)>,
-    /// Contacts whose bounces came to their end there.
+    /// Contacts whose bounces ended there.
     pub ended: &'s [usize],
 }
 
-/// Why contacts go on in another way.
+/// Why the states of contacts change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum PhaseCause {
@@ -96,16 +97,16 @@ pub enum PhaseCause {
     Stops(usize),
     /// The friction of a contact was used up.
     Breaks(usize),
-    /// A contact that yields began to press.
+    /// A compliant contact began to press.
     Presses(usize),
     /// A layer turned from loading to unloading, or came back to its greatest depth.
     Turns(usize),
-    /// It is a step of time stepping.
+    /// A step of time stepping.
     Stepped,
 }
 
 impl<V> Phase<V> {
-    /// What everybody may know of it.
+    /// Its public view.
     pub fn told(&self) -> ContactPhase<'_> {
         let impact = |of: &Impact| {
             let told = ContactImpact {
@@ -113,7 +114,7 @@ impl<V> Phase<V> {
                 slip: of.slip,
                 impulse: of.impulse,
                 loss: of.loss,
-                // The second tangent of a contact has an impact of its own here.
+                // Here the second tangent of a contact has an impact of its own.
                 across: None,
             };
             (of.contact, told)
@@ -137,18 +138,18 @@ impl<V> Phase<V> {
     }
 }
 
-/// What a run keeps of its contacts.
+/// The record of the unilateral contacts of a run.
 #[derive(Clone, Debug)]
 pub(crate) struct Kept<C, V> {
     pub phases: Vec<Phase<V>>,
     pub events: Vec<ContactEvent<C>>,
-    /// For each contact how much energy its impacts took, in J.
+    /// For each contact the energy lost in its impacts, in J.
     pub losses: Vec<f64>,
-    /// Where energy went in each contact, at the same instants as the energies of the machine.
+    /// The energies of each contact, at the same instants as the energies of the machine.
     pub books: Vec<Book>,
-    /// In time stepping, for each contact whether it is closed and lasts.
+    /// In time stepping, for each contact whether it is closed permanently.
     pub last: Vec<bool>,
-    /// Impacts that created energy: how many, and the worst.
+    /// Impacts that created energy: their number, and the worst.
     pub gains: usize,
     pub worst: Option<(usize, f64, f64)>,
 }
@@ -168,7 +169,7 @@ impl<C, V> Default for Kept<C, V> {
 }
 
 impl<C, V> Kept<C, V> {
-    /// What the user should know.
+    /// The warning to be reported, if any.
     pub fn warning<S: System>(&self, system: &S) -> Option<Warning> {
         let (contact, t, gain) = self.worst?;
         let mut contacts = system.unilateral_contacts();

@@ -1,23 +1,24 @@
 //! Pieces of time in which inputs are smooth.
 
-/// A stretch of time within which inputs are smooth; they may jump or have a kink at its ends, where the steps of a
+/// An interval of time within which inputs are smooth. They may jump or have a kink at its ends, where the steps of a
 /// [`Simulation`](crate::Simulation) end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
-    /// Its beginning, in s; −∞ where there is none.
+    /// Its beginning, in s; −∞ if it has none.
     pub from: f64,
-    /// Its end, later than its beginning, in s; ∞ where there is none.
+    /// Its end, later than its beginning, in s; ∞ if it has none.
     pub to: f64,
-    /// Whether the inputs jump where a run enters it, which is its end backward in time; else they are continuous there.
+    /// Whether the inputs jump where a run enters it (at its end, if the run goes backward in time); otherwise they are
+    /// continuous there.
     pub jumps: bool,
 }
 
-/// Why there is no piece behind an instant.
+/// Why there is no piece after an instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoPiece<'a> {
-    /// What this is called is not known there.
+    /// The input, or table, with this name is not known there.
     Ended(&'a str),
-    /// What this is called changes more often than times can tell apart there.
+    /// The input, or table, with this name changes more often there than the resolution of time.
     TooFine(&'a str),
 }
 
@@ -29,7 +30,7 @@ impl Piece {
         jumps: false,
     };
 
-    /// Where a run leaves it, in s; infinite if nowhere.
+    /// Where a run leaves it, in s; infinite if it does not.
     pub fn end(&self, forward: bool) -> f64 {
         if forward { self.to } else { self.from }
     }
@@ -39,7 +40,7 @@ impl Piece {
         self.end(!forward)
     }
 
-    /// The part that it has in common with another one, which a run enters where it enters the later of both.
+    /// The intersection with another piece. A run enters it where it enters the later of the two.
     #[must_use]
     pub fn and(self, other: Piece, forward: bool) -> Piece {
         let entered = |piece: &Piece| if forward { piece.from } else { -piece.to };
@@ -55,7 +56,8 @@ impl Piece {
         }
     }
 
-    /// An instant well within it: what holds there holds in all of it. `t` itself where it is all of time.
+    /// An instant in its interior, at which everything that is constant within it can be evaluated. `t` itself if it
+    /// is all of time.
     pub fn within(&self, t: f64) -> f64 {
         match (self.from.is_finite(), self.to.is_finite()) {
             (true, true) => 0.5 * self.from + 0.5 * self.to,

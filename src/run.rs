@@ -1,4 +1,4 @@
-//! The making of a run: step after step, with everything that the simulation was told to look at.
+//! Makes a run: takes step after step, and after each one looks for events, samples, changes of contacts, and ends of assumptions.
 
 mod choosing;
 pub(crate) mod contacts;
@@ -47,11 +47,12 @@ use contacts::Meeting;
 use explained::Explained;
 use handing_over::Pace;
 
-/// Makes the run of a simulation; with an error if something ended it early.
+/// Makes the run of a simulation, and returns it with the error that ended it early, if any.
 ///
-/// An error instead of a solution means that the run could not begin.
+/// # Errors
+/// Only if the run could not begin.
 ///
-/// It knows neither the type of the law nor whether a balance is kept: a run is compiled once for a machine.
+/// It depends neither on the type of the law nor on whether a balance is kept, so a run is compiled once for a machine.
 pub(crate) fn run<M: Machine>(
     task: Task<'_, M, Law<'_, M::System>>,
     start: State<Coordinates<M>>,
@@ -63,7 +64,7 @@ pub(crate) fn run<M: Machine>(
     Ok(prepared.solution(finished))
 }
 
-/// A run before its first step: what it borrows from while it is made.
+/// A run before its first step. It owns everything that the run borrows.
 pub(crate) struct Prepared<'a, 'l, M: Machine> {
     clock: Instant,
     law: Law<'l, M::System>,
@@ -77,14 +78,14 @@ pub(crate) struct Prepared<'a, 'l, M: Machine> {
     tolerance: Tolerance<VectorOf<M>>,
     piece: Piece,
     chosen: Option<(&'static Method, MethodReason)>,
-    /// Whether it goes on from where another one ended, and the event that ended that one there.
+    /// Whether it resumes another run, and the event that ended that run there.
     goes_on: bool,
     ended: Option<String>,
-    /// What is to be said of its start.
+    /// Warnings about the start.
     of_start: Vec<Warning>,
 }
 
-/// What came of a run that has ended, without what it has borrowed.
+/// The results of a run that has ended, without what it borrowed.
 pub(crate) struct Finished<M: Machine> {
     end: State<Coordinates<M>>,
     ending: Ending,
@@ -98,12 +99,12 @@ pub(crate) struct Finished<M: Machine> {
     choices: Vec<MethodChoice>,
 }
 
-/// A run of a prepared one: by its law, whatever that is, with a balance of energy or without.
+/// A run that borrows from a [`Prepared`] one: with a law of any kind, with an energy balance or without.
 pub(crate) type RunOf<'r, 'a, 'l, M> =
     Run<'r, 'a, M, Law<'l, <M as Machine>::System>, Option<EnergyIntegrals>>;
 
 impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
-    /// Checks what a run is given, and brings its start onto the constraints.
+    /// Checks the settings of a run and projects its start onto the constraints.
     pub(crate) fn new(
         task: Task<'a, M, Law<'l, M::System>>,
         start: State<Coordinates<M>>,
@@ -123,7 +124,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
                 check_parameters(machine)?;
                 machine.prepare()
             }
-            // Its equations were checked where it began.
+            // Its equations were checked when the run began that this one resumes.
             Of::System(system) => system,
         };
         let goes_on = resumed.is_some();
@@ -177,7 +178,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         })
     }
 
-    /// The run at its start.
+    /// Begins the run at its start.
     pub(crate) fn begin<'r>(&'r mut self) -> Result<RunOf<'r, 'a, 'l, M>, Error> {
         let Self {
             law,
@@ -304,7 +305,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         Ok(run)
     }
 
-    /// The solution of a run of this that is over.
+    /// Makes the solution from a run that has ended.
     pub(crate) fn solution(mut self, finished: Finished<M>) -> (Solution<M, ()>, Option<Error>) {
         let Finished {
             end,
@@ -363,7 +364,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
 }
 
 impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
-    /// Ends the run: what came of it, with its balance of energy and what is to be said of it.
+    /// Ends the run: returns its results with the energy balance and the warnings.
     pub(crate) fn end(self, ending: Result<Ending, Error>) -> Finished<M> {
         let (ending, error) = match ending {
             Ok(ending) => (ending, None),
@@ -435,11 +436,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     }
 }
 
-/// How often the states of contacts may change at one instant before they are taken not to settle:
-/// each of them has three.
+/// The number of changes of contact states at one instant beyond which they are considered not to settle: each contact has three states.
 const MOST_CHANGES_AT_ONCE: usize = 3 * crate::MOST_CONTACTS;
 
-/// A run in the making.
+/// A run in progress.
 pub(crate) struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> {
     model: Model<'r, M::System, L>,
     stepper: Stepper<'r, M::System, Held<'r, L, Inputs<M>>, A>,
@@ -447,28 +447,28 @@ pub(crate) struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures
     callbacks: &'r mut Callbacks<'a, M>,
     start: f64,
     until: f64,
-    /// Where the stepper is to stop: where the inputs are not smooth, where a sampled controller looks or acts, or at the end.
+    /// Where the stepper stops next: where the inputs are not smooth, at a sample or a delayed action of a controller, or at the end.
     stop: f64,
-    /// What a sampled controller has set, if there is one.
+    /// The inputs of a sampled controller, if there is one.
     sampling: Option<Sampling<Inputs<M>>>,
-    /// The length of the step that an event ended.
+    /// The length of the step within which the run ended at an event.
     next_step: Option<f64>,
-    /// How often contacts meet.
+    /// How frequently contacts change.
     pace: Pace,
-    /// Which method it takes, if that is left to it.
+    /// The choice of the method, if the run makes it.
     choosing: Choosing,
     record: Record<M>,
 }
 
-/// What a run knows from one step to the next, until it is where it is to stop.
+/// State between two steps, until the run stops at `stop`.
 struct BetweenSteps {
-    /// What will have ended the run, once the end of the stepper is reached.
+    /// The reason for which the run will end once the stepper has reached its end.
     ending: Result<Ending, Error>,
-    /// The state of a contact that ends where the stepper is to stop, and the step to go on with.
+    /// A contact state that ends where the stepper will stop, and the step length to continue with.
     pending: Option<(Change, f64)>,
-    /// When contacts have changed last, and how often then.
+    /// Time of the last change of contacts, and the number of changes at that time.
     last_change: (f64, usize),
-    /// A change of unilateral contacts that the stepper is to stop at.
+    /// A change of unilateral contacts at which the stepper will stop.
     meeting: Option<Meeting>,
 }
 
@@ -483,37 +483,37 @@ impl BetweenSteps {
     }
 }
 
-/// What is kept of a run.
+/// The records of a run.
 struct Record<M: Machine> {
-    /// What a sampled controller has set, and since when.
+    /// The inputs that a sampled controller set, each with the time from which they hold.
     held: Vec<(f64, Inputs<M>)>,
-    /// The pieces of time in which the inputs are smooth, in the order of the run; none where all of time is one.
+    /// The intervals of time in which the inputs are smooth, in the order of the run; empty if they are smooth throughout.
     pieces: Vec<Piece>,
     steps: Option<Steps<VectorOf<M>>>,
     samples: Vec<State<Coordinates<M>>>,
     events: Vec<Event<Coordinates<M>>>,
     energies: Vec<Energies>,
-    /// The states of the contacts, and since when.
+    /// The states of the guided contacts, each with the time from which it holds.
     contacts: Vec<(f64, Contacts)>,
-    /// What unilateral contacts did.
+    /// Record of the unilateral contacts.
     unilateral: Kept<Coordinates<M>, VectorOf<M>>,
-    /// When the run went on by time stepping, and back.
+    /// When the run changed to time stepping and back.
     handovers: Vec<Handover>,
-    /// The greatest so far, in J.
+    /// The largest kinetic energy so far, in J.
     kinetic_energy: f64,
-    /// What tolerance and rounding explain of the energy balance's residual.
+    /// The part of the residual of the energy balance that tolerance and rounding explain.
     explained: Explained,
-    /// Whether a step had a residual that remains unexplained.
+    /// Whether a step had a residual that remained unexplained.
     is_unexplained: bool,
 }
 
 type VectorOf<M> = <<M as Machine>::System as System>::Vector;
 
-/// The motion within the last step, made when it is first needed.
+/// The motion within the last step, computed on first use.
 type LastInterpolant<M> = Option<Interpolant<VectorOf<M>>>;
 
 impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
-    /// Goes to the end, or to what ends the run before.
+    /// Runs to the end, or until something ends the run earlier.
     fn go_to_end(&mut self) -> Result<Ending, Error> {
         loop {
             if let Some(ending) = self.change_inputs()? {
@@ -526,7 +526,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
     }
 
-    /// Steps to where it is to stop, or to what ends the run before.
+    /// Steps until `stop`, or until something ends the run earlier.
     fn go(&mut self) -> Result<Ending, Error> {
         self.forget_values();
         let mut between = BetweenSteps::new();
@@ -540,14 +540,14 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         between.ending
     }
 
-    /// Forgets the values of what is watched: something may have jumped that they depend on.
+    /// Forgets the last values of the watched functions, since something that they depend on may have jumped.
     fn forget_values(&mut self) {
         for watch in &mut self.callbacks.watches {
             watch.latest = None;
         }
     }
 
-    /// Whether one more step may be taken.
+    /// Checks that one more step may be taken.
     #[inline(always)]
     fn check_count(&self) -> Result<(), Error> {
         if self.stepper.work().steps == self.settings.max_steps {
@@ -561,7 +561,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
     }
 
-    /// Looks at a step that was taken, or could not be. The answer is what ends the run.
+    /// Examines a step that was taken or failed. Returns the reason if the run ends.
     #[inline(always)]
     fn look_at_step(
         &mut self,
@@ -575,8 +575,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             meeting,
         } = between;
         if let Err(error) = stepped {
-            // Where an assumption ends there may be nothing to go on with: then that is the
-            // cause.
+            // Where an assumption ends there may be no accelerations to go on with; then the end of the assumption is the reason.
             std::mem::replace(ending, Ok(Ending::End))?;
             if self.leave_series(&error) {
                 return Ok(None);
@@ -616,8 +615,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 contacts::Next::Keep => {}
             }
         }
-        // A run ends within a step by taking that step again, up to there: so the end is as
-        // exact as every other step's, and so is the balance of energy.
+        // To end the run within a step, the step is repeated up to that time. So the end and the energy balance are as accurate as at
+        // every other step.
         if ending.is_ok()
             && let Some((t, assumption)) = self.assumption_ended(&mut interpolant)?
         {
@@ -652,8 +651,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         Ok(None)
     }
 
-    /// What stops a run where the gap of something closed has come to hardly change with the coordinates: then steps shrink, since the
-    /// force that holds it shut has no bound.
+    /// The error of a run that stops because the gap of a closed contact hardly depends on the coordinates any more: the force that holds
+    /// it shut grows without bound, and steps shrink.
     fn unheld(&self, error: &StepError) -> Option<StepError> {
         let StepError::StepTooSmall { t, .. } = *error else {
             return None;
@@ -666,7 +665,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             })
     }
 
-    /// The first closed contact of these whose gap changes with the coordinates by less than this share of what it did at the start.
+    /// The first closed contact among those that `counts` selects whose gap has a gradient of less than `share` times its length
+    /// at the start.
     fn slack(&self, share: f64, counts: impl Fn(usize) -> bool) -> Option<usize> {
         let (touching, system) = (self.stepper.touching().as_ref()?, self.model.system);
         let is_closed = |contact: &usize| touching.modes()[*contact] != Mode::Open;
@@ -688,7 +688,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         closed.find(|contact| length(&now, *contact) < share * length(&before, *contact))
     }
 
-    /// When the state of a contact ended in the last step, and which.
+    /// The time at which the state of a contact ended in the last step, and the change.
     fn contact_changed(
         &mut self,
         interpolant: &mut LastInterpolant<M>,
@@ -743,7 +743,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         Ok(None)
     }
 
-    /// Lets the contacts go on in other states, if the stepper stands where one of them has ended.
+    /// Puts contacts into other states if the stepper is at the end of one of their states.
     fn change(
         &mut self,
         pending: &mut Option<(Change, f64)>,
@@ -781,7 +781,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         Ok(())
     }
 
-    /// Takes note of what contacts with friction do now.
+    /// Records the states of the contacts with friction.
     fn note_contacts(&mut self, before: Option<Contacts>) {
         let t = self.stepper.t();
         let Some(now) = self.stepper.contacts() else {
@@ -789,7 +789,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         };
         let names = self.model.system.contacts().enumerate();
         let seconds = self.model.system.second_tangents();
-        // What is done along both tangents of a surface is told of the first.
+        // Both tangents of a surface are reported under the name of the first.
         for (k, name) in names.filter(|(k, _)| seconds >> k & 1 == 0) {
             let Some(was) = before.as_ref().map(|before| before.mode) else {
                 continue;
@@ -814,8 +814,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         self.record.contacts.push((t, now.as_seen_later()));
     }
 
-    /// When an assumption of the description ended in the last step, and which. It may hold again
-    /// at the end of the step: they are looked at like events.
+    /// The time at which an assumption of the description ended in the last step, and its text. It may hold again at the end of the step,
+    /// so assumptions are searched like events.
     fn assumption_ended(
         &mut self,
         interpolant: &mut LastInterpolant<M>,
@@ -839,7 +839,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         Ok(None)
     }
 
-    /// Notes the events of the last step; returns the one that ends the run.
+    /// Records the events of the last step; returns the one that ends the run.
     fn find_events(
         &mut self,
         interpolant: &mut LastInterpolant<M>,
@@ -860,10 +860,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         )
     }
 
-    /// Ends the run at an event within the last step, which is made again up to there: so the end is as
-    /// exact as every other step's, and so is the balance of energy. The function is 0 at the end of the
-    /// step, not on its dense output: its length is corrected by Newton's method until rounding of
-    /// time or state is all that is left to correct.
+    /// Ends the run at an event within the last step, by repeating the step up to the event. So the end and the energy balance are as
+    /// accurate as at every other step. The function must be 0 at the end of that step and not on the dense output of the longer one:
+    /// Newton's method corrects the length of the step until only rounding of time or state remains.
     fn end_at(&mut self, found: Terminal) -> Result<Ending, Error> {
         self.next_step = Some(self.stepper.last_step());
         let to = self.stepper.t();
@@ -894,13 +893,13 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             let next = t + correction;
             let from = self.stepper.t_before();
             let is_within = (next - from) * (to - next) > 0.0;
-            // What does not halve at least is rounding, or not linear.
+            // A correction that is not at most half of the last one is rounding, or the function is not linear there.
             if next == t || correction.abs() > 0.5 * corrected || !is_within {
                 let name = watch.name.clone();
                 if is_step {
                     self.keep(&mut None)?;
                 }
-                // What the dense output has put a rounding later was at the same time.
+                // Events that the dense output placed later, by its error, happened at the same time.
                 let events = self.record.events.iter_mut().rev();
                 for event in events.take_while(|event| (event.state.t - t) * (to - t) > 0.0) {
                     event.state = state.clone();
@@ -917,7 +916,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
     }
 
-    /// Keeps what was asked for of the last step.
+    /// Records and shows what the settings request of the last step.
     fn keep(&mut self, interpolant: &mut LastInterpolant<M>) -> Result<(), Error> {
         self.keep_samples(interpolant)?;
         self.show(interpolant)?;
@@ -945,7 +944,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         Ok(())
     }
 
-    /// Shows the last step to the observer of each, if there is one.
+    /// Shows the last step to the observer of steps, if there is one.
     fn show(&mut self, interpolant: &mut LastInterpolant<M>) -> Result<(), Error> {
         let Self {
             model,
@@ -963,7 +962,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
     }
 
-    /// The samples within the last step, to be kept or to be streamed; those at the end of the run are added there.
+    /// The samples within the last step, to be kept or shown. The sample at the end of the run is added when the run ends.
     fn keep_samples(&mut self, interpolant: &mut LastInterpolant<M>) -> Result<(), Error> {
         if let Some(interval) = self.settings.every {
             while let Some(t) = self.next_sample(interval, self.record.samples.len()) {
@@ -984,7 +983,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         Ok(())
     }
 
-    /// When the next of many samples is, of which so many were taken, if it is within the last step.
+    /// The time of the next sample after `count` ones, if it is within the last step.
     fn next_sample(&self, interval: f64, count: usize) -> Option<f64> {
         let interval = interval.copysign(self.until - self.start);
         let t = self.start + count as f64 * interval;
@@ -1011,8 +1010,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         Ok(state(system, (t, q, v)))
     }
 
-    /// Enters the energies of now, if their balance is kept. Returns what tolerance and rounding explain of the residual of the last
-    /// step, in J.
+    /// Records the present energies, if their balance is kept. Returns the part of the residual of the last step that tolerance and
+    /// rounding explain, in J.
     fn enter_energies(&mut self) -> f64 {
         let Some(energies) = self.energies_now() else {
             return f64::INFINITY;
@@ -1044,14 +1043,14 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         explained
     }
 
-    /// Whether the last step was one of time stepping, whose length no error has chosen.
+    /// Whether the last step was one of time stepping, whose length follows from no error estimate.
     fn is_stepped(&self) -> bool {
         <M::System as System>::MAY_COLLIDE && self.stepper.is_by_impulses()
     }
 
-    /// Integrates work and losses again along the last step where its balance has a residual that nothing explains, since the step may
-    /// be too long for them: the motion alone has chosen it. Not in steps of implicit methods, which are longer than whatever is fast
-    /// and has died away, and whose dense output knows nothing of that.
+    /// Repeats the quadrature of work and losses along the last step if its energy balance has an unexplained residual. The step may be too
+    /// long for the quadrature, since its length was chosen for the motion alone. Steps of implicit methods are excluded: they are longer
+    /// than fast transients that have decayed, which their dense output does not represent.
     fn explain_residual(
         &mut self,
         before: &Energies,
@@ -1071,7 +1070,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let bound = 0.1 * explained;
         let known = made(interpolant, &mut self.stepper, self.model.system)
             .is_ok_and(|of_step| matches!(self.stepper.integrate_along(of_step, bound), Ok(true)));
-        // Where it did not help once, it is not tried again: the residual stays, and the run tells of it.
+        // If this did not help once, it is not tried again: the residual stays, and the run reports it.
         self.record.is_unexplained = !known;
         if known
             && let Some(integrals) = self.stepper.quadratures().integrals()
@@ -1082,7 +1081,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
     }
 
-    /// Kinetic and potential energy now, and the integrals so far, if their balance is kept; without [`stored_now`](Self::stored_now).
+    /// Present kinetic and potential energy and the integrals so far, if their balance is kept; without [`stored_now`](Self::stored_now).
     fn energies_now(&self) -> Option<Energies> {
         let Self { model, stepper, .. } = self;
         let integrals = stepper.quadratures().integrals()?;
@@ -1096,7 +1095,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         })
     }
 
-    /// What states of first order and contacts that yield store now, in J.
+    /// Energy that first-order states and compliant contacts store now, in J.
     fn stored_now(&self) -> f64 {
         let Self { model, stepper, .. } = self;
         let (t, q, v) = (stepper.t(), stepper.q(), stepper.v());
@@ -1126,7 +1125,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     }
 }
 
-/// The last step, as it is shown.
+/// The last step, as an observer sees it.
 struct Within<'w, 'r, 's, S: System, L, K, A> {
     model: &'w Model<'r, S, L>,
     stepper: &'w mut Stepper<'s, S, K, A>,
@@ -1203,7 +1202,7 @@ where
 struct Model<'r, S: System, L> {
     system: &'r S,
     sight: Sight<'r, S, L>,
-    /// The time and the coordinates at which the run began.
+    /// Time and coordinates at the start of the run.
     start: (f64, &'r S::Vector),
 }
 
@@ -1212,8 +1211,8 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         self.sight.inputs(t, q, v)
     }
 
-    /// Where in the last step to look at the assumptions: between two looks none of them fails and holds again. `None` where all are known to hold
-    /// throughout, most of which few values tell. A machine without assumptions pays nothing for looking.
+    /// The fractions of the last step at which to evaluate the assumptions: between neighbours none of them fails and holds again. `None`
+    /// if all are known to hold throughout, which a few values decide for most of them. A machine without assumptions pays nothing.
     #[inline]
     fn looks_at_assumptions<A: Quadratures<S>>(
         &self,
@@ -1228,7 +1227,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         let mut places = std::vec![Some(Places::All); count];
         if let Some(coefficients) = stepper.coefficients() {
             let holds = |t: f64, q: &S::Vector, v: &S::Vector| {
-                // Facts do not depend on inputs: those of now are as good as any.
+                // Assumptions do not depend on inputs, so the present ones will do.
                 let mut facts = self.system.assumptions(t, q, v, stepper.inputs());
                 facts.all(|fact| fact.holds())
             };
@@ -1252,13 +1251,13 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             }
             for (place, values) in places.iter_mut().zip(&values) {
                 *place = match roots::sign_changes(values) {
-                    // What does not change is nowhere to be looked for.
+                    // A margin that does not vary needs no search.
                     _ if is_long && values.iter().any(|value| *value != values[0]) => {
                         Some(Places::All)
                     }
                     Some(0) if hold => None,
                     Some(0 | 1) if values[4] <= 0.0 => Some(Places::Few),
-                    // What holds at 0 throughout.
+                    // A margin that is 0 throughout holds.
                     None if hold && *values == [0.0; roots::FRACTIONS.len()] => None,
                     _ => Some(Places::All),
                 };
@@ -1274,7 +1273,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         } else {
             Vec::new()
         };
-        // All ask for the same fractions first.
+        // All searches begin with the same fractions.
         let mut known: Vec<(f64, Triple<S::Vector>)> = Vec::new();
         for index in (0..count).filter(|index| places[*index] == Some(Places::All)) {
             looks.extend(roots::looks(|theta| {
@@ -1297,10 +1296,10 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         Ok(Some(looks))
     }
 
-    /// Whether facts that are linear in time, coordinates and rates hold all along a step by series.
+    /// Whether facts that are linear in time, coordinates and rates hold throughout a step by series.
     ///
-    /// The motion is `Σ cⱼ θʲ`, and `1 ≥ θ ≥ θ² ≥ …`: so it is a mean of the partial sums `Σ cⱼ` over `j ≤ k`, and a fact that holds at
-    /// each of these holds along the step.
+    /// The motion is `Σ cⱼ θʲ` with `1 ≥ θ ≥ θ² ≥ …`, which is a convex combination of the partial sums `Σ cⱼ` over `j ≤ k`. So a fact that
+    /// holds at each partial sum holds along the step.
     fn hold_along<A: Quadratures<S>>(
         &self,
         stepper: &Stepper<'_, S, Held<'_, L, S::Inputs>, A>,
@@ -1330,7 +1329,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         true
     }
 
-    /// The first assumption that does not hold: its number and text.
+    /// The first assumption that does not hold: its index and text.
     #[inline]
     fn ended_assumption(&self, state: Triple<S::Vector>) -> Option<(usize, String)> {
         let (t, q, v) = &state;
@@ -1341,7 +1340,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             .map(|(index, assumption)| (index, assumption.text.into()))
     }
 
-    /// By how much an assumption holds; not a number counts as against it.
+    /// The margin by which an assumption holds; NaN counts as violated.
     fn margin(&self, index: usize, state: Triple<S::Vector>) -> f64 {
         let (t, q, v) = &state;
         let inputs = self.inputs(*t, q, v);
@@ -1349,7 +1348,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         margin.map_or(0.0, |assumption| assumption.margin.max(f64::NEG_INFINITY))
     }
 
-    /// The error of a step in words; `q` and `v` are the state at its beginning.
+    /// Converts the error of a step; `q` and `v` are the state at its beginning.
     fn explain(&self, error: StepError, q: &S::Vector, v: &S::Vector) -> Error {
         if let StepError::NotFinite { t, .. } = error {
             let inputs = self.inputs(t, q, v);
@@ -1368,7 +1367,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         }
     }
 
-    /// What stops a run where constraints come to depend on each other.
+    /// The error of a run that stops because constraints become linearly dependent.
     fn fork(&self, error: &StepError, q: &S::Vector, v: &S::Vector) -> Option<Error> {
         let (StepError::StepTooSmall { t, .. }
         | StepError::Inconsistent { t, .. }
@@ -1390,8 +1389,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     }
 }
 
-/// Brings the start of a run onto the constraints. What the user should know of that: how far each
-/// number was moved, and which constraints are redundant.
+/// Projects the start of a run onto the constraints. Returns warnings: how far each number was moved, and which constraints are redundant.
 fn project_start<S: System>(
     system: &S,
     t: f64,
@@ -1409,12 +1407,12 @@ fn project_start<S: System>(
         if let Some(error) = contradicts_kept(system, &start, &kept, &misses) {
             return Err(error);
         }
-        // From here it is near.
+        // The projection converges from here, since this start is near the constraints.
         known = Constraints::new(system, q, v);
         projected = known.begin(system, &mut start.place(), Some(kept));
     }
     projected.map_err(|error| match error {
-        // At rest where rows depend on each other that do not beside the start.
+        // At rest in a state in which rows are dependent that are independent next to it.
         StepError::Singular { singular, t } => match singular.at {
             Pivot::Constraint(row) => Error::Fork {
                 constraint: constraint_name(system, row),
@@ -1444,8 +1442,8 @@ fn project_start<S: System>(
     Ok(found)
 }
 
-/// The error of a start of which some numbers are kept, where the constraints are met best; none where they
-/// miss by nothing that is kept.
+/// The error of a start whose kept numbers contradict the constraints; `best` is the state that violates them least. `None` if no kept
+/// number takes part in a constraint that is violated.
 fn contradicts_kept<S: System>(
     system: &S,
     best: &Point<S::Vector>,
@@ -1482,7 +1480,7 @@ fn contradicts_kept<S: System>(
     })
 }
 
-/// The name of a coordinate, or of its rate.
+/// The name of a coordinate or of its rate.
 fn number_name(coordinate: &str, level: usize) -> String {
     match level {
         0 => coordinate.into(),
@@ -1490,15 +1488,15 @@ fn number_name(coordinate: &str, level: usize) -> String {
     }
 }
 
-/// A run that stops where the independent part of a constraint is shorter than this is stopped by that: rounding in
-/// the residual of positions grows as its inverse square in the rates, to ten digits here.
+/// If the independent part of a constraint is shorter than this when a run stops, it is the cause: round-off in the residuals of positions
+/// is amplified in the rates by its inverse square, which costs ten digits here.
 const NEAR_FORK: f64 = 1e-2;
 
-/// Moves of the start that are less than this, relative to the size of a number, are no news: about
-/// what a formula for a start value loses to rounding.
+/// Moves of the start below this, relative to the size of a number, are not reported: they are about as large as the round-off in a formula
+/// for a start value.
 const ROUNDING_OF_START: f64 = 1e-12;
 
-/// The constraints that were not chosen at a state, by name, with those that they depend on.
+/// The constraints that were not chosen at a state, by name, each with those that it depends on.
 fn dependences<S: System>(
     known: &Constraints<S::Vector>,
     system: &S,
@@ -1511,7 +1509,7 @@ fn dependences<S: System>(
     dependences.into_iter().map(named).collect()
 }
 
-/// The error of a step; if constraints contradict each other, with those that do.
+/// The error of a step; if constraints contradict each other, with their names.
 fn contradiction<S: System>(error: StepError, system: &S, q: &S::Vector, v: &S::Vector) -> Error {
     let mut error_of_run = Error::of_step(error, system);
     if let Error::FrictionParadox {
@@ -1542,7 +1540,7 @@ fn contradiction<S: System>(error: StepError, system: &S, q: &S::Vector, v: &S::
 }
 
 impl Settings {
-    /// The end of the run, if all settings make sense.
+    /// Checks all settings and returns the end of the run.
     fn check(&self) -> Result<f64, Error> {
         let until = self.until.ok_or(Error::NoEnd)?;
         let check = |setting, value: f64, is_good: bool, needed| {
@@ -1597,11 +1595,11 @@ impl Settings {
         Ok(until)
     }
 
-    /// Which numbers of the start are kept, coordinates and rates: those that are not 0.
+    /// Which numbers of the start are kept, coordinates and rates: those that are not 0 in the result.
     fn kept<S: System>(&self, system: &S, goes_on: bool) -> Result<Option<[S::Vector; 2]>, Error> {
         let names = match &self.kept {
             Some(names) => names.clone(),
-            // What the description says is about its start.
+            // The description's choice refers to its own start.
             None if goes_on => Vec::new(),
             None => system.kept_at_start().map(String::from).collect(),
         };
@@ -1712,7 +1710,7 @@ fn warnings<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     stepper: &Stepper<'_, S, L, A>,
 ) -> Vec<Warning> {
     let mut warnings = Vec::new();
-    // A relative tolerance of 0 asks for an absolute error only.
+    // A relative tolerance of 0 requests control by the absolute tolerance alone.
     if settings.relative > 0.0 && settings.relative < LEAST_RELATIVE_TOLERANCE {
         let (asked, used) = (settings.relative, LEAST_RELATIVE_TOLERANCE);
         warnings.push(Warning::ToleranceRaised { asked, used });

@@ -1,4 +1,4 @@
-//! How a motion changes with its start, with parameters and with inputs.
+//! Derivatives of a motion with respect to its start, to parameters and to inputs.
 //!
 //! With `x(t; s)` a motion and `s` a number that it depends on, the derivative `y = ∂q/∂s` obeys the
 //! variational equation, equation (I.14.5) of E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary
@@ -8,8 +8,8 @@
 //! ÿ = ∂a/∂q y + ∂a/∂v ẏ + ∂a/∂s
 //! ```
 //!
-//! It is of second order, as the motion is. So the motion and its derivatives are one more
-//! [`System`], and all that is done to systems can be done to it.
+//! It is of second order, like the motion. So the motion together with its derivatives is a [`System`] again, to which
+//! everything for systems applies.
 
 use std::string::{String, ToString};
 use std::vec;
@@ -23,28 +23,27 @@ use crate::{
     Vector,
 };
 
-/// A machine, its motion together with the derivatives of the motion.
+/// A machine whose motion is the motion of another machine together with its derivatives.
 ///
-/// It is a [`Machine`] itself: a [`Simulation`](crate::Simulation) runs it with any method, its
-/// events, samples and states between the steps. Coordinates and rates are [`Varied`]: those of the
-/// machine, and their derivatives by each variable in the order in which the variables were asked
-/// for, in SI units: `rad` by `m` is `rad/m`.
+/// It is a [`Machine`] itself: a [`Simulation`](crate::Simulation) runs it with any method, with events, samples and states
+/// between the steps. Coordinates and rates are [`Varied`]: those of the machine, and their derivatives with respect to each
+/// variable in the order in which the variables were added, in SI units: `rad` by `m` is `rad/m`.
 ///
-/// Motion and derivatives are integrated together, and the tolerance holds for both. Derivatives may
-/// grow where the motion does not (in a resonance as t, in chaos as e^{λt}), so steps that are good
-/// enough for the motion alone say nothing of how good its derivatives are. In return the motion's
-/// own steps are others, by as much as the tolerance allows. Its absolute part is the same number
-/// for all; [`absolute_of`](crate::Simulation::absolute_of) sets it for one of them, `"theta by l"`.
+/// Motion and derivatives are integrated together, and the tolerance applies to both. Derivatives may grow where the motion
+/// does not (in a resonance as t, in chaos as e^{λt}), so steps that are short enough for the motion alone may be too long
+/// for its derivatives. Conversely, the motion is computed with other steps than alone, so it differs by as much as the
+/// tolerance allows. The absolute tolerance is the same number for all; [`absolute_of`](crate::Simulation::absolute_of) sets
+/// it for one of them, `"theta by l"`.
 ///
-/// Machines with unilateral contacts are refused: where these open and close derivatives jump.
+/// Machines with unilateral contacts are refused, since derivatives jump where contacts open and close.
 ///
-/// Machines with constraints are refused unless the caller knows how their start changes
-/// ([`with_start_on_constraints`](Self::with_start_on_constraints)): it obeys the constraints, and changes with
+/// Machines with constraints are refused unless the caller provides the derivatives of their start
+/// ([`with_start_on_constraints`](Self::with_start_on_constraints)): the start satisfies the constraints, and changes with
 /// parameters as these do.
 ///
-/// The machine's system must know its derivatives: a description with `derivatives { coordinates,
-/// rates, … }`, which names the parameters and `inputs` too if they are varied; or the interpreter.
-/// Inputs are numbers here, or functions of time: what a law makes of the *state*
+/// The system must have derivatives of its accelerations: it comes from a description with
+/// `derivatives { coordinates, rates, … }`, which also names the parameters and `inputs` that are varied, or from the
+/// interpreter. Inputs must be constant or functions of time: a law that depends on the *state*
 /// ([`inputs`](crate::Simulation::inputs)) is not differentiated.
 ///
 #[cfg_attr(feature = "macros", doc = "```")]
@@ -79,10 +78,10 @@ use crate::{
 pub struct Sensitive<'m, M> {
     machine: &'m M,
     variables: Vec<Variable>,
-    /// Parameters and inputs whose derivatives there are.
+    /// Parameters and inputs with respect to which there are derivatives.
     known: usize,
     names: Vec<(String, String)>,
-    /// Whether the derivatives of the start are those on the constraints.
+    /// Whether the caller replaces the derivatives of the start by those on the constraints.
     is_on_constraints: bool,
 }
 
@@ -104,11 +103,11 @@ impl<M> Clone for Sensitive<'_, M> {
 pub struct Varied<C> {
     /// The value.
     pub value: C,
-    /// Its derivatives by each of the variables.
+    /// Its derivatives with respect to each of the variables.
     pub by: Vec<C>,
 }
 
-/// What a motion is differentiated by.
+/// A variable of differentiation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Variable {
     /// The start value of a coordinate.
@@ -120,7 +119,7 @@ enum Variable {
 }
 
 impl<'m, M: Machine<System: Differentiate>> Sensitive<'m, M> {
-    /// The motion of `machine`, so far without derivatives.
+    /// The motion of `machine`, initially without derivatives.
     pub fn new(machine: &'m M) -> Self {
         let system = machine.prepare();
         let coordinates = system.coordinates();
@@ -135,20 +134,20 @@ impl<'m, M: Machine<System: Differentiate>> Sensitive<'m, M> {
         }
     }
 
-    /// Takes a machine with constraints too. [`start_from`](Self::start_from) still gives the derivatives of numbers that are
-    /// free; the caller replaces them by those of a start that stays on the constraints as the variable changes: for a
-    /// constraint g(q, t; s) = 0 of positions, `∂g/∂q y + ∂g/∂s = 0`, and for a rate φ(q, v, t; s) = 0,
-    /// `∂φ/∂q y + ∂φ/∂v ẏ + ∂φ/∂s = 0`.
+    /// Accepts a machine with constraints as well. [`start_from`](Self::start_from) still returns the derivatives for
+    /// numbers that are free; the caller has to replace them by those of a start that stays on the constraints as the
+    /// variable changes: for a constraint g(q, t; s) = 0 of positions, `∂g/∂q y + ∂g/∂s = 0`, and for a rate φ(q, v, t; s) =
+    /// 0, `∂φ/∂q y + ∂φ/∂v ẏ + ∂φ/∂s = 0`.
     ///
-    /// Along such a motion both sides stay 0, because the accelerations of the machine keep the second derivatives of its
-    /// constraints 0. Nothing is projected in such a run: what its steps err by stays in it, and grows with time as errors of
-    /// positions do that accelerations alone hold.
+    /// Along such a motion both equations stay satisfied, because the accelerations of the machine keep the second
+    /// derivatives of its constraints at 0. There is no projection in such a run: errors of its steps remain and grow with
+    /// time, as position errors do when constraints hold at acceleration level only.
     pub fn with_start_on_constraints(mut self) -> Self {
         self.is_on_constraints = true;
         self
     }
 
-    /// By the start value of a coordinate, `"s1"`, or `"q[3]"` in a family.
+    /// Differentiates with respect to the start value of a coordinate, `"s1"`, or `"q[3]"` in a family.
     ///
     /// # Errors
     /// If there is no such coordinate, or the machine has constraints or contacts.
@@ -158,7 +157,7 @@ impl<'m, M: Machine<System: Differentiate>> Sensitive<'m, M> {
         Ok(self.with_start(index))
     }
 
-    /// By the start value of a coordinate's rate.
+    /// Differentiates with respect to the start value of a coordinate's rate.
     ///
     /// # Errors
     /// If there is no such coordinate, or the machine has constraints or contacts.
@@ -168,7 +167,7 @@ impl<'m, M: Machine<System: Differentiate>> Sensitive<'m, M> {
         Ok(self.with_start_rate(index))
     }
 
-    /// By the start values of all coordinates, then of all rates: the state transition matrix, a
+    /// Differentiates with respect to the start values of all coordinates, then of all rates: the state transition matrix, a
     /// column for each.
     ///
     /// # Errors
@@ -185,12 +184,12 @@ impl<'m, M: Machine<System: Differentiate>> Sensitive<'m, M> {
         Ok(self)
     }
 
-    /// By a parameter or an input. Start values are held: where the description computes them from
-    /// the parameter, that part is not in the derivative.
+    /// Differentiates with respect to a parameter or an input. Start values stay fixed: if the description computes them from
+    /// the parameter, the derivative does not include that part.
     ///
     /// # Errors
-    /// If the accelerations' derivatives by it are not there: it must be in the `derivatives` of the
-    /// description. Or if the machine has constraints or contacts.
+    /// If the accelerations have no derivative with respect to it: it must be in the `derivatives` of the description. Or if
+    /// the machine has constraints or contacts.
     pub fn by(self, name: &str) -> Result<Self, Error> {
         self.check_free()?;
         let system = self.machine.prepare();
@@ -211,7 +210,7 @@ impl<'m, M: Machine<System: Differentiate>> Sensitive<'m, M> {
         }
     }
 
-    /// A start of the motion: that of the machine, and the derivatives of it, which are 0 and 1.
+    /// A start of the motion: the given state of the machine, and its derivatives, which are 0 and 1.
     pub fn start_from(
         &self,
         State { t, q, v }: State<Coordinates<M>>,
@@ -249,9 +248,9 @@ impl<'m, M: Machine<System: Differentiate>> Sensitive<'m, M> {
         }
     }
 
-    /// Whether the derivatives of the motion follow from those of the accelerations. A start that obeys
-    /// constraints moves with them, as the start of a pendulum does with its length, and what is known
-    /// of the constraints are no derivatives by parameters.
+    /// Checks that the derivatives of the motion follow from those of the accelerations. A start on constraints moves with
+    /// them, as the start of a pendulum does with its length, and derivatives of the constraints with respect to parameters
+    /// are not available.
     fn check_free(&self) -> Result<(), Error> {
         let system = self.machine.prepare();
         if let Some(contact) = system.unilateral_contacts().next() {
@@ -339,11 +338,10 @@ impl<M: Machine<System: Differentiate>> Machine for Sensitive<'_, M> {
     }
 }
 
-/// The equations of motion of a [`Sensitive`] machine, variational equations among them.
+/// The equations of motion of a [`Sensitive`] machine, including the variational equations.
 ///
-/// Vectors are the machine's own, one after another: the values, then the derivatives by each
-/// variable. Whatever else a system is asked for (matrices, forces, energies, outputs) is the
-/// machine's.
+/// Vectors consist of vectors of the machine, one after another: the values, then the derivatives with respect to each
+/// variable. All other quantities (matrices, forces, energies, outputs) are those of the machine alone.
 #[derive(Clone, Debug)]
 pub struct SensitiveSystem<S: System> {
     system: S,
@@ -353,17 +351,17 @@ pub struct SensitiveSystem<S: System> {
     scratch: SharedWorkspace<Scratch<S::Matrix>>,
 }
 
-/// What an evaluation writes.
+/// Memory for an evaluation.
 #[derive(Clone, Debug)]
 struct Scratch<T> {
-    /// By coordinates and by rates.
+    /// Derivatives with respect to coordinates and to rates.
     matrices: [T; 2],
-    /// By parameters and inputs.
+    /// Derivatives with respect to parameters and inputs.
     others: Vec<f64>,
 }
 
 impl<S: Differentiate> SensitiveSystem<S> {
-    /// The machine's own part of a vector.
+    /// The values of the machine itself in a vector.
     fn own(&self, vector: &[f64]) -> S::Vector {
         let mut own = S::Vector::zeros(self.dimension);
         for (to, from) in own.as_mut_slice().iter_mut().zip(vector) {
@@ -372,7 +370,7 @@ impl<S: Differentiate> SensitiveSystem<S> {
         own
     }
 
-    /// Writes the machine's own part of a vector.
+    /// Writes the values of the machine itself into a vector.
     fn copy(own: &S::Vector, vector: &mut [f64]) {
         for (to, from) in vector.iter_mut().zip(own.as_slice()) {
             *to = *from;
@@ -404,7 +402,7 @@ impl<S: Differentiate> System for SensitiveSystem<S> {
     type Coordinates = Varied<S::Coordinates>;
     type Inputs = S::Inputs;
     type Outputs = S::Outputs;
-    // Nothing of what handles contacts is compiled for it.
+    // No code for contacts is compiled for it.
     const MAY_SLIDE: bool = false;
     const MAY_COLLIDE: bool = false;
 
@@ -431,7 +429,7 @@ impl<S: Differentiate> System for SensitiveSystem<S> {
     fn to_vector(&self, coordinates: &Self::Coordinates) -> Vec<f64> {
         let Varied { value, by } = coordinates;
         let mut vector = vec![0.0; self.names.len()];
-        // What is missing is 0, and what is too much is not there.
+        // Missing derivatives are 0, and superfluous ones are ignored.
         let parts = core::iter::once(value).chain(by);
         for (part, to) in parts.zip(vector.chunks_mut(self.dimension.max(1))) {
             Self::copy(&self.system.to_vector(part), to);
@@ -477,7 +475,7 @@ impl<S: Differentiate> System for SensitiveSystem<S> {
         Ok(())
     }
 
-    /// Those of the machine alone are there, without its derivatives.
+    /// The mass matrix and the forces are those of the machine alone and do not cover the derivatives.
     fn equations(&self) -> usize {
         0
     }

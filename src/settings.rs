@@ -1,4 +1,4 @@
-//! What a simulation was told, and its run is given.
+//! Settings of a simulation, as its run takes them.
 
 use std::boxed::Box;
 use std::string::String;
@@ -9,21 +9,21 @@ use crate::event::Watch;
 use crate::methods::Method;
 use crate::{Coordinates, Error, Machine, State, StepMotion};
 
-/// All that a run needs beside its start.
+/// Everything that a run needs besides its start.
 pub(crate) struct Task<'a, M: Machine, L> {
     pub of: Of<'a, M>,
     pub law: L,
     pub settings: Settings,
     pub callbacks: Callbacks<'a, M>,
-    /// Where it goes on from, if it does.
+    /// The end of the run that this one resumes, if any.
     pub resumed: Option<Resumed>,
 }
 
-/// What is to be run.
+/// The machine or system to be run.
 pub(crate) enum Of<'a, M: Machine> {
-    /// A machine, to be prepared.
+    /// A machine that is not yet prepared.
     Machine(&'a M),
-    /// The equations of motion of a run that was made.
+    /// The equations of motion of an earlier run.
     System(M::System),
 }
 
@@ -36,7 +36,7 @@ impl<M: Machine<System: Clone>> Clone for Of<'_, M> {
     }
 }
 
-/// The end of the run that a simulation goes on with.
+/// The end of the run that a simulation resumes.
 #[derive(Clone, Debug)]
 pub(crate) struct Resumed {
     /// Time, in s.
@@ -45,7 +45,7 @@ pub(crate) struct Resumed {
     pub event: Option<String>,
 }
 
-/// What a simulation was told, in numbers.
+/// Settings of a simulation that are not functions.
 #[derive(Clone, Debug)]
 pub(crate) struct Settings {
     pub method: &'static Method,
@@ -56,24 +56,24 @@ pub(crate) struct Settings {
     pub first_step: Option<f64>,
     pub longest_step: f64,
     pub max_steps: usize,
-    /// What the description says where nobody says anything.
+    /// `None` keeps what the description keeps.
     pub kept: Option<Vec<String>>,
     pub every: Option<f64>,
-    /// The intervals at which somebody observes.
+    /// The intervals of the observers.
     pub observed_every: Vec<f64>,
     pub keep_steps: bool,
     pub energy_balance: bool,
-    /// Whether the energies after every step are kept, and not only the first and the last.
+    /// Whether the energies after every step are kept, or only the first and the last.
     pub keep_energies: bool,
-    /// Whether both tolerances were given as one.
+    /// Whether both tolerances were given as one number.
     pub one_tolerance: bool,
-    /// Whether contacts that meet too often go on by time stepping.
+    /// Whether the run changes to time stepping when contacts change too often.
     pub hands_over: bool,
-    /// Whether the run chooses its methods.
+    /// Whether the run chooses its method.
     pub automatic: bool,
 }
 
-/// What a simulation was told, in functions.
+/// Settings of a simulation that are functions.
 pub(crate) struct Callbacks<'a, M: Machine> {
     pub watches: Vec<Watch<'a, M>>,
     pub progress: Option<Shared<dyn FnMut(Progress) + Send + 'a>>,
@@ -83,13 +83,13 @@ pub(crate) struct Callbacks<'a, M: Machine> {
     pub observer: Option<Observer<'a, M>>,
 }
 
-/// Somebody who is shown the states of a run as it goes.
+/// An observer of the states of a run, and its progress.
 pub(crate) struct Stream<'a, M: Machine> {
-    /// Between two of them, in s.
+    /// Time between two states that it is shown, in s.
     pub interval: f64,
-    /// How many were shown.
+    /// Number of states shown so far.
     pub count: usize,
-    /// When the last of them was.
+    /// Time of the last state shown.
     pub last: f64,
     pub observer: StateObserver<'a, M>,
 }
@@ -116,10 +116,10 @@ impl<M: Machine> Stream<'_, M> {
     }
 }
 
-/// What looks at states.
+/// A function that observes states.
 type StateObserver<'a, M> = Shared<dyn FnMut(&State<Coordinates<M>>) + Send + 'a>;
 
-/// What looks at each step.
+/// A function that observes steps.
 pub(crate) type Observer<'a, M> =
     Shared<dyn FnMut(&mut dyn StepMotion<M>) -> Result<(), Error> + Send + 'a>;
 
@@ -167,36 +167,37 @@ impl<M: Machine> Default for Callbacks<'_, M> {
     }
 }
 
-/// How far a run has come.
+/// The progress of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Progress {
     /// Time reached, in s.
     pub t: f64,
-    /// The part of the run that is done, from 0 to 1.
+    /// The fraction of the run that is done, from 0 to 1.
     pub fraction: f64,
     /// Steps taken.
     pub steps: usize,
-    /// Length of the last of them, in s.
+    /// Length of the last step, in s.
     pub step: f64,
-    /// When the motion was first seen to be stiff, in s: from there on steps are held short by the
-    /// stability of the method, and `radau5` takes longer ones. Seen as soon as an explicit method knows:
-    /// after fifteen signs, by a test that follows every thousandth step.
+    /// When the motion was first detected to be stiff, in s: from then on the stability of the
+    /// method limits the steps, and `radau5` takes longer ones. An explicit method tests every
+    /// thousandth step, and after a positive result every step; it reports stiffness after fifteen
+    /// positive results.
     pub stiff_since: Option<f64>,
 }
 
-/// What a simulation was told of a sampled controller.
+/// A sampled controller and its timing.
 pub(crate) struct Sampled<'a, M: Machine> {
-    /// The time between two looks, in s.
+    /// Time between two samples, in s.
     pub period: f64,
-    /// How long after a look what it sets begins to act, in s.
+    /// Delay from a sample until the inputs that it set take effect, in s.
     pub delay: f64,
     pub controller: Box<dyn Controller<'a, M> + 'a>,
 }
 
 impl<M: Machine> Sampled<'_, M> {
-    /// Whether it can be followed in a run from `start` to `until`.
+    /// Whether a run from `start` to `until` can follow it.
     pub fn check(&self, start: f64, until: f64, is_alone: bool) -> Result<(), Error> {
         let wrong = |setting, value, needed| {
             Err(Error::InvalidSetting {

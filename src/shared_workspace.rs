@@ -1,4 +1,4 @@
-//! Workspaces of evaluations, in systems that threads may share.
+//! Workspaces of evaluations within systems that threads may share.
 
 use core::fmt::{self, Debug};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -13,7 +13,7 @@ impl<T> SharedWorkspace<T> {
         Self(Mutex::new(value))
     }
 
-    /// The workspace, once no other thread uses it.
+    /// Waits until no other thread uses the workspace.
     #[inline]
     pub fn lock(&self) -> MutexGuard<'_, T> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)

@@ -1,4 +1,4 @@
-//! A run from start to end: settings, events, samples, balance.
+//! The settings of a run: method, tolerances, events, observers, samples, energy balance.
 
 use std::boxed::Box;
 use std::vec::Vec;
@@ -14,10 +14,10 @@ use crate::solution::{Ending, Made, Solution};
 use crate::table::{Table, TableInputs};
 use crate::{Coordinates, Error, Inputs, Machine, State, StepMotion};
 
-/// A run to be made: machine, end, tolerance, and what to watch for.
+/// A run to be made: the machine, the end, the tolerance, and what to watch for.
 ///
-/// It can be copied, and sent to another thread. What steers a run (events, conditions, a sampled controller) is copied with it, so
-/// that each run has its own; observers, which only look, are shared by the copies.
+/// A simulation can be cloned and sent to another thread. Events, conditions and a sampled controller, which act on the run, are cloned
+/// with it; observers, which only watch, are shared by the clones.
 ///
 /// ```
 /// # mod by_hand { include!("../tests/by_hand/double_pendulum.rs"); }
@@ -44,7 +44,7 @@ pub struct Simulation<'a, M: Machine, L = DefaultInputs> {
     pub(crate) law: L,
     pub(crate) settings: Settings,
     pub(crate) callbacks: Callbacks<'a, M>,
-    /// Where it goes on from, if it does.
+    /// The end of the run that this one resumes, if any.
     pub(crate) resumed: Option<Resumed>,
 }
 
@@ -82,9 +82,9 @@ impl<'a, M: Machine> Simulation<'a, M> {
 impl<'a, M: Machine, L> Simulation<'a, M, L> {
     /// Sets the inputs while the machine runs: `|t, q, v, u| u.torque = -5.0 * v.theta`.
     ///
-    /// The function must depend on its arguments alone, for it is called out of order in time and
-    /// more than once. It should be smooth; where it jumps, the steps get short. Where it is to be
-    /// another one from some event on, end the run there and [resume](Solution::resume) it.
+    /// The function must depend on its arguments alone, because it is called more than once and not in the order of time. It should be
+    /// smooth; where it jumps, steps become short. If another function is to take over after some event, end the run there and
+    /// [resume](Solution::resume) it.
     pub fn inputs<F>(self, function: F) -> Simulation<'a, M, InputFunction<F>>
     where
         F: Fn(f64, &Coordinates<M>, &Coordinates<M>, &mut Inputs<M>),
@@ -107,7 +107,7 @@ impl<'a, M: Machine, L> Simulation<'a, M, L> {
 }
 
 impl<'a, M: Machine, L> Simulation<'a, M, L> {
-    /// Sets the inputs by a law: as [`inputs`](Self::inputs), for what is no function of named values.
+    /// Sets the inputs by a law: like [`inputs`](Self::inputs), for laws that are not functions of named values.
     pub fn law<N: InputLaw<M::System>>(self, law: N) -> Simulation<'a, M, N> {
         let Self {
             of,
@@ -127,8 +127,8 @@ impl<'a, M: Machine, L> Simulation<'a, M, L> {
 }
 
 impl<'a, M: Machine, L> Simulation<'a, M, L> {
-    /// Drives the machine by a table, beside what sets the inputs otherwise: `set` is given the value of the table at each instant
-    /// and puts it into the inputs. A step ends wherever the table is not smooth enough for the method.
+    /// Drives the machine by a table, beside any other law of the inputs: at each instant `set` is called with the value of the table and
+    /// writes it to the inputs. Steps end wherever the table is not smooth enough for the method.
     ///
     /// ```
     /// # mod by_hand { include!("../tests/by_hand/toy.rs"); }
@@ -180,7 +180,7 @@ impl<M: Machine<System: Clone>, L: Clone> Clone for Simulation<'_, M, L> {
 }
 
 impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
-    /// This run, of a type that does not say how the inputs are set: for laws that are chosen while the program runs.
+    /// Erases the type of the law of the inputs, for laws that are chosen at run time.
     ///
     /// ```
     /// # mod by_hand { include!("../tests/by_hand/toy.rs"); }
@@ -221,14 +221,13 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         }
     }
 
-    /// When to end, in s; before the start to run backward in time.
+    /// The end of the run, in s; a time before the start runs backward.
     pub fn until(mut self, t: f64) -> Self {
         self.settings.until = Some(t);
         self
     }
 
-    /// How exact the run shall be, relative and absolute: each step keeps its error in a number `y`
-    /// below `tolerance · (1 + |y|)`.
+    /// The tolerance, relative and absolute: each step keeps its error in a number `y` below `tolerance · (1 + |y|)`.
     pub fn tolerance(self, tolerance: f64) -> Self {
         let mut both = self.relative(tolerance).absolute(tolerance);
         both.settings.one_tolerance = true;
@@ -264,15 +263,15 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self
     }
 
-    /// Chooses the method by machine, tolerance and motion, and may go on by another during the run: [`Solution::choices`] says by which, when
-    /// and why.
+    /// Chooses the method by machine, tolerance and motion, and may change it during the run; [`Solution::choices`] lists the choices with
+    /// times and reasons.
     ///
-    /// It begins by [`TAYLOR`](crate::TAYLOR) where the machine has a series whose steps cost less than those of
-    /// [`Method::DOP853`] that cover as much time at this tolerance ([`System::series_cost`](crate::System::series_cost)), else by
-    /// `dop853`. Where steps are held short by stability and not by accuracy it goes on by a method of Radau, of order 5, 9 or 13 by the
-    /// tolerance, and back where the steps of this have taken more evaluations than explicit ones would. A machine
-    /// with unilateral contacts [hands over](Self::hand_over) to time stepping and back, and is not looked at for stiffness.
-    /// All of it follows from counts, never from a clock: the same call gives the same bits.
+    /// It begins with [`TAYLOR`](crate::TAYLOR) if the machine has a series whose steps cost less than the steps of [`Method::DOP853`]
+    /// over the same time at this tolerance ([`System::series_cost`](crate::System::series_cost)), otherwise with `dop853`. When stability
+    /// and not accuracy limits the steps, it changes to a Radau method, of order 5, 9 or 13 depending on the tolerance, and back once its
+    /// steps have taken more evaluations than explicit ones would. A machine with unilateral contacts [hands over](Self::hand_over) to
+    /// time stepping and back, and is not tested for stiffness. All decisions follow from counts, never from a clock: the same call gives
+    /// the same bits.
     ///
     /// ```
     /// # mod by_hand { include!("../tests/by_hand/toy.rs"); }
@@ -295,23 +294,23 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self.hand_over()
     }
 
-    /// Goes on by [time stepping](Method::MOREAU) where unilateral contacts meet too often for each instant to be found, and finds
-    /// every event again where they have become quiet: [`Solution::handovers`] and a [`Warning`](crate::Warning) say when.
+    /// Changes to [time stepping](Method::MOREAU) when unilateral contacts change too often for each instant to be located, and back to
+    /// locating every event once they are quiet. [`Solution::handovers`] and a [`Warning`](crate::Warning) give the times.
     ///
-    /// It hands over where at least three contacts changed at the last 128 instants of events and these followed each other, in the mean,
-    /// within a step of time stepping, or where contacts do not settle at one instant. A step is a 256th of the time in which the
-    /// forces of that instant would stop the fastest rate at which any gap closed, and no longer than the longest step. Nothing bounds the error
-    /// of time stepping, whose order is 1; it is smaller where [`longest_step`](Self::longest_step) is. Where everything rests steps
-    /// become longer. Events are looked for again after 64 steps in which no contact changed, and after twice as many each time that this did
-    /// not last, where each force among the closed contacts is the only one: in piles, which share loads in several ways, events cost more.
+    /// It hands over if at least three contacts changed at the last 128 instants of events and these instants were, on average, less than a
+    /// step of time stepping apart, or if contacts do not settle at one instant. A step is a 256th of the time in which the forces of that
+    /// instant would stop the fastest closing gap, and at most the longest step. Nothing bounds the error of time stepping, whose order is
+    /// 1; a smaller [`longest_step`](Self::longest_step) makes it smaller. When everything is at rest, steps become longer. Events are
+    /// located again after 64 steps in which no contact changed, and after twice as many each time that this did not last, provided that
+    /// the forces in the closed contacts are unique: in piles, which can share loads in several ways, events cost more.
     ///
-    /// For the explicit methods and those of Radau; contacts whose law time stepping does not know are followed as before.
+    /// For explicit and Radau methods. Contacts whose law time stepping does not support are followed as before.
     pub fn hand_over(mut self) -> Self {
         self.settings.hands_over = true;
         self
     }
 
-    /// The length of the first step, in s. Chosen by the motion at the start if it is not given.
+    /// The length of the first step, in s. By default it is chosen from the motion at the start.
     pub fn first_step(mut self, step: f64) -> Self {
         self.settings.first_step = Some(step);
         self
@@ -323,60 +322,57 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self
     }
 
-    /// Keeps a number of the start as it was given, where the start does not obey the constraints and is
-    /// moved onto them: a coordinate, `"theta"`, or a rate, `"der(theta)"`; of a family, `"q[3]"`, or all
-    /// of it, `"q"`. The others move by the least that inertia allows. Called once for each, in place of
-    /// all that the description keeps ([`System::kept_at_start`](crate::System::kept_at_start)).
+    /// Keeps a number of the start as given when the start violates the constraints and is moved onto them: a coordinate,
+    /// `"theta"`, or a rate, `"der(theta)"`; in a family, `"q[3]"`, or the whole family, `"q"`. The other numbers move as little
+    /// as possible in the metric of inertia. Call it once for each number; the calls replace everything that the description
+    /// keeps ([`System::kept_at_start`](crate::System::kept_at_start)).
     ///
-    /// The run has an error where the constraints cannot be met so.
+    /// The run returns an error if the constraints cannot be satisfied in this way.
     pub fn keep(mut self, name: &str) -> Self {
         self.settings.kept.get_or_insert_default().push(name.into());
         self
     }
 
-    /// Keeps no number of the start, whatever the description says: all of them move by the least that
-    /// inertia allows.
+    /// Keeps no number of the start, whatever the description says: all of them move as little as possible in the metric of inertia.
     pub fn keep_none(mut self) -> Self {
         self.settings.kept = Some(Vec::new());
         self
     }
 
-    /// How many steps the run may take; ten million if not given.
+    /// The largest number of steps; ten million by default.
     pub fn max_steps(mut self, steps: usize) -> Self {
         self.settings.max_steps = steps;
         self
     }
 
-    /// Keeps the states at the start, every `interval` seconds after it, and at the end:
-    /// [`Solution::samples`]. With [`forget_steps`](Self::forget_steps) nothing else is kept of a
-    /// long run.
+    /// Keeps the states at the start, every `interval` seconds after it, and at the end as [`Solution::samples`]. Combined with
+    /// [`forget_steps`](Self::forget_steps), nothing else of a long run is kept.
     pub fn every(mut self, interval: f64) -> Self {
         self.settings.every = Some(interval);
         self
     }
 
-    /// Keeps only the end of the run, its samples and events, not what would make [`Solution::at`]
-    /// possible (10 vectors a step with the default method).
+    /// Keeps only the end of the run, its samples and its events, and not the steps that [`Solution::at`] needs (10 vectors a step with the
+    /// default method).
     pub fn forget_steps(mut self) -> Self {
         self.settings.keep_steps = false;
         self
     }
 
-    /// Whether to integrate work and dissipation alongside and make a balance of the energy.
+    /// Whether to integrate work and dissipation alongside the motion for an energy balance.
     pub fn energy_balance(mut self, keep: bool) -> Self {
         self.settings.energy_balance = keep;
         self
     }
 
-    /// Keeps of the energies only the first, the last, and the first that is not finite, so that a balance costs no memory
-    /// along a run.
+    /// Keeps only the first and the last energies, and the first that are not finite, so that the energy balance needs constant memory.
     pub fn forget_energies(mut self) -> Self {
         self.settings.keep_energies = false;
         self
     }
 
-    /// Shows `observer` every step that is kept, in order, with the motion within it: for what is to be made of a motion without
-    /// keeping it. An error that it returns ends the run.
+    /// Calls `observer` with every accepted step, in order, and the motion within it, so that results can be computed without keeping the
+    /// motion. An error that it returns ends the run.
     ///
     /// ```
     /// # mod by_hand { include!("../tests/by_hand/toy.rs"); }
@@ -406,8 +402,8 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self
     }
 
-    /// Finds the instants at which `function` changes its sign. A function that is 0 at the start, to
-    /// rounding, counts only after it has left 0, with the sign that it has then.
+    /// Finds the instants at which `function` changes its sign. If it is 0 to rounding at the start, sign changes count only after it has
+    /// left 0, relative to the sign that it has then.
     pub fn event(
         self,
         name: &str,
@@ -417,8 +413,8 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self.watch(name, crossing, None, of_state::<M>(function))
     }
 
-    /// Finds the instants at which a function of observed quantities changes its sign: outputs, accelerations, multipliers,
-    /// forces of contacts. Costs an evaluation at each look, four times a step.
+    /// Finds the instants at which a function of observed quantities changes its sign: outputs, accelerations, multipliers, contact forces.
+    /// It is evaluated at least seven times a step, each time with an evaluation of the accelerations.
     ///
     #[cfg_attr(feature = "macros", doc = "```")]
     #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
@@ -453,8 +449,8 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self.watch(name, crossing, None, of_observation::<M>(function))
     }
 
-    /// Ends the run when `function` changes its sign: at the state where it is 0, to the rounding of time
-    /// and state. [`Solution::resume`] goes on from there.
+    /// Ends the run when `function` changes its sign, at the state where it is 0 to the rounding of time and state. [`Solution::resume`]
+    /// continues from there.
     pub fn until_event(
         self,
         name: &str,
@@ -464,7 +460,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self.until_nth_event(1, name, crossing, function)
     }
 
-    /// Ends the run when `function` changes its sign for the `n`th time; at the first, if `n` is 0.
+    /// Ends the run when `function` changes its sign for the `n`th time; `n = 0` counts as the first.
     pub fn until_nth_event(
         self,
         n: usize,
@@ -475,7 +471,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self.watch(name, crossing, Some(n), of_state::<M>(function))
     }
 
-    /// Ends the run when `function` of what can be observed changes its sign; see [`event_on`](Self::event_on).
+    /// Ends the run when `function` of observed quantities changes its sign; see [`event_on`](Self::event_on).
     pub fn until_event_on(
         self,
         name: &str,
@@ -485,7 +481,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self.until_nth_event_on(1, name, crossing, function)
     }
 
-    /// Ends the run when `function` of what can be observed changes its sign for the `n`th time; at the first, if `n` is 0.
+    /// Ends the run when `function` of observed quantities changes its sign for the `n`th time; `n = 0` counts as the first.
     pub fn until_nth_event_on(
         self,
         n: usize,
@@ -517,8 +513,8 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self
     }
 
-    /// Shows `observer` the states at the start, every `interval` seconds after it and at the end, as the run goes; nothing is
-    /// kept of them. Several may observe.
+    /// Calls `observer` with the states at the start, every `interval` seconds after it and at the end while the run goes on; none of them
+    /// is kept. There may be several observers.
     ///
     /// ```
     /// # mod by_hand { include!("../tests/by_hand/toy.rs"); }
@@ -546,13 +542,12 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self
     }
 
-    /// Lets a controller look at the machine at the start and every `period` seconds after it, and set its inputs, which hold
-    /// until it looks again: what a computer does, in one run with one solution. It is called once for each look, in the order
-    /// of time, so it may have a state of its own: a filter, an integral. `inputs` holds what it set before; at first the
-    /// defaults.
+    /// Calls a controller at the start and every `period` seconds after it. It reads the state and sets the inputs, which hold until its
+    /// next call, like a digital controller; the result is one run with one solution. It is called once per sample, in the order of time,
+    /// so it may have a state of its own: a filter, an integral. `inputs` holds what it set before, initially the defaults.
     ///
-    /// A step ends at each look. Samples are taken forward in time, and there are no [`inputs`](Simulation::inputs) beside
-    /// them; a [`table`](Simulation::table) may be, which goes before the controller where both set the same.
+    /// A step ends at each sample. The run must go forward in time and have no other [`inputs`](Simulation::inputs); a
+    /// [`table`](Simulation::table) is allowed and takes precedence if both set the same input.
     ///
     /// ```
     /// # mod by_hand { include!("../tests/by_hand/toy.rs"); }
@@ -583,9 +578,8 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self
     }
 
-    /// A controller like [`sampled`](Self::sampled) whose inputs begin to act `delay` seconds after it has read the state, as
-    /// computation and transmission take.
-    /// It may be longer than the period. Until then the inputs have their defaults.
+    /// A controller like [`sampled`](Self::sampled) whose inputs take effect `delay` seconds after it has read the state, to model
+    /// computation and transmission. The delay may exceed the period. Until the first inputs take effect, the inputs have their defaults.
     pub fn sampled_with_delay(
         self,
         period: f64,
@@ -605,8 +599,8 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self
     }
 
-    /// Ends the run after the first step at whose end `condition` holds. To end at the very
-    /// instant, use [`until_event`](Self::until_event).
+    /// Ends the run after the first step at whose end `condition` holds. To end at the exact instant,
+    /// use [`until_event`](Self::until_event).
     pub fn stop_if(
         mut self,
         condition: impl FnMut(&State<Coordinates<M>>) -> bool + Clone + Send + 'a,
@@ -623,10 +617,10 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         }
     }
 
-    /// Runs the machine from `start`, and returns what there is of the run even if an error ends it
-    /// early.
+    /// Runs the machine from `start`, and returns the run so far even if an error ends it early.
     ///
-    /// An error instead of a solution means that the run could not begin.
+    /// # Errors
+    /// Only if the run could not begin.
     pub fn run_as_far_as_possible(
         self,
         start: State<Coordinates<M>>,
@@ -634,7 +628,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self.run_by(start, run::run)
     }
 
-    /// The run as `make` makes it.
+    /// Runs the simulation with `make`.
     pub(crate) fn run_by(
         self,
         start: State<Coordinates<M>>,
@@ -653,15 +647,13 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
 }
 
 impl<M: Machine, L> Solution<M, L> {
-    /// A simulation that goes on with this run: the same machine, inputs, method, tolerances and end, and
-    /// the step that was next. Its start is given to [`run`](Simulation::run): [`end`](Self::end), or what
-    /// an impact makes of it. Events are functions that a run cannot keep, so they are stated again; the
-    /// one that ended this run is known by its name, and is not found again before its function has left
-    /// 0. Other inputs may be set before: a relay that has switched.
+    /// A simulation that continues this run: the same machine, inputs, method, tolerances and end, and the next step length. Pass its start
+    /// to [`run`](Simulation::run): [`end`](Self::end), or the state after an impact. A solution cannot keep events, which are functions,
+    /// so they must be stated again; the event that ended this run is recognized by its name, and is not found again before its function
+    /// has left 0. Other inputs may be set before the run, for instance after a relay has switched.
     ///
-    /// Steps from one event to the next get no shorter than time can tell apart: bounces that would take less
-    /// than some 16 roundings of time are none, and the ball goes through the floor. A loop over impacts that
-    /// come to a rest has to end there by itself.
+    /// Steps between events cannot be shorter than the resolution of time: a bounce that would take less than about 16 roundings of time is
+    /// missed, and the ball goes through the floor. A loop over impacts that come to rest has to detect that by itself.
     ///
     /// ```
     /// # mod by_hand { include!("../tests/by_hand/toy.rs"); }
@@ -714,14 +706,14 @@ impl<M: Machine, L> Solution<M, L> {
     }
 }
 
-/// A function of the state, to be watched.
+/// Boxes a function of the state as an event function.
 fn of_state<'a, M: Machine>(
     mut function: impl FnMut(&State<Coordinates<M>>) -> f64 + Clone + Send + 'a,
 ) -> Box<dyn Watched<'a, M> + 'a> {
     Box::new(move |state: &State<Coordinates<M>>, _: Observe<'_, M>| Ok(function(state)))
 }
 
-/// A function of what can be observed, to be watched.
+/// Boxes a function of observed quantities as an event function.
 fn of_observation<'a, M: Machine>(
     mut function: impl FnMut(&Observation<M>) -> f64 + Clone + Send + 'a,
 ) -> Box<dyn Watched<'a, M> + 'a> {

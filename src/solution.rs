@@ -1,4 +1,4 @@
-//! What comes out of a run.
+//! The result of a run.
 
 mod choice;
 pub(crate) mod handover;
@@ -30,11 +30,10 @@ use crate::{
     Inputs, Machine, State, System, Vector, Warning,
 };
 
-/// A run: where the machine was at every instant of it, and what happened.
+/// The result of a run: the state of the machine at every instant, and its events.
 ///
-/// Between the ends of its steps the motion is known as well as at them: [`at`](Self::at) evaluates
-/// the continuous extension of the method. What that needs is kept;
-/// [`forget_steps`](crate::Simulation::forget_steps) leaves it out.
+/// Between the ends of a step the motion is as accurate as at them: [`at`](Self::at) evaluates the continuous extension of the method,
+/// which is kept unless [`forget_steps`](crate::Simulation::forget_steps) is called.
 pub struct Solution<M: Machine, L = DefaultInputs> {
     pub(crate) system: M::System,
     pub(crate) law: L,
@@ -49,21 +48,21 @@ pub struct Solution<M: Machine, L = DefaultInputs> {
     pub(crate) statistics: Statistics,
     pub(crate) warnings: Vec<Warning>,
     pub(crate) ending: Ending,
-    /// What the simulation was told, and the step with which it would have gone on.
+    /// The settings of the simulation, and the step length with which it would have continued.
     pub(crate) settings: Settings,
     pub(crate) next_step: f64,
     pub(crate) constraints: Option<Constraints<VectorOf<M>>>,
-    /// The states of the contacts, and since when.
+    /// The states of the guided contacts, each with the time from which it holds.
     pub(crate) contacts: Vec<(f64, Contacts)>,
-    /// What a sampled controller set, and since when.
+    /// The inputs that a sampled controller set, each with the time from which they hold.
     pub(crate) held: Vec<(f64, Inputs<M>)>,
-    /// The pieces of time in which the inputs are smooth, in the order of the run; none where all of time is one.
+    /// The intervals of time in which the inputs are smooth, in the order of the run; empty if they are smooth throughout.
     pub(crate) pieces: Vec<Piece>,
-    /// What unilateral contacts did.
+    /// Record of the unilateral contacts.
     pub(crate) unilateral: Kept<Coordinates<M>, VectorOf<M>>,
-    /// When the run went on by time stepping, and back.
+    /// When the run changed to time stepping and back.
     pub(crate) handovers: Vec<Handover>,
-    /// Which methods were chosen.
+    /// The methods that were chosen.
     pub(crate) choices: Vec<MethodChoice>,
 }
 
@@ -101,42 +100,42 @@ impl<M: Machine<System: Clone>, L: Clone> Clone for Solution<M, L> {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Ending {
-    /// At the time it was to last until.
+    /// At the time given by `until`.
     End,
-    /// At the event of that name.
+    /// At the event of this name.
     Event(String),
-    /// At the end of a step after which `stop_if` said so.
+    /// At the end of a step after which the condition of `stop_if` held.
     Stopped,
     /// By an error.
     Error,
 }
 
-/// What a run cost.
+/// The cost of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Statistics {
     /// Steps taken.
     pub steps: usize,
-    /// Steps tried and given up, since their error was too great.
+    /// Steps that were rejected because their error was too large.
     pub rejected: usize,
     /// Evaluations of the accelerations.
     pub evaluations: usize,
     /// The greatest residual of the constraints after any step, relative to the size of their
     /// terms: see [`Stepper::constraint_residual`](crate::Stepper::constraint_residual).
     pub constraint_residual: f64,
-    /// When the motion was first seen to be stiff, in s: when steps were held short by the stability of
-    /// the method and not by its accuracy. Never, if the method is implicit or has no test for it.
+    /// When the motion was first detected to be stiff, in s: from then on the stability of the method and not its accuracy limits the
+    /// steps. `None` if it was not, or if the method is implicit or has no stiffness test.
     pub stiff_since: Option<f64>,
-    /// Time on the clock, in s.
+    /// Wall-clock time, in s.
     pub seconds: f64,
 }
 
-/// A run without its law, and the error that ended it early; an error instead if it could not begin.
+/// A run without its law and the error that ended it early, or an error if it could not begin.
 pub(crate) type Made<M> = Result<(Solution<M, ()>, Option<Error>), Error>;
 
 impl<M: Machine> Solution<M, ()> {
-    /// The run with the law that drove it.
+    /// Adds the law that drove the run.
     pub(crate) fn with_law<L>(self, law: L) -> Solution<M, L> {
         let Self {
             system,
@@ -192,12 +191,12 @@ impl<M: Machine> Solution<M, ()> {
 impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
     /// The state at time `t`, from the beginning of the run to its end.
     ///
-    /// Many times are cheaper by [`at_each`](Self::at_each).
+    /// For many times [`at_each`](Self::at_each) is cheaper.
     pub fn at(&self, t: f64) -> Result<State<Coordinates<M>>, Error> {
         self.sampler().at(t)
     }
 
-    /// The states at several times; cheapest if these are in order.
+    /// The states at several times; cheapest if the times are sorted.
     pub fn at_each(
         &self,
         times: impl IntoIterator<Item = f64>,
@@ -246,11 +245,9 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
             .observe::<M>(&self.system, state, inputs)
     }
 
-    /// The energies at several times, if the simulation was told to keep their balance; cheapest if
-    /// these are in order.
+    /// The energies at several times, if the simulation kept the energy balance; cheapest if the times are sorted.
     ///
-    /// Work and dissipation since the beginning of the step are integrated over its continuous
-    /// extension.
+    /// Work and dissipation since the beginning of a step are integrated over its continuous extension.
     pub fn energies_at_each(
         &self,
         times: impl IntoIterator<Item = f64>,
@@ -259,7 +256,7 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
         times.into_iter().map(|t| sampler.energies(t)).collect()
     }
 
-    /// Something that evaluates the run at many times, and remembers the last step it was in.
+    /// A sampler that evaluates the run at many times and remembers the last step that it used.
     fn sampler(&self) -> Sampler<'_, M, L> {
         Sampler {
             run: self,
@@ -280,13 +277,13 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
         inputs
     }
 
-    /// Whether inputs change in the run.
+    /// Whether inputs change during the run.
     #[cfg(feature = "interpreter")]
     pub(crate) fn is_driven(&self) -> bool {
         !self.held.is_empty() || !self.law.is_constant()
     }
 
-    /// The piece that a time is in; where two meet, to rounding, the later one.
+    /// The piece that contains a time; the later one if two pieces meet there to rounding.
     fn piece_at(&self, t: f64) -> Piece {
         let pieces = &self.pieces;
         let is_from = |piece: &Piece| piece.from <= t || is_near(piece.from, t);
@@ -301,7 +298,7 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
         found.copied().unwrap_or(Piece::ALL)
     }
 
-    /// What the run knew of constraints and contacts at a time.
+    /// The constraints and contacts that were in force at a time.
     fn known_at(&self, t: f64) -> Known<'_, VectorOf<M>> {
         Known {
             constraints: &self.constraints,
@@ -323,14 +320,14 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
         Ok(u)
     }
 
-    /// The states of the contacts at a time within the run.
+    /// The states of the guided contacts at a time within the run.
     fn contacts_at(&self, t: f64) -> Option<&Contacts> {
         let after = self.contacts.partition_point(|(since, _)| *since <= t);
         let (_, known) = self.contacts.get(after.saturating_sub(1))?;
         Some(known)
     }
 
-    /// A state within the run, on the constraints.
+    /// Projects a state within the run onto the constraints.
     fn project(&self, t: f64, (mut q, mut v): Pair<M>) -> Result<Pair<M>, Error> {
         if M::System::MAY_COLLIDE
             && let Some(phase) = self.phase_at(t)
@@ -375,17 +372,17 @@ impl<M: Machine, L> Solution<M, L> {
         beginnings.chain(self.steps.is_some().then(|| self.end.clone()))
     }
 
-    /// The states that `every` of the simulation asked for.
+    /// The states requested by `every` of the simulation.
     pub fn samples(&self) -> &[State<Coordinates<M>>] {
         &self.samples
     }
 
-    /// What happened, in order.
+    /// The events, in order.
     pub fn events(&self) -> &[Event<Coordinates<M>>] {
         &self.events
     }
 
-    /// How many events of this name happened.
+    /// The number of events of this name.
     pub fn event_count(&self, name: &str) -> usize {
         self.events
             .iter()
@@ -393,24 +390,24 @@ impl<M: Machine, L> Solution<M, L> {
             .count()
     }
 
-    /// What happened to the unilateral contacts, in order.
+    /// The events of the unilateral contacts, in order.
     pub fn contact_events(&self) -> &[ContactEvent<Coordinates<M>>] {
         &self.unilateral.events
     }
 
-    /// What unilateral contacts do at a time within the run: at that of a change, what they do after it.
+    /// The phase of the unilateral contacts at a time within the run; at a change, the phase after it.
     fn phase_at(&self, t: f64) -> Option<&Phase<VectorOf<M>>> {
         let phases = &self.unilateral.phases;
         let after = phases.partition_point(|phase| phase.since <= t);
         phases.get(after.saturating_sub(1))
     }
 
-    /// What the unilateral contacts did, from one change to the next.
+    /// The phases of the unilateral contacts, from one change to the next.
     pub fn contact_phases(&self) -> impl ExactSizeIterator<Item = ContactPhase<'_>> {
         self.unilateral.phases.iter().map(Phase::told)
     }
 
-    /// What unilateral contacts that yield hold, in J.
+    /// The energy stored in compliant unilateral contacts, in J.
     fn stored(&self, t: f64, q: &VectorOf<M>, v: &VectorOf<M>) -> f64 {
         if M::System::MAY_COLLIDE
             && let Some(phase) = self.phase_at(t)
@@ -427,29 +424,29 @@ impl<M: Machine, L> Solution<M, L> {
         modes.map(|mode| *mode != Mode::Open).collect()
     }
 
-    /// When the run went on by time stepping, and when it found every event again, in turn; none where
-    /// [`hand_over`](crate::Simulation::hand_over) was not asked for, or not needed.
+    /// The times at which the run changed to time stepping and back to locating every event, in order; empty if
+    /// [`hand_over`](crate::Simulation::hand_over) was not requested or not needed.
     pub fn handovers(&self) -> &[Handover] {
         &self.handovers
     }
 
-    /// By which methods the run went, since when and why, in turn; none where
-    /// [`automatic`](crate::Simulation::automatic) was not asked for.
+    /// The methods that the run used, with times and reasons, in order; empty unless [`automatic`](crate::Simulation::automatic)
+    /// was requested.
     pub fn choices(&self) -> &[MethodChoice] {
         &self.choices
     }
 
-    /// For each unilateral contact the energy that its impacts took, in J.
+    /// For each unilateral contact the energy lost in its impacts, in J.
     pub fn impact_losses(&self) -> &[f64] {
         &self.unilateral.losses
     }
 
-    /// Where energy went in each unilateral contact, if the simulation was told to keep the balance; else nothing.
+    /// The energies of each unilateral contact, if the simulation kept the energy balance; otherwise empty.
     pub fn contact_energies(&self) -> &[ContactEnergies] {
         (self.unilateral.books.last()).map_or(&[], |book| book.of_each.as_slice())
     }
 
-    /// For each unilateral contact the work that has crushed its layer until the end, in J; 0 of those without.
+    /// For each unilateral contact the work that crushed its layer until the end, in J; 0 for contacts without a layer.
     pub fn crushing_work(&self) -> Vec<f64> {
         let Some(phase) = self.unilateral.phases.last() else {
             return Vec::new();
@@ -462,13 +459,14 @@ impl<M: Machine, L> Solution<M, L> {
         (phase.touching).crushing_works(system, (self.end.t, &q, &v))
     }
 
-    /// Where the energy went, if the simulation was told to keep the balance.
+    /// The energy balance of the run, if the simulation kept it.
     pub fn energy_balance(&self) -> Option<EnergyBalance> {
         self.balance
     }
 
-    /// The same until a time within the run; until after an impact at its time. Known at the ends of steps, and between them
-    /// by cubics through what is taken there and how fast. None where the energies of the ends of steps were not kept.
+    /// [`contact_energies`](Self::contact_energies) until a time within the run; at an impact, including it. They are recorded at
+    /// the ends of steps and interpolated between them by cubic Hermite polynomials. `None` if the energies at the ends of steps
+    /// were not kept.
     pub fn contact_energies_at(&self, t: f64) -> Option<Vec<ContactEnergies>> {
         let books = &self.unilateral.books;
         if !self.settings.keep_energies || books.len() != self.energies.len() {
@@ -486,18 +484,17 @@ impl<M: Machine, L> Solution<M, L> {
         Some(of_each.collect())
     }
 
-    /// The energies at the beginning and after every step, if the simulation was told to keep their
-    /// balance.
+    /// The energies at the beginning and after every step, if the simulation kept the energy balance.
     pub fn energies(&self) -> &[Energies] {
         &self.energies
     }
 
-    /// What the run cost.
+    /// The cost of the run.
     pub fn statistics(&self) -> Statistics {
         self.statistics
     }
 
-    /// What the user should know although the run ended well.
+    /// Warnings about a run that did not fail.
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings
     }
@@ -508,8 +505,8 @@ impl<M: Machine, L> Solution<M, L> {
     }
 }
 
-/// What happened, without what would make [`Solution::at`] possible: ask for [`samples`](crate::Simulation::every) where the motion is
-/// to be told.
+/// Serializes the results without the steps that [`Solution::at`] needs; request [`samples`](crate::Simulation::every) to
+/// include the motion.
 #[cfg(feature = "serde")]
 impl<M: Machine<System: System<Coordinates: serde::Serialize>>, L> serde::Serialize
     for Solution<M, L>
@@ -546,7 +543,7 @@ impl<M: Machine, L> Debug for Solution<M, L> {
     }
 }
 
-/// Evaluates a run at times that mostly follow one another.
+/// Evaluates a run at times that are mostly in order.
 struct Sampler<'a, M: Machine, L> {
     run: &'a Solution<M, L>,
     interpolant: Option<(usize, Interpolant<VectorOf<M>>)>,
@@ -597,7 +594,7 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
                 + run.stored(t, &q, &v),
             ..*before
         };
-        // In parts, where the motion within a step is of a higher degree.
+        // The motion within a step of a series has a higher degree, so the integral is taken in parts.
         let is_series = |of: &Steps<_>| of.method(*index).kind == Kind::Series;
         let parts = if run.steps.as_ref().is_some_and(is_series) {
             4
@@ -633,7 +630,7 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
         Ok(energies)
     }
 
-    /// The step that `t` is in, and the motion within it.
+    /// The step that contains `t`, and the motion within it.
     fn interpolant(&mut self, t: f64) -> Result<&(usize, Interpolant<VectorOf<M>>), Error> {
         let Solution {
             system, start, end, ..
@@ -668,8 +665,8 @@ type VectorOf<M> = <<M as Machine>::System as System>::Vector;
 /// Coordinates and rates.
 type Pair<M> = (VectorOf<M>, VectorOf<M>);
 
-/// Nodes and weights of Gauss's formula with five of them, on [−1, 1]: exact up to degree 9, where
-/// the motion within a step has degree 7.
+/// Nodes and weights of the Gauss formula with five nodes on [−1, 1]. It is exact up to degree 9; the motion within a step
+/// has degree 7.
 const GAUSS: [(f64, f64); 5] = [
     (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
     (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
@@ -678,12 +675,12 @@ const GAUSS: [(f64, f64); 5] = [
     (0.906_179_845_938_664, 0.236_926_885_056_189_1),
 ];
 
-/// Whether a finite time is another one but for roundoff.
+/// Whether a finite time equals another to round-off.
 fn is_near(one: f64, other: f64) -> bool {
     one.is_finite() && (one - other).abs() <= 4.0 * f64::EPSILON * one.abs().max(other.abs())
 }
 
-/// Whether `t` is at or past `end`, or before it by roundoff only, in the direction of `interval`.
+/// Whether `t` is at or past `end`, or before it only by round-off, in the direction of `interval`.
 pub(crate) fn is_beyond(t: f64, end: f64, interval: f64) -> bool {
     let roundoff = 4.0 * f64::EPSILON * end.abs().max(t.abs());
     (end - t) * interval.signum() <= roundoff

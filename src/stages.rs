@@ -1,8 +1,7 @@
 //! The arithmetic of a step: weighted sums over its stages, for a few coordinates at a time.
 //!
-//! These loops are all that an integrator adds to the evaluations of a machine, so they are written
-//! for the processor: sums of 4, 2 or 1 coordinates stay in its registers, and the compiler makes
-//! vector instructions of them.
+//! These loops are the whole overhead of an integrator beside the evaluations of a machine, so they are written for speed: sums of
+//! 4, 2 or 1 coordinates stay in registers, and the compiler vectorizes them.
 
 use crate::Vector;
 use crate::compensated::{Sum, two_sum};
@@ -11,7 +10,7 @@ use crate::methods::{MAX_STAGES, Row};
 use crate::scalar::Scalar;
 use crate::step_number::StepNumber;
 
-/// A state, with what rounding took from it.
+/// A state, with the low parts of its compensated sums.
 #[derive(Clone, Debug)]
 pub(crate) struct Point<V, N = f64> {
     pub t: N,
@@ -34,7 +33,7 @@ impl<N: StepNumber, V: Vector<N>> Point<V, N> {
         }
     }
 
-    /// Copies without allocating.
+    /// Copies without allocation.
     #[inline(always)]
     pub fn copy_from(&mut self, other: &Self) {
         (self.t, self.t_low) = (other.t, other.t_low);
@@ -44,7 +43,7 @@ impl<N: StepNumber, V: Vector<N>> Point<V, N> {
         self.v_low.clone_from(&other.v_low);
     }
 
-    /// Sets the time to the end of a step of length `h` from `before`: exactly to `end` where `is_last` holds.
+    /// Sets the time to the end of a step of length `h` from `before`, and exactly to `end` where `is_last` holds.
     #[inline(always)]
     pub fn set_time(&mut self, before: &Self, h: N, (end, is_last): (N, &N::Each<bool>)) {
         let (t, t_low) = two_sum(before.t, before.t_low + h);
@@ -52,7 +51,7 @@ impl<N: StepNumber, V: Vector<N>> Point<V, N> {
         self.t_low = N::NOTHING.where_true(is_last, t_low);
     }
 
-    /// Time, with what rounding took from it.
+    /// The time as a compensated sum.
     pub fn time(&self) -> Sum<N> {
         Sum {
             high: self.t,
@@ -62,7 +61,7 @@ impl<N: StepNumber, V: Vector<N>> Point<V, N> {
 }
 
 impl<V: Vector> Point<V> {
-    /// The state as one that may be moved.
+    /// The state as one that can be projected.
     pub fn place(&mut self) -> Place<'_, V> {
         Place {
             t: self.t,
@@ -72,8 +71,7 @@ impl<V: Vector> Point<V> {
     }
 }
 
-/// Does something for blocks of `B` = 4, 2 and 1 coordinates from `start` that make up `$n` of
-/// them.
+/// Evaluates `$body` for blocks of `B` = 4, 2 and 1 coordinates from `start` that together cover `$n` coordinates.
 macro_rules! in_blocks {
     ($n:expr, |$start:ident, $B:ident| $body:expr) => {{
         let n = $n;
@@ -96,8 +94,8 @@ macro_rules! in_blocks {
 }
 pub(crate) use in_blocks;
 
-/// `Σⱼ w̄ⱼ kⱼ` and `Σⱼ wⱼ kⱼ` for `B` coordinates from `start`: what positions and velocities take
-/// from the stages. In registers `R`; products and sums are rounded each, so that it has the same bits in all of them.
+/// `Σⱼ w̄ⱼ kⱼ` and `Σⱼ wⱼ kⱼ` for `B` coordinates from `start`, the contributions of the stages to positions and velocities, in
+/// registers `R`. Products and sums are rounded individually, so that the bits are the same in all registers.
 #[inline(always)]
 pub(crate) fn weigh<const B: usize, R, V>(
     row: &Row,
@@ -148,10 +146,10 @@ pub(crate) fn weigh_one<N: StepNumber, V: Vector<N>>(
     [position, velocity]
 }
 
-/// `B` numbers from `start`, in registers.
+/// Loads `B` numbers from `start` into registers.
 #[inline(always)]
 fn load<const B: usize, R: Scalar, V: Vector<R::Stored>>(vector: &V, start: usize) -> [R; B] {
-    // No closure: what is called for each number is not inlined into code for wide registers.
+    // No closure, since functions that are called for each number are not inlined into code for wide registers.
     let slice = &vector.as_slice()[start..start + B];
     let mut block = [R::ZERO; B];
     for (number, stored) in block.iter_mut().zip(slice) {
@@ -160,7 +158,7 @@ fn load<const B: usize, R: Scalar, V: Vector<R::Stored>>(vector: &V, start: usiz
     block
 }
 
-/// Puts `B` numbers where they belong, from `start`.
+/// Stores `B` numbers from `start`.
 #[inline(always)]
 fn store<const B: usize, R: Scalar, V: Vector<R::Stored>>(
     vector: &mut V,
@@ -173,17 +171,17 @@ fn store<const B: usize, R: Scalar, V: Vector<R::Stored>>(
     }
 }
 
-/// `B` numbers from `start`.
+/// Copies `B` numbers from `start`.
 #[inline(always)]
 pub(crate) fn block<const B: usize, N: Copy, V: Vector<N>>(vector: &V, start: usize) -> [N; B] {
-    // No closure: what is called for each number is not inlined into code for wide registers.
+    // No closure, since functions that are called for each number are not inlined into code for wide registers.
     let slice = &vector.as_slice()[start..start + B];
     let mut block = [slice[0]; B];
     block.copy_from_slice(slice);
     block
 }
 
-/// State at a stage, `ch = cᵢ h` of the way: `qᵢ = q + cᵢ h v + h² Σ āᵢⱼ kⱼ`, `vᵢ = v + h Σ aᵢⱼ kⱼ`.
+/// The state at a stage, after the fraction `cᵢ` of the step, `ch = cᵢ h`: `qᵢ = q + cᵢ h v + h² Σ āᵢⱼ kⱼ`, `vᵢ = v + h Σ aᵢⱼ kⱼ`.
 #[inline(always)]
 pub(crate) fn stage_state<R, V>(
     (row, ch, h): (&Row, R::Stored, R::Stored),
@@ -208,7 +206,7 @@ pub(crate) fn stage_state<R, V>(
     });
 }
 
-/// State at the end of a step: the sums of [`stage_state`], compensated.
+/// The state at the end of a step: the sums of [`stage_state`], compensated.
 #[inline(always)]
 pub(crate) fn advance_state<R, V>(
     (row, h): (&Row, R::Stored),
@@ -244,7 +242,7 @@ pub(crate) fn advance_state<R, V>(
     });
 }
 
-/// The squares of the estimated errors of all coordinates and rates by each of these rows, relative to what is tolerable, added up
+/// The sum over all coordinates and rates of the squares of the errors estimated by each of these rows, relative to the tolerance,
 /// for each trajectory; see [`StepNumber::squared_errors`].
 #[inline(always)]
 pub(crate) fn squared_errors<const K: usize, R, N, V>(
@@ -300,7 +298,7 @@ where
     sums
 }
 
-/// Adds numbers to numbers.
+/// Adds terms to sums.
 #[inline(always)]
 pub(crate) fn add(sums: &mut impl AsMut<[f64]>, terms: &impl AsRef<[f64]>) {
     for (sum, term) in sums.as_mut().iter_mut().zip(terms.as_ref()) {
@@ -311,8 +309,8 @@ pub(crate) fn add(sums: &mut impl AsMut<[f64]>, terms: &impl AsRef<[f64]>) {
 /// Whether all numbers are finite, in all trajectories.
 #[inline(always)]
 pub(crate) fn are_all_finite<R: Scalar>(numbers: &[R::Stored]) -> bool {
-    // The sum of what is not finite is not finite, and one test is cheaper than many. In registers: of a loop over the lanes of each
-    // number the compiler makes something slower than the evaluation of a small machine.
+    // If any number is not finite, the sum is not, and one test is cheaper than many. The sum stays in registers: a loop over the
+    // lanes of each number would be slower than the evaluation of a small machine.
     let mut sum = R::ZERO;
     for number in numbers {
         sum = sum + R::load(*number);

@@ -1,4 +1,4 @@
-//! Why a step could not be taken.
+//! Errors of steps.
 
 use core::fmt::{self, Display};
 
@@ -8,18 +8,18 @@ use crate::{Stepper, System};
 
 /// Why a step could not be taken. Coordinates are given by their index.
 ///
-/// A [`Simulation`](crate::Simulation) says the same in the words of the machine
+/// A [`Simulation`](crate::Simulation) reports the same with the names of the machine
 #[cfg_attr(feature = "std", doc = "([`Error::of_step`](crate::Error::of_step)).")]
 #[cfg_attr(not(feature = "std"), doc = "(with the feature `std`).")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum StepError {
-    /// A stepper is to go to a time that is infinite or not a number.
+    /// A stepper was sent to a time that is infinite or not a number.
     NoTime {
         /// That time.
         t: f64,
     },
-    /// The motion within the last step was asked for at a time outside of it, or before there is a step.
+    /// The motion within the last step was requested at a time outside of it, or before there was a step.
     OutsideStep {
         /// That time, in s.
         t: f64,
@@ -45,91 +45,92 @@ pub enum StepError {
     },
     /// Constraints contradict each other, or have no solution near the state.
     Inconsistent {
-        /// The one that is violated the most.
+        /// The constraint that is violated most.
         constraint: usize,
         /// Its residual, relative to the size of its terms.
         residual: f64,
         /// Time, in s.
         t: f64,
     },
-    /// The method is [`TAYLOR`](crate::TAYLOR), and the machine does not know the series of its motion
+    /// The method is [`TAYLOR`](crate::TAYLOR), and the machine does not have the series of its motion
     /// ([`System::check_series`]), or it has inputs that change while it runs.
     NoSeries {
-        /// Whether it is because of the inputs.
+        /// Whether the inputs are the reason.
         inputs: bool,
         /// Time, in s.
         t: f64,
     },
-    /// [`System::with_workspace`] gives no workspace for the work on constraints; or the method is implicit or by
-    /// series, and there is no allocator (feature `std`).
+    /// [`System::with_workspace`] provides no workspace for constraints; or the method is implicit or by series, and
+    /// there is no allocator (feature `std`).
     NoWorkspace {
         /// Time, in s.
         t: f64,
     },
-    /// The motion within the last step was asked for after [`Stepper::inputs_changed`], and the method
-    /// needs evaluations for it, which would not be those of that step. Ask before.
+    /// The motion within the last step was requested after [`Stepper::inputs_changed`], and the method needs
+    /// evaluations for it, which would no longer be those of that step. Request it before.
     Changed {
         /// Time, in s.
         t: f64,
     },
-    /// Unilateral contacts leave the run no way on, or are at work where only a
+    /// The run cannot continue because of unilateral contacts, or there are some where only a
     /// [`Simulation`](crate::Simulation) can follow them.
     Contact {
-        /// One of them.
+        /// One of these contacts.
         contact: usize,
-        /// Why.
+        /// The reason.
         trouble: ContactTrouble,
         /// Time, in s.
         t: f64,
     },
-    /// The method takes steps of a fixed length, and none is set ([`Stepper::set_longest_step`]).
+    /// The method takes steps of a fixed length, and none was set ([`Stepper::set_longest_step`]).
     NoLength {
         /// Time, in s.
         t: f64,
     },
-    /// The method cannot follow such a machine.
+    /// The method cannot follow this machine.
     Unsuited {
-        /// Why not, as the end of a sentence that begins with the machine: `it has contacts`.
+        /// The reason, as the end of a sentence whose subject is the machine: `it has contacts`.
         reason: &'static str,
         /// Time, in s.
         t: f64,
     },
-    /// The equations of a step of fixed length have no solution that is found: the step is too long for the machine.
+    /// No solution of the equations of a step of fixed length was found: the step is too long for the machine.
     NotSolved {
         /// Time at the beginning of the step, in s.
         t: f64,
         /// Its length, in s.
         step: f64,
     },
-    /// The method is implicit or by series, and the stepper takes explicit ones only.
+    /// The method is implicit or by series, and the stepper takes explicit methods only.
     NotExplicit {
         /// Time, in s.
         t: f64,
     },
-    /// The numbers have more digits than `f64`, and the coefficients of the method are not known to more.
+    /// The numbers have more digits than `f64`, but the coefficients of the method are known only to those of `f64`.
     FewDigits {
         /// Time, in s.
         t: f64,
     },
-    /// The machine has constraints or contacts, which only a [`Stepper`] keeps, or a [`Simulation`](crate::Simulation).
+    /// The machine has constraints or contacts, which only a [`Stepper`] or a
+    /// [`Simulation`](crate::Simulation) supports.
     NotFree {
         /// Time, in s.
         t: f64,
     },
-    /// A trajectory, or the way to a time, takes more steps than it may.
+    /// A trajectory, or the motion to a requested time, takes more steps than allowed.
     TooManySteps {
-        /// How many it may take.
+        /// The number of steps allowed.
         steps: usize,
         /// Time, in s.
         t: f64,
     },
-    /// The step has shrunk to the roundoff of time, and its error is still too great.
+    /// The step has shrunk to the round-off of time, and its error is still too large.
     StepTooSmall {
-        /// The coordinate with the greatest error.
+        /// The coordinate with the largest error.
         coordinate: usize,
         /// Time, in s.
         t: f64,
-        /// The step that was given up, in s.
+        /// The length of the step that was rejected, in s.
         step: f64,
     },
 }

@@ -1,4 +1,4 @@
-//! The numbers that explicit methods take steps in.
+//! The numbers in which explicit methods take steps.
 
 use core::fmt::Debug;
 use core::ops::{Add, Mul, Neg, Sub};
@@ -12,10 +12,10 @@ pub trait Real: Number + Scalar<Stored = Self> + StepNumber {}
 
 impl<N: Number + Scalar<Stored = N> + StepNumber> Real for N {}
 
-/// What the arithmetic of a step asks of a number: `f32`, `f64`, [`DoubleDouble`], [`Dual`] numbers of these, and [`Lanes`], in
-/// which several trajectories lie side by side.
+/// The operations on numbers that a step needs: `f32`, `f64`, [`DoubleDouble`], [`Dual`] numbers of these, and [`Lanes`], which
+/// hold several trajectories side by side.
 ///
-/// How long a step is, and whether it was good, is decided in `f64`, for each trajectory by itself.
+/// The length of a step and its acceptance are decided in `f64`, for each trajectory separately.
 pub trait StepNumber:
     sealed::Sealed
     + Copy
@@ -26,38 +26,39 @@ pub trait StepNumber:
     + Mul<Output = Self>
     + Neg<Output = Self>
 {
-    /// A `T` for each trajectory.
+    /// One `T` for each trajectory.
     type Each<T: Copy + Debug>: Copy + Debug + AsRef<[T]> + AsMut<[T]>;
 
     /// 0.
     const NOTHING: Self;
-    /// How many numbers one is made of whose errors count: 2 in a dual number.
+    /// The number of numbers in one whose errors count: 2 in a dual number.
     const PARTS: usize;
     /// Whether it has more digits than `f64`, so that coefficients of methods need more as well.
     const IS_WIDE: bool;
-    /// Half of the distance of 1 from the next number, doubled.
+    /// The distance from 1 to the next larger number.
     const EPSILON: f64;
-    /// The length below which a step is none, in s.
+    /// The length below which a step is too small, in s.
     const LEAST_STEP: f64;
-    /// The tolerance where nobody gives one.
+    /// The default tolerance.
     const TOLERANCE: f64;
 
-    /// Something for each trajectory.
+    /// One value for each trajectory.
     fn each<T: Copy + Debug>(of: impl FnMut(usize) -> T) -> Self::Each<T>;
     /// A number from `f64`, one for each trajectory.
     fn gather(numbers: Self::Each<f64>) -> Self;
     /// The nearest `f64`, for each trajectory.
     fn rounded(self) -> Self::Each<f64>;
-    /// `self` times a coefficient of a method, which is the sum of an `f64` and of what that leaves out.
+    /// `self` times a coefficient of a method, which is the sum of an `f64` and its remainder.
     fn weighted(self, coefficient: f64, beyond: f64) -> Self;
-    /// For each trajectory, whether it is a number.
+    /// For each trajectory, whether it is finite.
     fn are_finite(self) -> Self::Each<bool>;
     /// For each trajectory, whether two numbers are the same.
     fn are_same(self, other: Self) -> Self::Each<bool>;
-    /// `self` where `condition` holds, else `other`.
+    /// `self` where `condition` holds, otherwise `other`.
     fn where_true(self, condition: &Self::Each<bool>, other: Self) -> Self;
-    /// For each trajectory the squares of these errors, relative to what is tolerable in a number that is `sizes` at the two ends
-    /// of a step: `absolute + relative |y|`. Of a dual number, the sums of those of the value and of the derivative.
+    /// For each trajectory the squares of these errors, relative to the tolerance for a number whose values at the two ends
+    /// of a step are `sizes`: `absolute + relative |y|`. For a dual number, the sums of the squares for the value and for
+    /// the derivative.
     fn squared_errors<const K: usize>(
         errors: [Self; K],
         sizes: [Self; 2],
@@ -77,16 +78,16 @@ mod sealed {
     impl<const W: usize> Sealed for Lanes<W> {}
 }
 
-/// The error that is tolerable in a number.
+/// The tolerable error of a number.
 #[inline(always)]
 fn tolerable([before, now]: [f64; 2], absolute: f64, relative: f64) -> f64 {
     let (before, now) = (before.abs(), now.abs());
-    // Not `max`, which costs more because it passes over what is not a number.
+    // Not `max`, which costs more because it ignores NaN.
     let size = if before > now { before } else { now };
     absolute + relative * size
 }
 
-/// What all numbers of one trajectory have in common.
+/// The items that are the same for all numbers with one trajectory.
 macro_rules! one_trajectory {
     () => {
         type Each<T: Copy + Debug> = [T; 1];
@@ -125,7 +126,7 @@ macro_rules! one_trajectory {
     };
 }
 
-/// Numbers whose errors are measured in `f64`.
+/// Implements `StepNumber` for numbers whose errors are measured in `f64`.
 macro_rules! simple {
     ($($number:ty: $is_wide:literal, $epsilon:expr, $least:literal, $tolerance:literal, |$of:ident, $coefficient:ident, $beyond:ident| $weighted:expr;)*) => {$(
         impl StepNumber for $number {
@@ -163,13 +164,13 @@ macro_rules! simple {
 simple! {
     f32: false, f32::EPSILON as f64, 1e-36, 1e-5, |x, coefficient, _beyond| coefficient as f32 * x;
     f64: false, f64::EPSILON, 1e-290, 1e-9, |x, coefficient, _beyond| coefficient * x;
-    // The sum of two has an error of 2⁻¹⁰⁴ at the most.
+    // The sum of two has an error of at most 2⁻¹⁰⁴.
     DoubleDouble: true, f64::EPSILON * f64::EPSILON, 1e-260, 1e-24,
         |x, coefficient, beyond| (Self::from_f64(coefficient) + Self::from_f64(beyond)) * x;
 }
 
-/// The derivative of a run is that of its steps, whose lengths are held: so it is exact to the rounding of the derivative of what
-/// is computed, and its error is kept like that of the run.
+/// The derivative of a run is that of its steps with their lengths held fixed. So it is exact, to rounding, as the derivative of
+/// the computed result, and its error is controlled like that of the run.
 impl<N: Scalar + StepNumber<Each<f64> = [f64; 1]>> StepNumber for Dual<N> {
     one_trajectory!();
     const PARTS: usize = 2 * N::PARTS;
@@ -193,7 +194,7 @@ impl<N: Scalar + StepNumber<Each<f64> = [f64; 1]>> StepNumber for Dual<N> {
         absolute: Self,
         relative: f64,
     ) -> [[f64; 1]; K] {
-        // A tolerance is no function of what is varied: the derivative has that of the value.
+        // The tolerance does not depend on the variable: the derivative has the tolerance of the value.
         let [mut squares, derivatives] =
             [|of: Self| of.value, |of: Self| of.derivative].map(|part| {
                 N::squared_errors(errors.map(part), sizes.map(part), absolute.value, relative)
@@ -205,7 +206,7 @@ impl<N: Scalar + StepNumber<Each<f64> = [f64; 1]>> StepNumber for Dual<N> {
     }
 }
 
-// Loops and no closures: what is called for each lane is not inlined into code for wide registers.
+// Loops and no closures, since functions that are called for each lane are not inlined into code for wide registers.
 impl<const W: usize> StepNumber for Lanes<W> {
     type Each<T: Copy + Debug> = [T; W];
 

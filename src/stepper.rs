@@ -1,5 +1,5 @@
-//! One step after another: the core that every run goes through. It allocates nothing, and needs no
-//! standard library; methods whose stages depend on each other have their memory from an allocator.
+//! The stepper: takes one step after another, with constraints and contacts. Every run is built on it. It allocates nothing and needs no
+//! standard library, except for implicit methods, whose memory comes from an allocator.
 
 #[cfg(feature = "std")]
 mod along_dense_output;
@@ -63,17 +63,16 @@ use of_fixed_length::Fixed;
 #[cfg(feature = "std")]
 use std::boxed::Box;
 
-/// A test of stiffness follows every so many steps, as in DOP853.
+/// A stiffness test is made every so many steps, as in DOP853.
 const STEPS_BETWEEN_STIFFNESS_TESTS: usize = 1000;
 
-/// Where constraints come to depend on each other, what goes across them is rounding up to this, relative and
-/// absolute: 10⁻¹⁶ in a constraint are 10⁻⁵ in the accelerations of a stage where the weakest row has 3·10⁻⁴
-/// of its length left, and a hundredth of that in what a step makes of them.
+/// When constraints become dependent, errors across them up to this, relative and absolute, are round-off: 10⁻¹⁶ in a constraint becomes
+/// 10⁻⁵ in the accelerations of a stage if the weakest row has 3·10⁻⁴ of its length left, and a hundredth of that in the result of a step.
 const ACROSS: f64 = 1e-7;
 
 /// Advances the state of a system, step by step, with steps as long as the tolerance allows.
 ///
-/// State and time are compensated sums: steps add up without roundoff of their own.
+/// State and time are compensated sums, so adding up steps contributes no round-off.
 #[derive(Clone, Debug)]
 pub struct Stepper<'s, S: System, L = DefaultInputs, A = NoBalance> {
     method: &'static Method,
@@ -83,46 +82,46 @@ pub struct Stepper<'s, S: System, L = DefaultInputs, A = NoBalance> {
     end: f64,
     longest: f64,
 
-    /// Now.
+    /// The present state.
     now: Point<S::Vector>,
-    /// The beginning of the last step; now, before the first.
+    /// The beginning of the last step; equal to `now` before the first.
     before: Point<S::Vector>,
-    /// Accelerations at the stages of the last step; the first is that of `before`.
+    /// Accelerations at the stages of the last step; the first one belongs to `before`.
     k: [S::Vector; MAX_STAGES],
-    /// Which of them is the acceleration now.
+    /// The index of the present acceleration in `k`.
     newest: usize,
-    /// State at a stage.
+    /// The state at a stage.
     stage: (S::Vector, S::Vector),
 
-    /// How long steps are.
+    /// Step size control.
     control: Control,
-    /// How many steps one [`advance_to`](Self::advance_to) may take.
+    /// The largest number of steps of one [`advance_to`](Self::advance_to).
     max_steps: usize,
     stiffness: Stiffness,
-    /// How many steps lie between two tests of it.
+    /// Number of steps between two stiffness tests.
     between_tests: usize,
-    /// Whether the acceleration now has to be found again, since what it depends on has changed.
+    /// Whether the present acceleration must be evaluated again, since something that it depends on has changed.
     changed: bool,
-    /// None in explicit methods.
+    /// `None` for explicit methods.
     #[cfg(feature = "std")]
     implicit: Option<Box<Implicit>>,
-    /// None in methods that are not by series.
+    /// `None` unless the method is by Taylor series.
     #[cfg(feature = "std")]
     taylor: Option<Box<Taylor<S::Vector>>>,
-    /// None in methods other than time stepping.
+    /// `None` unless the method is time stepping.
     #[cfg(feature = "std")]
     impulses: Option<Box<InImpulses<S::Vector>>>,
-    /// None in methods whose steps have no fixed length, and in those that need no memory of their own.
+    /// `None` for methods with steps of variable length, and for those that need no memory of their own.
     #[cfg(feature = "std")]
     fixed: Option<Box<Fixed<S::Vector, S::Matrix>>>,
 }
 
-/// How long a step may be at its beginning, in s.
+/// Limits on the length of a step at its beginning, in s.
 #[derive(Clone, Copy, Debug)]
 struct Room {
-    /// What is shorter is no step.
+    /// Below this length a step is too small.
     least: f64,
-    /// As far as to the end, with its sign.
+    /// The signed distance to the end.
     left: f64,
 }
 
@@ -132,16 +131,16 @@ struct Model<'s, S: System, L> {
     system: Whose<'s, S>,
     law: L,
     inputs: S::Inputs,
-    /// None if the machine has no constraints.
+    /// `None` if the machine has no constraints.
     constraints: Option<Constraints<S::Vector>>,
-    /// None if it has no contacts.
+    /// `None` if it has no guided contacts.
     contacts: Option<Contacts>,
-    /// None if it has no unilateral contacts; if it has, what of them is closed is among `constraints`.
+    /// `None` if it has no unilateral contacts. The closed ones are among `constraints`.
     #[cfg(feature = "std")]
     touching: Option<Touching>,
 }
 
-/// Signs of stiffness, as in DOP853 (section IV.2 of the second volume).
+/// State of the stiffness test of DOP853 (section IV.2 of the second volume).
 #[derive(Clone, Copy, Debug, Default)]
 struct Stiffness {
     signs: u32,
@@ -150,11 +149,11 @@ struct Stiffness {
 }
 
 impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
-    /// Makes ready to go from time `t`, with `q` and `v`, to time `end`, later or earlier. A machine
-    /// with constraints starts at the state on them that is nearest, in the metric of its inertia.
+    /// Prepares a motion from time `t`, with `q` and `v`, to time `end`, later or earlier. A machine with constraints starts at the
+    /// nearest state that satisfies them, in the metric of its inertia.
     ///
-    /// Fails where the accelerations at the start have no value, or no state near is on the
-    /// constraints.
+    /// # Errors
+    /// If the accelerations at the start have no value, or no state nearby satisfies the constraints.
     pub fn new(
         system: &'s S,
         law: L,
@@ -169,9 +168,9 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         Self::begun(system, law, quadratures, method, tolerance, start, end)
     }
 
-    /// Whether a stepper alone can follow a machine.
+    /// Checks that a stepper alone can follow a machine.
     fn check(system: &S, start: &(f64, S::Vector, S::Vector)) -> Result<(), StepError> {
-        // Impacts and changes of unilateral contacts are events, which a run finds.
+        // Impacts and changes of unilateral contacts are events, which only a run locates.
         if system.unilateral_contacts().len() != 0 {
             return Err(StepError::Contact {
                 contact: 0,
@@ -182,7 +181,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         Ok(())
     }
 
-    /// [`new`](Self::new) for a run, which finds the events of unilateral contacts.
+    /// [`new`](Self::new) for a run, which locates the events of unilateral contacts.
     pub(crate) fn begun(
         system: Whose<'s, S>,
         law: L,
@@ -351,10 +350,10 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         self.control.last_step
     }
 
-    /// The motion within the last step, at the fraction `theta` of it: cheap and of order 5, good
-    /// enough to look for events with. It costs no evaluation, where [`interpolant`](Self::interpolant) may.
+    /// The motion within the last step at the fraction `theta` of it, as the Hermite polynomial of order 5, which is accurate enough for
+    /// the search for events. Unlike [`interpolant`](Self::interpolant) it never costs an evaluation.
     ///
-    /// In a step by Taylor series it is the polynomial of the step, of its order.
+    /// For a step by Taylor series it is the polynomial of the step, of the order of the method.
     pub fn hermite(&self, theta: f64) -> (S::Vector, S::Vector) {
         #[cfg(feature = "std")]
         if let Some(coefficients) = self.coefficients() {
@@ -369,65 +368,65 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         )
     }
 
-    /// Beginning of the last step, with what rounding took from it.
+    /// Time at the beginning of the last step, with the compensation of its rounding.
     #[cfg(feature = "std")]
     pub(crate) fn beginning(&self) -> Sum {
         self.before.time()
     }
 
-    /// Accelerations at the stages of the last step; the first is that at its beginning.
+    /// Accelerations at the stages of the last step; the first one is at its beginning.
     #[cfg(feature = "std")]
     pub(crate) fn stages(&self) -> &[S::Vector; MAX_STAGES] {
         &self.k
     }
 
-    /// The inputs as they were at the last evaluation: after a step, those of now.
+    /// The inputs of the last evaluation, which after a step are those of the present state.
     pub fn inputs(&self) -> &S::Inputs {
         &self.model.inputs
     }
 
-    /// The greatest residual of the constraints after any step, relative to the size of their
-    /// terms; 0 for a machine without constraints.
+    /// The largest residual of the constraints after any step, relative to the size of their terms; 0 for a machine without constraints.
     ///
-    /// On positions, `gₖ` relative to `Σⱼ |∂gₖ/∂qⱼ| |qⱼ|`; on rates, relative to `Σⱼ |Gₖⱼ| |vⱼ| +
-    /// |∂gₖ/∂t|`; with the greatest `|qⱼ|` and `|vⱼ|` so far, an angle being at least 1 rad.
+    /// For positions it is `gₖ` relative to `Σⱼ |∂gₖ/∂qⱼ| |qⱼ|`; for rates, relative to
+    /// `Σⱼ |Gₖⱼ| |vⱼ| + |∂gₖ/∂t|`. `|qⱼ|` and `|vⱼ|` are the largest values so far; an angle counts as
+    /// at least 1 rad.
     pub fn constraint_residual(&self) -> f64 {
         let constraints = self.model.constraints.as_ref();
         constraints.map_or(0.0, |constraints| constraints.greatest_residual)
     }
 
-    /// The error that a step may make in a coordinate, or in its rate, of this size.
+    /// The tolerable error of a step in a coordinate, or its rate, of this size.
     pub(crate) fn tolerable(&self, coordinate: usize, size: f64) -> f64 {
         let Tolerance { relative, absolute } = &self.tolerance;
         absolute.as_slice()[coordinate] + relative * size.abs()
     }
 
-    /// The share of a size that a step may be wrong by.
+    /// The relative tolerance.
     #[cfg(feature = "std")]
     pub(crate) fn relative_tolerance(&self) -> f64 {
         self.tolerance.relative
     }
 
-    /// Whether the stages of its method depend on each other.
+    /// Whether the stages of the method are coupled.
     #[cfg(feature = "std")]
     pub(crate) fn is_implicit(&self) -> bool {
         self.implicit.is_some()
     }
 
-    /// What is known of the constraints.
+    /// The state of the constraints.
     #[cfg(feature = "std")]
     pub(crate) fn constraints(&self) -> &Option<Constraints<S::Vector>> {
         &self.model.constraints
     }
 
-    /// What is known of the contacts.
+    /// The state of the guided contacts.
     #[cfg(feature = "std")]
     pub(crate) fn contacts(&self) -> &Option<Contacts> {
         &self.model.contacts
     }
 
-    /// Goes on to `end` with contacts in other states: the motion is continuous, and the
-    /// accelerations jump. `is_at_once` says that the state that ended had only just begun.
+    /// Continues to `end` with contacts in other states: the motion is continuous and the accelerations jump. `is_at_once` says that the
+    /// state that ended had only just begun.
     #[cfg(feature = "std")]
     pub(crate) fn change(
         &mut self,
@@ -448,8 +447,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             let system = model.system.get();
             let has_veered = contacts.change(system, at, place.v, change, is_at_once)?;
             if has_veered && is_at_once {
-                // The slip cannot turn in no time: it is the tangents that jump here, as every field of them does somewhere on a sphere.
-                // The next step is to begin behind that.
+                // The slip cannot turn instantaneously. It is the field of tangents that is discontinuous here, as every such field is
+                // somewhere on a sphere. The next step has to begin beyond the discontinuity.
                 move_by_rounding(&mut now.q, &now.v);
                 contacts.take_headings(system, now.t, &now.q, &now.v);
             }
@@ -480,18 +479,17 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         self.control.work
     }
 
-    /// The quadratures so far: what is integrated beside the motion.
+    /// The quadratures so far, which are integrated along the motion.
     pub fn quadratures(&self) -> &A {
         &self.quadratures
     }
 
-    /// The step to be tried next, in s.
+    /// The length of the next step to be tried, in s.
     pub fn next_step(&self) -> f64 {
         self.control.step
     }
 
-    /// When the motion was first seen to be stiff: when steps were held short by the stability of
-    /// the method and not by its accuracy.
+    /// When the motion was first detected to be stiff: from then on the stability of the method and not its accuracy limits the steps.
     pub fn stiff_since(&self) -> Option<f64> {
         self.stiffness.since
     }
@@ -501,29 +499,29 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         self.now.t == self.end
     }
 
-    /// Sets the length of the first step, which otherwise is chosen by the motion at the start.
+    /// Sets the length of the first step, which is otherwise chosen from the motion at the start.
     pub fn set_first_step(&mut self, step: f64) {
         self.control.step = step.copysign(self.end - self.now.t);
     }
 
-    /// Sets the greatest length of a step, in s; what is not greater than 0 sets none.
+    /// Sets the longest step, in s; a value that is not greater than 0 removes the limit.
     pub fn set_longest_step(&mut self, step: f64) {
         self.longest = control::longest(step);
     }
 
-    /// Sets how many steps one [`advance_to`](Self::advance_to) may take, ten million if nobody says; one that would take more is an
-    /// error. In a loop of a fixed rate it bounds the time that the stepper takes.
+    /// Sets the largest number of steps of one [`advance_to`](Self::advance_to), ten million by default; if more are needed, it returns an
+    /// error. In a loop of a fixed rate this bounds the execution time.
     pub fn set_max_steps(&mut self, steps: usize) {
         self.max_steps = steps;
     }
 
-    /// Says that the accelerations are others from now on, at the same state: because the law of the
-    /// inputs reads a cell that was written, or a system by hand has cells of its own. The next step
-    /// begins with a new evaluation, and forgets the derivatives that an implicit method has kept.
+    /// Declares that from now on the accelerations differ at the same state, for instance because the law of the inputs reads a cell that
+    /// was written, or a system written by hand has cells of its own. The next step begins with a new evaluation and discards the
+    /// derivatives that an implicit method has kept.
     ///
-    /// The last step stays what it was: [`hermite`](Self::hermite), [`a`](Self::a) and
-    /// [`inputs`](Self::inputs) are of before until the next one is taken. An [`interpolant`](Self::interpolant) of it has
-    /// to be taken before, if the method needs evaluations for it, and is an error after.
+    /// The last step is unaffected: [`hermite`](Self::hermite), [`a`](Self::a) and [`inputs`](Self::inputs) refer to the time before the
+    /// change until the next step is taken. If the method needs evaluations for an [`interpolant`](Self::interpolant) of the last step,
+    /// request it before; afterwards it is an error.
     ///
     /// ```
     /// # mod by_hand { include!("../tests/by_hand/toy.rs"); }
@@ -555,22 +553,20 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         self.changed = true;
     }
 
-    /// Puts another law of the same kind in the place of the one that sets the inputs, from now on; see
-    /// [`inputs_changed`](Self::inputs_changed).
+    /// Replaces the law of the inputs by another of the same type from now on; see [`inputs_changed`](Self::inputs_changed).
     pub fn set_law(&mut self, law: L) {
         self.model.law = law;
         self.changed = true;
     }
 
-    /// Puts another law in the place of the one that sets the inputs, which has the same values now: the accelerations stay as they
-    /// are.
+    /// Replaces the law of the inputs by one with the same values at the present state, so the accelerations stay as they are.
     #[cfg(feature = "std")]
     pub(crate) fn go_on_with(&mut self, law: L) {
         self.model.law = law;
     }
 
-    /// [`set_law`](Self::set_law) at a jump of the inputs: with the accelerations that follow, what sticks and slides decided anew,
-    /// and the work that the jump does on the potential energy.
+    /// [`set_law`](Self::set_law) at a jump of the inputs: evaluates the accelerations, decides anew which contacts stick and slide, and
+    /// adds the work that the jump does on the potential energy.
     #[cfg(feature = "std")]
     pub(crate) fn jump_inputs(&mut self, law: L) -> Result<(), StepError> {
         let (t, q, v) = (self.now.t, &self.now.q, &self.now.v);
@@ -590,16 +586,15 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         self.look_again()
     }
 
-    /// Goes on to another end, later or earlier than now.
+    /// Sets another end, later or earlier than now.
     pub fn set_end(&mut self, end: f64) {
         self.end = end;
         self.control.turn(end - self.now.t);
     }
 
-    /// Takes the last step back, and makes `end` the end of the run: to end a run at an event
-    /// within that step.
+    /// Undoes the last step and makes `end` the end of the run, to end a run at an event within that step.
     ///
-    /// Only one step can be taken back.
+    /// Only one step can be undone.
     pub fn retreat(&mut self, end: f64) {
         let stages = self.method.tableau.stages;
         if self.newest == stages {
@@ -621,13 +616,13 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             }
             self.quadratures.retreat(self.method.tableau.a[stages]);
             self.control.work.steps -= 1;
-            // It was short enough.
+            // This length was short enough.
             self.control.step = self.control.last_step;
         }
         self.end = end;
     }
 
-    /// Finds the acceleration now once more, where what it depends on has changed.
+    /// Evaluates the present acceleration again if something that it depends on has changed.
     #[cold]
     fn look_again(&mut self) -> Result<(), StepError> {
         let Self {
@@ -665,7 +660,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         Ok(())
     }
 
-    /// Takes one step. It ends at the end of the run, or short of it.
+    /// Takes one step, which ends at the end of the run or before it.
     pub fn step(&mut self) -> Result<(), StepError> {
         if self.is_done() {
             return Ok(());
@@ -701,7 +696,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         }
     }
 
-    /// Makes ready for the tries of a step.
+    /// Prepares the tries of a step.
     #[inline(always)]
     fn begin_tries(&mut self) -> Result<Room, StepError> {
         if self.control.work.steps == 0 && self.control.step == 0.0 {
@@ -717,7 +712,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         Ok(Room { least, left })
     }
 
-    /// The length of the next try, and whether it is of the last step.
+    /// The length of the next try, and whether it would be the last step.
     #[inline(always)]
     fn choose(&mut self, room: Room) -> (f64, bool) {
         let last = self.control.is_last(room.left, self.longest);
@@ -726,7 +721,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         (h, last)
     }
 
-    /// What becomes of a step after a try of length `h`: whether it is taken, or another try follows.
+    /// Decides about a try of length `h`: returns whether the step is taken; otherwise another try follows.
     #[inline(always)]
     fn decide(
         &mut self,
@@ -741,28 +736,27 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
                 return Ok(true);
             }
             _ if self.meets_fork(h) => {
-                // Once more, with an eye on that.
+                // Try once more, with the dependence of the constraints taken into account.
                 self.control.work.rejected += 1;
                 return Ok(false);
             }
             Ok(error) => (h * self.reduction(error), None),
-            // Perhaps a stage reached beyond where the machine can be.
+            // A stage may have left the set of states in which the machine can be.
             Err(cause) => (0.1 * h, Some(cause)),
         };
         if self.control.give_up(next, room.least) {
             return Ok(false);
         }
         let error = cause.unwrap_or_else(|| self.too_small());
-        // Now is where the last good step ended, not where this one was tried.
+        // The present state is the end of the last good step, not the end of this try.
         self.now.copy_from(&self.before);
         Err(error)
     }
 
     /// The continuous extension of the last step: the motion between its ends.
     ///
-    /// Costs the evaluations that the method needs beyond its step: 3 for `dop853`, none for the
-    /// others. The polynomials are on constraints at the ends of the step, and between them as
-    /// exactly as the method is; [`project`](Self::project) does the rest.
+    /// It costs the evaluations that the method needs beyond its step: 3 for `dop853`, none for the others. The polynomials satisfy the
+    /// constraints at the ends of the step, and between them to the accuracy of the method; [`project`](Self::project) removes the rest.
     pub fn interpolant(&mut self) -> Result<Interpolant<S::Vector>, StepError> {
         #[cfg(feature = "std")]
         if let Some(of_step) = self.coefficients() {
@@ -790,8 +784,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         })
     }
 
-    /// Projects a state within the last step onto the constraints of the machine, by the least move in
-    /// the metric of its inertia.
+    /// Projects a state within the last step onto the constraints of the machine, by the smallest move in the metric of its inertia.
     pub fn project(&self, t: f64, q: &mut S::Vector, v: &mut S::Vector) -> Result<(), StepError> {
         #[cfg(feature = "std")]
         if S::MAY_COLLIDE
@@ -804,7 +797,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         project(self.model.system.get(), &self.model.constraints, t, q, v)
     }
 
-    /// Makes now the beginning of a step.
+    /// Makes the present state the beginning of a step.
     fn begin(&mut self) {
         self.k.swap(0, self.newest);
         self.newest = 0;
@@ -825,15 +818,14 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         }
     }
 
-    /// Tries a step of length `h` from `before`, to `now`. Returns its error, 1 being just
-    /// tolerable.
+    /// Tries a step of length `h` from `before` to `now`. Returns its error relative to the tolerance.
     fn attempt(&mut self, h: f64, last: bool) -> Result<f64, StepError> {
         let stepper = self;
         f64::run(Attempt { stepper, h, last })
     }
 
-    /// Ends a try whose stages are done and whose new point stands in `now`: brings that onto the constraints and finds the error, 1 being
-    /// just tolerable.
+    /// Completes a try whose stages are done and whose new point is in `now`: projects it onto the constraints and returns the error
+    /// relative to the tolerance.
     #[cfg(feature = "jit")]
     fn finish(&mut self, h: f64) -> Result<f64, StepError> {
         let stepper = self;
@@ -871,7 +863,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         self.finish_within::<R>(h)
     }
 
-    /// What comes after the stages of a try, within a kernel: brings the new point onto the constraints and finds the error.
+    /// The part of a try after its stages, within a kernel: projects the new point onto the constraints and estimates the error.
     #[inline(always)]
     fn finish_within<R: Scalar<Stored = f64>>(&mut self, h: f64) -> Result<f64, StepError> {
         let Self {
@@ -890,7 +882,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             model.end(now, quadratures, stages, k, work)?;
         }
         let mut error = self.error_within::<R>(h);
-        // Where accelerations say nothing of it, the error of what has left the range of numbers is none.
+        // If accelerations do not reflect it, a state that overflowed may have an error estimate of zero.
         let [is_finite] = attempt::are_finite(&self.now.q, &self.now.v);
         if !is_finite {
             error = f64::INFINITY;
@@ -908,8 +900,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             ..
         } = self;
         if !error.is_finite() {
-            // Either an error beyond all measure, or the state itself has left the range of
-            // numbers.
+            // Either the error is infinite, or the state itself has overflowed.
             return match not_finite(&now.q, &now.v, 0) {
                 Some(coordinate) => Err(StepError::NotFinite {
                     coordinate,
@@ -928,8 +919,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         Ok(error)
     }
 
-    /// Whether the step just tried may have failed because constraints come to depend on each other on its
-    /// way, which was not known before.
+    /// Whether the step just tried may have failed because constraints become dependent on the way, which was not known before.
     fn meets_fork(&mut self, h: f64) -> bool {
         let Self {
             model,
@@ -956,14 +946,14 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         constraints.meet_fork(model.system.get(), poses)
     }
 
-    /// Makes the step just tried the last step.
+    /// Accepts the step just tried.
     fn accept(&mut self, h: f64) {
         let stages = self.method.tableau.stages;
         self.newest = stages;
         #[cfg(feature = "std")]
         if let Some(taylor) = &mut self.taylor {
             taylor.accept();
-            // Where nothing moves any more, or there are no numbers, it says nothing.
+            // If the machine does not move, or the coefficients are not finite, the series gives no length.
             let length = taylor.length(&self.tolerance);
             self.control.step = if length.is_finite() { length } else { h.abs() }.copysign(h);
         }
@@ -979,8 +969,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         }
     }
 
-    /// The error of the step just tried, in the root mean square over coordinates and rates, 1
-    /// being just tolerable.
+    /// The error of the step just tried relative to the tolerance, as root mean square over coordinates and rates.
     #[inline(always)]
     fn error_within<R: Scalar<Stored = f64>>(&self, h: f64) -> f64 {
         if (S::MAY_BE_CONSTRAINED || S::MAY_COLLIDE)
@@ -995,8 +984,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         error
     }
 
-    /// The error of the step just tried where constraints are about to depend on each other: of its part across them, which
-    /// the projection removes, only what exceeds rounding counts.
+    /// The error of the step just tried when constraints are about to become dependent. The projection removes the part across the
+    /// constraints, so of that part only the excess over round-off counts.
     fn error_along(&self, constraints: &Constraints<S::Vector>, h: f64) -> f64 {
         let scheme = &self.method.scheme;
         let mut sums = [0.0, 0.0];
@@ -1038,8 +1027,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         control::combined(fine, coarse, 2 * self.now.q.as_slice().len())
     }
 
-    /// How far the step just tried was moved onto the constraints, in the norm of its
-    /// [`error`](Self::error): what it was off by across them, and not what its beginning was.
+    /// The distance by which the step just tried was moved onto the constraints, in the norm of its [`error`](Self::error), without the
+    /// share that its beginning contributed.
     fn error_of_move(&self) -> f64 {
         let Some(constraints) = &self.model.constraints else {
             return 0.0;
@@ -1060,7 +1049,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         sqrt(sum / (2 * self.now.q.as_slice().len()) as f64)
     }
 
-    /// By how much the next step may be longer than this good one of length `h`.
+    /// The factor by which the next step may be longer after this good one of length `h`.
     #[inline(always)]
     fn growth(&mut self, _h: f64, error: f64) -> f64 {
         #[cfg(feature = "std")]
@@ -1073,7 +1062,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         control::growth(self.method, error, self.control.error_before)
     }
 
-    /// By how much the next try is to be shorter than this one, which was not good.
+    /// The factor for the length of the next try after this one was rejected.
     fn reduction(&self, error: f64) -> f64 {
         #[cfg(feature = "std")]
         if let Some(implicit) = &self.implicit {
@@ -1083,7 +1072,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         control::reduction(self.method, error)
     }
 
-    /// A length for the first step.
+    /// Chooses the length of the first step.
     fn first_step(&mut self) -> f64 {
         let Self {
             method,
@@ -1106,7 +1095,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         )
     }
 
-    /// `h |λ|` of the greatest eigenvalue, from the two evaluations at the end of the step.
+    /// Estimates `h |λ|` of the largest eigenvalue from the two evaluations at the end of the step.
     fn stiffness_of_step(&self, h: f64) -> f64 {
         let stages = self.method.tableau.stages;
         let (a, a_stage) = (self.k[stages].as_slice(), self.k[stages - 1].as_slice());
@@ -1118,7 +1107,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             rates += dv * dv + da * da;
             states += dq * dq + dv * dv;
         }
-        // Two equal states say nothing.
+        // Two equal states give no estimate.
         if states == 0.0 {
             0.0
         } else {
@@ -1126,7 +1115,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         }
     }
 
-    /// The step of the last attempt was too long still, and a shorter one there cannot be.
+    /// The error for a step that was still too long and cannot be shorter.
     fn too_small(&self) -> StepError {
         let ends = [&self.before, &self.now];
         let h = self.control.last_step;
@@ -1139,7 +1128,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
 }
 
 impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
-    /// Accelerations, or the trouble with them.
+    /// Evaluates the accelerations and checks that they are finite.
     #[inline]
     fn accelerations(
         &mut self,
@@ -1163,7 +1152,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         }
         #[cfg(not(feature = "std"))]
         accelerations(self.system.get(), known, at, a)?;
-        // The sum of what is not finite is not finite, and one test is cheaper than many.
+        // If any number is not finite, the sum is not, and one test is cheaper than many.
         let sum: f64 = a.as_slice().iter().sum();
         if sum.is_finite() {
             return Ok(());
@@ -1180,7 +1169,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         self.law.set(self.system.get(), t, q, v, &mut self.inputs);
     }
 
-    /// The acceleration at the new point.
+    /// Evaluates the acceleration at the new point.
     #[inline]
     fn end<A: Quadratures<S>>(
         &mut self,
@@ -1195,7 +1184,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         Ok(())
     }
 
-    /// Projects the end of a step onto the constraints; says whether that moved it.
+    /// Projects the end of a step onto the constraints; returns whether that moved it.
     #[inline(always)]
     fn project(&mut self, now: &mut Point<S::Vector>) -> Result<bool, StepError> {
         #[cfg(feature = "std")]
@@ -1230,7 +1219,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         Ok(moved)
     }
 
-    /// Takes note of the end of a step.
+    /// Updates contacts and constraints at the end of a step.
     #[inline(always)]
     fn accept(&mut self, now: &Point<S::Vector>) {
         if S::MAY_SLIDE
@@ -1253,7 +1242,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
                 constraints.pass_fork(self.system.get(), now.t, &now.q);
             }
             if constraints.redundant {
-                // Where that fails, the rows of before will do, or the next step will say why not.
+                // If that fails, the previous rows will do, or the next step returns the error.
                 let _ = constraints.choose_again(self.system.get(), now.t, &now.q);
             }
         }
@@ -1291,7 +1280,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
 }
 
 impl Stiffness {
-    /// Fifteen signs with never six tests in a row without one, as in DOP853.
+    /// Stiffness is reported after fifteen positive tests without six negative ones in a row among them, as in DOP853.
     fn take(&mut self, stiff: bool, t: f64) {
         if stiff {
             self.none_since = 0;
@@ -1308,7 +1297,7 @@ impl Stiffness {
     }
 }
 
-/// Accelerations; where constraints depend on each other, those that obey the chosen ones.
+/// Evaluates the accelerations; where constraints are dependent, those that satisfy the chosen ones.
 #[inline(always)]
 pub(crate) fn accelerations<S: System>(
     system: &S,
@@ -1336,7 +1325,7 @@ pub(crate) fn accelerations<S: System>(
         .map_err(|singular| StepError::Singular { singular, t })
 }
 
-/// Moves coordinates along their rates by some roundings of the greatest of them.
+/// Moves coordinates along their rates by some roundings of the largest coordinate.
 #[cfg(feature = "std")]
 fn move_by_rounding<V: Vector>(q: &mut V, v: &V) {
     const ROUNDINGS: f64 = 64.0;

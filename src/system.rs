@@ -1,17 +1,17 @@
-//! What a machine is to the programs that run it: [`Machine`], the parameters an engineer sets, and
-//! [`System`], the equations of motion that follow from them.
+//! The two traits of a machine: [`Machine`], the parameters that an engineer sets, and [`System`], the equations of motion that
+//! follow from them.
 //!
-//! Both are implemented by the code that `machine!` emits and by the interpreter. Letters: `q`
-//! coordinates, `v = dq/dt`, `a = dv/dt`, `u` inputs, `t` time; SI units, angles in radians.
+//! Both are implemented by the code that `machine!` emits and by the interpreter. Letters: `q` coordinates, `v = dq/dt`, `a = dv/dt`, `u`
+//! inputs, `t` time; SI units, angles in radians.
 
 use core::fmt::{self, Debug, Display};
 
 use crate::{UnilateralContact, Vector};
 
-/// The most coefficients of each coordinate that emitted code computes in [`System::series`].
+/// The largest number of coefficients of each coordinate that emitted code computes in [`System::series`].
 pub(crate) const SERIES_ROWS: usize = 24;
 
-/// The most guided contacts of a machine.
+/// The largest number of guided contacts of a machine.
 pub const MOST_CONTACTS: usize = 6;
 
 /// The parameters of a machine: a plain struct with a named field for each.
@@ -39,16 +39,16 @@ pub trait Machine {
     /// Simulations refuse parameters that are not finite, by name.
     fn parameters(&self) -> impl ExactSizeIterator<Item = (Quantity<'_>, f64)>;
 
-    /// The parameter with this number, in the order of [`parameters`](Self::parameters), to be changed. By default there is
-    /// none: what a machine by hand does not hand out cannot be set by name.
+    /// Mutable access to the parameter with this index, in the order of [`parameters`](Self::parameters). The default returns `None`: a
+    /// machine written by hand that does not implement this cannot be set by name.
     fn parameter_mut(&mut self, _index: usize) -> Option<&mut f64> {
         None
     }
 
-    /// The value of the parameter of this name; of a member of a family, `m[2]`.
+    /// The value of the parameter of this name; a member of a family is named `m[2]`.
     ///
     /// # Errors
-    /// If there is no such name: with the one that was probably meant.
+    /// If there is no such name; the error holds the name that was probably meant.
     #[cfg(feature = "std")]
     fn get(&self, name: &str) -> Result<f64, crate::UnknownName> {
         let found = self.parameters().find(|(of, _)| of.name == name);
@@ -64,7 +64,7 @@ pub trait Machine {
     /// Sets the parameter of this name; the name of a family sets all its members.
     ///
     /// # Errors
-    /// If there is no such name: with the one that was probably meant. Then everything stays as it is.
+    /// If there is no such name; the error holds the name that was probably meant, and nothing is changed.
     ///
     /// ```
     /// use lagrangian::Machine;
@@ -121,12 +121,11 @@ pub type Outputs<M> = <<M as Machine>::System as System>::Outputs;
 /// The equations of motion `M(q, t) a = f(q, v, t, u)` of a machine with given parameters, solved
 /// for the accelerations `a`, and what can be observed of the motion.
 ///
-/// Integrators call [`accelerations`](Self::accelerations) and nothing else, unless asked for more:
-/// a quantity that nobody asks for costs nothing.
+/// Integrators call only [`accelerations`](Self::accelerations) unless more is requested; a quantity that is not requested costs nothing.
 ///
-/// Written by hand, a system needs its five types, its coordinates, its accelerations, and the inputs and outputs as they are by
-/// default. What it does not say of itself is either nothing (no constraints, no damping) or
-/// not known: it is NaN, and a run that needs it ends with an error.
+/// A system written by hand needs its five types, its coordinates, its accelerations, its default inputs and its outputs. The other methods
+/// have defaults: either there is nothing (no constraints, no damping), or the value is unknown and returned as NaN, and a run that needs
+/// it ends with an error.
 ///
 /// ```
 /// use lagrangian::{Quantity, Singular, System};
@@ -172,31 +171,27 @@ pub trait System {
     /// The square mass matrix, row after row: `[f64; N * N]` or `Vec<f64>`.
     type Matrix: Vector;
 
-    /// The coordinates by name: a struct with a field (a family: an array) for each. The rates use
-    /// it too.
+    /// The coordinates by name: a struct with a field for each, an array for a family. The rates use the same type.
     type Coordinates: Clone + Debug;
 
-    /// The inputs by name: what the user sets while the machine runs. A struct without fields if
-    /// there are none.
+    /// The inputs by name, which the user sets while the machine runs. A struct without fields if there are none.
     type Inputs: Clone + Debug;
 
-    /// The outputs by name: what the description asks to observe. A struct without fields if there
-    /// are none.
+    /// The outputs by name, which the description defines. A struct without fields if there are none.
     type Outputs: Clone + Debug;
 
     /// Names and units of the coordinates, in order.
     fn coordinates(&self) -> impl ExactSizeIterator<Item = Quantity<'_>>;
 
-    /// A vector's numbers under the names of the coordinates.
+    /// Puts the numbers of a vector under the names of the coordinates.
     fn to_coordinates(&self, vector: &Self::Vector) -> Self::Coordinates;
 
-    /// The numbers of named coordinates as a vector.
+    /// Puts the numbers of named coordinates into a vector.
     fn to_vector(&self, coordinates: &Self::Coordinates) -> Self::Vector;
 
-    /// Accelerations `a = M⁻¹ f`, the equations of motion solved.
+    /// Accelerations `a = M⁻¹ f`, the solution of the equations of motion.
     ///
-    /// What is not finite in the arguments comes out as what is not finite; only a mass matrix that
-    /// cannot be inverted is an error.
+    /// Arguments that are not finite give accelerations that are not finite. The only error is a mass matrix that cannot be inverted.
     fn accelerations(
         &self,
         t: f64,
@@ -206,27 +201,26 @@ pub trait System {
         a: &mut Self::Vector,
     ) -> Result<(), Singular>;
 
-    /// How many equations of motion there are to check (`check_equations`) at the start of a run: one
-    /// for each coordinate, or 0 where mass matrix and forces are not those of all coordinates.
+    /// The number of equations of motion that `check_equations` checks at the start of a run: one for each coordinate, or 0 if the mass
+    /// matrix and the forces do not cover all coordinates.
     #[inline]
     fn equations(&self) -> usize {
         self.coordinates().len()
     }
 
-    /// Mass matrix `M(q, t)`, row after row. By default it is not known: not a number.
+    /// Mass matrix `M(q, t)`, row after row. By default unknown: NaN.
     ///
-    /// Needed for constraints, for contacts and by whatever takes the equations apart.
+    /// Needed for constraints, for contacts and wherever the equations are used without being solved.
     fn mass_matrix(&self, _t: f64, _q: &Self::Vector, matrix: &mut Self::Matrix) {
         matrix.as_mut_slice().fill(f64::NAN);
     }
 
-    /// Bias `h(q, v, t)`: every velocity product and explicit-time term of the inertia forces. By default it is not
-    /// known: not a number.
+    /// Bias `h(q, v, t)`: every velocity product and explicit-time term of the inertia forces. By default unknown: NaN.
     fn bias(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, bias: &mut Self::Vector) {
         bias.as_mut_slice().fill(f64::NAN);
     }
 
-    /// Applied generalized forces `Q(q, v, t, u) = −∂V/∂q − ∂D/∂v + …`. By default they are not known: not a number.
+    /// Applied generalized forces `Q(q, v, t, u) = −∂V/∂q − ∂D/∂v + …`. By default unknown: NaN.
     fn applied(
         &self,
         _t: f64,
@@ -256,17 +250,17 @@ pub trait System {
         }
     }
 
-    /// Kinetic energy `T`, in J. By default it is not known: not a number, and a run has no balance of energy.
+    /// Kinetic energy `T`, in J. By default unknown, NaN, and then a run has no energy balance.
     fn kinetic_energy(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector) -> f64 {
         f64::NAN
     }
 
-    /// Potential energy `V`, in J. By default it is not known: not a number, and a run has no balance of energy.
+    /// Potential energy `V`, in J. By default unknown, NaN, and then a run has no energy balance.
     fn potential_energy(&self, _t: f64, _q: &Self::Vector, _u: &Self::Inputs) -> f64 {
         f64::NAN
     }
 
-    /// Energy `E` that states of first order store, in J, as far as the description says it. By default 0.
+    /// Energy `E` stored in first-order states, in J, as far as the description states it. By default 0.
     fn state_energy(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector) -> f64 {
         0.0
     }
@@ -276,11 +270,9 @@ pub trait System {
         0.0
     }
 
-    /// Power, in W, of everything that is neither in `T + V` nor in `D`: drives (explicit time),
-    /// applied forces, inputs, and constraints that move (`−λ·∂g/∂t`, of whatever multipliers hold
-    /// these accelerations), and what supplies states of first order that store energy. Along every motion
-    /// `d(T + V + E)/dt = work_rate − dissipation_rate`. By default 0, which a balance
-    /// of energy shows where it is not so.
+    /// Power, in W, of everything that is neither in `T + V` nor in `D`: drives (explicit time), applied forces, inputs, moving constraints
+    /// (`−λ·∂g/∂t`, with the multipliers that belong to these accelerations), and the supply of first-order states that store energy. Along
+    /// every motion `d(T + V + E)/dt = work_rate − dissipation_rate`. By default 0; if that is wrong, the energy balance shows it.
     fn work_rate(
         &self,
         _t: f64,
@@ -303,10 +295,10 @@ pub trait System {
         0.0
     }
 
-    /// The inputs as they are while nobody sets them: the defaults of the description.
+    /// The values of inputs that nobody sets: the defaults of the description.
     fn default_inputs(&self) -> Self::Inputs;
 
-    /// Names, units and values of inputs, in the order of the description. None are told by default.
+    /// Names, units and values of the inputs, in the order of the description. By default empty.
     fn input_values(
         &self,
         _inputs: &Self::Inputs,
@@ -324,7 +316,7 @@ pub trait System {
         u: &Self::Inputs,
     ) -> Self::Outputs;
 
-    /// Names, units and values of outputs, in the order of the description. None are told by default.
+    /// Names, units and values of the outputs, in the order of the description. By default empty.
     fn output_values(
         &self,
         _outputs: &Self::Outputs,
@@ -332,10 +324,9 @@ pub trait System {
         core::iter::empty()
     }
 
-    /// The facts that the description assumes, and by how much they hold here. Empty if it assumes
-    /// nothing, as by default.
+    /// The facts that the description assumes, with the margins by which they hold at this state. By default empty.
     ///
-    /// The equations may have been shortened by them, so a run ends where one of them ends.
+    /// The equations may have been simplified by these facts, so a run ends where one of them ceases to hold.
     fn assumptions(
         &self,
         _t: f64,
@@ -346,28 +337,28 @@ pub trait System {
         core::iter::empty()
     }
 
-    /// Whether the margins of all [`assumptions`](Self::assumptions) are linear in time, coordinates and rates, and depend on nothing
-    /// else that changes. Then a step by Taylor series tells from few of them that they hold. By default it is not known.
+    /// Whether the margins of all [`assumptions`](Self::assumptions) are linear in time, coordinates and rates, and depend on nothing else
+    /// that changes. Then a few evaluations suffice to show that they hold throughout a step by Taylor series. By default `false`: unknown.
     #[inline(always)]
     fn has_linear_assumptions(&self) -> bool {
         false
     }
 
-    /// Whether there may be constraints. Emitted code says `false` for a machine that has none, and nothing of what handles them
-    /// is compiled for it.
+    /// Whether there may be constraints. Emitted code says `false` for a machine without any, and no code for constraints is then
+    /// compiled for it.
     #[doc(hidden)]
     const MAY_BE_CONSTRAINED: bool = true;
 
-    /// Whether there may be guided contacts with friction; `false` leaves out what handles them.
+    /// Whether there may be guided contacts with friction; `false` leaves out their code.
     #[doc(hidden)]
     const MAY_SLIDE: bool = true;
 
-    /// Whether there may be unilateral contacts; `false` leaves out what handles them.
+    /// Whether there may be unilateral contacts; `false` leaves out their code.
     #[doc(hidden)]
     const MAY_COLLIDE: bool = true;
 
-    /// The bilateral constraints, in the order of the rows below. None by default, and a machine
-    /// without any has nothing to say in the methods that follow.
+    /// The bilateral constraints, in the order of the rows below. By default there are none, and then the methods that follow need not
+    /// be implemented.
     ///
     /// The accelerations of a machine with constraints obey them: `M a = f + Gᵀ λ`, `G a = γ`.
     #[inline(always)]
@@ -375,13 +366,13 @@ pub trait System {
         core::iter::empty()
     }
 
-    /// Residuals of the constraints of positions, `gₖ(q, t)`, a number for each constraint; 0 for one of
-    /// velocities alone. All are 0 where the state obeys them.
+    /// Residuals of the constraints of positions, `gₖ(q, t)`, one for each constraint; 0 for a constraint on rates alone. All are 0 if the
+    /// state satisfies the constraints.
     #[inline(always)]
     fn constraint_positions(&self, _t: f64, _q: &Self::Vector, _residuals: &mut [f64]) {}
 
-    /// Residuals of the constraints at the level of velocities, `φₖ = Gₖ v + ∂gₖ/∂t`, a number for each. All
-    /// are 0 where the state obeys them.
+    /// Residuals of the constraints at velocity level, `φₖ = Gₖ v + ∂gₖ/∂t`, one for each constraint. All are 0 if the state satisfies
+    /// the constraints.
     #[inline(always)]
     fn constraint_rates(
         &self,
@@ -396,13 +387,12 @@ pub trait System {
     #[inline(always)]
     fn constraint_matrix(&self, _t: f64, _q: &Self::Vector, _matrix: &mut [f64]) {}
 
-    /// `γ(q, v, t)` of `G a = γ`: what the accelerations must be for the rates of the constraints to
-    /// stay.
+    /// `γ(q, v, t)` of `G a = γ`, the condition on the accelerations under which the rates of the constraints stay constant.
     #[inline(always)]
     fn constraint_drift(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _drift: &mut [f64]) {}
 
-    /// Lagrange's multipliers `λ` of `M a = f + Gᵀ λ`, by elimination as the accelerations are found.
-    /// An error where constraints depend on each other.
+    /// Lagrange's multipliers `λ` of `M a = f + Gᵀ λ`, by the same elimination as the accelerations. An error if the constraints are
+    /// linearly dependent.
     #[inline(always)]
     fn multipliers(
         &self,
@@ -415,8 +405,7 @@ pub trait System {
         Ok(())
     }
 
-    /// The names of the guided contacts with friction. None by default, and a machine without any has
-    /// nothing to say in the methods that follow.
+    /// The names of the guided contacts with friction. By default there are none, and then the methods that follow need not be implemented.
     ///
     /// A machine with contacts finds its accelerations by
     /// [`accelerations_with_friction`](crate::accelerations_with_friction).
@@ -425,30 +414,29 @@ pub trait System {
         core::iter::empty()
     }
 
-    /// How many components the normal reactions of the guided contacts have: one in the plane, along the normal; three in space,
-    /// where a guide presses in any direction across, along the axes of the ground.
+    /// The number of components of the normal reaction of a guided contact: in the plane one, along the normal; in space three, along the
+    /// axes of the ground, since there a guide can press in any direction across its tangent.
     #[inline(always)]
     fn reaction_axes(&self) -> usize {
         1
     }
 
-    /// Which of the guided contacts are the second tangents of surfaces: bit `k` says that contact `k` slides on the surface that
-    /// contact `k − 1` slides on, at right angles to it. It has the normal reaction and the coefficients of that contact; both
-    /// together obey Coulomb's law. None by default.
+    /// The guided contacts that are second tangents of surfaces, as a bit mask: if bit `k` is set, contact `k` slides on the same surface
+    /// as contact `k − 1`, at right angles to it. It has the normal reaction and the coefficients of that contact, and the two obey
+    /// Coulomb's law together. None by default.
     #[inline(always)]
     fn second_tangents(&self) -> usize {
         0
     }
 
-    /// How fast each contact slides along its direction, `w(q, v, t)`, in m/s.
+    /// The slip rate of each contact along its direction, `w(q, v, t)`, in m/s.
     #[inline(always)]
     fn slips(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _slips: &mut [f64]) {}
 
-    /// Between which numbers each slip is, lower and upper bound in m/s, where the state and the parameters
-    /// are rounded, and with what rounding makes of the slips themselves: a contact whose slip may be 0
-    /// rests within rounding. Bounds that are not finite say nothing.
+    /// Lower and upper bound of each slip, in m/s, given the rounding of the state, of the parameters and of the evaluation of the slips: a
+    /// contact whose slip may be 0 sticks to within round-off. Bounds that are not finite carry no information.
     ///
-    /// By default what rounding does is not known, and both are the slip.
+    /// By default the effect of rounding is unknown, and both bounds equal the slip.
     fn slip_ranges(&self, t: f64, q: &Self::Vector, v: &Self::Vector, ranges: &mut [[f64; 2]]) {
         let mut slips = [0.0; MOST_CONTACTS];
         let slips = &mut slips[..ranges.len().min(MOST_CONTACTS)];
@@ -466,14 +454,13 @@ pub trait System {
     #[inline(always)]
     fn slip_drift(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _drift: &mut [f64]) {}
 
-    /// What follows from the friction forces `F` of the `k` contacts, all of it linear: first what there is
-    /// without any, then what a unit of each adds to it. Each of these `1 + k` parts holds the
-    /// accelerations, the multipliers of the constraints, `dw/dt` of each contact, and the
-    /// [components](Self::reaction_axes) of the normal reaction `N` of each. Behind them stand the `k` coefficients `μ` of what slides and the `k` coefficients
-    /// `μ₀` of what sticks. In space there follow `k` unit vectors: the tangent of a curve, along which no part of `N` presses, or
-    /// the normal of a surface, along which alone it does.
+    /// The response to the friction forces `F` of the `k` contacts, which is affine: first the part without friction, then the increment
+    /// per unit of each force. Each of these `1 + k` parts holds the accelerations, the multipliers of the constraints, `dw/dt` of each
+    /// contact, and the [components](Self::reaction_axes) of the normal reaction `N` of each. Then follow the `k` coefficients `μ` of
+    /// sliding and the `k` coefficients `μ₀` of sticking. In space there follow `k` unit vectors: the tangent of a curve, along which `N`
+    /// has no component, or the normal of a surface, which is the direction of `N`.
     ///
-    /// An error only where the machine is singular without any friction.
+    /// An error only if the machine is singular without friction.
     #[inline(always)]
     fn friction(
         &self,
@@ -486,11 +473,11 @@ pub trait System {
         Ok(())
     }
 
-    /// The unilateral contacts, whose gaps stay open or closed. None by default, and a machine without any has
-    /// nothing to say in the methods that follow.
+    /// The unilateral contacts, whose gaps open and close. By default there are none, and then the methods that follow need not
+    /// be implemented.
     ///
-    /// [`accelerations`](Self::accelerations) are those of a machine whose contacts are open: what closed
-    /// ones do is found by a [`Simulation`](crate::Simulation).
+    /// [`accelerations`](Self::accelerations) are those with all contacts open; a [`Simulation`](crate::Simulation) finds the effect of
+    /// the closed ones.
     #[inline(always)]
     fn unilateral_contacts(&self) -> impl ExactSizeIterator<Item = UnilateralContact<'_>> {
         core::iter::empty()
@@ -500,27 +487,26 @@ pub trait System {
     #[inline(always)]
     fn gaps(&self, _t: f64, _q: &Self::Vector, _gaps: &mut [f64]) {}
 
-    /// Of each unilateral contact that is [with a face](UnilateralContact::faced) of a polygon, three numbers: how far its corner is
-    /// outside of that face, how far it is beyond the ends of it, negative between them, both in m, and how fast the second grows,
-    /// in m/s. The [gap](Self::gaps) is the greater one of the first two; [rates](Self::contact_rates) are those of the face.
+    /// Three numbers for each unilateral contact that is [with a face](UnilateralContact::faced) of a polygon: the distance of its corner
+    /// outside of that face and the distance beyond the ends of it (negative between them), both in m, and the rate of the second, in m/s.
+    /// The [gap](Self::gaps) is the larger of the first two; [rates](Self::contact_rates) are those of the face.
     #[inline(always)]
     fn contact_faces(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _faces: &mut [f64]) {}
 
-    /// For each unilateral contact the rate `dg/dt` at which its gap opens and the rate at which it slips, in
-    /// m/s.
+    /// For each unilateral contact the rate `dg/dt` at which its gap opens and its slip rate, in m/s.
     #[inline(always)]
     fn contact_rates(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _rates: &mut [f64]) {}
 
-    /// The derivatives of these rates by the rates of the coordinates, row after row.
+    /// The derivatives of these rates with respect to the rates of the coordinates, row after row.
     #[inline(always)]
     fn contact_matrix(&self, _t: f64, _q: &Self::Vector, _matrix: &mut [f64]) {}
 
-    /// How fast these rates change at `a = 0`.
+    /// The time derivatives of these rates at `a = 0`.
     #[inline(always)]
     fn contact_drift(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _drift: &mut [f64]) {}
 
-    /// For each unilateral contact its coefficients: restitution along the normal and along the tangent, or the
-    /// parameters of its [`Compliance`](crate::Compliance); friction of what slips and of what sticks.
+    /// For each unilateral contact its coefficients: restitution along the normal and along the tangent, or the parameters of its
+    /// [`Compliance`](crate::Compliance); then friction in slip and in stick.
     #[inline(always)]
     fn contact_coefficients(
         &self,
@@ -531,31 +517,29 @@ pub trait System {
     ) {
     }
 
-    /// Which numbers of a start that does not obey the constraints stay as they are while the others are
-    /// moved: coordinates, `"theta"`, and rates, `"der(theta)"`. None by default.
-    /// [`Simulation::keep`](crate::Simulation::keep) takes others.
+    /// The numbers that stay fixed when a start that violates the constraints is moved onto them: coordinates, `"theta"`, and rates,
+    /// `"der(theta)"`. None by default. [`Simulation::keep`](crate::Simulation::keep) replaces them.
     #[inline(always)]
     fn kept_at_start(&self) -> impl ExactSizeIterator<Item = &str> {
         core::iter::empty()
     }
 
-    /// Whether the machine knows the Taylor series of its motion, [`series`](Self::series); by default it does
-    /// not.
+    /// Whether the machine has the Taylor series of its motion, [`series`](Self::series). By default it has none.
     ///
     /// # Errors
-    /// Why not, as the end of a sentence that begins with the machine: `it has constraints`.
+    /// The reason why it has none, as the end of a sentence whose subject is the machine: `it has constraints`.
     #[inline(always)]
     fn check_series(&self) -> Result<(), &str> {
         Err("its spec does not ask for one by `methods { taylor }`")
     }
 
-    /// The Taylor series of the motion through a state: row `j` of `coefficients` is to be `q⁽ʲ⁾/j!`, in SI units, for as many
-    /// rows as there are; at least three. Emitted code knows 24, and makes what is beyond no number. The time is the sum of two numbers, the second of which is what rounding took from
-    /// the first. The first two rows are `q` and `v`, and twice the third is the acceleration.
+    /// Computes the Taylor series of the motion through a state: row `j` of `coefficients` becomes `q⁽ʲ⁾/j!`, in SI units. There are at
+    /// least three rows. Emitted code computes 24 rows and fills further ones with NaN. The time is the sum of two numbers, the second of
+    /// which is the rounding error of the first. The first two rows are `q` and `v`; twice the third is the acceleration.
     ///
-    /// Asked for only where [`check_series`](Self::check_series) is fine.
+    /// Called only if [`check_series`](Self::check_series) succeeds.
     ///
-    /// An error where the mass matrix cannot be inverted.
+    /// An error if the mass matrix cannot be inverted.
     #[inline(always)]
     fn series(
         &self,
@@ -568,20 +552,20 @@ pub trait System {
         Ok(())
     }
 
-    /// What a step by [`series`](Self::series) costs beside an evaluation of the accelerations within a step of `dop853`: how many
-    /// of these take as long, with 12 and with 20 coefficients of the accelerations. It is an estimate from counts of operations, by which
-    /// [`Simulation::automatic`](https://docs.rs/lagrangian/latest/lagrangian/struct.Simulation.html#method.automatic) chooses; none
-    /// where nothing is known of it, and then no series is chosen.
+    /// The cost of a step by [`series`](Self::series), as a multiple of the cost of one evaluation of the accelerations in a step of
+    /// `dop853`, with 12 and with 20 coefficients of the accelerations. It is an estimate from operation counts, by which
+    /// [`Simulation::automatic`](https://docs.rs/lagrangian/latest/lagrangian/struct.Simulation.html#method.automatic) chooses. If it is
+    /// unknown, `None`, the series is never chosen.
     #[inline(always)]
     fn series_cost(&self) -> Option<[f64; 2]> {
         None
     }
 
-    /// Hands `length` numbers to `work`, whatever they are: the workspace in which a state is projected
-    /// onto the constraints, `None` if there is none.
+    /// Calls `work` with the workspace in which a state is projected onto the constraints: `length` numbers of any value, or `None` if
+    /// there is no workspace.
     ///
-    /// By default it is allocated for each call, and without `std` there is none. A machine that
-    /// knows its size hands out an array: [`constraint_workspace`](crate::constraint_workspace) says how long.
+    /// By default it is allocated for each call, and without `std` there is none. A machine that knows its size hands out an array, whose
+    /// length [`constraint_workspace`](crate::constraint_workspace) gives.
     fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
         #[cfg(feature = "std")]
         {
@@ -595,9 +579,9 @@ pub trait System {
     }
 }
 
-/// Equations of motion that know how their accelerations change with the state: what linearization
-/// needs, as about an equilibrium. Implicit methods do without it: they take differences of the
-/// accelerations that a run evaluates, in whatever way constraints and contacts make these.
+/// Equations of motion with derivatives of their accelerations with respect to the state, as linearization about an equilibrium needs them.
+/// Implicit methods do not use them: they take finite differences of the accelerations that the run evaluates, which include the effects of
+/// constraints and contacts.
 ///
 /// Implemented by the code of a description with `derivatives { coordinates, rates }`, and by the
 /// interpreter for every machine.
@@ -607,8 +591,8 @@ pub trait System {
     note = "add the line `derivatives {{ coordinates, rates }}` to the description of the machine"
 )]
 pub trait Linearize: System {
-    /// The accelerations `a(t, q, v, u)`, and row after row their derivatives `∂aᵢ/∂qⱼ` and
-    /// `∂aᵢ/∂vⱼ`: exact but for rounding, no differences.
+    /// The accelerations `a(t, q, v, u)` and, row after row, their derivatives `∂aᵢ/∂qⱼ` and `∂aᵢ/∂vⱼ`, which are exact to rounding and not
+    /// finite differences.
     #[expect(
         clippy::too_many_arguments,
         reason = "a state, and the three things that are asked of it"
@@ -625,16 +609,13 @@ pub trait Linearize: System {
     ) -> Result<(), Singular>;
 }
 
-/// Equations of motion that are evaluated in stages, so that what stays is not computed again:
-/// rates that are iterated where time and coordinates stay, as implicit methods, impacts and
-/// friction do; many states at one time.
+/// Equations of motion that are evaluated in stages, so that what stays the same is not computed again: implicit methods, impacts and
+/// friction iterate over rates while time and coordinates stay, and many states may share one time.
 ///
-/// Implemented by the code of a description with `stages { time, coordinates }` or one of the two,
-/// and by the interpreter for every machine. A stage that the description does not ask for hands its
-/// arguments on.
+/// Implemented by the code of a description with `stages { time, coordinates }` or one of the two, and by the interpreter for every
+/// machine. A stage that the description does not request passes its arguments on.
 ///
-/// The accelerations are those of [`System::accelerations`] but for rounding: they are added and
-/// multiplied in another order.
+/// The accelerations agree with those of [`System::accelerations`] to rounding; sums and products are evaluated in another order.
 ///
 /// ```
 /// # #[cfg(feature = "macros")]
@@ -679,24 +660,23 @@ pub trait Linearize: System {
     note = "add the line `stages {{ time, coordinates }}` to the description of the machine, or one of the two"
 )]
 pub trait Staged: System {
-    /// Whatever the next stage needs of the time.
+    /// The values that the next stage needs of the time.
     type AtTime: Clone + Debug;
 
-    /// Whatever the accelerations need of time and coordinates.
+    /// The values that the accelerations need of time and coordinates.
     type AtPosition: Clone + Debug;
 
-    /// What time alone decides.
+    /// Computes the values that depend on time alone.
     fn at_time(&self, t: f64) -> Self::AtTime;
 
-    /// What time and coordinates decide: whether there are accelerations is among it.
+    /// Computes the values that depend on time and coordinates alone. An error if the accelerations do not exist there.
     fn at_position(
         &self,
         at: &Self::AtTime,
         q: &Self::Vector,
     ) -> Result<Self::AtPosition, Singular>;
 
-    /// The accelerations `a` at rates `v` and inputs `u`. An error only where the description does
-    /// not make the coordinates a stage.
+    /// The accelerations `a` at rates `v` and inputs `u`. An error only if the description does not make the coordinates a stage.
     fn accelerations_at(
         &self,
         at: &Self::AtPosition,
@@ -706,10 +686,9 @@ pub trait Staged: System {
     ) -> Result<(), Singular>;
 }
 
-/// Equations of motion that know how their accelerations change with parameters and inputs too.
+/// Equations of motion with derivatives of their accelerations with respect to parameters and inputs as well.
 ///
-/// Implemented by the code of a description with `derivatives { coordinates, rates, … }`, and by the
-/// interpreter.
+/// Implemented by the code of a description with `derivatives { coordinates, rates, … }`, and by the interpreter.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not know how its accelerations change with the state, parameters and inputs",
     label = "needs the derivatives of the accelerations",
@@ -717,12 +696,12 @@ pub trait Staged: System {
             with `inputs`, where it is to be differentiated by these"
 )]
 pub trait Differentiate: Linearize {
-    /// Names and units of the inputs and parameters by which accelerations are differentiated, in
-    /// the order of the columns: those that the description's `derivatives` asks for.
+    /// Names and units of the inputs and parameters with respect to which the accelerations are differentiated, in the order of the
+    /// columns: those in the description's `derivatives`.
     fn variables(&self) -> impl ExactSizeIterator<Item = Quantity<'_>>;
 
-    /// [`linearize`](Linearize::linearize), and row after row the derivatives by the
-    /// [`variables`](Self::variables). What has no place in `by_variables` is left out.
+    /// [`linearize`](Linearize::linearize) and, row after row, the derivatives with respect to the [`variables`](Self::variables). Columns
+    /// that do not fit into `by_variables` are left out.
     #[expect(
         clippy::too_many_arguments,
         reason = "a state, and the four things that are asked of it"
@@ -740,7 +719,7 @@ pub trait Differentiate: Linearize {
     ) -> Result<(), Singular>;
 }
 
-/// Where a machine is and how fast it moves, at a time.
+/// Time, coordinates and rates of a machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct State<C> {
@@ -768,19 +747,19 @@ impl<'a> Quantity<'a> {
     }
 }
 
-/// A fact that a description assumes (`assume { s1 > 0 }`), and by how much it holds.
+/// A fact that a description assumes (`assume { s1 > 0 }`), and the margin by which it holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Assumption<'a> {
     /// The fact as the description states it, `s1 > 0`.
     pub text: &'a str,
-    /// The greater side less the smaller one.
+    /// The larger side minus the smaller one.
     pub margin: f64,
-    /// Whether a margin of exactly 0 is already against it (`>` and `<`, not `>=` and `<=`).
+    /// Whether a margin of exactly 0 violates the fact (`>` and `<`, not `>=` and `<=`).
     pub strict: bool,
 }
 
 impl Assumption<'_> {
-    /// Whether the fact holds; what is not a number does not.
+    /// Whether the fact holds; it does not if the margin is NaN.
     pub fn holds(&self) -> bool {
         self.margin > 0.0 || (!self.strict && self.margin >= 0.0)
     }
@@ -795,22 +774,21 @@ pub struct Constraint<'a> {
     pub unit: &'a str,
     /// The SI unit of its multiplier: a force for a length, a torque for an angle.
     pub multiplier_unit: &'a str,
-    /// Whether it is one on positions.
+    /// Whether it is a constraint on positions.
     pub holonomic: bool,
 }
 
 /// The equations of motion cannot be solved for the accelerations.
 ///
-/// Stopped at a coordinate, some motion of the machine meets no inertia: so at poses where
-/// coordinates lose their meaning (the angle of polar coordinates at radius 0), and in machines with
-/// a coordinate that moves no mass. Stopped at a constraint, that one depends on those before it.
+/// If elimination stopped at a coordinate, some motion of the machine meets no inertia. That happens in poses where coordinates are
+/// degenerate (the angle of polar coordinates at radius 0), and in machines with a coordinate that moves no mass. If it stopped at a
+/// constraint, that constraint depends on those before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Singular {
     /// Where elimination stopped.
     pub at: Pivot,
-    /// What elimination left of its diagonal element, relative to that element; 0 when nothing is
-    /// left or the element itself is 0. At a contact, 0 where no motion has this friction, and
-    /// infinite where several have. 0 where no row is to blame.
+    /// The pivot relative to the diagonal element that it came from; 0 if the pivot or the element is 0. At a contact, 0 if no motion
+    /// satisfies its law of friction, and infinite if several do. 0 if no row is the cause.
     pub ratio: f64,
 }
 
@@ -818,27 +796,27 @@ pub struct Singular {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Pivot {
-    /// That of the coordinate with this index.
+    /// The row of the coordinate with this index.
     Coordinate(usize),
-    /// That of the constraint with this index.
+    /// The row of the constraint with this index.
     Constraint(usize),
-    /// That of the contact with this index: the law of friction has no solution, or several.
+    /// The row of the contact with this index: the law of friction has no solution, or several.
     Contact(usize),
-    /// None: the machine gives no workspace to find out what its contacts do ([`System::with_workspace`]).
+    /// No row: the machine provides no workspace for its contacts ([`System::with_workspace`]).
     NoWorkspace,
-    /// None: accelerations that the contact with this index has a part in are not differentiated. What sticks has no
-    /// linearization.
+    /// No row: accelerations that involve the contact with this index are not differentiated, since a sticking contact has
+    /// no linearization.
     NotDifferentiated(usize),
 }
 
 impl Singular {
-    /// Elimination stopped at a coordinate: the pivot, and the diagonal element that it came from.
+    /// Elimination stopped at a coordinate with this pivot, which came from this diagonal element.
     #[cold]
     pub fn new(coordinate: usize, pivot: f64, diagonal: f64) -> Self {
         Self::at(Pivot::Coordinate(coordinate), pivot, diagonal)
     }
 
-    /// Elimination stopped at a constraint: the pivot, and the diagonal element that it came from.
+    /// Elimination stopped at a constraint with this pivot, which came from this diagonal element.
     #[cold]
     pub fn constraint(constraint: usize, pivot: f64, diagonal: f64) -> Self {
         Self::at(Pivot::Constraint(constraint), pivot, diagonal)
@@ -860,7 +838,7 @@ impl Singular {
     }
 
     fn at(at: Pivot, pivot: f64, diagonal: f64) -> Self {
-        // A diagonal element of 0 has a pivot of 0: the ratio 0/0 is told as 0.
+        // A diagonal element of 0 has a pivot of 0, and the ratio 0/0 is reported as 0.
         let ratio = if pivot == 0.0 { 0.0 } else { pivot / diagonal };
         Self { at, ratio }
     }

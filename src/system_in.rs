@@ -1,4 +1,4 @@
-//! What a machine is in numbers of any kind: [`MachineIn`] and [`SystemIn`].
+//! The traits of a machine in numbers of any kind: [`MachineIn`] and [`SystemIn`].
 
 use core::fmt::Debug;
 
@@ -6,8 +6,8 @@ use crate::{Quantity, Real, Singular, State, Vector};
 
 /// The parameters of a machine, in numbers `N`: `f32`, `f64`, double-doubles, or dual numbers of these.
 ///
-/// Emitted code implements it for machines without constraints and contacts. A machine comes to other numbers by its method `map`:
-/// `machine.map(DoubleDouble::from_f64)`.
+/// Emitted code implements it for machines without constraints and contacts. The method `map` of a machine converts it to other
+/// numbers: `machine.map(DoubleDouble::from_f64)`.
 ///
 #[cfg_attr(feature = "macros", doc = "```")]
 #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
@@ -53,8 +53,8 @@ pub trait MachineIn<N: Real> {
     fn start(&self) -> State<<Self::System as SystemIn<N>>::Coordinates>;
 }
 
-/// The equations of motion of a machine without constraints and contacts, in numbers `N`: what explicit methods need, and no more. For
-/// `f64`, [`System`](crate::System) knows the rest.
+/// The equations of motion of a machine without constraints and contacts, in numbers `N`: only what explicit methods need. For `f64`,
+/// [`System`](crate::System) has the rest.
 ///
 /// By hand, for x″ = −x in any numbers:
 ///
@@ -105,7 +105,7 @@ pub trait SystemIn<N: Real> {
     /// One number per coordinate, in the order of the description.
     type Vector: Vector<N>;
 
-    /// The coordinates by name. The rates use it too.
+    /// The coordinates by name. The rates use the same type.
     type Coordinates: Clone + Debug;
 
     /// The inputs by name.
@@ -114,16 +114,16 @@ pub trait SystemIn<N: Real> {
     /// Names and units of the coordinates, in order.
     fn coordinates(&self) -> impl ExactSizeIterator<Item = Quantity<'_>>;
 
-    /// A vector's numbers under the names of the coordinates.
+    /// Puts the numbers of a vector under the names of the coordinates.
     fn to_coordinates(&self, vector: &Self::Vector) -> Self::Coordinates;
 
-    /// The numbers of named coordinates as a vector.
+    /// Puts the numbers of named coordinates into a vector.
     fn to_vector(&self, coordinates: &Self::Coordinates) -> Self::Vector;
 
     /// Accelerations `a = M⁻¹ f`, at time `t` in s.
     ///
     /// # Errors
-    /// Where the mass matrix cannot be inverted.
+    /// If the mass matrix cannot be inverted.
     fn accelerations(
         &self,
         t: N,
@@ -133,6 +133,6 @@ pub trait SystemIn<N: Real> {
         a: &mut Self::Vector,
     ) -> Result<(), Singular>;
 
-    /// The inputs as they are while nobody sets them.
+    /// The values of inputs that nobody sets.
     fn default_inputs(&self) -> Self::Inputs;
 }

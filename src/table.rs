@@ -1,4 +1,4 @@
-//! Values at instants, and what is between them and beyond: what drives an input that was measured, or drawn by hand.
+//! Tables of values at instants, interpolated between them: they drive inputs that were measured or drawn by hand.
 
 use core::fmt::{self, Display};
 use std::string::String;
@@ -9,7 +9,7 @@ use crate::inputs::InputLaw;
 use crate::piece::{NoPiece, Piece};
 use crate::{Error, System};
 
-/// What a table is between its rows.
+/// How a table interpolates between its rows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -19,12 +19,12 @@ pub enum Between {
     /// A straight line.
     #[default]
     Linear,
-    /// A cubic spline with two continuous derivatives. At its ends it is one cubic over two intervals («not a knot»): so a cubic
-    /// polynomial is found again. C. de Boor, *A Practical Guide to Splines*, rev. ed., 2001, chapter IV.
+    /// A cubic spline with two continuous derivatives and the not-a-knot condition at its ends: it reproduces cubic polynomials.
+    /// C. de Boor, *A Practical Guide to Splines*, rev. ed., 2001, chapter IV.
     Cubic,
 }
 
-/// What a table is before its first row and behind its last.
+/// The values of a table before its first row and after its last.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -32,13 +32,13 @@ pub enum Beyond {
     /// The value of the first row, or of the last.
     #[default]
     Hold,
-    /// Nothing: a run that goes there ends with an error.
+    /// No value: a run that goes there ends with an error.
     Error,
-    /// The table once more, and again; its last row is at the instant of the first of the next round.
+    /// The table repeats; its last row is at the instant of the first row of the next period.
     Repeat,
 }
 
-/// A function of time that is given by its values at instants: for [`Simulation::table`](crate::Simulation::table).
+/// A function of time given by its values at instants, for [`Simulation::table`](crate::Simulation::table).
 ///
 /// ```
 /// use lagrangian::{Beyond, Table};
@@ -56,46 +56,46 @@ pub struct Table {
     beyond: Beyond,
     /// The first instant and the last.
     ends: [f64; 2],
-    /// Instants, each later than the one before it. Where values are held, those at which they change, and the first.
+    /// Increasing instants. For values that hold, only the first instant and those at which they change.
     times: Vec<f64>,
     values: Vec<f64>,
     /// The slope of a cubic at each instant.
     slopes: Vec<f64>,
-    /// The instants at which it is not smooth enough for methods of high order, and for those of low order; of the first round,
+    /// The instants at which it is not smooth enough for methods of high order, and for those of low order; in the first period
     /// if it repeats.
     breaks: [Vec<f64>; 2],
-    /// The least time between two instants.
+    /// The shortest time between two instants.
     finest: f64,
 }
 
-/// Why values at instants are no table.
+/// Why values at instants do not form a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum TableError {
     /// There are no rows.
     Empty,
-    /// There are not as many values as times.
+    /// The numbers of values and times differ.
     Lengths {
-        /// How many times there are.
+        /// The number of times.
         times: usize,
-        /// How many values.
+        /// The number of values.
         values: usize,
     },
     /// A time or a value is infinite or not a number.
     NotFinite {
-        /// The number of its row, from 0.
+        /// The index of its row.
         row: usize,
     },
     /// A time is not later than the one before it.
     NotLater {
-        /// The number of its row, from 0.
+        /// The index of its row.
         row: usize,
     },
-    /// A table of one row is to be repeated.
+    /// A table with one row cannot be repeated.
     NoPeriod,
-    /// A cubic is to be repeated that does not end where it begins.
+    /// A cubic spline that is to be repeated does not end where it begins.
     NotPeriodic,
-    /// The slopes of a cubic are greater than any number.
+    /// The slopes of a cubic spline overflow.
     TooSteep,
 }
 
@@ -122,16 +122,16 @@ impl Display for TableError {
 
 impl core::error::Error for TableError {}
 
-/// From this order of a method on a step ends at every knot of a cubic spline. There the third derivative of the input jumps: a
-/// step of length h across it has an error of h⁴, where one of a method of order p has h^(p + 1), and there are as many such
-/// steps as knots, however short the steps are; so up to order 4 nothing is lost.
+/// For methods of at least this order, steps end at every knot of a cubic spline. There the third derivative of the input jumps:
+/// a step of length h across it has an error of h⁴, a smooth step of a method of order p one of h^(p + 1), and there are as many
+/// such steps as knots, however short the steps are; so up to order 4 nothing is lost.
 const ORDER_OF_SPLINES: u32 = 5;
 
 impl Table {
-    /// A table of values that hold until the next.
+    /// A table of values that hold until the next row.
     ///
     /// # Errors
-    /// If the times do not grow, or some number is not finite.
+    /// If the times do not increase, or some number is not finite.
     pub fn hold(
         times: impl Into<Vec<f64>>,
         values: impl Into<Vec<f64>>,
@@ -161,13 +161,13 @@ impl Table {
         Self::new(Between::Cubic, Beyond::Hold, times, values)
     }
 
-    /// This table with another rule before its first row and behind its last.
+    /// This table with another rule before its first row and after its last.
     ///
     /// # Errors
-    /// If it is to be repeated and cannot.
+    /// If it is to be repeated and cannot be.
     pub fn beyond(self, beyond: Beyond) -> Result<Self, TableError> {
         let name = self.name;
-        // Of values that hold, the last row may say no more than when the table ends.
+        // For values that hold, the last row may only state when the table ends.
         let (mut times, mut values) = (self.times, self.values);
         if let (Some(time), Some(value)) = (times.last().copied(), values.last().copied())
             && time < self.ends[1]
@@ -181,7 +181,7 @@ impl Table {
     /// A table.
     ///
     /// # Errors
-    /// If the times do not grow, some number is not finite, or it is to be repeated and cannot.
+    /// If the times do not increase, if some number is not finite, or if it is to be repeated and cannot be.
     pub fn new(
         between: Between,
         beyond: Beyond,
@@ -252,17 +252,17 @@ impl Table {
         }
     }
 
-    /// What messages call it.
+    /// Its name in messages.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// What it is between its rows.
+    /// How it interpolates between its rows.
     pub fn between(&self) -> Between {
         self.between
     }
 
-    /// Leaves out rows that hold what is held already.
+    /// Removes rows whose value is already held.
     fn keep_changes(&mut self) {
         let changes = |row: &usize| *row == 0 || self.values[*row] != self.values[row - 1];
         let kept: Vec<usize> = (0..self.times.len()).filter(changes).collect();
@@ -270,14 +270,14 @@ impl Table {
         self.values = kept.iter().map(|row| self.values[*row]).collect();
     }
 
-    /// Where a step ends, of methods of high order and of low order.
+    /// The instants at which steps end, for methods of high order and of low order.
     fn find_breaks(&self) -> [Vec<f64>; 2] {
         let [first, last] = self.ends;
         let of_round = || self.times.iter().copied().filter(|time| *time < last);
         let is_one = first == last;
         match (self.between, self.beyond) {
             (_, Beyond::Hold) if is_one => [Vec::new(), Vec::new()],
-            // The first value holds before its instant, too.
+            // The first value also holds before its instant.
             (Between::Hold, Beyond::Hold) => {
                 let changes: Vec<f64> = self.times.iter().copied().skip(1).collect();
                 [changes.clone(), changes]
@@ -296,14 +296,14 @@ impl Table {
         }
     }
 
-    /// The value at a time; where it jumps, that behind the jump. Not a number where it is not known.
+    /// The value at a time; at a jump, the value after it. NaN where it is unknown.
     pub fn value(&self, t: f64) -> f64 {
         self.value_in(Piece::ALL, t)
     }
 
-    /// The value at a time of a piece: at its ends what it tends to from within.
+    /// The value at a time of a piece, and at its ends the limits from within.
     pub fn value_in(&self, piece: Piece, t: f64) -> f64 {
-        // A cubic is continuous, and may have knots within the piece.
+        // A cubic spline is continuous, and may have knots within the piece.
         let within = match self.between {
             Between::Cubic => t,
             _ => piece.within(t),
@@ -317,7 +317,7 @@ impl Table {
             0.0 => 0.0,
             round => round * (last - first),
         };
-        // By rounding it may be a round later, or earlier.
+        // Rounding may have put it into the next or the previous period.
         if self.beyond == Beyond::Repeat {
             if within - shift >= last {
                 shift += last - first;
@@ -331,7 +331,7 @@ impl Table {
                 Beyond::Hold if within < first => return self.values[0],
                 Beyond::Hold => return self.values[self.values.len() - 1],
                 Beyond::Error => return f64::NAN,
-                Beyond::Repeat => {} // it is within but for rounding
+                Beyond::Repeat => {} // it is within the table except for rounding
             }
         }
         let row = self.times.partition_point(|time| *time <= within);
@@ -361,7 +361,7 @@ impl Table {
     /// The piece of time that a run enters at `t`, in which the table is smooth enough for a method of this order.
     ///
     /// # Errors
-    /// Where the table is not known, or changes more often than times can tell apart.
+    /// If the table has no value there, or changes more often than the resolution of time.
     pub fn piece(&self, t: f64, forward: bool, order: u32) -> Result<Piece, NoPiece<'_>> {
         let [first, last] = self.ends;
         if self.beyond == Beyond::Error {
@@ -378,7 +378,7 @@ impl Table {
         if breaks.is_empty() {
             return Ok(Piece::ALL);
         }
-        // The break of a round and a number in it, which is the same to the last bit whenever it is asked for.
+        // The instant of a break in a period, always computed with the same bits.
         let count = breaks.len();
         let at = |round: f64, number: usize| match round {
             0.0 => breaks[number],
@@ -415,7 +415,7 @@ impl Table {
         })
     }
 
-    /// Whether it jumps at the break of this number.
+    /// Whether it jumps at the break with this index.
     fn jumps(&self, number: usize) -> bool {
         match self.between {
             Between::Hold => true,
@@ -428,7 +428,7 @@ impl Table {
     }
 }
 
-/// The first of so many numbers for which something holds that holds of all behind it, too; `count` if of none.
+/// The first index below `count` for which `holds` is true, if it is true for all following ones; `count` if there is none.
 fn first_of(count: usize, holds: impl Fn(usize) -> bool) -> usize {
     let (mut from, mut to) = (0, count);
     while from < to {
@@ -451,8 +451,8 @@ fn lines(times: &[f64], values: &[f64]) -> (Vec<f64>, Vec<f64>) {
     (lengths, slopes)
 }
 
-/// The slopes of the cubic spline whose third derivative is continuous at the second knot and at the last but one; of three
-/// rows those of the parabola, of two that of the line.
+/// The slopes of the cubic spline whose third derivative is continuous at the second and the last but one knot. With three rows
+/// they are those of the parabola, with two that of the line.
 ///
 /// C. de Boor, *A Practical Guide to Splines*, rev. ed., 2001, chapter IV, eqs. (4)–(7).
 fn slopes(times: &[f64], values: &[f64]) -> Vec<f64> {
@@ -500,11 +500,11 @@ fn slopes(times: &[f64], values: &[f64]) -> Vec<f64> {
     found
 }
 
-/// The slopes of the cubic spline that is periodic with two derivatives; the last row is the first of the next round.
+/// The slopes of the periodic cubic spline with two continuous derivatives; the last row is the first of the next period.
 ///
-/// The equations are those of [`slopes`] in a ring. They are solved without it and with a column for it: J. Sherman and W. J.
-/// Morrison, *Adjustment of an inverse matrix corresponding to a change in one element of a given matrix*, Ann. Math. Stat. 21
-/// (1950) 124.
+/// The equations are those of [`slopes`] in a ring. They are solved as a tridiagonal system with a rank-one correction: J.
+/// Sherman and W. J. Morrison, *Adjustment of an inverse matrix corresponding to a change in one element of a given matrix*,
+/// Ann. Math. Stat. 21 (1950) 124.
 fn periodic_slopes(times: &[f64], values: &[f64]) -> Vec<f64> {
     let (h, line) = lines(times, values);
     let m = h.len();
@@ -514,7 +514,7 @@ fn periodic_slopes(times: &[f64], values: &[f64]) -> Vec<f64> {
     let mut found = match m {
         1 => std::vec![0.0],
         2 => {
-            // Each row is the other's neighbour on both sides.
+            // Each row is the neighbour of the other on both sides.
             let across = h[0] + h[1];
             let determinant = own(0) * own(1) - across * across;
             std::vec![
@@ -523,8 +523,8 @@ fn periodic_slopes(times: &[f64], values: &[f64]) -> Vec<f64> {
             ]
         }
         _ => {
-            // The corners, h₀ on the right of the first row and h₍ₘ₋₂₎ on the left of the last one, are a product of vectors
-            // (γ, 0, …, last) and (1, 0, …, first/γ).
+            // The corner entries, h₀ at the end of the first row and h₍ₘ₋₂₎ at the beginning of the last one, are the product of
+            // the vectors (γ, 0, …, last) and (1, 0, …, first/γ).
             let [first, last] = [h[0], h[m - 2]];
             let gamma = -own(0);
             let diagonal = |i: usize| match i {
@@ -561,8 +561,8 @@ fn periodic_slopes(times: &[f64], values: &[f64]) -> Vec<f64> {
     found
 }
 
-/// Inputs of which one is driven by a table, and the others by a law: what
-/// [`Simulation::table`](crate::Simulation::table) makes.
+/// Inputs of which one is driven by a table, and the others by a law; created
+/// by [`Simulation::table`](crate::Simulation::table).
 #[derive(Clone, Debug)]
 pub struct TableInputs<L, F> {
     law: L,
@@ -571,7 +571,7 @@ pub struct TableInputs<L, F> {
 }
 
 impl<L, F> TableInputs<L, F> {
-    /// Inputs as the law has them but for what `set` puts in place of it.
+    /// Inputs of the law, some of which `set` replaces.
     pub fn new(law: L, table: Table, set: F) -> Self {
         Self {
             law,
@@ -626,7 +626,7 @@ impl Table {
 }
 
 impl NoPiece<'_> {
-    /// The error of a run that comes to `t`.
+    /// The error of a run that reaches `t`.
     pub(crate) fn error(self, t: f64) -> Error {
         let (input, why) = match self {
             NoPiece::Ended(name) => (name, "ends, and the run goes on: there is no value beyond"),

@@ -1,11 +1,12 @@
 //! Steps by Taylor series.
 //!
 //! The motion through the beginning of a step is a polynomial `q(τ) = Σ cⱼ τʲ`, whose coefficients a machine computes
-//! ([`System::series`]). A step evaluates it at its end, dense output and events between its ends, so neither costs
-//! anything of the machine. Its length follows from the last two coefficients before it is taken, and none is rejected.
+//! ([`System::series`]). A step evaluates it at its end, and dense output and events evaluate it between its ends without
+//! further evaluations of the machine. The length of a step follows from the last two coefficients before the step is taken, and
+//! no step is rejected.
 //!
-//! State and time are compensated sums: what is added to the state is rounded once, and what rounding takes from it is kept
-//! (N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., 2002, section 4.3).
+//! State and time are compensated sums: an increment of the state is rounded once, and the rounding error is kept (N. J. Higham,
+//! *Accuracy and Stability of Numerical Algorithms*, 2nd ed., 2002, section 4.3).
 
 use std::vec::Vec;
 
@@ -15,14 +16,14 @@ use crate::stages::{Point, in_blocks};
 use crate::tolerance::Tolerance;
 use crate::{Real, Scalar, Singular, System, Vector};
 
-/// Coefficients of the accelerations for tolerances down to [`FINE`], and below.
+/// Number of coefficients of the accelerations for tolerances above [`FINE`], and for finer ones.
 const ORDERS: [usize; 2] = [12, 20];
 
-/// Below this tolerance the higher order takes less time: products of series grow with the square of the order, the rest of a step
-/// with the order itself, and steps of fine tolerances are longer by more than that.
+/// Below this tolerance the higher order costs less time: the cost of products of series grows with the square of the order, the
+/// rest of a step with the order itself, but at fine tolerances the gain in step length is larger.
 pub(crate) const FINE: f64 = 1e-5;
 
-/// How many coefficients of a coordinate are asked for by the sum of relative and least absolute tolerance.
+/// The number of coefficients of a coordinate for the sum of the relative and the smallest absolute tolerance.
 pub(crate) fn rows(tolerance: f64) -> usize {
     ORDERS[usize::from(tolerance <= FINE)] + 2
 }
@@ -31,16 +32,16 @@ pub(crate) fn rows(tolerance: f64) -> usize {
 #[derive(Clone, Debug)]
 pub(crate) struct Taylor<V> {
     coefficients: [Vec<V>; 2],
-    /// Which of them are of the beginning.
+    /// The index of those of the beginning.
     beginning: usize,
     /// Whether a step was taken from there.
     is_taken: bool,
-    /// The length of a step from now, once it was asked for.
+    /// The length of the next step, once computed.
     length: Option<f64>,
 }
 
 impl<V: Vector> Taylor<V> {
-    /// Room for the series that a tolerance asks for.
+    /// Memory for a series of the order that a tolerance requires.
     pub fn new(tolerance: &Tolerance<V>) -> Self {
         let zeros = tolerance.absolute.zeros_like();
         let absolute = tolerance.absolute.as_slice().iter();
@@ -54,12 +55,12 @@ impl<V: Vector> Taylor<V> {
         }
     }
 
-    /// The coefficients of the last step; before the first, those of the start.
+    /// The coefficients of the last step; before the first step, those of the start.
     pub fn of_step(&self) -> &[V] {
         &self.coefficients[self.beginning]
     }
 
-    /// The coefficients of the motion through now.
+    /// The coefficients of the motion through the present state.
     pub fn of_now_rows(&self) -> &[V] {
         &self.coefficients[self.of_now()]
     }
@@ -72,25 +73,25 @@ impl<V: Vector> Taylor<V> {
         }
     }
 
-    /// Makes now the beginning of a step.
+    /// Makes the present state the beginning of a step.
     pub fn begin(&mut self) {
         self.beginning = self.of_now();
         self.is_taken = false;
     }
 
-    /// Makes the step just tried the last step.
+    /// Accepts the step just tried.
     pub fn accept(&mut self) {
         self.is_taken = true;
         self.length = None;
     }
 
-    /// Takes the last step back.
+    /// Undoes the last step.
     pub fn retreat(&mut self) {
         self.is_taken = false;
         self.length = None;
     }
 
-    /// Expands the motion through a state: the start, or, with `ahead`, the end of the step that is tried.
+    /// Expands the motion through a state: the start, or with `ahead` the end of the step that is being tried.
     pub fn expand<S: System<Vector = V>>(
         &mut self,
         system: &S,
@@ -108,7 +109,7 @@ impl<V: Vector> Taylor<V> {
         system.series(t, &at.q, &at.v, u, &mut self.coefficients[which])
     }
 
-    /// The accelerations at the state that was expanded last: now, or with `ahead` the end of the step that is tried.
+    /// The accelerations at the last expanded state: the present one, or with `ahead` the end of the step that is being tried.
     pub fn accelerations(&self, ahead: bool, a: &mut V) {
         let which = if ahead {
             1 - self.beginning
@@ -121,12 +122,12 @@ impl<V: Vector> Taylor<V> {
         }
     }
 
-    /// The length of a step from now whose last two terms are tolerable; infinite where nothing moves.
+    /// The length of a step whose last two terms are tolerable; infinite if the machine does not move.
     ///
-    /// With two, since after a start at rest, and at turning points, every second coefficient vanishes. The truncation error
-    /// is about `tolerable/(1 − h/R)`, with `R` the radius of convergence, near which steps of coarse tolerances
-    /// come: these ask for a tenth. Tolerances at the rounding of `f64` ask for a hundredth, so that the truncation error stays
-    /// below rounding, and errors of steps do not add up with the same sign.
+    /// Two terms are needed because every second coefficient vanishes after a start at rest and at turning points. The truncation
+    /// error is about `tolerable/(1 − h/R)`, with the radius of convergence `R`, which steps at coarse tolerances approach: there
+    /// the bound is a tenth of the tolerance. At tolerances near the round-off of `f64` it is a hundredth, so that the truncation
+    /// error stays below rounding and errors of steps do not add up with the same sign.
     pub fn length(&mut self, tolerance: &Tolerance<V>) -> f64 {
         let length = match self.length {
             Some(known) => known,
@@ -171,7 +172,7 @@ impl<V: Vector> Taylor<V> {
     }
 }
 
-/// The greatest last terms of a step, in a coordinate and a rate of this size, for which errors are tolerable.
+/// The bound on the last terms of a step, for a coordinate and a rate of this size.
 #[inline(always)]
 pub(crate) fn bound(size: f64, absolute: f64, relative: f64) -> f64 {
     let tolerable = absolute + relative * size;
@@ -182,7 +183,7 @@ pub(crate) fn bound(size: f64, absolute: f64, relative: f64) -> f64 {
     }
 }
 
-/// The greater of `worst` and a term's size over its bound: that of the rate, v = Σ (j + 1) cⱼ₊₁ τʲ, in a step of 1 s.
+/// The larger of `worst` and a term's size over its bound; the term is that of the rate, v = Σ (j + 1) cⱼ₊₁ τʲ, in a step of 1 s.
 #[inline(always)]
 pub(crate) fn worse(worst: f64, c: f64, j: f64, over_bound: f64) -> f64 {
     let ratio = if c == 0.0 {
@@ -190,7 +191,7 @@ pub(crate) fn worse(worst: f64, c: f64, j: f64, over_bound: f64) -> f64 {
     } else {
         (j * c.abs()) * over_bound
     };
-    // What is no number must not pass for none.
+    // NaN must not count as zero.
     if ratio > worst || ratio.is_nan() {
         ratio
     } else {
@@ -198,8 +199,8 @@ pub(crate) fn worse(worst: f64, c: f64, j: f64, over_bound: f64) -> f64 {
     }
 }
 
-/// The length of a step in which the terms of these two powers are their bounds at the most, from what they are in a step of 1 s;
-/// infinite where both are 0.
+/// The length of a step in which the terms of these two powers are at most their bounds, from their values in a step of 1 s;
+/// infinite if both are 0.
 #[inline(always)]
 pub(crate) fn length(worst: [f64; 2], powers: [usize; 2]) -> f64 {
     // The logarithm of the length.
@@ -219,7 +220,7 @@ pub(crate) fn length(worst: [f64; 2], powers: [usize; 2]) -> f64 {
     }
 }
 
-/// [`length`] where both terms are positive and finite: the same arithmetic without questions, for several at once.
+/// [`length`] for two terms that are positive and finite: the same arithmetic without branches, for several at once.
 #[inline(always)]
 pub(crate) fn usual_length(worst: [f64; 2], powers: [usize; 2]) -> f64 {
     let one = rough_log2(worst[0]) / (1.0 - powers[0] as f64);
@@ -227,16 +228,16 @@ pub(crate) fn usual_length(worst: [f64; 2], powers: [usize; 2]) -> f64 {
     rough_exp2(if one < other { one } else { other })
 }
 
-/// Coefficients of coordinates that [`rises`] reads.
+/// Access to the coefficients of coordinates for [`rises`].
 pub(crate) trait Coefficients<N> {
-    /// How many there are of each coordinate.
+    /// The number of coefficients of each coordinate.
     fn count(&self) -> usize;
-    /// Those of order `j`, of `B` coordinates from `start` on. Inlined always: a closure need not be, into code for registers that
-    /// only some processors have.
+    /// Those of order `j`, of `B` coordinates from `start` on. Always inlined, which a closure may not be into code for registers
+    /// that only some processors have.
     fn block<const B: usize>(&self, j: usize, start: usize) -> [N; B];
 }
 
-/// Those of one trajectory.
+/// The coefficients of one trajectory.
 struct Rows<'a, V>(&'a [V]);
 
 impl<N: Real, V: Vector<N>> Coefficients<N> for Rows<'_, V> {
@@ -254,7 +255,7 @@ impl<N: Real, V: Vector<N>> Coefficients<N> for Rows<'_, V> {
     }
 }
 
-/// One more term of Horner's rule.
+/// Adds one term by Horner's rule.
 #[inline(always)]
 fn add_term<const B: usize, N: Scalar>(
     coefficients: &impl Coefficients<N>,
@@ -270,15 +271,15 @@ fn add_term<const B: usize, N: Scalar>(
     }
 }
 
-/// By how much `B` coordinates from `start` on and their rates change in a time `tau`: side by side, so that the processor has
-/// several sums to work at.
+/// The changes of `B` coordinates from `start` on, and of their rates, in a time `tau`. They are computed side by side so that the
+/// processor can work on several sums at once.
 #[inline(always)]
 pub(crate) fn rises<const B: usize, N: Scalar>(
     coefficients: &impl Coefficients<N>,
     start: usize,
     tau: N,
 ) -> [[N; B]; 2] {
-    // Terms of even and of odd powers by Horner's rule each, which do not wait for each other.
+    // Terms of even and of odd powers, each by Horner's rule, so that the two sums are independent of each other.
     let zeros = [N::ZERO; B];
     let (mut q, mut v) = ([zeros; 2], [zeros; 2]);
     let square = tau * tau;
@@ -316,7 +317,7 @@ pub(crate) fn state<N: Real, V: Vector<N>>(coefficients: &[V], tau: N) -> (V, V)
     (q, v)
 }
 
-/// The accelerations there.
+/// The accelerations at a time `tau` after the state that was expanded.
 pub(crate) fn accelerations<V: Vector>(coefficients: &[V], tau: f64, a: &mut V) {
     for (i, a) in a.as_mut_slice().iter_mut().enumerate() {
         *a = 0.0;

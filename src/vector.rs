@@ -1,22 +1,22 @@
-//! The vectors that the integrators do arithmetic on.
+//! The vectors of the integrators.
 
 use core::fmt::Debug;
 
 use crate::step_number::StepNumber;
 
-/// A row of numbers of a length fixed when the machine is prepared: `[f64; N]` in compiled
-/// machines, `Vec<f64>` in interpreted ones; of other numbers `[N; D]`.
+/// A row of numbers whose length is fixed when the machine is prepared: `[f64; N]` in compiled
+/// machines, `Vec<f64>` in interpreted ones; `[N; D]` for other numbers.
 ///
-/// With `[f64; N]` the compiler knows every length, unrolls and vectorises; nothing is ever
-/// allocated.
+/// With `[f64; N]` the compiler knows every length, unrolls and vectorizes loops, and nothing
+/// is allocated.
 pub trait Vector<N = f64>: Clone + Debug + PartialEq {
-    /// `length` zeros. An array has its own length and takes no notice of `length`.
+    /// `length` zeros. An array has its own length and ignores `length`.
     fn zeros(length: usize) -> Self;
 
     /// The numbers.
     fn as_slice(&self) -> &[N];
 
-    /// The numbers, to be changed.
+    /// The numbers, mutable.
     fn as_mut_slice(&mut self) -> &mut [N];
 
     /// Zeros, as many as there are numbers in `self`.

@@ -1,4 +1,4 @@
-//! Linear algebra in a few lines, in place.
+//! Small dense linear algebra, in place.
 #![expect(
     clippy::neg_cmp_op_on_partial_ord,
     reason = "what is not a number passes no test here"
@@ -7,8 +7,8 @@
 use crate::Singular;
 use crate::math::sqrt;
 
-/// Cholesky's factorization `L Lᵀ`, to the lower triangle; and to `shares` the remainder of each
-/// diagonal element, `Lᵢᵢ / √aᵢᵢ`.
+/// Computes the Cholesky factorization `L Lᵀ` in the lower triangle, and in `shares` the remainder of each diagonal element,
+/// `Lᵢᵢ / √aᵢᵢ`.
 pub(crate) fn cholesky(a: &mut [f64], shares: &mut [f64]) -> Result<(), Singular> {
     let n = root(a.len());
     let roundoff = 4.0 * n as f64 * f64::EPSILON;
@@ -33,7 +33,7 @@ pub(crate) fn cholesky(a: &mut [f64], shares: &mut [f64]) -> Result<(), Singular
     Ok(())
 }
 
-/// `L⁻¹ x` in place.
+/// Computes `L⁻¹ x` in place.
 pub(crate) fn forward(l: &[f64], x: &mut [f64]) {
     let n = x.len();
     for i in 0..n {
@@ -42,7 +42,7 @@ pub(crate) fn forward(l: &[f64], x: &mut [f64]) {
     }
 }
 
-/// `L⁻ᵀ x` in place.
+/// Computes `L⁻ᵀ x` in place.
 pub(crate) fn backward(l: &[f64], x: &mut [f64]) {
     let n = x.len();
     for i in (0..n).rev() {
@@ -54,8 +54,8 @@ pub(crate) fn backward(l: &[f64], x: &mut [f64]) {
     }
 }
 
-/// Where the rows of a symmetric matrix, and of its Cholesky factor, begin: before that they are 0. (A. George, J. W. Liu, *Computer
-/// Solution of Large Sparse Positive Definite Systems*, 1981, chapter 4.) What is done by it has the bits of what is done without it.
+/// The first nonzero column of each row of a symmetric matrix, and so of its Cholesky factor. (A. George, J. W. Liu, *Computer Solution
+/// of Large Sparse Positive Definite Systems*, 1981, chapter 4.) Results have the same bits with and without a profile.
 #[cfg(feature = "std")]
 pub(crate) struct Profile {
     first: std::vec::Vec<usize>,
@@ -63,7 +63,7 @@ pub(crate) struct Profile {
 
 #[cfg(feature = "std")]
 impl Profile {
-    /// Of a matrix, row after row.
+    /// The profile of a matrix, row after row.
     pub fn of(a: &[f64]) -> Profile {
         let n = root(a.len());
         let row = |i: usize| &a[i * n..][..i];
@@ -73,7 +73,7 @@ impl Profile {
         }
     }
 
-    /// As [`cholesky`], where the shares of the diagonal are of no interest.
+    /// Like [`cholesky`], without the remainders of the diagonal.
     pub fn cholesky(&self, a: &mut [f64]) -> Result<(), Singular> {
         let n = self.first.len();
         let roundoff = 4.0 * n as f64 * f64::EPSILON;
@@ -99,7 +99,7 @@ impl Profile {
         Ok(())
     }
 
-    /// `L⁻¹ x` in place.
+    /// Computes `L⁻¹ x` in place.
     pub fn forward(&self, l: &[f64], x: &mut [f64]) {
         let n = x.len();
         let begin = x.iter().position(|x| *x != 0.0).unwrap_or(n);
@@ -110,7 +110,7 @@ impl Profile {
         }
     }
 
-    /// `L⁻ᵀ x` in place.
+    /// Computes `L⁻ᵀ x` in place.
     pub fn backward(&self, l: &[f64], x: &mut [f64]) {
         let n = x.len();
         for i in (0..n).rev() {
@@ -123,7 +123,7 @@ impl Profile {
     }
 }
 
-/// `R⁻¹ x` in place, for the upper triangle `R` of `rank` rows.
+/// Computes `R⁻¹ x` in place, for the upper triangle `R` of `rank` rows.
 pub(super) fn solve_triangle(r: &[f64], rank: usize, x: &mut [f64]) {
     for i in (0..rank).rev() {
         let known = dot(&r[i * rank..][i + 1..rank], &x[i + 1..rank]);
@@ -131,7 +131,7 @@ pub(super) fn solve_triangle(r: &[f64], rank: usize, x: &mut [f64]) {
     }
 }
 
-/// Takes out of `x` what it has along a unit vector, and says how much that was.
+/// Removes the component along a unit vector from `x`, and returns it.
 pub(crate) fn remove(unit: &[f64], x: &mut [f64]) -> f64 {
     let along = dot(unit, x);
     for (x, unit) in x.iter_mut().zip(unit) {
@@ -148,8 +148,8 @@ pub(crate) fn length(x: &[f64]) -> f64 {
     sqrt(dot(x, x))
 }
 
-/// Numbers that are smaller than this have fewer digits than others: what becomes of them is no matter of rounding alone. Rates of
-/// what comes to rest fall that low.
+/// Numbers below this may have fewer digits than others when they are processed, so their errors are not rounding alone. Rates of parts
+/// that come to rest fall that low.
 const UNDERFLOW: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 
 /// `x` relative to a scale that may be 0.
@@ -161,7 +161,7 @@ pub(super) fn share(x: f64, scale: f64) -> f64 {
     }
 }
 
-/// The number of rows of a square matrix of so many numbers.
+/// The number of rows of a square matrix with this number of entries.
 pub(super) fn root(numbers: usize) -> usize {
     numbers.isqrt()
 }
@@ -170,7 +170,7 @@ pub(super) fn root(numbers: usize) -> usize {
 mod tests {
     use super::*;
 
-    /// What is done within a profile has the bits of what is done without one: of single bodies, bodies in groups, bands, full matrices.
+    /// Results within a profile have the same bits as without one: for single bodies, groups of bodies, bands, full matrices.
     #[test]
     fn a_profile_changes_no_bit() {
         let mut state = 11_u64;
@@ -224,7 +224,7 @@ mod tests {
                 }
             }
         }
-        // A matrix that is none of an inertia stops at the same place.
+        // A matrix that is not positive definite stops at the same place.
         let flat = [1.0, 1.0, 1.0, 1.0];
         let stops = cholesky(&mut flat.clone(), &mut [0.0; 2]);
         assert_eq!(Profile::of(&flat).cholesky(&mut flat.clone()), stops);

@@ -1,31 +1,31 @@
-//! Which rows are kept: as many as are independent, and of these the ones that hold best at a pose.
+//! Chooses the rows that are enforced: as many as are independent, and among these the strongest at a pose.
 
 use super::algebra::{forward, length, remove};
 use super::scale::Scales;
 use super::workspace::{Workspace, in_workspace};
 use crate::{StepError, System, Vector};
 
-/// Rows that are independent, those of positions first. There are no more than coordinates.
+/// Independent rows, those of positions first. There are at most as many as coordinates.
 #[derive(Clone, Debug)]
 pub(crate) struct Choice<V> {
     rows: V,
-    /// How many of them there are.
+    /// The number of rows.
     pub rank: usize,
-    /// How many of them are of positions.
+    /// The number of rows of positions.
     pub holonomic: usize,
 }
 
 /// How many rows to choose.
 #[derive(Clone, Copy)]
 pub(crate) enum Rank {
-    /// As many as are independent by more than this.
+    /// All rows that are independent by more than this.
     Revealed(f64),
-    /// Those that are independent by more than the first number; beyond the rank there was before, only those that are
+    /// All rows that are independent by more than the first number; beyond the previous rank, only rows that are
     /// independent by more than the second.
     Followed(f64, f64),
-    /// As many of positions, and as many in all, as were chosen before.
+    /// As many rows of positions, and as many in total, as were chosen before.
     Known,
-    /// Those that hold by more than this: see [`Constraints::hold`](super::Constraints::hold).
+    /// All rows whose strength exceeds this: see [`Constraints::hold`](super::Constraints::hold).
     Holding(f64),
 }
 
@@ -41,7 +41,7 @@ impl<V: Vector> Choice<V> {
 
     /// The index of a chosen row.
     pub fn row(&self, chosen: usize) -> usize {
-        // There are far fewer rows than an `f64` counts exactly.
+        // The number of rows is far below the integers that `f64` represents exactly.
         self.rows.as_slice()[chosen] as usize
     }
 
@@ -50,15 +50,14 @@ impl<V: Vector> Choice<V> {
         (0..self.rank).any(|j| self.row(j) == k)
     }
 
-    /// Chooses rows at a pose, one after the other, by the component of each across those before it: the
-    /// first of those that leave half of the most, and before these a row that was chosen until now and
-    /// leaves a quarter, so that rows do not change from one evaluation to the next for nothing.
+    /// Chooses rows at a pose, one after the other, by the length of the component of each that is orthogonal to those
+    /// before it: the first row with at least half of the greatest length, or preferably a row that was chosen before
+    /// and has at least a quarter of it, so that rows do not change needlessly from one evaluation to the next.
     ///
-    /// That component is taken relative to the row's own length where it is asked *whether* a row is
-    /// independent, and relative to the greatest that its terms have been in the run where it is asked
-    /// *which* is the better one: a row that vanishes in a pose is not lost there, but rounding holds more
-    /// of it. This is Gram and Schmidt's process with choice of the column, in the metric of inertia
-    /// (G. H. Golub, C. F. Van Loan, *Matrix Computations*, 4th ed., section 5.4.2).
+    /// *Whether* a row is independent is decided by that component relative to the row's present length. *Which* row
+    /// is better is decided relative to the largest size of its terms in the run: a row that vanishes in a pose is not
+    /// lost there, but a larger part of it is round-off. This is the Gram–Schmidt process with column pivoting, in the
+    /// metric of inertia (G. H. Golub, C. F. Van Loan, *Matrix Computations*, 4th ed., section 5.4.2).
     pub fn made<S: System<Vector = V>>(
         &self,
         system: &S,
@@ -110,8 +109,8 @@ impl<V: Vector> Choice<V> {
         })
     }
 
-    /// The row to be chosen next, if any is independent by more than `least`, and its component across the others,
-    /// relative to the greatest that it has been.
+    /// The next row to be chosen, if any is independent by more than `least`, and its component orthogonal to the
+    /// chosen rows, relative to the largest size of the row.
     fn best<S: System<Vector = V>>(
         &self,
         system: &S,
@@ -124,7 +123,7 @@ impl<V: Vector> Choice<V> {
         }
         let held = |k: usize| {
             let left = length(&workspace.matrix[k * workspace.n..][..workspace.n]);
-            // The weaker a row, the more of its direction is rounding.
+            // The weaker a row, the larger the part of its direction that is round-off.
             (left > least).then_some((k, left * workspace.rates[k]))
         };
         let rows = || {
@@ -137,8 +136,8 @@ impl<V: Vector> Choice<V> {
         was_chosen().or_else(|| rows().find(|(_, held)| *held >= 0.5 * most))
     }
 
-    /// Adds a row to those chosen, if it is independent by more than `least`, and takes its direction
-    /// out of the others.
+    /// Adds a row to the chosen ones, if it is independent by more than `least`, and removes its direction
+    /// from the others.
     fn take<M: Vector>(&mut self, workspace: &mut Workspace<'_, M>, k: usize, least: f64) {
         let n = workspace.n;
         workspace

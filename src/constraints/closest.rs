@@ -1,4 +1,4 @@
-//! How near a start can come to the constraints while some of its numbers are kept.
+//! Finds how close a start can come to the constraints while some of its numbers are kept.
 
 use std::vec;
 use std::vec::Vec;
@@ -7,29 +7,30 @@ use super::algebra::{backward, cholesky, dot, forward};
 use super::{Level, Place};
 use crate::{System, Vector};
 
-/// The method converges by then, or stands where it will.
+/// The number of iterations after which the method has converged or stagnates.
 const ROUNDS: usize = 200;
 
-/// Less than this is no miss, relative to what was left at the start: the square of it is what rounding
-/// leaves of a sum of squares.
+/// Residuals below this, relative to the residual at the start, count as zero: their square is the
+/// round-off in a sum of squares.
 const NO_MISS: f64 = 1e-7;
 
-/// Nor is this, relative to the terms of a row: runs ask for less, and rounding is far below.
+/// Residuals below this, relative to the terms of a row, count as zero as well: runs demand less, and
+/// rounding is far below.
 const ROUNDING: f64 = 1e-11;
 
-/// Parts of the greatest miss that are less than this belong to rows that could be met beside it.
+/// Residuals below this fraction of the largest belong to rows that could be satisfied.
 const BESIDE: f64 = 1e-4;
 
-/// A row that cannot be met: its index, whether its positions or its rates, and its residual.
+/// A row that cannot be satisfied: its index, its level (0 for positions, 1 for rates), and its residual.
 pub(crate) type Miss = (usize, usize, f64);
 
-/// The rows that cannot be met by moving what is free, `kept` being not 0 for what is not: those of which
-/// something is left where the sum of the squares of all residuals is least, positions first, and
-/// only if these can be met the rates. `place` is projected there.
+/// The rows that cannot be satisfied by moving the free numbers; those with nonzero `kept` are fixed.
+/// These are the rows with a remainder where the sum of squares of all residuals is smallest. Rates are
+/// tried only if all rows of positions can be satisfied. `place` is moved there.
 ///
-/// Each residual counts by the distance, in the metric of the inertias, that it is worth where the start
-/// is; the method is K. Levenberg's (*A method for the solution of certain non-linear problems in least
-/// squares*, 1944), each step being `−W Gᵀ (G W Gᵀ + μ)⁻¹ g`.
+/// Each residual is scaled to a distance in the metric of the inertias at the start. The method is K.
+/// Levenberg's (*A method for the solution of certain non-linear problems in least squares*, 1944), with
+/// steps `−W Gᵀ (G W Gᵀ + μ)⁻¹ g`.
 pub(crate) fn closest<S: System>(
     system: &S,
     place: &mut Place<'_, S::Vector>,
@@ -49,16 +50,16 @@ pub(crate) fn closest<S: System>(
 struct Search {
     level: Level,
     n: usize,
-    /// The rows that count on this level.
+    /// The rows of this level.
     rows: Vec<usize>,
-    /// What divides the residual of each.
+    /// The divisor of the residual of each.
     sizes: Vec<f64>,
-    /// The inverse inertia of each coordinate, 0 where it is kept.
+    /// The inverse inertia of each coordinate, 0 for kept ones.
     free: Vec<f64>,
-    /// Residuals over sizes, and rows over sizes, where the search is.
+    /// Residuals and rows at the present state, each divided by its size.
     left: Vec<f64>,
     matrix: Vec<f64>,
-    /// What counts as nothing.
+    /// Residuals up to this count as zero.
     nothing: f64,
 }
 
@@ -130,7 +131,7 @@ impl Search {
         search
     }
 
-    /// Residuals and rows at a state.
+    /// Evaluates residuals and rows at a state.
     fn look<S: System>(&mut self, system: &S, place: &Place<'_, S::Vector>) {
         let m = system.constraints().len();
         let (mut left, mut matrix) = (vec![0.0; m], vec![0.0; m * self.n]);
@@ -198,7 +199,7 @@ impl Search {
         }
     }
 
-    /// The constraints that are not met where the search stands, with their residuals.
+    /// The constraints that are violated at the present state, with their residuals.
     fn misses(&self) -> Vec<Miss> {
         let most = self.left.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         let rows = self.rows.iter().zip(&self.left).zip(&self.sizes);

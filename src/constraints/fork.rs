@@ -1,20 +1,17 @@
-//! Poses in which rows come to depend on each other that do not elsewhere: a parallelogram whose bars
-//! come into line.
+//! Passes poses in which rows become dependent that are independent elsewhere, such as a parallelogram whose bars come into line.
 //!
-//! There more directions are free than elsewhere, and branches of the motion may cross. Let `ε` be how much
-//! of its greatest length a row has left beside the others. It vanishes in the pose, and rounding of the
-//! constraint, `u`, is an error `u/ε` of positions along that row, `u/ε²` of rates and `u/ε³` of accelerations.
-//! All of it lies across the motion: a row's direction is what its reaction pushes along, so what is off is
-//! taken away again by the next move onto the constraints, where `ε` is no longer small. So, while a motion
-//! passes such a pose,
+//! There more directions are free than elsewhere, and branches of the motion may cross. Let `ε` be the length of the component of
+//! a row that is orthogonal to the others, relative to the greatest length of the row. It vanishes in the pose. The round-off `u`
+//! of the constraint is an error `u/ε` of positions along that row, `u/ε²` of rates and `u/ε³` of accelerations. All of it is
+//! across the motion, since the direction of a row is the direction of its reaction, so the next projection onto the constraints
+//! removes it once `ε` is no longer small. Therefore, while a motion passes such a pose,
 //!
 //! * its stages are projected onto the constraints before their accelerations are evaluated;
-//! * accelerations within [`PASSED_OVER`] are interpolated between four states on the same branch, two before
-//!   and two after, which are well held: an error of order `ε⁴`;
-//! * a state with `ε` below [`WEAK`] is not moved along what holds so little: it goes on as it came, which is
-//!   how the branch goes on;
-//! * the errors of a step are measured along the motion, as that of the state that the constraints then
-//!   make of it (E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, 2nd ed., section VII.2).
+//! * accelerations within [`PASSED_OVER`] are interpolated between four states on the same branch, two before and two after, at
+//!   which the rows are strong: an error of order `ε⁴`;
+//! * a state with `ε` below [`WEAK`] is not moved along such weak rows: it continues as it came, and so does the branch;
+//! * the error of a step is measured along the motion, as the error of the state after its projection (E. Hairer, G. Wanner,
+//!   *Solving Ordinary Differential Equations II*, 2nd ed., section VII.2).
 
 use super::algebra::{backward, remove};
 use super::choice::Rank;
@@ -22,25 +19,25 @@ use super::workspace::{Workspace, in_workspace};
 use super::{Constraints, Level, Place};
 use crate::{Singular, StepError, System, Vector};
 
-/// Below this, rows no longer move a state.
+/// Below this strength, rows no longer move a state.
 pub(super) const WEAK: f64 = 1e-4;
 
-/// Below this, residuals are worked off to rounding: a residual `r` is an error `r/ε²` of the rates across the rows, and the next
-/// move, whose rows have turned by then, leaves a part of that along the motion.
+/// Below this strength, residuals are reduced to round-off: a residual `r` is an error `r/ε²` of the rates across the rows, and
+/// the next projection, whose rows have turned by then, leaves a part of it along the motion.
 pub(super) const TIGHT: f64 = 1e-2;
 
-/// Below this, accelerations are taken from beside the pose.
+/// Below this strength, accelerations are interpolated from both sides of the pose.
 pub(super) const PASSED_OVER: f64 = 3e-4;
 
-/// Within this, a step that fails may have failed because of such a pose.
+/// A step that fails may have failed because of such a pose if the strength is below this.
 const IN_SIGHT: f64 = 0.5;
 
-/// How far from a pose states are looked for, in units of the coordinates' sizes, or in rad.
+/// How far from the pose states are searched for, in units of the coordinates' sizes, or in rad.
 const BESIDE: f64 = 0.1;
 
 impl<V: Vector> Constraints<V> {
-    /// How much of its greatest length the weakest of the chosen rows has left beside the others at a pose;
-    /// 0 where it has nothing.
+    /// The strength of the weakest chosen row at a pose: its component orthogonal to the others, relative to its greatest length;
+    /// 0 if it has none.
     pub fn hold<S: System<Vector = V>>(&self, system: &S, t: f64, q: &V) -> f64 {
         let hold = in_workspace(system, t, q.as_slice().len(), |workspace| {
             self.prepare(system, workspace, (t, q), Level::Rates)?;
@@ -49,7 +46,7 @@ impl<V: Vector> Constraints<V> {
         hold.unwrap_or(0.0)
     }
 
-    /// [`hold`](Self::hold) where rows have been factorized.
+    /// [`hold`](Self::hold) after the rows were factorized.
     fn held<M: Vector>(&self, workspace: &Workspace<'_, M>, q: &V) -> f64 {
         let rank = self.choice.rank;
         let mut least: f64 = 1.0;
@@ -64,7 +61,7 @@ impl<V: Vector> Constraints<V> {
         least
     }
 
-    /// [`hold`](Self::hold) where rows may have been factorized; 1 where their factorization failed for another reason.
+    /// [`hold`](Self::hold) after an attempt to factorize the rows; 1 if that failed for another reason.
     pub(super) fn hold_of<M: Vector>(
         &self,
         prepared: &Result<(), StepError>,
@@ -82,8 +79,7 @@ impl<V: Vector> Constraints<V> {
         }
     }
 
-    /// Takes note that a step between two poses failed; says whether such a pose may be why, which was not
-    /// known before.
+    /// Called after a step between two poses failed; returns whether such a pose may be the cause, unless that was known before.
     pub fn meet_fork<S: System<Vector = V>>(&mut self, system: &S, poses: [(f64, &V); 2]) -> bool {
         if self.at_fork {
             return false;
@@ -93,13 +89,13 @@ impl<V: Vector> Constraints<V> {
         self.at_fork
     }
 
-    /// Takes note of the end of a step: whether the pose has been passed.
+    /// Called at the end of a step; updates whether the motion is still near the pose.
     pub fn pass_fork<S: System<Vector = V>>(&mut self, system: &S, t: f64, q: &V) {
         self.at_fork = self.at_fork && self.hold(system, t, q) < IN_SIGHT;
     }
 
-    /// Accelerations of a state that is first projected onto the constraints: a stage is off them by what the
-    /// method leaves of it, and that, too, would grow as `1/ε²`.
+    /// Accelerations of a state after its projection onto the constraints: the error of a stage would otherwise grow as
+    /// `1/ε²` as well.
     pub(super) fn accelerations_at_fork<S: System<Vector = V>>(
         &self,
         system: &S,
@@ -114,10 +110,10 @@ impl<V: Vector> Constraints<V> {
         self.accelerations_here(system, (t, &q, &v, u), a)
     }
 
-    /// Accelerations between those beside a pose, two before and two after it.
+    /// Accelerations interpolated between states on both sides of a pose, two before and two after it.
     ///
-    /// They are a smooth function of the place on the line through the state along its rates, projected onto the constraints, so
-    /// the cubic through four of its values is off by the fourth power of their distance.
+    /// They are a smooth function of the position on the line through the state along its rates, projected onto the constraints,
+    /// so the error of the cubic through four values is of the fourth power of their distance.
     fn accelerations_across<S: System<Vector = V>>(
         &self,
         system: &S,
@@ -133,7 +129,7 @@ impl<V: Vector> Constraints<V> {
                 let (by, was) =
                     self.accelerations_beside(system, at, (direction, far), &mut beside[k])?;
                 times[k] = by;
-                // The next one is as far from this one as this one is from the pose.
+                // The second state is as far from the first as the first is from the pose.
                 far = 2.0 * was;
             }
         }
@@ -149,8 +145,8 @@ impl<V: Vector> Constraints<V> {
         Ok(())
     }
 
-    /// Accelerations at the nearest state in a direction of time, from some distance on, that is held well enough; says when
-    /// that is, and at which distance.
+    /// Accelerations at the nearest state in a direction of time, from some distance on, at which the rows are strong enough;
+    /// returns its relative time and its distance.
     fn accelerations_beside<S: System<Vector = V>>(
         &self,
         system: &S,
@@ -159,7 +155,7 @@ impl<V: Vector> Constraints<V> {
         a: &mut V,
     ) -> Result<(f64, f64), StepError> {
         let rate = self.scales.rate(v);
-        // What comes to rest in such a pose may leave it on any branch.
+        // A machine at rest in such a pose may leave it on any branch.
         while rate > 0.0 && far < BESIDE {
             let by = direction * far / rate;
             let mut ahead = q.clone();
@@ -178,7 +174,7 @@ impl<V: Vector> Constraints<V> {
         Err(StepError::Singular { singular, t })
     }
 
-    /// Brings a state that may be held weakly, but is held, onto all chosen rows.
+    /// Projects a state at which rows may be weak, but do not vanish, onto all chosen rows.
     pub(super) fn put_on<S: System<Vector = V>>(
         &self,
         system: &S,
@@ -205,7 +201,7 @@ impl<V: Vector> Constraints<V> {
         })
     }
 
-    /// Takes out of a change of coordinates, or of rates, what goes across the constraints at a pose.
+    /// Removes the part across the constraints at a pose from a change of coordinates or of rates.
     pub fn keep_along<S: System<Vector = V>>(
         &self,
         system: &S,

@@ -1,4 +1,4 @@
-//! What a run tells of its constraints.
+//! Information about the constraints for the messages of a run.
 
 use super::choice::Rank;
 use super::workspace::in_workspace;
@@ -6,8 +6,8 @@ use super::{Constraints, INDEPENDENT, Level};
 use crate::{Pivot, StepError, System, Vector};
 
 impl<V: Vector> Constraints<V> {
-    /// For each row that was not chosen, its index and those of the chosen rows that it depends on,
-    /// at a state where the rows were chosen.
+    /// For each row that was not chosen, its index and the indices of the chosen rows that it depends
+    /// on, at a state at which the rows were chosen.
     pub fn dependences<S: System<Vector = V>>(
         &self,
         system: &S,
@@ -16,7 +16,7 @@ impl<V: Vector> Constraints<V> {
     ) -> Result<std::vec::Vec<(usize, std::vec::Vec<usize>)>, StepError> {
         use std::vec::Vec;
 
-        // What rounding leaves of 0 beside 1.
+        // Coefficients below this are round-off of 0, relative to 1.
         const NOTHING: f64 = 1e-6;
         in_workspace(system, t, q.as_slice().len(), |workspace| {
             self.prepare(system, workspace, (t, q), Level::Rates)?;
@@ -33,10 +33,10 @@ impl<V: Vector> Constraints<V> {
         })
     }
 
-    /// The row that has lost most of its hold on the way from one pose to another, and the remainder of
-    /// it beside the others, relative to what it had; none where it had nothing.
+    /// The row that has lost most of its strength on the way from one pose to another, and its strength
+    /// at the end relative to that at the beginning; `None` if it had none.
     ///
-    /// Where it is 0, rows depend on each other that did not before: more directions are free there than
+    /// If it is 0, rows are dependent that were not before: more directions are free there than
     /// elsewhere, and branches of the motion may meet.
     pub fn weakest<S: System<Vector = V>>(
         &mut self,
@@ -67,7 +67,7 @@ impl<V: Vector> Constraints<V> {
         })
     }
 
-    /// The size by which a coordinate and its rate are measured.
+    /// The reference sizes of a coordinate and of its rate.
     pub fn sizes(&self, coordinate: usize) -> [f64; 2] {
         [0, 1].map(|of: usize| self.scales.sizes[of].as_slice()[coordinate])
     }

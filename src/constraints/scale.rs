@@ -1,59 +1,59 @@
-//! By what residuals are measured.
+//! Scales of the residuals of constraints.
 //!
-//! A residual is small if rounding alone could have made it. What rounding makes has three sources
-//! (N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., sections 1.5 and 3.3), and
-//! the scale of a row is the sum of what each allows:
+//! A residual is small if rounding alone could have caused it. Round-off has three sources (N. J. Higham,
+//! *Accuracy and Stability of Numerical Algorithms*, 2nd ed., sections 1.5 and 3.3), and the scale of a row is
+//! the sum of their contributions:
 //!
-//! * The state is rounded: `Σⱼ |Gₖⱼ| |qⱼ|` and `Σⱼ |Gₖⱼ| |vⱼ| + |∂gₖ/∂t|`, with the greatest values in the
-//!   run so far, since terms may vanish on the way.
-//! * A rate is what accelerations add up to, and these come out of the mass matrix, which mixes all
-//!   coordinates. So a rate that the constraints keep at 0 is as inexact as the others are, by inertia:
-//!   `|Gₖ| |v|`, with `|v|² = Σ Mⱼⱼ vⱼ²` and `|Gₖ|² = Σ Gₖⱼ²/Mⱼⱼ`. By Cauchy and Schwarz this is never less
-//!   than `Σⱼ |Gₖⱼ| |vⱼ|`, and it is 0 only where the machine is at rest.
-//! * The constraint is evaluated from terms that the state knows nothing of (lengths in parameters that
-//!   cancel each other). That is not known beforehand: it is measured, where Newton's method stands.
+//! * The state is rounded: `Σⱼ |Gₖⱼ| |qⱼ|` and `Σⱼ |Gₖⱼ| |vⱼ| + |∂gₖ/∂t|`, with the largest values in the run
+//!   so far, since terms may vanish on the way.
+//! * A rate is the integral of accelerations, and these come from the mass matrix, which mixes all
+//!   coordinates. So a rate that the constraints keep at 0 is as inexact as the others, in the metric of
+//!   inertia: `|Gₖ| |v|`, with `|v|² = Σ Mⱼⱼ vⱼ²` and `|Gₖ|² = Σ Gₖⱼ²/Mⱼⱼ`. By the Cauchy–Schwarz inequality
+//!   this is never less than `Σⱼ |Gₖⱼ| |vⱼ|`, and it is 0 only if the machine is at rest.
+//! * The constraint is evaluated from terms that do not depend on the state (lengths in parameters that
+//!   cancel each other). Their size is not known beforehand: it is measured when Newton's method stagnates.
 
 use super::algebra::{root, share};
 use super::{RESIDUAL, ROUNDOFF, WORKED_OFF};
 use crate::math::sqrt;
 use crate::{System, Vector};
 
-/// Of how many rows the greatest terms are remembered, for each coordinate.
+/// The number of rows for each coordinate whose largest terms are remembered.
 const REMEMBERED: usize = 4;
 
-/// How much of the inertial scale counts: so much that what is worked off is some roundoffs of it.
+/// Weight of the inertial scale, such that the bound of the residuals is some round-offs of it.
 pub(super) const OF_INERTIA: f64 = ROUNDOFF / WORKED_OFF;
 
-/// What the run has seen of sizes.
+/// The largest values and terms seen during a run.
 #[derive(Clone, Debug)]
 pub(crate) struct Scales<V> {
-    /// The greatest `|qⱼ|` and `|vⱼ|` so far.
+    /// The largest `|qⱼ|` and `|vⱼ|` so far.
     pub sizes: [V; 2],
     /// 1 for a coordinate that is an angle, else 0.
     angles: V,
-    /// For each row the greatest sum of terms so far, of positions and of rates.
+    /// For each row the largest sum of terms so far, of positions and of rates.
     terms: [[V; REMEMBERED]; 2],
-    /// For each row, by how much its terms would change with the coordinates' sizes, at the start.
+    /// For each row, the change of its terms over the sizes of the coordinates, at the start.
     bends: [V; REMEMBERED],
     /// `√Mⱼⱼ`.
     inertia: V,
-    /// What rounding was seen to leave of positions and rates, as a length in the metric of inertia,
-    /// relative to the roundoff.
+    /// The observed round-off of positions and rates, as a length in the metric of inertia, relative to the
+    /// round-off unit.
     grain: [f64; 2],
 }
 
-/// A row's residual, of positions or rates, relative to sizes.
+/// A row's residual, of positions or rates, relative to its scale.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Relative {
-    /// To the terms as they are now: what is worked on.
+    /// Relative to the present terms; Newton's method reduces this.
     pub now: f64,
-    /// To the greatest that they have been: what is promised.
+    /// Relative to the largest terms so far; this is what the bound guarantees.
     pub promised: f64,
 }
 
 impl<V: Vector> Scales<V> {
-    /// A coordinate's size is at least 1 if it is an angle, and at the start at least that of any
-    /// other of its unit.
+    /// The size of an angle is at least 1. At the start the size of a coordinate is at least that of any other
+    /// with the same unit.
     pub fn new<S: System<Vector = V>>(system: &S, q: &V, v: &V) -> Self {
         let zeros = q.zeros_like();
         let mut sizes = [zeros.clone(), zeros.clone()];
@@ -80,7 +80,7 @@ impl<V: Vector> Scales<V> {
         }
     }
 
-    /// Takes note of a state.
+    /// Records a state.
     pub fn accept(&mut self, q: &V, v: &V) {
         for (size, of) in self.sizes.iter_mut().zip([q, v]) {
             for (size, x) in size.as_mut_slice().iter_mut().zip(of.as_slice()) {
@@ -89,7 +89,7 @@ impl<V: Vector> Scales<V> {
         }
     }
 
-    /// Takes note of the terms of a row at a state, `by_time` being `|∂gₖ/∂t|`.
+    /// Records the terms of a row at a state; `by_time` is `|∂gₖ/∂t|`.
     pub fn note_terms(&mut self, k: usize, row: &[f64], by_time: f64) {
         let (sizes_q, sizes_v) = (self.sizes[0].as_slice(), self.sizes[1].as_slice());
         let sum = |sizes: &[f64]| row.iter().zip(sizes).map(|(g, y)| g.abs() * y).sum::<f64>();
@@ -104,7 +104,7 @@ impl<V: Vector> Scales<V> {
         }
     }
 
-    /// Takes note of how the terms of a row bend.
+    /// Records how the terms of a row bend.
     pub fn note_bend(&mut self, k: usize, bend: f64) {
         if let Some(known) = slot_mut(&mut self.bends, k)
             && bend.is_finite()
@@ -113,8 +113,8 @@ impl<V: Vector> Scales<V> {
         }
     }
 
-    /// The `part`th of some displacements, of the size of the coordinates, an angle's being 1 rad: in
-    /// directions that no symmetry of a machine has.
+    /// The displacement with index `part`, of the size of the coordinates (1 rad for angles), in a direction
+    /// that no symmetry of a machine has.
     pub fn displacement(&self, part: u32, q: &mut V) {
         let ratio = 0.618_033_988_749_894_9;
         let alike = self.angles.as_slice().iter().zip(self.sizes[0].as_slice());
@@ -125,7 +125,8 @@ impl<V: Vector> Scales<V> {
         }
     }
 
-    /// The greatest rate, in coordinates' sizes per second, an angle's being 1 rad however often it has turned.
+    /// The largest rate, in sizes of the coordinates per second; the size of an angle is 1 rad however far
+    /// it has turned.
     pub fn rate(&self, v: &V) -> f64 {
         let alike = self.angles.as_slice().iter().zip(self.sizes[0].as_slice());
         let sizes = alike.map(|(is_angle, size)| if *is_angle > 0.0 { 1.0 } else { *size });
@@ -134,7 +135,7 @@ impl<V: Vector> Scales<V> {
         rates.map(|(v, size)| v.abs() / size).fold(0.0, f64::max)
     }
 
-    /// How much of its greatest terms a row has in a pose: where it is small, so is the hold of the row.
+    /// The size of a row's terms in a pose relative to the largest: where it is small, the row is weak.
     pub fn strength(&self, k: usize, row: &[f64], q: &V) -> f64 {
         let now = self.sum(row, q, 0);
         let greatest = now.max(slot(&self.terms[0], k)).max(slot(&self.bends, k));
@@ -149,7 +150,7 @@ impl<V: Vector> Scales<V> {
             .sum()
     }
 
-    /// Takes note of the metric from its factor `L`.
+    /// Records the metric from its factor `L`.
     pub fn note_metric(&mut self, l: &[f64]) {
         let n = root(l.len());
         for (j, inertia) in self.inertia.as_mut_slice().iter_mut().enumerate() {
@@ -164,7 +165,7 @@ impl<V: Vector> Scales<V> {
         sqrt(by.map(|(g, inertia)| (g / inertia) * (g / inertia)).sum())
     }
 
-    /// `√Σⱼ Mⱼⱼ vⱼ²`, with the greatest rates so far.
+    /// `√Σⱼ Mⱼⱼ vⱼ²` with the largest rates so far.
     fn speed(&self, v: &V) -> f64 {
         let by = self.inertia.as_slice().iter().zip(self.sizes[1].as_slice());
         let by = by.zip(v.as_slice());
@@ -184,7 +185,7 @@ impl<V: Vector> Scales<V> {
         let inertial = [self.grain[0], self.grain[1] + self.speed(v)];
         let of = |level: usize, now: f64| {
             let greatest = now.max(slot(&self.terms[level], k));
-            // As long as the row has been.
+            // Relative to the largest size of the row.
             let reach = if now > 0.0 { greatest / now } else { 1.0 };
             let floor = within * reach * inertial[level];
             Relative {
@@ -195,7 +196,7 @@ impl<V: Vector> Scales<V> {
         [of(0, positions), of(1, rates)]
     }
 
-    /// Takes note that rounding leaves as much of a row.
+    /// Records the observed round-off of a row.
     pub fn note_grain(&mut self, level: usize, row: &[f64], left: f64) {
         let length = self.length(row);
         if length > 0.0 && left.is_finite() {
@@ -204,15 +205,15 @@ impl<V: Vector> Scales<V> {
         }
     }
 
-    /// Whether a move is no more than the residual anyway, relative to the numbers that it moves.
+    /// Whether a move is within the bound of residuals, relative to the numbers that it moves.
     pub fn is_roundoff(&self, level: usize, by: &[f64], y: &V) -> bool {
         let sizes = self.sizes[level].as_slice();
         let mut of = by.iter().zip(sizes).zip(y.as_slice());
         of.all(|((by, size), y)| by.abs() <= RESIDUAL * size.max(y.abs()))
     }
 
-    /// What rounding alone may change in the residuals of positions and rates, relative to their scale.
-    /// The rows that rates go through turn by as much as angles are rounded.
+    /// The relative change of the residuals of positions and rates by rounding alone. The rows that map rates
+    /// turn by the round-off of angles.
     pub fn roundoff(&self) -> [f64; 2] {
         let angles = self.angles.as_slice().iter().zip(self.sizes[0].as_slice());
         let greatest = angles.fold(1.0_f64, |most, (is_angle, size)| most.max(is_angle * size));
@@ -220,7 +221,7 @@ impl<V: Vector> Scales<V> {
     }
 }
 
-/// The number of a row, 0 for one that is not remembered.
+/// The number of a row; 0 for a row that is not remembered.
 fn slot<V: Vector>(of: &[V; REMEMBERED], k: usize) -> f64 {
     let n = of[0].as_slice().len().max(1);
     let column = of.get(k / n).map(V::as_slice).unwrap_or_default();

@@ -1,30 +1,31 @@
-//! The start of a run is projected onto the constraints.
+//! Projects the start of a run onto the constraints.
 
 use super::choice::{Choice, Rank};
 use super::workspace::{Workspace, in_workspace};
 use super::{Constraints, INDEPENDENT, Level, Place};
 use crate::{Singular, StepError, System, Vector};
 
-/// How independent rows must be, from afar to near: off the constraints, rows that depend on each other
-/// *on* them do so only about as exactly as the state is there. Last comes what holds there, once more
-/// for a row that was missing only because the state was far off.
+/// The independence that rows must have, from afar to near: rows that are dependent where the
+/// constraints hold are dependent off the constraints only to within the distance of the state. The
+/// bound that holds on the constraints comes last, and again for a row that was missing only because the
+/// state was too far off.
 const PASSES: [f64; 7] = [0.3, 0.1, 1e-2, 1e-4, 1e-6, INDEPENDENT, INDEPENDENT];
 
-/// How far from the start rows are looked at, in units of the coordinates' sizes, and how independent they
-/// must be there that were not at the start: a state so far off the start is off the constraints by the
-/// square of it, and so are rows that depend on each other.
+/// The distance from the start at which rows are examined, in units of the coordinates' sizes, and the
+/// independence that rows must have there to count as new. A state at this distance from the start
+/// violates the constraints by the square of it, and dependent rows become independent by as much.
 const BESIDE: f64 = 1e-3;
 const NEWS: f64 = 10.0 * BESIDE * BESIDE;
 
-/// How many displacements show how rows bend.
+/// The number of displacements that are used to find how rows bend.
 const DISPLACEMENTS: u32 = 3;
 
 impl<V: Vector> Constraints<V> {
-    /// Brings the start of a run onto the constraints, by the least move in the metric of inertia, and
+    /// Projects the start of a run onto the constraints by the smallest move in the metric of inertia, and
     /// chooses rows there.
     ///
-    /// Coordinates and rates that are not 0 in `kept` stay as they are: the move is the least that the
-    /// others make.
+    /// Coordinates and rates that are nonzero in `kept` stay fixed: the move is the smallest
+    /// of the others.
     pub fn begin<S: System<Vector = V>>(
         &mut self,
         system: &S,
@@ -41,7 +42,7 @@ impl<V: Vector> Constraints<V> {
             }
         }
         tried?;
-        // The passes together may have gone farther than one move with the rows that they found.
+        // The passes together may have moved farther than a single move with the rows that they found.
         if *place.q[0] != given[0] || *place.v[0] != given[1] {
             let found = [place.q[0].clone(), place.v[0].clone()];
             put(place, &given);
@@ -63,11 +64,11 @@ impl<V: Vector> Constraints<V> {
         self.look_beside(system, (place.t, place.q[0], place.v[0]))
     }
 
-    /// Whether rows depend on each other in the pose where the run starts that do not beside it: then the
-    /// rates say on which branch the motion goes on, and all rows that hold there are chosen.
+    /// Checks whether rows are dependent in the pose at the start that are independent next to it. Then
+    /// the rates decide on which branch the motion continues, and all rows that hold there are chosen.
     ///
     /// # Errors
-    /// If there are no rates: inertia does not decide then.
+    /// If the rates are 0: inertia cannot decide then.
     fn look_beside<S: System<Vector = V>>(
         &mut self,
         system: &S,
@@ -89,7 +90,7 @@ impl<V: Vector> Constraints<V> {
         for (ahead, q) in ahead.as_mut_slice().iter_mut().zip(q.as_slice()) {
             *ahead = q + by * *ahead;
         }
-        // Rows that depend on others everywhere do so only on those.
+        // Rows that depend on others everywhere depend only on those.
         if self
             .put_on(system, later, &mut ahead, &mut v.clone())
             .is_err()
@@ -114,8 +115,8 @@ impl<V: Vector> Constraints<V> {
         Ok(())
     }
 
-    /// One move, with the rows that are independent where it begins; none where these have no solution
-    /// near. Says whether it moved.
+    /// One move, with the rows that are independent where it begins; none if these have no solution
+    /// nearby. Returns whether it moved.
     fn pass<S: System<Vector = V>>(
         &mut self,
         system: &S,
@@ -125,7 +126,7 @@ impl<V: Vector> Constraints<V> {
         let n = place.q[0].as_slice().len();
         let before = [place.q[0].clone(), place.v[0].clone()];
         let mut moved = false;
-        // Other numbers are kept of positions than of rates, so other rows are independent.
+        // Positions and rates have different fixed numbers, so different rows are independent.
         let levels: &[&[Level]] = match &self.kept {
             None => &[&[Level::Positions, Level::Rates]],
             Some(_) => &[&[Level::Positions], &[Level::Rates]],
@@ -155,7 +156,7 @@ impl<V: Vector> Constraints<V> {
         Ok(moved)
     }
 
-    /// Notes by how much rows change within the reach of the coordinates: `½ sᵀ (∂²g/∂q²) s` for some
+    /// Records the change of rows over the sizes of the coordinates: `½ sᵀ (∂²g/∂q²) s` for some
     /// displacements `s`, from the part of `γ` that is even in the rates.
     fn note_bends<S: System<Vector = V>>(
         &mut self,

@@ -1,17 +1,16 @@
-//! The workspace for the work on constraints, and what is made in it of one state: the metric, and the
-//! multipliers of least norm.
+//! The workspace for constraints and computations in it for one state: the metric, and the multipliers of least norm.
 
 use super::algebra::{backward, cholesky, dot, forward, length, solve_triangle};
 use super::constraint_workspace;
 use crate::{StepError, System, Vector};
 
-/// The workspace, in parts.
+/// The workspace, divided into parts.
 pub(super) struct Workspace<'r, M> {
     pub n: usize,
     pub m: usize,
     /// `L`, lower triangle, row after row.
     pub metric: M,
-    /// Whether that is the factor of `M + Gᵀ W G`, since `M` alone has none.
+    /// Whether it is the factor of `M + Gᵀ W G`, because `M` is singular.
     pub is_lent: bool,
     /// `G`, row after row; while rows are chosen, `yₖ` relative to their lengths.
     pub matrix: &'r mut [f64],
@@ -21,17 +20,17 @@ pub(super) struct Workspace<'r, M> {
     pub triangle: &'r mut [f64],
     pub positions: &'r mut [f64],
     pub rates: &'r mut [f64],
-    /// A number for each row.
+    /// One number for each row.
     pub row: &'r mut [f64],
-    /// A number for each coordinate.
+    /// One number for each coordinate.
     pub column: &'r mut [f64],
     pub before: &'r mut [f64],
     pub lengths: &'r mut [f64],
 }
 
 impl<M: Vector> Workspace<'_, M> {
-    /// Makes `L` at a state; the matrix of the constraints is there already, with zeros in the columns
-    /// of coordinates that are fixed.
+    /// Factorizes the metric at a state. The matrix of the constraints must already be there, with zeros in the columns
+    /// of fixed coordinates.
     pub fn factor<S: System<Matrix = M>>(
         &mut self,
         system: &S,
@@ -46,7 +45,7 @@ impl<M: Vector> Workspace<'_, M> {
         if cholesky(self.metric.as_mut_slice(), self.lengths).is_ok() {
             return Ok(());
         }
-        // Something has no inertia of its own; perhaps the constraints hold it.
+        // Some coordinate has no inertia of its own; the constraints may hold it.
         self.is_lent = true;
         system.mass_matrix(t, q, &mut self.metric);
         self.fix(fixed);
@@ -54,7 +53,7 @@ impl<M: Vector> Workspace<'_, M> {
         let is_weighed = &mut *self.row;
         is_weighed.fill(0.0);
         loop {
-            // What was there before this round counts, so that the order of rows makes no difference.
+            // Only the inertias before this pass count, so that the order of rows has no effect.
             let inertias = &mut *self.lengths;
             for (inertia, entry) in inertias.iter_mut().zip(metric.iter().step_by(n + 1)) {
                 *inertia = *entry;
@@ -62,7 +61,7 @@ impl<M: Vector> Workspace<'_, M> {
             let greatest = inertias.iter().fold(0.0, |a: f64, b| a.max(*b));
             let mut found = false;
             for substitute in [Substitute::AlongConstraint, Substitute::Uniform(greatest)] {
-                // Rows that move nothing that has inertia come last.
+                // Rows that move nothing with inertia come last.
                 if found {
                     break;
                 }
@@ -82,14 +81,14 @@ impl<M: Vector> Workspace<'_, M> {
         cholesky(metric, self.lengths).map_err(|singular| StepError::Singular { singular, t })
     }
 
-    /// The greatest error of a vector `L⁻¹ x` by rounding, relative to its length: the roundoff of
-    /// `n` operations, times what elimination took from the diagonal.
+    /// The largest round-off of a vector `L⁻¹ x`, relative to its length: the round-off of `n` operations, divided by
+    /// what elimination left of the diagonal.
     pub fn roundoff(&self) -> f64 {
         let least = self.lengths.iter().fold(1.0, |least: f64, x| least.min(*x));
         8.0 * (self.n + self.m) as f64 * f64::EPSILON / least
     }
 
-    /// Takes the coordinates that are not 0 in `fixed` out of the metric.
+    /// Removes the coordinates that are nonzero in `fixed` from the metric.
     fn fix<V: Vector>(&mut self, fixed: Option<&V>) {
         let Some(fixed) = fixed else {
             return;
@@ -104,7 +103,7 @@ impl<M: Vector> Workspace<'_, M> {
         }
     }
 
-    /// Takes them out of the rows.
+    /// Removes the coordinates that are nonzero in `fixed` from the rows.
     pub fn fix_rows<V: Vector>(&mut self, fixed: Option<&V>) {
         let Some(fixed) = fixed else {
             return;
@@ -120,11 +119,11 @@ impl<M: Vector> Workspace<'_, M> {
         }
     }
 
-    /// From `c`, the reactions along the basis, in `row`: the multipliers `λ` of least norm with
-    /// `Σ λₖ yₖ = Σ cⱼ basisⱼ`.
+    /// Computes the multipliers `λ` of least norm with `Σ λₖ yₖ = Σ cⱼ basisⱼ` from the reactions `c` along the
+    /// basis, in `row`.
     ///
-    /// With rows of length 1, `μₖ = λₖ |yₖ|`, and with those that were not chosen as `X` makes them
-    /// of those that were, `μ = [I X]ᵀ (I + X Xᵀ)⁻¹ b` is the least `μ` with `[I X] μ = b`.
+    /// With rows of length 1, `μₖ = λₖ |yₖ|`. If `X` expresses the rows that were not chosen by the chosen ones,
+    /// `μ = [I X]ᵀ (I + X Xᵀ)⁻¹ b` is the shortest `μ` with `[I X] μ = b`.
     pub fn least_norm(
         &mut self,
         multipliers: &mut [f64],
@@ -133,7 +132,7 @@ impl<M: Vector> Workspace<'_, M> {
     ) {
         self.combine(&chosen, rank);
         let (n, lengths) = (self.n, &*self.positions);
-        // What the chosen rows alone would carry.
+        // The multipliers if only the chosen rows carried load.
         self.column[..rank].copy_from_slice(&self.row[..rank]);
         solve_triangle(self.triangle, rank, self.column);
         for j in 0..rank {
@@ -146,7 +145,7 @@ impl<M: Vector> Workspace<'_, M> {
                 self.triangle[i * rank + j] = own + shared.sum::<f64>();
             }
         }
-        // At least the unit matrix: nothing stops it.
+        // The matrix is at least the unit matrix, so the factorization cannot fail.
         let _ = cholesky(&mut self.triangle[..rank * rank], self.lengths);
         forward(&self.triangle[..rank * rank], &mut self.column[..rank]);
         backward(&self.triangle[..rank * rank], &mut self.column[..rank]);
@@ -161,9 +160,9 @@ impl<M: Vector> Workspace<'_, M> {
         }
     }
 
-    /// Lengths of all rows to `positions`; and for each row `k` that was not chosen, how the chosen
-    /// ones make it, `yₖ/|yₖ| = Σⱼ Xⱼₖ yⱼ/|yⱼ|`, to the front of its row of `matrix`. Those of the
-    /// chosen are 0.
+    /// Writes the lengths of all rows to `positions`, and for each row `k` that was not chosen the coefficients of
+    /// `yₖ/|yₖ| = Σⱼ Xⱼₖ yⱼ/|yⱼ|` in the chosen ones to the beginning of its row of `matrix`. The rows of the chosen
+    /// ones become 0.
     pub fn combine(&mut self, chosen: impl Fn(usize) -> usize, rank: usize) {
         let n = self.n;
         for (row, length_of) in self.matrix.chunks_exact_mut(n).zip(&mut *self.positions) {
@@ -193,18 +192,18 @@ impl<M: Vector> Workspace<'_, M> {
     }
 }
 
-/// The inertia that stands in for that of coordinates that have none, in the metric of a constraint.
+/// The substitute, in the metric of a constraint, for the inertia of coordinates that have none.
 #[derive(Clone, Copy)]
 enum Substitute {
-    /// As much as a push along the constraint meets: so no coordinate that has inertia is given more than it has, however
-    /// little of the row it is.
+    /// The inertia that a push along the constraint meets. So a coordinate that has inertia is not given more than it
+    /// has, however small its part in the row is.
     AlongConstraint,
-    /// This much, or any.
+    /// This inertia, or any if it is 0.
     Uniform(f64),
 }
 
 impl Substitute {
-    /// The weight of `g gᵀ`; not finite if nothing of the row has inertia.
+    /// The weight of `g gᵀ`; not finite if the row moves nothing with inertia.
     fn weight(self, g: &[f64], inertias: &[f64]) -> f64 {
         match self {
             Substitute::AlongConstraint => {
@@ -223,7 +222,7 @@ impl Substitute {
     }
 }
 
-/// Adds `weight g gᵀ` to a matrix; says whether it could.
+/// Adds `weight g gᵀ` to a matrix; returns whether the weight allows it.
 fn add_square(matrix: &mut [f64], g: &[f64], weight: f64) -> bool {
     let n = g.len();
     if !(weight > 0.0 && weight.is_finite()) {
@@ -237,7 +236,7 @@ fn add_square(matrix: &mut [f64], g: &[f64], weight: f64) -> bool {
     true
 }
 
-/// Hands out the workspace of the constraints, in parts.
+/// Hands out the workspace of the constraints, divided into parts.
 pub(super) fn in_workspace<S: System, R>(
     system: &S,
     t: f64,
@@ -278,8 +277,8 @@ pub(super) fn in_workspace<S: System, R>(
     })
 }
 
-/// The first parts of `all`, which have these lengths; `None` if it is too short. No copy of this for every machine and
-/// every piece of work is compiled.
+/// The first parts of `all`, with these lengths; `None` if it is too short. As a separate function it is not compiled
+/// again for every machine and every use.
 fn divided<const PARTS: usize>(
     mut all: &mut [f64],
     lengths: [usize; PARTS],

@@ -1,5 +1,5 @@
-//! What is alike in every machine that the compiler emits: conversions between names and rows of numbers, and the
-//! implementations of the traits of machines, as one macro.
+//! The parts that all emitted machines share, as one macro: conversions between names and rows of numbers, and the implementations
+//! of the traits of machines.
 //!
 //! ```text
 //! machine Pendulum "Pendulum" over S, R;          its struct, its name, and letters for types of numbers
@@ -28,11 +28,11 @@
 //! numbers [yes]                                   where there are `MachineIn` and `SystemIn`
 //! ```
 //!
-//! Fields stand as in a pattern, `{ m, length: [length_1, length_2] }`, which is an expression too: a struct is taken apart and put
-//! together by the same tokens. The emitter chooses all names, since it knows what the machine itself is called; everything else
-//! is named by its full path, since a machine may be called `Result` or `f64`.
+//! Fields are written as in a pattern, `{ m, length: [length_1, length_2] }`, which is also an expression, so the same tokens
+//! destructure and construct the struct. The emitter chooses all names, since it knows the name of the machine; everything else has
+//! its full path, since a machine may be called `Result` or `f64`.
 
-/// Implements the traits of a machine: see the top of `src/emitted/implement.rs`.
+/// Implements the traits of a machine: see the module documentation of `src/emitted/implement.rs`.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! implement_machine {
@@ -118,7 +118,7 @@ macro_rules! implement_machine {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! implement_part {
-    // `Default`, where every number has one.
+    // `Default`, if every number has a default.
     (
         default $Type:ident { $($fields:tt)* }
         [$($x:ident: $name:literal $unit:literal = $default:expr;)*]
@@ -212,7 +212,7 @@ macro_rules! implement_part {
         }
     };
 
-    // What `System` and `SystemIn` say alike of coordinates.
+    // The methods on coordinates that `System` and `SystemIn` share.
     (
         coordinates [$($x:ident: $name:literal $unit:literal;)*] $Vector:ty, $Coordinates:ty
     ) => {
@@ -233,7 +233,7 @@ macro_rules! implement_part {
         }
     };
 
-    // The accelerations of numbers of one type.
+    // The accelerations in numbers of one type.
     (
         accelerations { ($p:ident, $t:ident, $q:ident, $v:ident, $u:ident) $call:expr }
         [$Number:ty] $zeros:tt ($($given:tt),*) $result:ident
@@ -295,7 +295,7 @@ macro_rules! implement_part {
         }
     };
 
-    // The type of inputs over other numbers: where there are none, it is over none.
+    // The type of inputs over other numbers; without inputs it has no type parameter.
     (over [] $Inputs:ident $R:ty) => { $Inputs };
     (over [$Over:ident] $Inputs:ident $R:ty) => { $Inputs<$R> };
 
@@ -304,14 +304,14 @@ macro_rules! implement_part {
     (argument u $n:literal $Inputs:ident) => { &$Inputs };
     (argument $x:ident $n:literal $Inputs:ident) => { &[::core::primitive::f64; $n] };
 
-    // An argument of the slips, with what rounding may have made of it.
+    // An argument of the slips, as an interval of its rounding.
     (rounded p $p:tt $t:ident $q:ident $v:ident) => { &$p.rounded() };
     (rounded t $p:tt $t:ident $q:ident $v:ident) => { $crate::emitted::rounded($t) };
     (rounded q $p:tt $t:ident $q:ident $v:ident) => { &$q.map($crate::emitted::rounded) };
     (rounded v $p:tt $t:ident $q:ident $v:ident) => { &$v.map($crate::emitted::rounded) };
 }
 
-/// A method of `System`, by what it gives.
+/// A method of `System`, by the kind of its result.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! implement_method {
@@ -331,7 +331,7 @@ macro_rules! implement_method {
         }
     };
 
-    // A number for each coordinate.
+    // One number for each coordinate.
     ([$n:literal $($types:tt)*] vector $method:ident($($x:ident),*)) => {
         $crate::implement_method! { [$n $($types)*] vector $method($($x),*) = [0.0; $n] }
     };
@@ -365,7 +365,7 @@ macro_rules! implement_method {
         }
     };
 
-    // Numbers, as many as there is a place for.
+    // Numbers, as many as fit into the slice.
     (
         [$n:literal $Inputs:ident $Outputs:ident]
         numbers $method:ident($p:ident $(, $x:ident)*) $(= $value:expr)?
@@ -380,7 +380,7 @@ macro_rules! implement_method {
         }
     };
 
-    // Numbers that elimination gives: an error where a pivot vanishes.
+    // Numbers from an elimination: an error if a pivot vanishes.
     (
         [$n:literal $Inputs:ident $Outputs:ident]
         solved $method:ident($p:ident $(, $x:ident)*) $(= $value:expr)?
@@ -408,7 +408,7 @@ macro_rules! implement_method {
         }
     };
 
-    // What is to be observed.
+    // The outputs.
     (
         [$n:literal $Inputs:ident $Outputs:ident]
         outputs $method:ident($p:ident $(, $x:ident)*) = $value:expr
@@ -421,7 +421,7 @@ macro_rules! implement_method {
         }
     };
 
-    // Facts: text, whether it is strict, by how much it holds.
+    // Assumptions: text, whether it is strict, its margin.
     (
         [$n:literal $Inputs:ident $Outputs:ident]
         facts $method:ident($p:ident $(, $x:ident)*) = $value:expr
@@ -454,7 +454,7 @@ macro_rules! implement_method {
         }
     };
 
-    // How many there are of something.
+    // A count.
     ($types:tt count $method:ident($p:ident) = $value:expr) => {
         fn $method(&self) -> ::core::primitive::usize {
             $value
@@ -471,7 +471,7 @@ macro_rules! implement_method {
         }
     };
 
-    // Between which numbers slips are; given is what they depend on.
+    // The ranges of the slips; the arguments are those that the slips depend on.
     (
         [$n:literal $Inputs:ident $Outputs:ident] ranges $method:ident($($x:ident),*) = $value:expr
     ) => {
@@ -487,7 +487,7 @@ macro_rules! implement_method {
         }
     };
 
-    // A workspace of this many numbers.
+    // A workspace with this length.
     ($types:tt workspace $method:ident($p:ident) = $length:expr) => {
         fn $method<R>(
             &self,
@@ -501,7 +501,7 @@ macro_rules! implement_method {
         }
     };
 
-    // The Taylor series of the motion, a call as a value.
+    // The Taylor series of the motion, with a call as a value.
     (
         [$n:literal $Inputs:ident $Outputs:ident]
         series $method:ident($p:ident, $t:ident, $q:ident, $v:ident, $u:ident, $coefficients:ident)
@@ -532,7 +532,7 @@ macro_rules! implement_method {
         }
     };
 
-    // Yes or no.
+    // A boolean.
     ($types:tt boolean $method:ident($p:ident) = $value:expr) => {
         fn $method(&self) -> ::core::primitive::bool {
             $value
@@ -540,7 +540,7 @@ macro_rules! implement_method {
     };
 }
 
-/// Prepared values with what rounding may have made of them.
+/// Prepared values as intervals of their rounding.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! implement_intervals {
@@ -556,7 +556,7 @@ macro_rules! implement_intervals {
     };
 }
 
-/// `Batched`: several systems in the lanes of registers.
+/// `Batched`: several systems in vector lanes.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! implement_lanes {

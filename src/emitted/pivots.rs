@@ -1,27 +1,27 @@
-//! The pivots of an elimination: which of them are too small to divide by.
+//! Tests whether the pivots of an elimination are large enough to divide by.
 
 use crate::{Scalar, Singular};
 
 /// The pivots of a machine's eliminations.
 ///
-/// A pivot holds where it exceeds its tolerance times the diagonal element it was before the elimination. Below, it is nothing
-/// but rounding errors.
+/// A pivot holds if it exceeds its tolerance times the diagonal element that it was before the elimination. A smaller one
+/// consists of rounding errors.
 #[derive(Clone, Copy, Debug)]
 pub struct Pivots {
-    /// How many coordinates the machine has: the rows behind these are of constraints.
+    /// The number of coordinates of the machine: further rows belong to constraints.
     pub coordinates: usize,
-    /// The share of a diagonal element that may be rounding errors.
+    /// The fraction of a diagonal element that may be rounding errors.
     pub tolerance: f64,
 }
 
 impl Pivots {
-    /// Whether a pivot holds, in all lanes; one that is no number does not.
+    /// Whether a pivot holds in all lanes; NaN does not.
     #[inline(always)]
     pub fn hold<N: Scalar>(self, pivot: N, diagonal: N) -> bool {
         pivot.exceeds(N::from_f64(self.tolerance) * diagonal)
     }
 
-    /// The first of these pivots that does not hold. Each stands behind its row and before its diagonal element.
+    /// The first of these pivots that does not hold. Each is given with its row before it and its diagonal element after it.
     #[inline(always)]
     pub fn vanished<N: Scalar, const K: usize>(
         self,
@@ -35,10 +35,10 @@ impl Pivots {
         None
     }
 
-    /// An error where one of these pivots does not hold.
+    /// Checks these pivots.
     ///
     /// # Errors
-    /// The first one.
+    /// The first pivot that does not hold.
     #[inline(always)]
     pub fn check<N: Scalar, const K: usize>(
         self,

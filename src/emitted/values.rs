@@ -6,7 +6,7 @@ use core::marker::PhantomData;
 use crate::scalar::Interval;
 use crate::{Assumption, Constraint, Lanes, Quantity, Singular};
 
-/// Values beside their names and units.
+/// Values with their names and units.
 pub fn values<'a, const K: usize>(
     names: &'a [Quantity<'a>],
     values: [f64; K],
@@ -14,7 +14,7 @@ pub fn values<'a, const K: usize>(
     names.iter().copied().zip(values)
 }
 
-/// Writes numbers as far as there is a place for them.
+/// Writes as many numbers as fit.
 pub fn fill(to: &mut [f64], from: &[f64]) {
     for (to, from) in to.iter_mut().zip(from) {
         *to = *from;
@@ -28,7 +28,7 @@ pub fn fill_ranges(to: &mut [[f64; 2]], from: &[Interval]) {
     }
 }
 
-/// What a machine assumes, of texts, whether they are strict, and by how much they hold.
+/// Assumptions from their texts, whether they are strict, and their margins.
 pub fn facts<'a, const K: usize>(
     facts: [(&'a str, bool, f64); K],
 ) -> impl ExactSizeIterator<Item = Assumption<'a>> {
@@ -40,10 +40,10 @@ pub fn facts<'a, const K: usize>(
     facts.into_iter().map(fact)
 }
 
-/// A constraint: its name, its unit, the unit of its multiplier, whether positions are constrained.
+/// A constraint: its name, its unit, the unit of its multiplier, and whether positions are constrained.
 pub type ConstraintRow = (&'static str, &'static str, &'static str, bool);
 
-/// A constraint of such a row.
+/// The constraint of such a row.
 pub fn constraint(&(name, unit, multiplier_unit, holonomic): &ConstraintRow) -> Constraint<'_> {
     Constraint {
         name,
@@ -53,26 +53,27 @@ pub fn constraint(&(name, unit, multiplier_unit, holonomic): &ConstraintRow) -> 
     }
 }
 
-/// The values of N machines side by side: value by value a number for each machine.
+/// The values of N machines side by side: for each value one number per machine.
 pub fn side_by_side<const K: usize, const N: usize>(rows: [[f64; K]; N]) -> [Lanes<N>; K] {
     array::from_fn(|value| Lanes(rows.map(|row| row[value])))
 }
 
-/// The number itself and all numbers that are rounded to it.
+/// The number with all numbers that round to it.
 #[inline]
 pub fn rounded(x: f64) -> Interval {
     Interval::new(x.next_down(), x.next_up())
 }
 
-/// A field of the prepared values: a number, an array of these, or what is no number and stays as it is.
+/// A field of the prepared values: a number, an array of numbers, or a field without numbers, which
+/// stays as it is.
 pub trait PreparedField: Copy {
-    /// The field where numbers are of another type.
+    /// The field with numbers of another type.
     type In<R>;
 
     /// The fields of several systems side by side.
     fn side_by_side<const N: usize>(fields: [Self; N]) -> Self::In<Lanes<N>>;
 
-    /// The field with what rounding may have made of it.
+    /// The field as intervals of its rounding.
     fn rounded(self) -> Self::In<Interval>;
 }
 
@@ -100,7 +101,7 @@ impl<const K: usize> PreparedField for [f64; K] {
     }
 }
 
-/// Systems that are evaluated side by side are not singular from the start.
+/// Systems that are evaluated side by side are not singular by their parameters.
 impl PreparedField for Option<Singular> {
     type In<R> = Self;
 

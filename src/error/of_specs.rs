@@ -1,4 +1,4 @@
-//! What can be wrong with a spec that is read while the program runs.
+//! Errors of specs that are read at run time.
 
 use core::fmt::{self, Display};
 use std::string::String;
@@ -11,13 +11,13 @@ use super::Error;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Diagnostic {
-    /// The kind of mistake, `unknown-name`: the same from version to version. The reference lists them.
+    /// The kind of error, `unknown-name`, which is stable across versions. The reference lists them.
     pub code: String,
-    /// What is wrong: expected, found.
+    /// What is wrong: expected and found.
     pub message: String,
     /// What to change.
     pub help: Option<String>,
-    /// The file, or the name that the text was given.
+    /// The file, or the name that was given to the text.
     pub file: String,
     /// The line, from 1.
     pub line: usize,
@@ -40,11 +40,11 @@ pub struct Note {
     pub line: usize,
     /// The column, in characters, from 1.
     pub column: usize,
-    /// What stands there.
+    /// The message about this place.
     pub message: String,
 }
 
-/// Parameters to which neither the spec nor anybody else gave a value.
+/// Parameters that have a value neither from the spec nor from the user.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MissingParameters {
@@ -52,11 +52,11 @@ pub struct MissingParameters {
     pub names: Vec<String>,
 }
 
-/// There is no machine code here.
+/// Machine code is not available.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct NoMachineCode {
-    /// Why.
+    /// The reason.
     pub why: String,
 }
 
@@ -68,11 +68,11 @@ impl Display for NoMachineCode {
 
 impl core::error::Error for NoMachineCode {}
 
-/// A machine cannot be run in the numbers, or with the bounds, that were asked for.
+/// A machine cannot be run in the requested numbers, or with bounds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct NoNumbers {
-    /// Why not, as the end of a sentence that begins with the machine: `it has constraints`.
+    /// The reason, as the end of a sentence whose subject is the machine: `it has constraints`.
     pub why: String,
 }
 

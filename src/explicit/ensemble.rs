@@ -1,4 +1,4 @@
-//! Many runs of one kind of machine, several at a time in the lanes of the processor.
+//! Many runs of machines of one type, several at a time in the lanes of vector registers.
 
 use lagrangian_native::Lanes;
 
@@ -12,14 +12,14 @@ use crate::step_error::StepError;
 use crate::tolerance::Tolerance;
 use crate::{Batch, Batched, LaneVector, Machine, Singular, State, System, Vector};
 
-/// Runs many trajectories of one kind of machine, `W` at a time, in the lanes of the processor's registers: 2, 4 or 8.
+/// Runs many trajectories of machines of one type, `W` at a time (2, 4 or 8) in the lanes of vector registers.
 ///
-/// Each lane has its own time, its own steps and its own end, and takes the next trajectory as soon as its own is over; so short
-/// and long ones go together. A trajectory has the bits that a [`Stepper`](crate::Stepper) by the same method gives it alone,
-/// whatever its neighbours do. Nothing is allocated, but by [`Method::TAYLOR`] the coefficients of the lanes, once.
+/// Each lane has its own time, steps and end, and takes the next trajectory as soon as its own is finished, so short and long ones
+/// can be mixed. A trajectory has the bits that a [`Stepper`](crate::Stepper) with the same method gives it alone, whatever its
+/// neighbours do. Nothing is allocated, except the coefficients of the lanes for [`Method::TAYLOR`], once.
 ///
-/// It is for machines without constraints and contacts, with inputs that each trajectory holds. Where a machine has its Taylor series
-/// (`methods { taylor }` in its spec), they are the fastest way to tolerances below 10⁻⁵.
+/// It supports machines without constraints and contacts, with constant inputs for each trajectory. If a machine has its Taylor
+/// series (`methods { taylor }` in its spec), that is the fastest method at tolerances below 10⁻⁵.
 ///
 /// ```
 /// use lagrangian::{Ensemble, Machine, State, Trajectory};
@@ -47,16 +47,16 @@ pub struct Ensemble<const W: usize> {
     max_steps: usize,
 }
 
-/// One run to be made: equations of motion with their inputs, from a state to an end.
+/// One run to be made: equations of motion with constant inputs, a start and an end.
 #[derive(Clone, Debug)]
 pub struct Trajectory<S: System> {
     /// The equations of motion.
     pub system: S,
-    /// The inputs, which it holds.
+    /// The inputs, which stay constant.
     pub inputs: S::Inputs,
-    /// Where it starts.
+    /// The state at the start.
     pub start: State<S::Coordinates>,
-    /// When it ends, in s; before its start to run backward in time.
+    /// The end, in s; a time before the start runs backward.
     pub end: f64,
 }
 
@@ -66,7 +66,7 @@ pub struct Trajectory<S: System> {
 pub struct Arrival<C> {
     /// The state at its end.
     pub end: State<C>,
-    /// What it took.
+    /// Number of steps and evaluations.
     pub work: Work,
 }
 
@@ -86,7 +86,7 @@ impl<S: System> Trajectory<S> {
         Self::new(machine.prepare(), machine.start(), end)
     }
 
-    /// This run with other inputs, in their units.
+    /// Replaces the inputs, in their units.
     pub fn inputs(self, inputs: S::Inputs) -> Self {
         Self { inputs, ..self }
     }
@@ -99,7 +99,7 @@ impl<const W: usize> Default for Ensemble<W> {
 }
 
 impl<const W: usize> Ensemble<W> {
-    /// Runs by [`Method::DOP853`] with a tolerance of 10⁻⁹, of ten million steps at the most.
+    /// Runs with [`Method::DOP853`] at a tolerance of 10⁻⁹, with at most ten million steps each.
     pub fn new() -> Self {
         Self {
             method: Default::default(),
@@ -115,28 +115,28 @@ impl<const W: usize> Ensemble<W> {
         self
     }
 
-    /// How exact each step shall be, relative and absolute: the error in a number `y` is kept below `tolerance · (1 + |y|)`.
+    /// The tolerance of each step, relative and absolute: the error in a number `y` is kept below `tolerance · (1 + |y|)`.
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = tolerance;
         self
     }
 
-    /// The greatest length of a step, in s.
+    /// The length of the longest step, in s.
     pub fn longest_step(mut self, step: f64) -> Self {
         self.longest_step = step;
         self
     }
 
-    /// How many steps a trajectory may take; one that would take more is an error.
+    /// The largest number of steps of a trajectory; one that needs more is an error.
     pub fn max_steps(mut self, steps: usize) -> Self {
         self.max_steps = steps;
         self
     }
 
-    /// Runs all trajectories, and tells `arrived` of each as soon as it is over: its number, in the order in which they come, and
-    /// its end. They arrive in another order.
+    /// Runs all trajectories and calls `arrived` for each as soon as it is finished, with its index in the order of the input and its
+    /// end. They arrive in a different order.
     ///
-    /// A trajectory that cannot go on, or has constraints, is an error to `arrived`, and does not stop the others.
+    /// A trajectory that cannot continue, or has constraints, passes an error to `arrived` and does not stop the others.
     pub fn run<S: Batched<W>>(
         &self,
         trajectories: impl IntoIterator<Item = Trajectory<S>>,
@@ -150,7 +150,7 @@ impl<const W: usize> Ensemble<W> {
         self.run_by::<S, Track<Lanes<W>, S::Vectors>>(trajectories, arrived);
     }
 
-    /// [`run`](Self::run), by steps of this kind.
+    /// [`run`](Self::run) with steps of the kind `T`.
     fn run_by<S: Batched<W>, T: Steps<S, W>>(
         &self,
         trajectories: impl IntoIterator<Item = Trajectory<S>>,
@@ -203,7 +203,7 @@ impl<const W: usize> Ensemble<W> {
         }
     }
 
-    /// A trajectory at its start, alone.
+    /// Begins a trajectory at its start, alone.
     fn begin<S: System>(
         &self,
         index: usize,
@@ -261,7 +261,7 @@ impl<const W: usize> Ensemble<W> {
     }
 }
 
-/// A trajectory at its start, alone.
+/// A trajectory at its start, not yet in a lane.
 struct Begun<S: System> {
     index: usize,
     system: S,
@@ -318,27 +318,27 @@ impl<S: Batched<W>, const W: usize> Accelerate<Lanes<W>, S::Vectors> for Togethe
     }
 }
 
-/// Trajectories side by side, as a kind of method takes their steps.
+/// Trajectories in parallel, with the steps of one kind of method.
 trait Steps<S: Batched<W>, const W: usize>: Sized {
-    /// As many lanes, all at the start of `first`, that stand still.
+    /// Lanes that do not move, all at the start of `first`.
     fn resting(ensemble: &Ensemble<W>, first: &Track<f64, S::Vector>) -> Self;
     /// Puts a trajectory at its start into a lane.
     fn insert(&mut self, lane: usize, one: &Track<f64, S::Vector>);
     /// One try of every trajectory.
     fn attempt(&mut self, batch: &Batch<S, W>, inputs: &S::BatchInputs) -> [Outcome; W];
-    /// Where they are.
+    /// The present states.
     fn now(&self) -> &Point<S::Vectors, Lanes<W>>;
     /// Whether a trajectory is at its end.
     fn is_done(&self, lane: usize) -> bool;
-    /// What a trajectory took.
+    /// Steps and evaluations of a trajectory.
     fn work(&self, lane: usize) -> Work;
-    /// Lets a trajectory stand.
+    /// Stops a trajectory.
     fn stop(&mut self, lane: usize);
-    /// How many are under way.
+    /// The number of trajectories under way.
     fn count(&self) -> usize;
 }
 
-/// Numbers for each coordinate, the same in all lanes.
+/// A vector with the same numbers in all lanes.
 fn spread<V: LaneVector<W>, const W: usize>(vector: &V::Vector) -> V {
     let mut rows = V::ZEROS;
     for (row, number) in rows.as_mut().iter_mut().zip(vector.as_slice()) {
@@ -347,7 +347,7 @@ fn spread<V: LaneVector<W>, const W: usize>(vector: &V::Vector) -> V {
     rows
 }
 
-/// Puts numbers into a lane.
+/// Puts a vector into a lane.
 fn put<V: LaneVector<W>, const W: usize>(rows: &mut V, lane: usize, vector: &V::Vector) {
     for (row, number) in rows.as_mut().iter_mut().zip(vector.as_slice()) {
         row[lane] = *number;
@@ -467,13 +467,13 @@ struct SideBySide<S: Batched<W>, T, const W: usize> {
     inputs: [S::Inputs; W],
     batch: Batch<S, W>,
     batch_inputs: S::BatchInputs,
-    /// Whether the systems have changed since the batch was made.
+    /// Whether systems were replaced since the batch was made.
     changed: bool,
     steps: T,
 }
 
 impl<S: Batched<W>, T: Steps<S, W>, const W: usize> SideBySide<S, T, W> {
-    /// As many lanes, all at the start of `first`: those which nothing is put into stay there.
+    /// Lanes that are all at the start of `first`; those into which nothing is put stay there.
     fn new(ensemble: &Ensemble<W>, first: &Begun<S>) -> Self {
         let inputs: [S::Inputs; W] = core::array::from_fn(|_| first.inputs.clone());
         Self {
@@ -512,7 +512,7 @@ impl<S: Batched<W>, T: Steps<S, W>, const W: usize> SideBySide<S, T, W> {
         self.steps.attempt(&self.batch, &self.batch_inputs)
     }
 
-    /// Where a trajectory is.
+    /// The present state of a trajectory as its arrival.
     fn arrival(&self, lane: usize) -> Arrival<S::Coordinates> {
         let system = &self.systems[lane];
         let now = self.steps.now();

@@ -1,7 +1,8 @@
-//! Steps by Taylor series of several trajectories at once: those of a [`Stepper`](crate::Stepper), bit for bit.
+//! Steps by Taylor series of several trajectories at once, with the bits of a [`Stepper`](crate::Stepper).
 //!
-//! All lanes are expanded together at the ends of the steps that they try. A lane keeps the coefficients of the beginning of its
-//! step until a try is good. One that a trajectory was just put into has none yet: its first try is a step of no length.
+//! All lanes are expanded together at the ends of the steps that they try. A lane keeps the coefficients at the beginning of
+//! its step until a try is good. A lane that has just received a trajectory has no coefficients yet: its first try is a step
+//! of length zero.
 
 use std::boxed::Box;
 use std::vec::Vec;
@@ -19,33 +20,33 @@ use crate::taylor::{self, Coefficients};
 use crate::tolerance::Tolerance;
 use crate::{Batch, Batched, LaneVector, Scalar};
 
-/// One of the trajectories.
+/// State of one trajectory.
 #[derive(Clone, Copy, Debug)]
 struct Lane {
-    /// Whether it is to go on.
+    /// Whether it continues.
     is_running: bool,
-    /// Whether it has coefficients of its motion through now.
+    /// Whether it has the coefficients of its motion through the present state.
     is_expanded: bool,
-    /// The length of a step from now whose error is tolerable.
+    /// The length of a step from here whose error is tolerable.
     length: f64,
     control: Control,
 }
 
-/// Trajectories side by side. `L` is what the machine works with while it expands them, and is cleared once.
+/// Trajectories in parallel. `L` is the working memory of the machine for their expansion, which is cleared once.
 pub(super) struct InSeries<V, L, const W: usize> {
     tolerance: Tolerance<V>,
     longest: f64,
     end: Lanes<W>,
     now: Point<V, Lanes<W>>,
     ahead: Point<V, Lanes<W>>,
-    /// The coefficients of the motion through now, and through where the steps that are tried end.
+    /// The coefficients of the motion through the present states, and through the ends of the steps that are tried.
     coefficients: [Vec<V>; 2],
     lists: Box<L>,
     lanes: [Lane; W],
 }
 
 impl<V: LaneVector<W>, L: Default, const W: usize> InSeries<V, L, W> {
-    /// Trajectories that stand still. `tolerance` is relative, and absolute in every coordinate.
+    /// Trajectories that do not move. `tolerance` is relative, and absolute in every coordinate.
     pub fn resting(tolerance: f64, longest: f64, now: Point<V, Lanes<W>>) -> Self {
         let relative = tolerance.max(10.0 * f64::EPSILON);
         let mut absolute = V::ZEROS;
@@ -68,7 +69,7 @@ impl<V: LaneVector<W>, L: Default, const W: usize> InSeries<V, L, W> {
         }
     }
 
-    /// Puts a trajectory into a lane that begins at its state of now, and ends at `end`. `work` is what was done for it.
+    /// Starts the trajectory of a lane at its present state towards `end`. `work` was already done for it.
     pub fn begin(&mut self, lane: usize, end: f64, work: Work) {
         self.end[lane] = end;
         self.lanes[lane] = Lane {
@@ -102,7 +103,7 @@ impl<V: LaneVector<W>, L: Default, const W: usize> InSeries<V, L, W> {
         self.lanes[lane].is_running = false;
     }
 
-    /// How many trajectories are under way.
+    /// The number of trajectories under way.
     pub fn count(&self) -> usize {
         self.lanes.iter().filter(|lane| lane.is_running).count()
     }
@@ -131,7 +132,7 @@ impl<V: LaneVector<W>, L: Default, const W: usize> InSeries<V, L, W> {
                 *failed = not_finite(&self.ahead.q, &self.ahead.v, lane)
                     .map(|coordinate| self.not_finite(coordinate, lane));
             }
-            // What is no number must not disturb the others.
+            // NaN must not disturb the other lanes.
             choose_point(&fine.map(|fine| !fine), &mut self.ahead, &self.now);
         }
         self.expand(batch, inputs, &mut failed);
@@ -169,7 +170,7 @@ impl<V: LaneVector<W>, L: Default, const W: usize> InSeries<V, L, W> {
         }
     }
 
-    /// The lengths of the next steps, 0 where there is none, and whether they are the last ones.
+    /// The lengths of the next steps, 0 for trajectories that take none, and whether they would be the last ones.
     fn choose_lengths(&mut self, outcomes: &mut [Outcome; W]) -> (Lanes<W>, [bool; W]) {
         let mut lengths = Lanes::splat(0.0);
         let mut is_last = [false; W];
@@ -191,7 +192,7 @@ impl<V: LaneVector<W>, L: Default, const W: usize> InSeries<V, L, W> {
                     *outcome = Outcome::Failed(StepError::NotFinite { coordinate, t });
                     continue;
                 }
-                // Where nothing moves, a step is as long as the run.
+                // If the machine does not move, a step is as long as the run.
                 control.step = length.min((end - t).abs()).copysign(end - t);
                 if control.is_too_small(control::least::<f64>(t), left) {
                     lane.is_running = false;
@@ -210,7 +211,7 @@ impl<V: LaneVector<W>, L: Default, const W: usize> InSeries<V, L, W> {
         (lengths, is_last)
     }
 
-    /// Expands the motions through `ahead`, of those that have not `failed` yet.
+    /// Expands the motions through `ahead` in the lanes that have not `failed`.
     fn expand<S: Batched<W, Vectors = V, SeriesLists = L>>(
         &mut self,
         batch: &Batch<S, W>,
@@ -245,7 +246,7 @@ impl<V: LaneVector<W>, L: Default, const W: usize> InSeries<V, L, W> {
         }
     }
 
-    /// What becomes of a trajectory after a try of a step.
+    /// Decides about a try of a step.
     fn decide(&mut self, i: usize, h: f64, cause: Option<StepError>) -> Outcome {
         let lane = &mut self.lanes[i];
         let Some(cause) = cause else {
@@ -257,7 +258,7 @@ impl<V: LaneVector<W>, L: Default, const W: usize> InSeries<V, L, W> {
             lane.is_running = self.ahead.t[i] != self.end[i];
             return Outcome::Taken;
         };
-        // Perhaps the step reached beyond where the machine can be.
+        // The step may have left the set of states in which the machine can be.
         let least = control::least::<f64>(self.now.t[i]);
         if lane.is_expanded && lane.control.give_up(0.1 * h, least) {
             return Outcome::GivenUp;
@@ -289,13 +290,13 @@ impl<N: Scalar<Stored = Lanes<W>>, V: LaneVector<W>, const W: usize> Coefficient
     }
 }
 
-/// The states at the ends of steps of length `h`, as compensated sums, but of those that stay where they are. For each whether it is
-/// finite.
+/// Computes the states at the ends of steps of length `h` as compensated sums, except in lanes that stay. Returns whether each of
+/// them is finite.
 struct Advance<'a, V, const W: usize> {
     coefficients: &'a [V],
     now: &'a Point<V, Lanes<W>>,
     h: Lanes<W>,
-    /// Where all of them end, and which do so with this step.
+    /// The ends of the trajectories, and which of them are reached by this step.
     to: (Lanes<W>, &'a [bool; W]),
     stays: &'a [bool; W],
     ahead: &'a mut Point<V, Lanes<W>>,
@@ -377,7 +378,7 @@ impl<V: LaneVector<W>, const W: usize> Kernel<Lanes<W>> for Lengths<'_, V, W> {
                 are_usual &= worst > 0.0 && worst < f64::INFINITY;
             }
         }
-        // A loop, not a closure for each: that would not be compiled into its caller for wide registers.
+        // A loop and not a closure for each lane: a closure would not be compiled into its caller for wide registers.
         let mut lengths = one;
         for (one, other) in lengths.iter_mut().zip(other) {
             *one = if are_usual {

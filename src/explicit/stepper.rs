@@ -13,9 +13,9 @@ use crate::{Singular, State, SystemIn, Vector};
 /// Advances the state of a system by an explicit method, in numbers of any kind: in `f32`, in 32 digits, or with the derivative of
 /// the whole run.
 ///
-/// In `f64` it takes the steps of a [`Stepper`](crate::Stepper), bit for bit. It is for machines without constraints and contacts; it
-/// owns its system and allocates nothing. Inputs are held, or a [law](ExplicitStepperBuilder::input_law) sets them by time and state.
-/// Within its last step it knows the motion, to the digits of its numbers.
+/// In `f64` its steps have the bits of a [`Stepper`](crate::Stepper). It supports machines without constraints and contacts, owns its
+/// system and allocates nothing. Inputs are constant, or a [law](ExplicitStepperBuilder::input_law) sets them by time and state. It
+/// evaluates the motion within its last step to the precision of its numbers.
 ///
 #[cfg_attr(feature = "macros", doc = "```")]
 #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
@@ -47,11 +47,11 @@ pub struct ExplicitStepper<S: SystemIn<N>, N: Real, L = HeldInputs<<S as SystemI
     law: L,
     track: Track<N, S::Vector>,
     max_steps: usize,
-    /// Whether the acceleration now has to be found again.
+    /// Whether the present acceleration must be evaluated again.
     changed: bool,
 }
 
-/// A stepper in the making: what [`ExplicitStepper::builder`] begins and [`start`](Self::start) ends.
+/// Builds a stepper: [`ExplicitStepper::builder`] creates it and [`start`](Self::start) returns the stepper.
 #[derive(Clone, Debug)]
 #[must_use = "a stepper comes of it by `start(state)`"]
 pub struct ExplicitStepperBuilder<
@@ -89,8 +89,8 @@ impl<N: Real, S: SystemIn<N>, L: InputLawIn<S, N>> Accelerate<N, S::Vector> for 
 }
 
 impl<S: SystemIn<N>, N: Real> ExplicitStepper<S, N> {
-    /// A stepper that owns `system`, in the making: by [`Method::DOP853`], with the inputs of the description and the tolerance of the
-    /// numbers: 10⁻⁵ in `f32`, 10⁻⁹ in `f64`, 10⁻²⁴ in double-doubles.
+    /// A builder of a stepper that owns `system`. Defaults: [`Method::DOP853`], the inputs of the description, and a tolerance that
+    /// depends on the numbers: 10⁻⁵ in `f32`, 10⁻⁹ in `f64`, 10⁻²⁴ in double-doubles.
     pub fn builder(system: S) -> ExplicitStepperBuilder<S, N> {
         let zeros = S::Vector::zeros(system.coordinates().len());
         ExplicitStepperBuilder {
@@ -108,17 +108,17 @@ impl<S: SystemIn<N>, N: Real> ExplicitStepper<S, N> {
         .tolerance(N::TOLERANCE)
     }
 
-    /// Sets the inputs from now on. The last step stays what it was.
+    /// Sets the inputs from now on. The last step is unaffected.
     pub fn set_inputs(&mut self, inputs: S::Inputs) {
         self.set_law(HeldInputs(inputs));
     }
 }
 
 impl<S: SystemIn<N>, N: Real, L: InputLawIn<S, N>> ExplicitStepper<S, N, L> {
-    /// Takes one step. It ends at the end that was set, or short of it.
+    /// Takes one step, which ends at the end that was set or before it.
     ///
     /// # Errors
-    /// If a step cannot be taken; now is then where the last good one ended.
+    /// If a step cannot be taken; the present state is then the end of the last good one.
     pub fn step(&mut self) -> Result<(), StepError> {
         if self.is_done() {
             return Ok(());
@@ -138,12 +138,12 @@ impl<S: SystemIn<N>, N: Real, L: InputLawIn<S, N>> ExplicitStepper<S, N, L> {
         }
     }
 
-    /// Steps to time `t`, in s, later or earlier than now, and stands there: a step ends at `t`. Of a dual number, the derivative is
-    /// that of the time at which the run ends.
+    /// Steps to time `t`, in s, later or earlier than now, and stops there: a step ends at `t`. The derivative of a dual number `t` is
+    /// that of the end time of the run.
     ///
     /// # Errors
-    /// If a step cannot be taken, or more steps would be needed than [may be taken](ExplicitStepperBuilder::max_steps); now is then
-    /// where the last good one ended. If `t` is not a finite number; then nothing happens.
+    /// If a step cannot be taken, or more steps are needed than [allowed](ExplicitStepperBuilder::max_steps); the present state is then
+    /// the end of the last good step. If `t` is not a finite number; then nothing happens.
     pub fn advance_to(&mut self, t: N) -> Result<(), StepError> {
         if !t.are_finite().as_ref()[0] {
             return Err(StepError::NoTime { t: t.to_f64() });
@@ -158,7 +158,7 @@ impl<S: SystemIn<N>, N: Real, L: InputLawIn<S, N>> ExplicitStepper<S, N, L> {
         Ok(())
     }
 
-    /// Goes on to another end, later or earlier than now.
+    /// Sets another end, later or earlier than now.
     pub fn set_end(&mut self, t: N) {
         self.track.set_end(t);
     }
@@ -168,14 +168,14 @@ impl<S: SystemIn<N>, N: Real, L: InputLawIn<S, N>> ExplicitStepper<S, N, L> {
         self.track.is_done(0)
     }
 
-    /// Puts another law of the same kind in the place of the one that sets the inputs, from now on. The last step stays what it was:
-    /// an [`interpolant`](Self::interpolant) of it has to be taken before, if the method needs evaluations for it.
+    /// Replaces the law of the inputs by another of the same type from now on. The last step is unaffected. If the method needs
+    /// evaluations for an [`interpolant`](Self::interpolant) of it, request it before.
     pub fn set_law(&mut self, law: L) {
         self.law = law;
         self.changed = true;
     }
 
-    /// The inputs at the state of now.
+    /// The inputs at the present state.
     pub fn inputs(&self) -> S::Inputs {
         let mut inputs = self.system.default_inputs();
         let (t, q, v) = (self.t(), self.q(), self.v());
@@ -217,7 +217,7 @@ impl<S: SystemIn<N>, N: Real, L: InputLawIn<S, N>> ExplicitStepper<S, N, L> {
         self.track.a()
     }
 
-    /// Time at the beginning of the last step, in s; now, before the first.
+    /// Time at the beginning of the last step, in s; the present time before the first step.
     pub fn t_before(&self) -> N {
         self.track.before().t
     }
@@ -237,19 +237,19 @@ impl<S: SystemIn<N>, N: Real, L: InputLawIn<S, N>> ExplicitStepper<S, N, L> {
         self.track.a_before()
     }
 
-    /// The motion within the last step, at the fraction `theta` of it: of order 5, good enough to look for events with. It costs no
-    /// evaluation, where [`interpolant`](Self::interpolant) may. Before the first step it is no number.
+    /// The motion within the last step at the fraction `theta` of it, as the Hermite polynomial of order 5, which is accurate
+    /// enough for the search for events. Unlike [`interpolant`](Self::interpolant) it never costs an evaluation. Before the first
+    /// step it is NaN.
     pub fn hermite(&self, theta: N) -> (S::Vector, S::Vector) {
         self.track.hermite(theta)
     }
 
     /// The continuous extension of the last step: the motion between its ends, in the numbers of the run.
     ///
-    /// Costs the evaluations that the method needs beyond its step: 3 for `dop853`, none for the others.
+    /// It costs the evaluations that the method needs beyond its step: 3 for `dop853`, none for the others.
     ///
     /// # Errors
-    /// If there is no step yet, or the inputs were changed after it and the method needs evaluations; if a stage of it has no
-    /// accelerations.
+    /// If there is no step yet; if the inputs were changed after it and the method needs evaluations; if a stage has no accelerations.
     pub fn interpolant(&mut self) -> Result<Interpolant<S::Vector, N>, StepError> {
         let t = self.t().to_f64();
         if !self.track.is_after_step() {
@@ -261,10 +261,10 @@ impl<S: SystemIn<N>, N: Real, L: InputLawIn<S, N>> ExplicitStepper<S, N, L> {
         self.track.interpolant(&With(&self.system, &self.law))
     }
 
-    /// The state at a time within the last step, from its [`t_before`](Self::t_before) to now, on the continuous extension of the
-    /// method. Of a dual number, the derivative is that of the state at this time.
+    /// The state at a time within the last step, from [`t_before`](Self::t_before) to now, on the continuous extension of the method.
+    /// The derivative of a dual number `t` is that of this time.
     ///
-    /// Costs what [`interpolant`](Self::interpolant) costs, which is better for many times.
+    /// It costs as much as [`interpolant`](Self::interpolant), which is better for many times.
     ///
     /// # Errors
     /// If `t` is outside of the last step, or [as for `interpolant`](Self::interpolant).
@@ -290,7 +290,7 @@ impl<S: SystemIn<N>, N: Real, L: InputLawIn<S, N>> ExplicitStepper<S, N, L> {
         self.track.last_step()
     }
 
-    /// The step to be tried next, in s.
+    /// The length of the next step to be tried, in s.
     pub fn next_step(&self) -> f64 {
         self.track.next_step()
     }
@@ -302,15 +302,15 @@ impl<S: SystemIn<N>, N: Real, L: InputLawIn<S, N>> ExplicitStepper<S, N, L> {
 }
 
 impl<S: SystemIn<N>, N: Real, L> ExplicitStepperBuilder<S, N, L> {
-    /// The method of integration, an explicit one. In double-doubles it is of its order beyond the digits of `f64` if it is one of
-    /// [`METHODS`](crate::METHODS); another one is an error there.
+    /// The method of integration, an explicit one. In double-doubles the [`METHODS`](crate::METHODS) keep their order beyond the digits
+    /// of `f64`; any other method is an error there.
     pub fn method(mut self, method: &'static Method) -> Self {
         self.method = method;
         self
     }
 
-    /// How exact each step shall be, relative and absolute: the error in a number `y` is kept below `tolerance · (1 + |y|)`. So it is
-    /// with derivatives of dual numbers.
+    /// The tolerance of each step, relative and absolute: the error in a number `y` is kept below `tolerance · (1 + |y|)`. The
+    /// derivatives of dual numbers are controlled in the same way.
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance.relative = tolerance;
         let absolute = self.tolerance.absolute.as_mut_slice();
@@ -318,37 +318,37 @@ impl<S: SystemIn<N>, N: Real, L> ExplicitStepperBuilder<S, N, L> {
         self
     }
 
-    /// The tolerances of a step: one relative, and absolute ones for each coordinate and rate in their units.
+    /// The tolerances of a step: a relative one, and absolute ones for each coordinate and rate in their units.
     pub fn tolerances(mut self, tolerance: Tolerance<S::Vector>) -> Self {
         self.tolerance = tolerance;
         self
     }
 
-    /// The length of the first step, in s, which otherwise is chosen by the motion at the start.
+    /// The length of the first step, in s, which is otherwise chosen from the motion at the start.
     pub fn first_step(mut self, step: f64) -> Self {
         self.first_step = step.abs();
         self
     }
 
-    /// The greatest length of a step, in s.
+    /// The length of the longest step, in s.
     pub fn longest_step(mut self, step: f64) -> Self {
         self.longest_step = step;
         self
     }
 
-    /// How many steps one [`advance_to`](ExplicitStepper::advance_to) may take, ten million if nobody says; one that would take more is
-    /// an error.
+    /// The largest number of steps of one [`advance_to`](ExplicitStepper::advance_to), ten million by default; if more are needed, it
+    /// returns an error.
     pub fn max_steps(mut self, steps: usize) -> Self {
         self.max_steps = steps;
         self
     }
 
-    /// The inputs, which stay so until others are [set](ExplicitStepper::set_inputs).
+    /// The inputs, which stay constant until others are [set](ExplicitStepper::set_inputs).
     pub fn inputs(self, inputs: S::Inputs) -> ExplicitStepperBuilder<S, N> {
         self.input_law(HeldInputs(inputs))
     }
 
-    /// The law by which time and state set the inputs, in the numbers of the run: so the derivative of a controlled run is that of
+    /// The law by which time and state set the inputs, in the numbers of the run, so that the derivative of a controlled run is that of
     /// machine and controller together.
     ///
     #[cfg_attr(feature = "macros", doc = "```")]
@@ -397,11 +397,11 @@ impl<S: SystemIn<N>, N: Real, L> ExplicitStepperBuilder<S, N, L> {
         }
     }
 
-    /// The stepper, at a state.
+    /// Starts the stepper at a state.
     ///
     /// # Errors
-    /// Where the accelerations at the start have no value; for a method that is not explicit, or whose coefficients are known to fewer
-    /// digits than the numbers have.
+    /// If the accelerations at the start have no value; if the method is not explicit, or its coefficients are known to fewer digits
+    /// than the numbers have.
     pub fn start(self, state: State<S::Coordinates>) -> Result<ExplicitStepper<S, N, L>, StepError>
     where
         L: InputLawIn<S, N>,

@@ -1,56 +1,56 @@
-//! Coulomb's law for contacts in given states, and which states they may be in.
+//! Coulomb's law for contacts in given states, and the search for the states that are possible.
 
 use super::MOST_CONTACTS;
 use crate::scalar::Scalar;
 use crate::{Pivot, Singular};
 
-/// A number for each contact.
+/// One number for each contact.
 pub(super) type Each = [f64; MOST_CONTACTS];
 
-/// What rounding may take from a condition, relative to its terms.
+/// Round-off of a condition, relative to its terms.
 pub(super) const ROUNDING: f64 = 1e-12;
 
-/// Solutions whose accelerations differ by less than this, relative to their greatest, are the same.
+/// Solutions whose accelerations differ by less than this, relative to the largest, are the same.
 const SAME: f64 = 1e-9;
 
 /// A pivot is zero below this, relative to the entries of its row.
 const SINGULAR: f64 = 1e-12;
 
-/// The most steps towards the friction forces of several contacts that slide in space. Newton's take a few; those of a
-/// contraction by a factor of 0.9 as many for sixteen digits.
+/// The largest number of iterations for the friction forces of several contacts that slide in space. Newton's method takes a few;
+/// a contraction by a factor of 0.9 takes this many for sixteen digits.
 const MOST_STEPS: usize = 400;
 
-/// Directions in which what slides off from rest on a surface is looked for first.
+/// Number of directions at which the search begins for the direction in which a contact on a surface starts to slide.
 const LOOKS: usize = 48;
 
-/// Halvings of the angle between two of these that reach its rounding.
+/// Number of bisections from the angle between two of these directions to its round-off.
 const BISECTIONS: usize = 54;
 
-/// Directions of several contacts that change by no more than this from one round to the next are found.
+/// The directions of several contacts have converged if none changes by more than this in an iteration.
 const SETTLED: f64 = 1e-15;
 
-/// What a contact does.
+/// The motion of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Motion {
-    /// It stays where it is on its guide.
+    /// It is at rest on its guide.
     Sticks,
     /// It slides forward (1) or backward (−1).
     Slides(f64),
-    /// It slides on a surface, along both of its tangents; which way is said by [`Mode::course`].
+    /// It slides on a surface, along both of its tangents, in the direction [`Mode::course`].
     Skids,
 }
 
-/// The states of the contacts: what they do, and to which side they press (1 or −1).
+/// The states of the contacts: their motion, and the sides to which they press (1 or −1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Mode {
     pub motion: [Motion; MOST_CONTACTS],
     pub press: Each,
-    /// Of what skids, the component along each tangent of the direction in which it does. 0 for both where that is not known.
+    /// For skidding contacts the components of their direction along the two tangents; both are 0 if the direction is not known.
     pub course: Each,
 }
 
 impl Mode {
-    /// Which part of a friction force that opposes the slip acts along this direction of it.
+    /// The component along this tangent of a unit friction force that opposes the slip.
     fn share(&self, contact: usize) -> f64 {
         match self.motion[contact] {
             Motion::Sticks => 0.0,
@@ -60,7 +60,7 @@ impl Mode {
     }
 }
 
-/// How many solutions there are, where it is not one, and of which contact first.
+/// Whether there is no solution or several, and the first contact concerned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Paradox {
     pub contact: usize,
@@ -76,21 +76,22 @@ impl Paradox {
     }
 }
 
-/// How the results of [`System::friction`](crate::System::friction) are arranged: `1 + k` parts of `n` accelerations, `m`
-/// multipliers, `k` slip rates and `k` normal reactions of so many components, then `k` coefficients of what slides and `k`
-/// of what sticks; in space then the directions of the guides.
+/// The layout of the results of [`System::friction`](crate::System::friction): `1 + k` parts of `n` accelerations, `m`
+/// multipliers, `k` slip rates and `k` normal reactions of `axes` components each, then `k` coefficients of sliding and `k` of
+/// sticking; in space then the directions of the guides.
 #[derive(Clone, Copy)]
 pub(super) struct Layout {
     pub n: usize,
     pub m: usize,
     pub k: usize,
     pub axes: usize,
-    /// Which contacts are the second tangents of surfaces ([`System::second_tangents`](crate::System::second_tangents)).
+    /// The contacts that are second tangents of surfaces ([`System::second_tangents`](crate::System::second_tangents)),
+    /// as a bit mask.
     pub seconds: usize,
 }
 
 impl Layout {
-    /// Whether a contact is the second tangent of the surface that the one before it is on.
+    /// Whether a contact is the second tangent of the surface of the contact before it.
     pub const fn is_second(self, contact: usize) -> bool {
         self.seconds >> contact & 1 != 0
     }
@@ -113,20 +114,20 @@ impl Layout {
         self.directions() + of_directions
     }
 
-    /// Where the directions of the guides stand, in space.
+    /// Offset of the directions of the guides, in space.
     const fn directions(self) -> usize {
         (1 + self.k) * self.part() + 2 * self.k
     }
 }
 
-/// What follows from the friction forces.
+/// The response of the machine to friction forces.
 pub(super) struct Parts<'p> {
     pub layout: Layout,
     pub values: &'p [f64],
 }
 
 impl Parts<'_> {
-    /// Entry `i` of a part: of what there is without friction (0), or by the friction of a contact.
+    /// Entry `i` of a part: without friction (part 0), or per unit of the friction of a contact.
     pub fn at(&self, part: usize, i: usize) -> f64 {
         self.values[part * self.layout.part() + i]
     }
@@ -142,19 +143,19 @@ impl Parts<'_> {
         sum
     }
 
-    /// Where the slip rate of a contact stands in a part.
+    /// Index of the slip rate of a contact in a part.
     pub fn slip_rate(&self, contact: usize) -> usize {
         self.layout.n + self.layout.m + contact
     }
 
-    /// Where the components of its normal reaction stand.
+    /// Indices of the components of its normal reaction.
     fn components(&self, contact: usize) -> core::ops::Range<usize> {
         let first = self.layout.n + self.layout.m + self.layout.k + self.layout.axes * contact;
         first..first + self.layout.axes
     }
 
-    /// Its normal reaction with all friction forces, and the size of its terms: in the plane the force along the normal, in
-    /// space the length of the vector.
+    /// Its normal reaction with all friction forces, and the size of its terms: in the plane the force along the normal, in space
+    /// the length of the vector.
     pub fn reaction(&self, contact: usize, friction_forces: &Each) -> [f64; 2] {
         let components = self.components(contact);
         if self.layout.axes == 1 {
@@ -170,8 +171,9 @@ impl Parts<'_> {
         [dot(&across, &across), terms].map(crate::math::sqrt)
     }
 
-    /// What of a reaction presses in space: all but the part along a curve, or the part along the normal of a surface. The rest is
-    /// what acts along the guide and stands in the spec by coordinates, not by where the body is.
+    /// The pressing part of a reaction in space: everything except the component along a curve, or the component along the normal
+    /// of a surface. The rest only balances forces along the guide that the spec writes in coordinates, which are not forces on
+    /// the position of the body.
     fn across(&self, contact: usize, vector: [f64; 3]) -> [f64; 3] {
         let first = self.layout.directions() + 3 * contact;
         let direction = [0, 1, 2].map(|i| self.values[first + i]);
@@ -197,7 +199,7 @@ impl Parts<'_> {
     /// The friction forces of contacts in given states.
     ///
     /// # Errors
-    /// Where there is no such motion, or there may be several.
+    /// If no such motion exists, or several may.
     pub fn friction_forces(&self, mode: &Mode) -> Result<Each, Paradox> {
         let (mut found, mut several) = (None, false);
         let known = self.each_solution(mode, &mut |friction_forces| {
@@ -215,7 +217,7 @@ impl Parts<'_> {
         }
     }
 
-    /// Whatever friction forces contacts in given states may have; false where nothing says that these are all.
+    /// Calls `look` with all friction forces that contacts in given states may have; returns false if there may be others.
     fn each_solution(&self, mode: &Mode, look: &mut dyn FnMut(Each)) -> bool {
         match self.layout.axes {
             1 => {
@@ -226,7 +228,7 @@ impl Parts<'_> {
         }
     }
 
-    /// In the plane it is known to which side each contact presses, and all is linear.
+    /// In the plane the side to which each contact presses is given, and the equations are linear.
     fn along_normals(&self, mode: &Mode) -> Option<Each> {
         let count = self.layout.k;
         let mut rows = [[0.0; MOST_CONTACTS + 1]; MOST_CONTACTS];
@@ -251,9 +253,9 @@ impl Parts<'_> {
         solve(&mut rows, count)
     }
 
-    /// In space the size of a friction force `f = μ |N|` goes with the length of a vector. What sticks follows linearly from
-    /// what slides, so `N = A + B f`, and there remains one equation `f = μ |A + B f|` for each contact that slides: on a surface
-    /// for both tangents together.
+    /// In space a friction force `f = μ |N|` depends on the length of a vector. The forces of sticking contacts depend linearly on
+    /// those of sliding ones, so `N = A + B f`, and there remains one equation `f = μ |A + B f|` for each sliding contact, on a
+    /// surface for both tangents together.
     fn by_sizes(&self, mode: &Mode, look: &mut dyn FnMut(Each)) -> bool {
         let count = self.layout.k;
         let mut sliding = [0; MOST_CONTACTS];
@@ -265,7 +267,7 @@ impl Parts<'_> {
             }
         }
         let sliding = &sliding[..number];
-        // The forces with no friction in what slides, and by a unit of each.
+        // The forces without friction in the sliding contacts, and per unit of the friction of each of them.
         let mut forces = [[0.0; MOST_CONTACTS]; MOST_CONTACTS + 1];
         for (part, forces) in forces[..=number].iter_mut().enumerate() {
             let mut rows = [[0.0; MOST_CONTACTS + 1]; MOST_CONTACTS];
@@ -288,7 +290,7 @@ impl Parts<'_> {
             };
             *forces = solved;
         }
-        // N of each that slides, by the same parts.
+        // `N` of each sliding contact, in the same parts.
         let mut pressing = [[[0.0; 3]; MOST_CONTACTS + 1]; MOST_CONTACTS];
         for (&k, pressing) in sliding.iter().zip(&mut pressing) {
             for (part, vector) in pressing[..=number].iter_mut().enumerate() {
@@ -320,15 +322,15 @@ impl Parts<'_> {
         })
     }
 
-    /// Whether contacts in given states can have these friction forces: what sticks no more than it can
-    /// hold, what slides on the side to which it is said to press. The state to which a contact turns
-    /// where its reaction is zero is not asked for the side: rounding would decide.
+    /// Whether contacts in given states can have these friction forces: sticking contacts need no more friction than they have,
+    /// and sliding ones press to the given side. The side is not checked for the state that a contact enters when its reaction is
+    /// zero, since rounding would decide.
     fn admits(&self, mode: &Mode, friction_forces: &Each, turned: Option<Turned>) -> bool {
         (0..self.layout.k).all(|k| {
             if turned == Some((k, mode.motion[k], mode.press[k])) {
                 return true;
             }
-            // What a contact does along both tangents is asked of the first.
+            // The condition for both tangents is checked at the first.
             if self.layout.is_second(k) {
                 return true;
             }
@@ -344,7 +346,7 @@ impl Parts<'_> {
         })
     }
 
-    /// Whether what slides off from rest does so in its direction.
+    /// Whether a contact that starts to slide accelerates in its direction.
     fn departs(&self, mode: &Mode, friction_forces: &Each, contact: usize) -> bool {
         let [rate, terms] = self.sum(self.slip_rate(contact), friction_forces);
         match mode.motion[contact] {
@@ -359,7 +361,7 @@ impl Parts<'_> {
         }
     }
 
-    /// How large the friction of a contact is, along both tangents if it has two.
+    /// The magnitude of the friction of a contact, along both tangents if it has two.
     pub fn used(&self, contact: usize, friction_forces: &Each) -> f64 {
         let along = friction_forces[contact];
         if self.layout.has_second(contact) {
@@ -369,8 +371,8 @@ impl Parts<'_> {
         }
     }
 
-    /// Whatever friction forces there may be in given states, of which those on surfaces that are `open` slide off from rest: in
-    /// which direction is what is asked. False where nothing says that these are all.
+    /// Calls `look` with all friction forces in given states, where the contacts on surfaces in `open` start to slide in
+    /// directions that are to be found. Returns false if there may be others.
     fn each_course(&self, mode: Mode, open: &[usize], look: &mut dyn FnMut(Mode, Each)) -> bool {
         match *open {
             [] => self.each_solution(&mode, &mut |forces| look(mode, forces)),
@@ -388,15 +390,15 @@ impl Parts<'_> {
         }
     }
 
-    /// The directions in which a contact on a surface may slide off from rest, all others doing what is given: those in which
-    /// its slip grows along itself. Looked for all around, and then by bisection to rounding.
+    /// Finds the directions in which a contact on a surface may start to slide while all others are in given states: those in
+    /// which its slip grows along itself. The search samples the circle and then bisects to round-off.
     fn courses(&self, mut mode: Mode, contact: usize, look: &mut dyn FnMut(Mode)) {
         let mut along = |angle: f64| {
             let (sin, cos) = Scalar::sin_cos(angle);
             (mode.course[contact], mode.course[contact + 1]) = (cos, sin);
             mode
         };
-        // How far the slip grows to the left of the direction, and along it.
+        // The growth of the slip to the left of the direction, and along it.
         let grows = |mode: &Mode| {
             let forces = self.friction_forces(mode).ok()?;
             let [x, y] = [contact, contact + 1].map(|k| self.sum(self.slip_rate(k), &forces)[0]);
@@ -435,8 +437,8 @@ impl Parts<'_> {
         }
     }
 
-    /// Where several contacts on surfaces slide off at once: each in turn with the others as they are, until none turns.
-    /// Nothing where one of them might go in several directions, or they do not settle.
+    /// The directions of several contacts on surfaces that start to slide at once, by iteration over the contacts until none
+    /// turns. `None` if one of them could go in several directions, or the iteration does not converge.
     fn courses_together(&self, mut mode: Mode, open: &[usize]) -> Option<Mode> {
         for _ in 0..MOST_STEPS {
             let mut turned = 0.0_f64;
@@ -466,7 +468,7 @@ impl Parts<'_> {
         None
     }
 
-    /// Whether two solutions give the machine the same accelerations.
+    /// Whether two solutions give the same accelerations.
     fn same(&self, one: &Each, other: &Each) -> bool {
         let (mut most, mut apart) = (0.0_f64, 0.0_f64);
         for i in 0..self.layout.n {
@@ -478,25 +480,24 @@ impl Parts<'_> {
     }
 }
 
-/// A contact whose normal reaction is zero just here: in which state it is from here on, what it does
-/// and to which side it presses.
+/// The state that a contact enters when its normal reaction is zero: its index, its motion, and the side to which it presses.
 pub(super) type Turned = (usize, Motion, f64);
 
-/// What is open about the contacts where one of their states ends.
+/// The states that are unknown when the state of a contact ends.
 #[derive(Clone, Copy)]
 pub(super) struct Question {
-    /// What each contact does, if that is known.
+    /// The motion of each contact, if known.
     pub motion: [Option<Motion>; MOST_CONTACTS],
-    /// In which direction each skids of which it is known that it does; 0 where that is asked too.
+    /// The direction of each contact that is known to skid; 0 if the direction is unknown too.
     pub course: Each,
-    /// What has just proved impossible: what a contact does, or the side to which it presses.
+    /// A state that has just proved impossible: a contact, its motion, and possibly the side to which it presses.
     pub excluded: Option<(usize, Motion, Option<f64>)>,
-    /// What presses to the other side from here on, unless it stops.
+    /// The contact that presses to the other side from here on, unless it stops.
     pub turned: Option<Turned>,
 }
 
 impl Question {
-    /// Where nothing but the slips is known: what moves slides, the rest is open.
+    /// If only the slips are known: contacts with a slip slide, the states of the others are unknown.
     pub fn from_slips(slips: &Each, layout: Layout) -> Question {
         let sliding = |slip: f64| (slip != 0.0).then_some(Motion::Slides(slip.signum()));
         let mut question = Question {
@@ -515,9 +516,9 @@ impl Question {
         question
     }
 
-    /// The one solution.
+    /// The unique solution.
     ///
-    /// Where what sticks holds more than what slides, both may be possible: then it sticks.
+    /// If static friction exceeds sliding friction, both may be possible; then the contact sticks.
     pub fn answer(&self, parts: &Parts<'_>) -> Result<(Mode, Each), Paradox> {
         let count = parts.layout.k;
         let holds_more = (0..count)
@@ -530,7 +531,7 @@ impl Question {
         let mut several = None;
         let mut unknown = None;
         let mut look = |mode: Mode, friction_forces: Each| {
-            // That a contact skids may be known, and not in which direction.
+            // That a contact skids may be known without its direction.
             let is_asked = |k: usize| {
                 let skids = self.motion[k] == Some(Motion::Skids) && parts.layout.has_second(k);
                 skids && self.course[k] == 0.0 && self.course[k + 1] == 0.0
@@ -590,7 +591,7 @@ impl Question {
         }
     }
 
-    /// Every combination of states that the question leaves open.
+    /// Calls `look` with every combination of states that the question leaves open.
     fn each(&self, layout: Layout, look: &mut dyn FnMut(Mode)) {
         const IN_PLANE: [(Motion, f64); 5] = [
             (Motion::Sticks, 1.0),
@@ -606,7 +607,7 @@ impl Question {
         let states = |k: usize| match layout.axes {
             1 => &IN_PLANE[..],
             _ if layout.has_second(k) => &ON_SURFACE[..],
-            // What the first tangent says.
+            // The second tangent follows the first.
             _ if layout.is_second(k) => &ON_SURFACE[..1],
             _ => &IN_SPACE[..],
         };
@@ -648,16 +649,16 @@ impl Question {
     }
 }
 
-/// The sizes of the friction forces of what slides in space, as unknowns: `f = μ |A + B f|`.
+/// The unknown friction forces of sliding contacts in space: `f = μ |A + B f|`.
 struct Sizes {
     number: usize,
     coefficients: Each,
-    /// For each `A`, and behind it the columns of `B`.
+    /// `A` of each contact, followed by the columns of `B`.
     pressing: [[[f64; 3]; MOST_CONTACTS + 1]; MOST_CONTACTS],
 }
 
 impl Sizes {
-    /// Whatever sizes there may be; false where nothing says that these are all.
+    /// Calls `look` with all solutions; returns false if there may be others.
     fn each(&self, look: &mut dyn FnMut(&Each)) -> bool {
         match self.number {
             0 => {
@@ -679,7 +680,7 @@ impl Sizes {
         }
     }
 
-    /// The roots that are no less than 0 of `(1 − μ²B²) f² − 2μ² A·B f − μ²A² = 0`.
+    /// Finds the nonnegative roots of `(1 − μ²B²) f² − 2μ² A·B f − μ²A² = 0`.
     fn of_one(&self, look: &mut dyn FnMut(&Each)) {
         let [a, b] = [self.pressing[0][0], self.pressing[0][1]];
         let square = self.coefficients[0] * self.coefficients[0];
@@ -698,14 +699,14 @@ impl Sizes {
         if last == 0.0 {
             found(0.0);
         } else if first > 0.0 {
-            // The other root is negative. No difference of numbers that are nearly the same.
+            // The other root is negative. Avoids cancellation.
             found(if half >= 0.0 {
                 (half + root) / first
             } else {
                 last / (root - half)
             });
         } else if half < 0.0 && discriminant >= 0.0 {
-            // Where pressing harder would hold it the more, there are two motions or none (P. Painlevé).
+            // Pressing harder would increase the reaction further: there are two motions or none (P. Painlevé).
             found(last / (root - half));
             if first < 0.0 && discriminant > 0.0 {
                 found((half - root) / first);
@@ -713,10 +714,10 @@ impl Sizes {
         }
     }
 
-    /// Whether `f ↦ μ |A + B f|` brings any two closer together, in some norm: then it has one fixed point (S. Banach). Sizes
-    /// change by no more than `L = μ |B|` times the change of others, and the spectral radius of a matrix without negative
-    /// entries is below 1 if and only if `(1 − L) x = 1` has a solution without them (A. Berman, R. J. Plemmons, *Nonnegative
-    /// Matrices in the Mathematical Sciences*, 1979, chapter 6, condition N38).
+    /// Whether `f ↦ μ |A + B f|` is a contraction in some norm, so that it has a unique fixed point (S. Banach). Forces change by
+    /// at most `L = μ |B|` times the change of others, and the spectral radius of a nonnegative matrix is below 1 if and only if
+    /// `(1 − L) x = 1` has a nonnegative solution (A. Berman, R. J. Plemmons, *Nonnegative Matrices in the Mathematical Sciences*,
+    /// 1979, chapter 6, condition N38).
     fn is_contraction(&self) -> bool {
         let mut rows = [[0.0; MOST_CONTACTS + 1]; MOST_CONTACTS];
         for (i, row) in rows[..self.number].iter_mut().enumerate() {
@@ -731,9 +732,8 @@ impl Sizes {
         solved.is_some_and(|x| x[..self.number].iter().all(|x| *x > 0.0))
     }
 
-    /// The fixed point of a contraction. Where the direction of each reaction is known, all is linear, and the reaction is
-    /// the product of itself with its direction: that is Newton's step. What does not bring it closer gives way to the step of
-    /// the contraction, which does.
+    /// The fixed point of a contraction. Newton's step linearizes the length of a reaction as its product with its present
+    /// direction. If a step does not reduce the residual, it is replaced by the step of the contraction, which does.
     fn by_newton(&self) -> Option<Each> {
         let number = self.number;
         let mut sizes = [0.0; MOST_CONTACTS];
@@ -778,7 +778,7 @@ impl Sizes {
 }
 
 pub(super) fn length([x, y]: [f64; 2]) -> f64 {
-    // Neither square may be lost or overflow.
+    // Scaling prevents underflow and overflow of the squares.
     let most = x.abs().max(y.abs());
     if most > 0.0 && most.is_finite() {
         most * crate::math::sqrt((x / most) * (x / most) + (y / most) * (y / most))
@@ -791,8 +791,8 @@ fn dot(u: &[f64; 3], v: &[f64; 3]) -> f64 {
     u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 }
 
-/// Solves `count` equations with their right-hand sides behind them, by Gauss's elimination with a
-/// full search for pivots. What is not determined is 0; none where they contradict each other.
+/// Solves `count` equations, whose right-hand sides are in the last column, by Gaussian elimination with complete pivoting.
+/// Undetermined unknowns become 0; `None` if the equations contradict each other.
 pub(super) fn solve(
     rows: &mut [[f64; MOST_CONTACTS + 1]; MOST_CONTACTS],
     count: usize,

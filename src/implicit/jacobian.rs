@@ -1,18 +1,17 @@
-//! How accelerations change with the state, by differences.
+//! Derivatives of the accelerations with respect to the state, by finite differences.
 
 use crate::math::{rough_exp2, rough_log2, sqrt};
 use crate::{StepError, System, Vector};
 use std::vec::Vec;
 
-/// A length, or whatever a coordinate measures, in a machine whose numbers of that unit are all 0, and
-/// the same for rates. By far too small it costs digits of a derivative, by far too large its
-/// exactness: neither does harm to more than the speed of convergence.
+/// The size assumed for coordinates whose unit only has zero values in the machine, and for such rates. If it is far too small,
+/// derivatives lose digits; if far too large, they lose accuracy. Both only slow down the convergence.
 const SIZE_OF_NOTHING: f64 = 1e-3;
 
-/// A rate is no larger than this many times the others of its unit, however short the step.
+/// A rate counts as at most this many times the largest of its unit, however short the step is.
 const LARGEST_RATE: f64 = 1e4;
 
-/// Rounds of the power method that leave of all but the fastest nothing to speak of, and as many more that are measured.
+/// Number of power iterations after which only the dominant eigenvalues remain; as many more are then measured.
 const ROUNDS: usize = 32;
 
 /// Numbers from 1/2 to 3/2 without a pattern: multiples of the golden ratio.
@@ -31,7 +30,7 @@ pub(crate) struct Jacobian {
     /// Row after row.
     pub by_coordinates: Vec<f64>,
     pub by_rates: Vec<f64>,
-    /// What coordinates, then rates are in size.
+    /// Typical sizes of the coordinates, then of the rates.
     pub sizes: [Vec<f64>; 2],
     /// Roundoff of each acceleration, in units of the roundoff of 1: `|aᵢ| + Σⱼ |∂aᵢ/∂qⱼ| |qⱼ| + …`.
     pub noise: Vec<f64>,
@@ -56,12 +55,12 @@ impl Jacobian {
         }
     }
 
-    /// Finds the derivatives at a state in a step of length `h`, by `1 + 2 n` evaluations; leaves the
-    /// accelerations in `here`. `there` is scratch memory.
+    /// Computes the derivatives at a state in a step of length `h`, by `1 + 2 n` evaluations, and leaves the accelerations in `here`.
+    /// `there` is scratch memory.
     ///
-    /// A difference of `√ε` times the size of a number halves its digits: the errors of rounding and
-    /// of the second derivative are then alike. Rates differ by at least what moves coordinates as
-    /// much within a step, or the roundoff of a stiff spring would hide what a damper does.
+    /// An increment of `√ε` times the size of a number halves its digits: the errors of rounding and of the second derivative are then
+    /// alike. Rates are changed at least so much that coordinates move as far within a step; otherwise the round-off of a stiff spring
+    /// would hide the effect of a damper.
     pub fn find<V: Vector>(
         &mut self,
         (t, h): (f64, f64),
@@ -83,7 +82,7 @@ impl Jacobian {
                 };
                 let by = (sqrt(f64::EPSILON) * size).copysign(ahead);
                 let mut difference = 0.0;
-                // Where the machine cannot be on one side, it is on the other.
+                // If the machine cannot be on one side, it can be on the other.
                 let mut tried = Ok(());
                 for by in [by, -by] {
                     let y = match level {
@@ -92,7 +91,7 @@ impl Jacobian {
                     };
                     let before = *y;
                     *y += by;
-                    // As it is rounded.
+                    // The increment that rounding leaves.
                     difference = *y - before;
                     tried = accelerations(t, q, v, there);
                     let y = match level {
@@ -120,13 +119,13 @@ impl Jacobian {
         Ok(())
     }
 
-    /// The spectral radius of the matrix `[0 I; ∂a/∂q ∂a/∂v]`, in 1/s: how fast the fastest part of the motion is.
+    /// The spectral radius of the matrix `[0 I; ∂a/∂q ∂a/∂v]`, in 1/s: the rate of the fastest part of the motion.
     ///
-    /// By powers: after [`ROUNDS`] of them whatever is slower has died away, and the mean growth over as many more is that of the greatest
-    /// eigenvalues, of a pair that turns too, since the number is even.
+    /// By power iteration: after [`ROUNDS`] iterations all slower parts have decayed, and the mean growth over as many more is that of the
+    /// dominant eigenvalues. Since their number is even, this holds for a complex pair as well.
     pub fn fastest_rate(&self) -> f64 {
         let n = self.n;
-        // Irregular numbers, so that no eigenvector is missed.
+        // An irregular start is orthogonal to no eigenvector.
         let mut state: Vec<f64> = (0..2 * n).map(|i| irregular(i + 1)).collect();
         let mut next = state.clone();
         let mut logarithm = 0.0;
@@ -156,7 +155,7 @@ impl Jacobian {
         rough_exp2(logarithm / ROUNDS as f64)
     }
 
-    /// Takes over the derivatives of another.
+    /// Copies the derivatives of another.
     pub fn take(&mut self, other: &Self) {
         self.by_coordinates.copy_from_slice(&other.by_coordinates);
         self.by_rates.copy_from_slice(&other.by_rates);
@@ -166,8 +165,8 @@ impl Jacobian {
         }
     }
 
-    /// The sizes of coordinates and rates: the greatest of their unit here, or what a step adds to it. An
-    /// angle counts as 1 rad at least.
+    /// Determines the sizes of coordinates and rates: the largest value of their unit at this state, or the change within a step. An angle
+    /// counts as at least 1 rad.
     fn measure<V: Vector>(&mut self, h: f64, state: [&V; 3]) {
         let [q, v, a] = state.map(V::as_slice);
         let [greatest_q, greatest_v] = &mut self.state;

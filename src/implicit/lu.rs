@@ -1,13 +1,13 @@
-//! Linear systems with real or complex coefficients: `P A = L U`.
+//! LU factorization of real and complex matrices, `P A = L U`.
 
 use core::ops::{Div, Mul, Sub};
 use std::vec::Vec;
 
-/// A number of a field.
+/// An element of a field.
 pub(crate) trait Coefficient:
     Copy + Default + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
-    /// By which pivots are compared: `|re| + |im|`.
+    /// The size by which pivots are compared: `|re| + |im|`.
     fn size(self) -> f64;
 }
 
@@ -64,18 +64,18 @@ impl Coefficient for Complex {
     }
 }
 
-/// A matrix, and the memory in which it is factorized again and again.
+/// A matrix and its factorization, in memory that is reused.
 #[derive(Clone, Debug)]
 pub(crate) struct Lu<T> {
     n: usize,
     /// `L` without its diagonal of ones, and `U`, row after row.
     entries: Vec<T>,
-    /// With which row each row was exchanged.
+    /// The row that each row was exchanged with.
     pivots: Vec<usize>,
 }
 
 impl<T: Coefficient> Lu<T> {
-    /// Room for `n` unknowns.
+    /// Memory for `n` unknowns.
     pub fn new(n: usize) -> Self {
         Self {
             n,
@@ -84,8 +84,8 @@ impl<T: Coefficient> Lu<T> {
         }
     }
 
-    /// Factorizes the matrix of these entries by elimination with the largest pivot of each column; says
-    /// whether it can be inverted.
+    /// Factorizes the matrix of these entries by elimination with partial pivoting; returns whether it
+    /// is invertible.
     pub fn factor(&mut self, entry: impl Fn(usize, usize) -> T) -> bool {
         let n = self.n;
         for i in 0..n {
@@ -102,7 +102,7 @@ impl<T: Coefficient> Lu<T> {
             }
             self.pivots[k] = pivot;
             let size = self.entries[pivot * n + k].size();
-            // What is not a number is no pivot either.
+            // NaN is no pivot either.
             if !(size > 0.0 && size.is_finite()) {
                 return false;
             }
@@ -124,10 +124,10 @@ impl<T: Coefficient> Lu<T> {
         true
     }
 
-    /// Solves for a right-hand side, in place.
+    /// Solves for a right-hand side in place.
     pub fn solve(&self, x: &mut [T]) {
         let n = self.n;
-        // All exchanges first: those that came later moved the rows of `L` before them, too.
+        // All exchanges come first: the later ones also moved the earlier rows of `L`.
         for (k, pivot) in self.pivots.iter().enumerate() {
             x.swap(k, *pivot);
         }

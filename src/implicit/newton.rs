@@ -10,32 +10,34 @@ use crate::{StepError, Vector};
 use std::boxed::Box;
 use std::vec::Vec;
 
-/// Newton's method has converged by then, or the step is too long for it.
+/// The number of iterations within which Newton's method converges; otherwise the step is too long.
 pub(super) const ROUNDS: usize = 8;
 
-/// So many more for each pair of stages beyond three, as in the program RADAU.
+/// Additional iterations for each pair of stages beyond three stages, as in the program RADAU.
 pub(super) const ROUNDS_OF_PAIR: usize = 5;
 
-/// Errors that it leaves, relative to what is tolerable, at coarse tolerances.
+/// Error left by Newton's method, relative to the tolerance, at coarse tolerances.
 const LEFT: f64 = 0.03;
 
-/// Errors that it leaves if it comes no closer, since rounding hides where it should go.
+/// Error left by Newton's method if it stagnates, because rounding hides the solution.
 const LEFT_BY_ROUNDING: f64 = 0.1;
 
-/// The derivatives of the stages are not made anew while a round leaves no more of the error.
+/// The Jacobians of the stages are not evaluated again while an iteration leaves at most this fraction
+/// of the error.
 const CONTRACTS: f64 = 0.05;
 
-/// A round that leaves more of the error than this comes no closer, if those before did.
+/// An iteration that leaves more than this fraction of the error stagnates, provided that the earlier
+/// ones converged.
 const STANDS: f64 = 0.3;
 
-/// They did if the last change is no larger than this share of the first.
+/// They converged if the last change is at most this fraction of the first.
 const FAR: f64 = 0.01;
 
-/// The derivatives at each stage, and the matrix of all of them together.
+/// The Jacobians at each stage, and the matrix of all of them together.
 #[derive(Clone, Debug)]
 pub(super) struct Apart {
     jacobians: Vec<Jacobian>,
-    /// Of the accelerations of the first stage, the second, and so on.
+    /// Its rows and columns are the accelerations of the first stage, then of the second, and so on.
     matrix: Lu<f64>,
     x: Vec<f64>,
 }
@@ -50,7 +52,7 @@ impl Apart {
         }
     }
 
-    /// The derivatives at the last stage.
+    /// The Jacobian at the last stage.
     pub fn last(&self) -> &Jacobian {
         &self.jacobians[self.jacobians.len() - 1]
     }
@@ -81,7 +83,7 @@ impl Apart {
         })
     }
 
-    /// From residuals to changes.
+    /// Solves for the changes from the residuals, in place.
     fn solve(&mut self, change: &mut [Vec<f64>]) {
         let n = self.x.len() / self.jacobians.len();
         for (x, change) in self.x.chunks_exact_mut(n.max(1)).zip(&*change) {
@@ -95,7 +97,7 @@ impl Apart {
 }
 
 impl<V: Vector> Task<'_, V> {
-    /// Puts `q` and `v` where a stage is; says when that is.
+    /// Sets `q` and `v` to the state at a stage; returns its time.
     fn go_to(&self, stage: usize, k: &[V; MAX_STAGES], [q, v]: [&mut V; 2]) -> f64 {
         let Task {
             method, before, h, ..
@@ -116,8 +118,8 @@ fn subtract<V: Vector>(a: &V, k: &V, difference: &mut [f64]) {
 }
 
 impl Implicit {
-    /// Where Newton's method begins: on the polynomial through the stages of the last step, continued; at
-    /// the beginning of a run, with the acceleration there.
+    /// The initial guess of Newton's method: the extrapolated polynomial through the stages of the last
+    /// step, or at the beginning of a run the acceleration there.
     fn predict<V: Vector>(&self, task: &Task<'_, V>, k: &mut [V; MAX_STAGES]) {
         let (start, stages) = k.split_at_mut(1);
         let count = self.known.len();
@@ -147,8 +149,8 @@ impl Implicit {
         }
     }
 
-    /// Newton's method, with the matrices as they are; or with those of the stages, made anew until it
-    /// contracts.
+    /// Newton's method with the matrices as they are, or with those of the stages, which are evaluated
+    /// again until it contracts.
     pub(super) fn newton<V: Vector>(
         &mut self,
         task: &Task<'_, V>,
@@ -159,7 +161,7 @@ impl Implicit {
         self.predict(task, k);
         let [q, v] = scratch;
         let mut anew = self.steps_apart > 0;
-        // What was known of the contraction is forgotten slowly.
+        // The known contraction is forgotten gradually.
         self.left = rough_power(self.left.max(f64::EPSILON), 0.8);
         self.contraction = 0.0;
         let (mut first, mut size_before) = (0.0, 0.0);
@@ -192,7 +194,7 @@ impl Implicit {
                     return Ok(Solved::Shorter(0.5));
                 }
                 self.left = self.contraction / (1.0 - self.contraction);
-                // What will be left after the last round there is, if it goes on like this.
+                // Estimates the error after the last permitted iteration.
                 let rest = i32::try_from(most - round).unwrap_or(0);
                 let at_last = (0..rest).fold(self.left * size, |left, _| left * self.contraction);
                 let helpless = self.steps_apart == 0 || self.contraction <= CONTRACTS;
@@ -219,18 +221,19 @@ impl Implicit {
         Ok(Solved::Shorter(0.5))
     }
 
-    /// What part of the tolerance Newton's method leaves as its error: less where more is asked.
+    /// The fraction of the tolerance that Newton's method may leave as its error, which is smaller at
+    /// finer tolerances.
     fn share<V>(&self, task: &Task<'_, V>) -> f64 {
         let relative = task.tolerance.relative;
         LEFT.min(sqrt(relative)).max(10.0 * f64::EPSILON / relative)
     }
 
-    /// The greatest change of a last round that comes no closer.
+    /// The largest change with which an iteration that stagnates is accepted.
     fn standing<V>(&self, task: &Task<'_, V>) -> f64 {
         (LEFT_BY_ROUNDING / self.share(task)).max(1.0)
     }
 
-    /// `a(tᵢ, qᵢ, vᵢ) − kᵢ` of the stages, to `change`.
+    /// Computes the residuals `a(tᵢ, qᵢ, vᵢ) − kᵢ` of the stages in `change`.
     fn residuals<V: Vector>(
         &mut self,
         task: &Task<'_, V>,
@@ -247,8 +250,8 @@ impl Implicit {
         Ok(())
     }
 
-    /// One round with the derivatives of each stage, `anew` or of the round before: residuals and
-    /// changes. Says whether the matrix can be inverted.
+    /// One iteration with the Jacobians of each stage, evaluated `anew` or kept from the iteration
+    /// before: residuals and changes. Returns whether the matrix is invertible.
     fn solve_apart<V: Vector>(
         &mut self,
         task: &Task<'_, V>,
@@ -284,7 +287,7 @@ impl Implicit {
         solved
     }
 
-    /// From residuals to changes, by way of the eigenvectors.
+    /// Solves for the changes from the residuals by means of the eigenvectors.
     fn solve_by_eigenvectors(&mut self) {
         let Self {
             spectrum,
@@ -317,7 +320,7 @@ impl Implicit {
             for (i, (change, x)) in change.iter_mut().zip(&*in_real).enumerate() {
                 *change = real * x;
                 for (z, pair) in in_complex.iter().zip(spectrum.pairs) {
-                    // With its conjugate, twice the real part.
+                    // Together with the conjugate, twice the real part.
                     let [re, im] = pair.right[stage];
                     *change += 2.0 * (re * z[i].re - im * z[i].im);
                 }
@@ -325,8 +328,8 @@ impl Implicit {
         }
     }
 
-    /// The greatest that positions and velocities of the stages are changed by, in the root mean square
-    /// over all of them; 1 where that is as little as Newton's method shall leave, or roundoff.
+    /// The change of positions and velocities of the stages, as root mean square over all of them; 1 is
+    /// the error that Newton's method may leave, or round-off.
     fn size_of_change<V: Vector>(&self, task: &Task<'_, V>) -> f64 {
         let &Task {
             method,
@@ -339,8 +342,7 @@ impl Implicit {
         for i in 0..self.n {
             let Jacobian { sizes, noise, .. } = &self.jacobian;
             let (q, v) = (before.q.as_slice()[i].abs(), before.v.as_slice()[i].abs());
-            // Where the machine is stiff, its forces bring positions no closer to where they should be
-            // than roundoff lets them.
+            // In a stiff machine the forces determine positions only to within their round-off.
             let h = h.abs();
             let of_forces = (sizes[0][i] / h).min(h * noise[i]);
             let roundoff = 4.0 * f64::EPSILON * of_forces;

@@ -1,19 +1,20 @@
-//! Bounds that are proved to contain the motion.
+//! Proves bounds that contain the motion.
 //!
-//! The set of all states at a time is kept as `c + B s`: a point, a matrix whose columns are nearly orthogonal, and a box of intervals.
-//! A step encloses, one after the other:
+//! The set of all states at a time is represented as `c + B s`: a point, a matrix with nearly orthogonal columns, and a box of intervals. A
+//! step encloses, one after the other:
 //!
-//! 1. the whole motion in it, by a box `Z` with `Y + [0, h] f(Z) ⊆ Z`, where `Y` holds the set and `f` is the right-hand side: then the
-//!    theorem of Picard and Lindelöf has the motion exist and stay in `Z`;
-//! 2. the end of the motion from `c`: `φ(c) = Σ cⱼ hʲ` up to order p, and the remainder `h^(p+1) c₍p+1₎(Z)`, with the coefficient that the
-//!    recurrences make of all states in `Z` (R. E. Moore, *Interval Analysis*, 1966, chapter 11);
-//! 3. the others by the mean value theorem, `φ(c) + Dφ(Y) (B s)`, with the derivatives of the same recurrences over dual numbers;
-//! 4. their set in new axes, `B'` the orthogonal factor of the middle of `Dφ(Y) B`, so that boxes that turn do not grow
-//!    (R. J. Lohner, *Einschließung der Lösung gewöhnlicher Anfangs- und Randwertaufgaben und Anwendungen*, 1988; N. S. Nedialkov,
-//!    K. R. Jackson, G. F. Corliss, *Validated solutions of initial value problems for ordinary differential equations*, Appl. Math.
-//!    Comput. 105 (1999) 21–68, sections 5 and 6).
+//! 1. The motion during the step in a box `Z` with `Y + [0, h] f(Z) ⊆ Z`, where `Y` contains the set and `f` is the right-hand side: by
+//!    the Picard–Lindelöf theorem the motion then exists and stays in `Z`.
+//! 2. The end of the motion from `c`: `φ(c) = Σ cⱼ hʲ` up to order p, and the remainder `h^(p+1) c₍p+1₎(Z)`, with the coefficient that
+//!    the recurrences give for all states in `Z` (R. E. Moore, *Interval Analysis*, 1966, chapter 11).
+//! 3. The ends from the other states, by the mean value theorem, `φ(c) + Dφ(Y) (B s)`, with derivatives from the same recurrences over
+//!    dual numbers.
+//! 4. Their set in new axes, where `B'` is the orthogonal factor of the midpoint of `Dφ(Y) B`, so that boxes that turn do not grow (R.
+//!    J. Lohner, *Einschließung der Lösung gewöhnlicher Anfangs- und Randwertaufgaben und Anwendungen*, 1988; N. S. Nedialkov, K. R.
+//!    Jackson, G. F. Corliss, *Validated solutions of initial value problems for ordinary differential equations*, Appl. Math. Comput. 105
+//!    (1999) 21–68, sections 5 and 6).
 //!
-//! All of it in intervals that are rounded outward.
+//! All computations are in intervals that are rounded outward.
 
 use std::string::String;
 use std::sync::Arc;
@@ -30,32 +31,32 @@ use super::InterpretedMachine;
 use crate::error::NoNumbers;
 use crate::taylor::{bound, length, worse};
 
-/// Coefficients of the accelerations in a step.
+/// Number of coefficients of the accelerations in a step.
 const ORDER: usize = 24;
 
-/// The greatest size of the last terms of a step. The remainder is bounded for all states of a box, so it is greater than these.
+/// The largest size of the last terms of a step. The remainder is bounded for all states of a box, so it is larger than these.
 const LAST_TERMS: f64 = 1e-19;
 
-/// How often a step is halved whose motion no box is found for.
+/// How many times a step is halved if no box is found for its motion.
 const HALVINGS: usize = 60;
 
-/// How often a box is widened for one length of a step.
+/// How many times a box is widened for one length of a step.
 const WIDENINGS: usize = 6;
 
-/// By so much of its width a box is widened on both sides before it is tried.
+/// Before a box is tried it is widened on both sides by this fraction of its width.
 const WIDENED: f64 = 0.1;
 
-/// The remainder of a step may be this part of the width of the set.
+/// The remainder of a step may be this fraction of the width of the set.
 const SHARE: f64 = 1e-3;
 
-/// A set whose widest number is wider than this encloses nothing that is of use, and a step from it may take forever.
+/// A set whose widest number is wider than this is of no use, and steps from it could become arbitrarily short.
 const WIDEST: f64 = 1e3;
 
 /// Advances a set of states of a machine, and proves that it contains the motion.
 ///
-/// Of machines that have a series ([`InterpretedMachine::with_series`]) and no constraints, with inputs that keep their values. Parameters,
-/// inputs and start are the `f64` of the machine: what is proved is the motion of that machine from there, not of one whose numbers
-/// are the decimals of a spec.
+/// For machines that have a series ([`InterpretedMachine::with_series`]) and no constraints, with constant inputs. Parameters, inputs
+/// and start are the `f64` of the machine: the proof is about the motion of that machine, and not of one whose numbers are the
+/// decimals of a spec.
 ///
 /// ```
 /// use lagrangian::interpreted::{Enclosure, InterpretedMachine};
@@ -91,7 +92,7 @@ pub struct Enclosure {
     of_states: Expander<Interval>,
     of_derivatives: Expander<Dual<Interval>>,
     t: f64,
-    /// The greatest length of the next step, in s.
+    /// The longest next step, in s.
     longest: f64,
     /// The set, and a box around it.
     middle: Vec<f64>,
@@ -102,33 +103,33 @@ pub struct Enclosure {
     max_steps: usize,
 }
 
-/// Why no more of a motion is enclosed.
+/// Why the enclosure of a motion ends.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum NotEnclosed {
-    /// No step is short enough for a box to hold the motion in it.
+    /// No step is short enough to find a box that contains its motion.
     NoBox {
         /// Where the enclosure ends, in s.
         t: f64,
     },
-    /// The set has become too wide for bounds that say anything.
+    /// The set has become too wide for useful bounds.
     TooWide {
         /// Where the enclosure ends, in s.
         t: f64,
     },
-    /// What the description assumes could not be shown to hold.
+    /// An assumption of the description could not be proved to hold.
     Assumption {
         /// The assumption.
         assumption: String,
         /// Where the enclosure ends, in s.
         t: f64,
     },
-    /// More steps are needed than may be taken.
+    /// More steps are needed than allowed.
     TooManySteps {
         /// Where the enclosure ends, in s.
         t: f64,
     },
-    /// The time to go to is no finite number.
+    /// The end time is not a finite number.
     NoTime,
 }
 
@@ -159,10 +160,10 @@ impl fmt::Display for NotEnclosed {
 impl core::error::Error for NotEnclosed {}
 
 impl Enclosure {
-    /// The start of the machine, exactly, at `t = 0`.
+    /// Encloses the motion from the start of the machine, exactly, at `t = 0`.
     ///
     /// # Errors
-    /// Why its motion cannot be enclosed.
+    /// The reason why the motion cannot be enclosed.
     pub fn new(machine: &InterpretedMachine) -> Result<Self, NoNumbers> {
         let start = crate::Machine::start(machine);
         let exactly = |values: &[f64]| -> Vec<Interval> {
@@ -172,13 +173,13 @@ impl Enclosure {
         Self::from_states(machine, 0.0, [&q, &v])
     }
 
-    /// All states in a box, at a time in s: coordinates, and rates.
+    /// Encloses the motion from all states in a box, at a time in s: coordinates and rates.
     ///
     /// # Errors
-    /// As [`new`](Self::new); and if a bound is no finite number.
+    /// As [`new`](Self::new); and if a bound is not a finite number.
     ///
     /// # Panics
-    /// If there are not as many coordinates and rates as the machine has.
+    /// If the numbers of coordinates and rates are not those of the machine.
     pub fn from_states(
         machine: &InterpretedMachine,
         t: f64,
@@ -241,20 +242,20 @@ impl Enclosure {
         &self.states[self.states.len() / 2..]
     }
 
-    /// How many steps were taken.
+    /// The number of steps taken.
     pub fn steps(&self) -> usize {
         self.steps
     }
 
-    /// How many steps may be taken in all; 100 000 if nobody says.
+    /// Sets the largest number of steps in total; 100 000 by default.
     pub fn set_max_steps(&mut self, steps: usize) {
         self.max_steps = steps;
     }
 
-    /// Goes to time `t`, in s, later or earlier than now, and stands there.
+    /// Advances to time `t`, in s, later or earlier than now, and stops there.
     ///
     /// # Errors
-    /// Where the enclosure ends; it stands there then.
+    /// The reason why the enclosure ends; it stays at that time.
     pub fn advance_to(&mut self, t: f64) -> Result<(), NotEnclosed> {
         if !t.is_finite() {
             return Err(NotEnclosed::NoTime);
@@ -268,7 +269,7 @@ impl Enclosure {
         Ok(())
     }
 
-    /// Takes one step, which ends at `end` or short of it.
+    /// Takes one step, which ends at `end` or before it.
     ///
     /// # Errors
     /// As for [`advance_to`](Self::advance_to).
@@ -289,7 +290,7 @@ impl Enclosure {
         let of_states = self.expand(start, &states).ok_or(no_box.clone())?;
         let mut h = self.tolerable_length(&of_states).min(self.longest);
         for _ in 0..HALVINGS {
-            // The step from one floating-point number to another, and how long that is.
+            // The step from one floating-point time to another, and its enclosed length.
             let is_last = h >= (end - t).abs();
             let to = if is_last {
                 end
@@ -307,7 +308,7 @@ impl Enclosure {
                 (self.middle, self.axes, self.along, self.states) = advanced;
                 self.t = to;
                 self.steps += 1;
-                // What was possible once may be a little longer the next time.
+                // After a successful step the next one may be a little longer.
                 self.longest = if is_last { self.longest } else { 1.5 * h };
                 return Ok(());
             }
@@ -316,7 +317,7 @@ impl Enclosure {
         Err(no_box)
     }
 
-    /// Coefficients of all coordinates through all states of a box.
+    /// The coefficients of all coordinates for all states of a box.
     fn expand(&mut self, t: Interval, states: &[Interval]) -> Option<Vec<Vec<Interval>>> {
         let n = states.len() / 2;
         let (q, v) = states.split_at(n);
@@ -331,9 +332,9 @@ impl Enclosure {
         are_finite.then_some(rows)
     }
 
-    /// The length of a step whose last terms are tolerable, for all states of the set and with the widths of their bounds. These grow from
-    /// order to order as the terms of a series do whose products are sums of absolute values, which converges in shorter steps than the motion's: in
-    /// longer ones the bounds of high orders would be all that there is.
+    /// The length of a step whose last terms are tolerable for all states of the set, including the widths of their bounds. These widths
+    /// grow from order to order like the terms of a series whose products are sums of absolute values. That series has a smaller radius of
+    /// convergence than the motion, and in longer steps the bounds of high orders would dominate.
     fn tolerable_length(&self, of_states: &[Vec<Interval>]) -> f64 {
         let n = of_states.len();
         let powers = [ORDER, ORDER + 1];
@@ -349,9 +350,9 @@ impl Enclosure {
         length(worst, powers)
     }
 
-    /// Whether the remainder of a step, for all states of the box that encloses the motion in it, is small beside the width of the set, or
-    /// beside rounding. That box is as wide as the motion in the step is long, so its coefficients are wider than those of the set: the step
-    /// may have to be shorter than the last terms of the series ask for.
+    /// Whether the remainder of a step, for all states of the box that encloses its motion, is small relative to the width of the set or to
+    /// rounding. That box is as wide as the motion within the step, so its coefficients are wider than those of the set, and the step may
+    /// have to be shorter than the last terms of the series require.
     fn is_negligible(&self, step: Interval, rest: &[Vec<Interval>]) -> bool {
         let n = rest.len();
         let most = |y: Interval| y.lo().abs().max(y.hi().abs());
@@ -364,7 +365,7 @@ impl Enclosure {
         })
     }
 
-    /// A box around the whole motion in a step from all states of the set.
+    /// A box that contains the motion during a step from all states of the set.
     fn enclose_step(&mut self, step: Interval) -> Option<Vec<Interval>> {
         let span = hull(Interval::ZERO, step);
         let t = Interval::from(self.t) + span;
@@ -410,7 +411,7 @@ impl Enclosure {
         slopes.iter().all(|y| y.is_finite()).then_some(slopes)
     }
 
-    /// The set at the end of a step: middle, axes, box along these, and a box around it.
+    /// The set at the end of a step: midpoint, axes, the box along these, and an enclosing box.
     #[expect(clippy::type_complexity, reason = "the four fields of the set")]
     fn advance(
         &mut self,
@@ -425,7 +426,7 @@ impl Enclosure {
         if !self.is_negligible(step, &rest) {
             return None;
         }
-        // Where the motion from the middle ends.
+        // The end of the motion from the midpoint.
         let mut ends = vec![Interval::ZERO; m];
         for i in 0..n {
             let (mut q, mut v) = (
@@ -438,7 +439,7 @@ impl Enclosure {
             }
             (ends[i], ends[n + i]) = (q + of_middle[i][0], v);
         }
-        // How the end depends on the start: of φ, which leaves out what `rest` adds.
+        // The derivative of the end with respect to the start: of φ, without the contribution of `rest`.
         let slopes = self.derivatives(step)?;
         let turned = product(&slopes, &exact(&self.axes), m);
         let moved = apply(&turned, &self.along);
@@ -460,7 +461,7 @@ impl Enclosure {
             .map(|i| {
                 let one = ends[i] + moved[i];
                 let other = Interval::from(middle[i]) + by_axes[i];
-                // The motion is in both. The mean value theorem needs the middle as well.
+                // The motion is in both. The mean value theorem needs the midpoint as well.
                 let both = Interval::new(one.lo().max(other.lo()), one.hi().min(other.hi()));
                 hull(both, Interval::from(middle[i]))
             })
@@ -471,7 +472,7 @@ impl Enclosure {
             .then_some((middle, axes, along, states))
     }
 
-    /// The derivatives of `φ(y) = Σ cⱼ(y) hʲ`, up to order p, by the start, for all starts in the set; row after row.
+    /// The derivatives of `φ(y) = Σ cⱼ(y) hʲ`, up to order p, with respect to the start, for all starts in the set; row after row.
     fn derivatives(&mut self, step: Interval) -> Option<Vec<Interval>> {
         let m = self.states.len();
         let n = m / 2;
@@ -503,7 +504,7 @@ impl Enclosure {
         slopes.iter().all(|x| x.is_finite()).then_some(slopes)
     }
 
-    /// Whether everything that the description assumes holds for all states in a box.
+    /// Checks that all assumptions of the description hold for all states in a box.
     fn check_assumptions(
         &mut self,
         step: Interval,
@@ -543,7 +544,7 @@ fn hull(one: Interval, other: Interval) -> Interval {
     Interval::new(one.lo().min(other.lo()), one.hi().max(other.hi()))
 }
 
-/// An interval, wider on both sides, and not a point.
+/// An interval that is widened on both sides and is never a point.
 fn widened(y: Interval) -> Interval {
     let by =
         WIDENED * y.width() + f64::EPSILON * y.lo().abs().max(y.hi().abs()) + f64::MIN_POSITIVE;
@@ -580,8 +581,8 @@ fn apply(a: &[Interval], x: &[Interval]) -> Vec<Interval> {
         .collect()
 }
 
-/// Nearly orthogonal axes along the middle of a matrix: its columns made orthogonal, the one along which a box is longest first. What
-/// rounding makes of them is no matter, since their inverse is enclosed.
+/// Nearly orthogonal axes along the midpoint of a matrix: its columns, orthogonalized in the order of decreasing extent of the box. Their
+/// round-off has no effect on the proof, since their inverse is enclosed.
 fn orthogonal(a: &[Interval], along: &[Interval], m: usize) -> Vec<f64> {
     let column = |j: usize| -> Vec<f64> { (0..m).map(|i| a[i * m + j].to_f64()).collect() };
     let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
@@ -593,7 +594,7 @@ fn orthogonal(a: &[Interval], along: &[Interval], m: usize) -> Vec<f64> {
         .collect();
     columns.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut axes: Vec<Vec<f64>> = Vec::new();
-    // What has no direction of its own any more gets one of the coordinates.
+    // A column that depends on the others is replaced by a coordinate axis.
     let spare = (0..m).map(|j| {
         let mut unit = vec![0.0; m];
         unit[j] = 1.0;
@@ -604,7 +605,7 @@ fn orthogonal(a: &[Interval], along: &[Interval], m: usize) -> Vec<f64> {
             break;
         }
         let before = dot(&axis, &axis).sqrt();
-        // Twice is enough: W. Kahan and B. Parlett, in B. N. Parlett, The Symmetric Eigenvalue Problem, 1980, section 6.9.
+        // Two passes suffice: W. Kahan and B. Parlett, in B. N. Parlett, The Symmetric Eigenvalue Problem, 1980, section 6.9.
         for _ in 0..2 {
             for other in &axes {
                 let share = dot(&axis, other);
@@ -627,8 +628,8 @@ fn orthogonal(a: &[Interval], along: &[Interval], m: usize) -> Vec<f64> {
     matrix
 }
 
-/// The inverse of a nearly orthogonal matrix B. With `E = I − Bᵀ B`, `B⁻¹ = (I − E)⁻¹ Bᵀ`, and what `I + E + E² + …` has beside I is
-/// `e/(1 − e)` at the most in each row's sum, for `e = ‖E‖∞ < 1`.
+/// The inverse of a nearly orthogonal matrix B. With `E = I − Bᵀ B`, `B⁻¹ = (I − E)⁻¹ Bᵀ`, and `E + E² + …` is bounded by `e/(1 − e)` in
+/// the sum of each row, where `e = ‖E‖∞ < 1`.
 fn inverse_of_orthogonal(b: &[f64], m: usize) -> Option<Vec<Interval>> {
     let transposed: Vec<Interval> = (0..m * m)
         .map(|at| Interval::from(b[at % m * m + at / m]))

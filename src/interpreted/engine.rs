@@ -1,29 +1,29 @@
-//! What runs the functions of a machine that was read from a spec: the interpreter, or machine code.
+//! Engines that execute the functions of a machine read from a spec: the interpreter, or machine code.
 
 use std::sync::Arc;
 
 use crate::error::NoMachineCode;
 use lagrangian_program::{Arguments, Interpreter, Program, Role};
 
-/// What runs the functions of an [`InterpretedMachine`](super::InterpretedMachine). The results have the same bits.
+/// The engine that executes the functions of an [`InterpretedMachine`](super::InterpretedMachine). All give the same bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Engine {
-    /// The interpreter, which is everywhere.
+    /// The interpreter, which is available everywhere.
     #[default]
     Interpreter,
     /// Machine code, compiled at the first call of a function.
     Jit,
-    /// The interpreter, until as much time went into a function as compiling it takes; then machine code, where there is any.
+    /// The interpreter, until a function has taken as much time as compiling it would take; then machine code, if available.
     Auto,
 }
 
-/// The machine code of a program, if it is to have any: shared by all its systems.
+/// The machine code of a program, if it may have any, shared by all its systems.
 #[derive(Clone, Debug, Default)]
 pub(super) struct MachineCode {
     #[cfg(feature = "jit")]
     library: Option<(Arc<lagrangian_jit::Library>, lagrangian_jit::When)>,
-    /// That of several states at once, made when it is first asked for; nothing where there is none.
+    /// Code for several states at once, compiled on first use; `None` if that is not available.
     #[cfg(feature = "jit")]
     of_lanes: Arc<std::sync::OnceLock<Option<Arc<lagrangian_jit::Library>>>>,
 }
@@ -37,7 +37,7 @@ pub(super) struct Compiled {
 
 #[cfg(feature = "jit")]
 impl MachineCode {
-    /// What an engine needs for a program.
+    /// Prepares what an engine needs for a program.
     pub(super) fn new(
         engine: Engine,
         program: &Arc<Program>,
@@ -61,7 +61,7 @@ impl MachineCode {
         }
     }
 
-    /// Whether runs in lanes are worth their code: where machine code is asked for, or has paid for one state.
+    /// Whether runs in lanes are worth compiling: if machine code was requested, or has paid off for one state.
     pub(super) fn pays_in_lanes(&self) -> bool {
         use lagrangian_jit::When;
         let library = self.library.as_ref();
@@ -71,7 +71,7 @@ impl MachineCode {
         })
     }
 
-    /// The code of several states at once, each with its own parameters, if that is worth it.
+    /// The code for several states at once, each with its own parameters, if it is worth compiling.
     pub(super) fn of_lanes(
         &self,
         program: &Arc<Program>,
@@ -87,7 +87,7 @@ impl MachineCode {
         made.clone()
     }
 
-    /// With the parameters of an interpreter.
+    /// Prepares the code with the parameters of an interpreter.
     pub(super) fn prepared(&self, interpreter: &Interpreter<f64>) -> Compiled {
         let library = self.library.as_ref();
         let running = library.map(|(library, when)| {
@@ -99,7 +99,7 @@ impl MachineCode {
 
 #[cfg(feature = "jit")]
 impl Compiled {
-    /// Whether machine code has run a function; otherwise the interpreter is to be asked.
+    /// Calls machine code. Returns false if there is none for the function; then the interpreter has to be called.
     #[inline]
     pub(super) fn call(
         &mut self,
@@ -111,7 +111,7 @@ impl Compiled {
         running.is_some_and(|running| running.call(role, arguments, results))
     }
 
-    /// As [`Interpreter::stand`].
+    /// Like [`Interpreter::stand`].
     pub(super) fn stand(&mut self, role: Role, values: &[f64]) {
         if let Some(running) = &mut self.running {
             running.stand(role, values);

@@ -1,4 +1,4 @@
-//! Runs of interpreted machines in lanes: what evaluates their machines.
+//! Runs of interpreted machines in lanes: the evaluation of their machines.
 
 use std::sync::Arc;
 use std::vec::Vec;
@@ -15,18 +15,18 @@ use crate::settings::Of;
 use crate::solution::Made;
 use crate::stepper::in_lanes::{Evaluate, LaneMask, WIDTH, Wide};
 
-/// The machines of all lanes, by machine code.
+/// The machines of all lanes, executed by machine code.
 struct InLanes {
     library: Arc<Library>,
     program: Arc<Program>,
-    /// Made with the first machine.
+    /// Created with the first machine.
     several: Option<Several<WIDTH>>,
     inputs: Vec<Wide>,
-    /// Of work and of losses: whether the program has a function for them that is not 0 at all times.
+    /// For work and losses: whether the program has a function for them that is not identically 0.
     has_powers: [bool; 2],
 }
 
-/// Whether all that a function gives is 0.
+/// Whether all results of a function are 0.
 fn is_zero(function: &Function) -> bool {
     let zero = |op: &Op| matches!(op, Op::Constant(constant) if constant.is_zero());
     function.guards.is_empty()
@@ -36,7 +36,7 @@ fn is_zero(function: &Function) -> bool {
             .all(|value| function.code.get(value.index()).is_some_and(zero))
 }
 
-/// Makes all these runs, in lanes where the machine of the first has code for that.
+/// Makes all these runs, in lanes if the machine of the first has code for that.
 pub(super) fn made(tasks: Vec<ToBeMade<'_, '_>>) -> Vec<Made<InterpretedMachine>> {
     let first = tasks.first().map(|(task, _)| &task.of);
     let machine = match first {
@@ -90,7 +90,8 @@ impl Machines<InterpretedMachine> for InLanes {
         let running = system.running.lock();
         match &mut self.several {
             Some(several) => several.put(lane, &running.interpreter),
-            // Lanes without a run have the numbers of the first one, not those of no machine.
+            // Lanes without a run have the numbers of the first one, so that they hold a
+            // valid machine.
             none => {
                 self.inputs = inputs.values.iter().map(|u| Lanes::splat(*u)).collect();
                 *none = Several::each_from(self.library.clone(), &running.interpreter);

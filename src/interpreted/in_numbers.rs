@@ -1,4 +1,4 @@
-//! The equations of motion of interpreted machines, in numbers of any kind.
+//! The equations of motion of interpreted machines in numbers of any kind.
 
 use std::sync::Arc;
 use std::vec::Vec;
@@ -11,9 +11,9 @@ use crate::error::NoNumbers;
 use crate::shared_workspace::SharedWorkspace;
 use crate::{Quantity, Real, Singular, SystemIn};
 
-/// The equations of motion of an [`InterpretedMachine`] in numbers `N`: in double-doubles, `f32`, or dual numbers.
+/// The equations of motion of an [`InterpretedMachine`] in numbers `N`: double-doubles, `f32`, or dual numbers.
 ///
-/// What an [`ExplicitStepper`](crate::ExplicitStepper) runs. Parameters and inputs are the `f64` of the machine.
+/// An [`ExplicitStepper`](crate::ExplicitStepper) runs them. Parameters and inputs are the `f64` of the machine.
 #[derive(Clone, Debug)]
 pub struct InterpretedSystemIn<N: Clone> {
     program: Arc<Program>,
@@ -23,7 +23,7 @@ pub struct InterpretedSystemIn<N: Clone> {
 }
 
 impl InterpretedMachine {
-    /// Whether the machine can be run in other numbers than `f64`.
+    /// Checks that the machine can be run in other numbers than `f64`.
     pub(super) fn check_numbers(&self) -> Result<(), NoNumbers> {
         let program = &self.program;
         let reason = if !program.unilateral.is_empty() {

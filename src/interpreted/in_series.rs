@@ -15,17 +15,17 @@ use crate::step_error::StepError;
 use crate::taylor::{bound, length, state, worse};
 use crate::{Error, Machine, Real, System};
 
-/// The orders of steps, whatever the tolerance.
+/// The smallest and the largest order of steps.
 const ORDERS: [f64; 2] = [12.0, 40.0];
 
-/// Coefficients for each factor of e in the tolerance. With more of them steps are longer and cost more: products of series grow with the
-/// square of the order.
+/// Number of coefficients for each factor of e in the tolerance. With more coefficients steps are longer and cost more, since the cost of
+/// products of series grows with the square of the order.
 const FOR_EACH_FACTOR: f64 = 0.55;
 
 /// Advances an interpreted machine by Taylor series, in numbers of any kind: in double-doubles to some 30 digits.
 ///
-/// Of machines that have a series ([`InterpretedMachine::with_series`]) and no constraints, with inputs that keep their values. Parameters,
-/// inputs and the start are the `f64` of the machine, so that the motion is that which runs in `f64` approximate.
+/// For machines that have a series ([`InterpretedMachine::with_series`]) and no constraints, with constant inputs. Parameters, inputs and
+/// the start are the `f64` of the machine, so the motion is the one that runs in `f64` approximate.
 ///
 /// ```
 /// use lagrangian::interpreted::{InterpretedMachine, SeriesStepper};
@@ -57,7 +57,7 @@ const FOR_EACH_FACTOR: f64 = 0.55;
 #[derive(Clone, Debug)]
 pub struct SeriesStepper<N: Real> {
     expander: Expander<N>,
-    /// In `f64`, for names and for what the description assumes.
+    /// The system in `f64`, for names and for assumptions of the description.
     system: InterpretedSystem,
     tolerance: f64,
     inputs: Vec<N>,
@@ -71,23 +71,23 @@ pub struct SeriesStepper<N: Real> {
 }
 
 impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
-    /// At the start of the machine, at `t = 0`. Each step keeps its error in a number `y` below `tolerance · (1 + |y|)`; no
-    /// tolerance is finer than ten roundings of the numbers.
+    /// A stepper at the start of the machine, at `t = 0`. Each step keeps its error in a number `y` below `tolerance · (1 + |y|)`; the
+    /// tolerance is at least ten roundings of the numbers.
     ///
     /// # Errors
-    /// Why the machine has no such steps.
+    /// The reason why the machine has no such steps.
     pub fn new(machine: &InterpretedMachine, tolerance: f64) -> Result<Self, NoNumbers> {
         let start = machine.start();
         Self::from_state(machine, tolerance, (0.0, &start.q.values, &start.v.values))
     }
 
-    /// At a state: time in s, coordinates and rates.
+    /// A stepper at a state: time in s, coordinates and rates.
     ///
     /// # Errors
     /// As [`new`](Self::new).
     ///
     /// # Panics
-    /// If there are not as many coordinates and rates as the machine has.
+    /// If the numbers of coordinates and rates are not those of the machine.
     pub fn from_state(
         machine: &InterpretedMachine,
         tolerance: f64,
@@ -118,7 +118,7 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
         })
     }
 
-    /// How many steps [`advance_to`](Self::advance_to) may take; ten million if nobody says.
+    /// Sets the largest number of steps of one [`advance_to`](Self::advance_to); ten million by default.
     pub fn set_max_steps(&mut self, steps: usize) {
         self.max_steps = steps;
     }
@@ -143,20 +143,20 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
         self.work
     }
 
-    /// How many coefficients of the accelerations a step has.
+    /// The number of coefficients of the accelerations in a step.
     pub fn order(&self) -> usize {
         self.expander.order()
     }
 
-    /// The tolerance of a step: what was asked for, but no less than ten roundings.
+    /// The tolerance of a step: the requested one, but at least ten roundings.
     pub fn tolerance(&self) -> f64 {
         self.tolerance
     }
 
-    /// Steps to time `t`, in s, later or earlier than now, and stands there.
+    /// Steps to time `t`, in s, later or earlier than now, and stops there.
     ///
     /// # Errors
-    /// If a step cannot be taken; now is then where the last one ended. If `t` is not a finite number; then nothing happens.
+    /// If a step cannot be taken; the state is then the end of the last one. If `t` is not a finite number; then nothing happens.
     pub fn advance_to(&mut self, t: N) -> Result<(), Error> {
         if !lagrangian_scalar::Scalar::is_finite(t) {
             return Err(self.said(StepError::NoTime { t: t.to_f64() }));
@@ -171,7 +171,7 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
         Ok(())
     }
 
-    /// Takes one step, which ends at `end` or short of it.
+    /// Takes one step, which ends at `end` or before it.
     ///
     /// # Errors
     /// As for [`advance_to`](Self::advance_to).
@@ -199,8 +199,8 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
         Ok(())
     }
 
-    /// Where in a step of length `h` to look at the assumptions of the description, the end last: between two looks none of them fails and holds
-    /// again.
+    /// The fractions of a step of length `h` at which to evaluate the assumptions of the description, in order and ending at 1: between
+    /// neighbours none of them fails and holds again.
     fn looks(&self, h: N) -> Result<Vec<f64>, Error> {
         let inputs = self.system.default_inputs();
         let margin = |theta: f64, index: usize| {
@@ -233,7 +233,7 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
         Error::of_step(error, &self.system)
     }
 
-    /// Expands the motion through now, and says how long the step is and whether it is the last.
+    /// Expands the motion through the present state, and returns the length of the step and whether it is the last.
     fn choose(&mut self, end: N) -> Result<(N, bool), StepError> {
         let at = self.t.to_f64();
         self.work.evaluations += 1;

@@ -1,4 +1,4 @@
-//! From the text of a spec to a machine that runs, or to everything that is wrong with the text.
+//! Reads specs: from text to a machine that runs, or to all errors in the text.
 
 use std::format;
 use std::path::{Path, PathBuf};
@@ -17,12 +17,11 @@ use lagrangian_symbolic::{Dag, Rational};
 use super::InterpretedMachine;
 use crate::error::{Diagnostic, Error, Note};
 
-/// The stack of the thread that derives. Nothing recurses deeply, but unoptimized code has large frames, and the caller's
-/// own thread may be a small one.
+/// Stack size of the thread that derives the equations. Nothing recurses deeply, but unoptimized code has large frames,
+/// and the caller's thread may have a small stack.
 const STACK: usize = 64 << 20;
 
-/// A spec to be read, with the settings of the reading; what
-/// [`InterpretedMachine::from_text`] and [`InterpretedMachine::read`] begin.
+/// A spec to be read, with its settings; created by [`InterpretedMachine::from_text`] and [`InterpretedMachine::read`].
 #[derive(Clone, Debug)]
 #[must_use = "a machine comes of it by `build()`"]
 pub struct Reading {
@@ -31,7 +30,7 @@ pub struct Reading {
     series: bool,
 }
 
-/// Where a spec is.
+/// The source of a spec.
 #[derive(Clone, Debug)]
 enum Spec {
     File(PathBuf),
@@ -56,12 +55,12 @@ impl InterpretedMachine {
         Self::read(path).build()
     }
 
-    /// Reads a spec from a file with settings: [`Reading::constant`] and others; then [`build`](Reading::build).
+    /// Reads a spec from a file with settings: call [`Reading::constant`] and others, then [`build`](Reading::build).
     pub fn read(path: impl AsRef<Path>) -> Reading {
         Reading::of(Spec::File(path.as_ref().into()))
     }
 
-    /// The machine of a spec in a string; what the spec extends is read from files beside the working directory.
+    /// The machine of a spec in a string. Specs that it extends are read from files in the working directory.
     ///
     /// ```
     /// use lagrangian::Error;
@@ -106,7 +105,8 @@ impl Reading {
         }
     }
 
-    /// What messages call a text, and beside which files that it extends are looked for; `spec` if nobody says.
+    /// The name of the text in messages; specs that it extends are looked for beside a file of this name.
+    /// `spec` by default.
     pub fn named(mut self, name: impl Into<String>) -> Reading {
         if let Spec::Text { name: known, .. } = &mut self.spec {
             *known = name.into();
@@ -114,13 +114,13 @@ impl Reading {
         self
     }
 
-    /// Gives a constant of the spec another value: sizes of families, `N`, mostly.
+    /// Gives a constant of the spec another value, mostly the size `N` of a family.
     pub fn constant(mut self, name: impl Into<String>, value: impl Into<f64>) -> Reading {
         self.constants.push((name.into(), value.into()));
         self
     }
 
-    /// Derives the Taylor series of the motion too, which the method [`TAYLOR`](crate::TAYLOR) needs.
+    /// Also derives the Taylor series of the motion, which the method [`TAYLOR`](crate::TAYLOR) needs.
     pub fn with_series(mut self) -> Reading {
         self.series = true;
         self
@@ -227,13 +227,13 @@ fn everything_wrong(report: &Report, sources: &Sources) -> Error {
     }
 }
 
-/// The error of a file that cannot be read.
+/// The error for a file that cannot be read.
 fn unreadable(file: &str, reason: String) -> Error {
     let message = format!("cannot read `{file}`: {reason}");
     refused(file, Code::UnreadableFile, message)
 }
 
-/// An error that no place in the text is to blame for.
+/// An error without a place in the text.
 fn refused(file: &str, code: Code, message: String) -> Error {
     Error::Spec {
         diagnostics: vec![Diagnostic {

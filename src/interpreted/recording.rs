@@ -1,4 +1,4 @@
-//! What a run leaves behind: one row for each instant, one column for each quantity.
+//! Recordings of runs: one row for each instant, one column for each quantity.
 
 use std::format;
 use std::string::String;
@@ -10,7 +10,7 @@ use lagrangian_spec::unit::{rate_name, rate_unit, state_of};
 use super::{InterpretedMachine, InterpretedSystem, Named};
 use crate::{Compliance, Energies, InputLaw, Solution, State, System};
 
-/// What a column holds; decides into which panel of the plot it goes.
+/// The kind of a column, which selects the panel of the plot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A generalized coordinate.
@@ -21,7 +21,7 @@ pub enum Kind {
     Energy,
     /// The residual of the energy balance.
     Residual,
-    /// A quantity that the spec asks to observe.
+    /// An output of the spec.
     Output,
     /// An input that is driven.
     Input,
@@ -38,13 +38,13 @@ pub struct Column {
     pub name: String,
     /// Its unit, as a spec writes it.
     pub unit: String,
-    /// What it is.
+    /// Its kind.
     pub kind: Kind,
     /// Its values, one for each instant.
     pub values: Vec<f64>,
 }
 
-/// The whole run, column by column.
+/// A whole run, column by column.
 #[derive(Clone, Debug, Default)]
 pub struct Recording {
     /// The instants, in s.
@@ -61,7 +61,7 @@ impl Recording {
             .filter(move |column| column.kind == kind)
     }
 
-    /// Every so many instants, and the last.
+    /// Every `stride`th instant, and the last.
     pub fn each(&self, stride: usize) -> Recording {
         let last = self.times.len().saturating_sub(1);
         let kept = |values: &[f64]| {
@@ -94,8 +94,9 @@ impl Recording {
         std::iter::once(String::from("t [s]")).chain(columns)
     }
 
-    /// States of a run with everything that can be observed at each: coordinates and rates, outputs, multipliers, what
-    /// contacts do, energies, and the residual of the energy balance where that is kept. What has no value at a state is NaN.
+    /// Records states of a run with everything that can be observed at each: coordinates and rates, outputs,
+    /// multipliers, contacts, energies, and the residual of the energy balance if it is kept. Quantities without a value
+    /// at a state are NaN.
     pub fn of<L: InputLaw<InterpretedSystem>>(
         run: &Solution<InterpretedMachine, L>,
         states: &[State<Named>],
@@ -110,7 +111,7 @@ impl Recording {
                 values: Vec::with_capacity(states.len()),
             })
         };
-        // Of a state of first order there is its value, and not the integral of that.
+        // A first-order state is recorded by its value and not by the integral of it.
         let is_integral: Vec<bool> = system
             .coordinates()
             .map(|quantity| state_of(quantity.name).is_some())
@@ -132,7 +133,7 @@ impl Recording {
         let start = run.start();
         let (q, v) = (&start.q.values, &start.v.values);
         let outputs = system.outputs(start.t, q, v, &vec![0.0; q.len()], &system.default_inputs());
-        // Formulas that somebody has added have names that no spec can give.
+        // Added formulas have names that no spec can contain.
         let is_shown = |name: &str| !name.contains(' ');
         let shown: Vec<bool> = system
             .output_values(&outputs)
@@ -205,7 +206,7 @@ impl Recording {
         for state in states {
             let books = run.contact_energies_at(state.t);
             let lost = |k: usize| (books.as_ref()).map_or(f64::NAN, |of_each| of_each[k].lost());
-            // Where a run ends early there may be no accelerations, and then nothing that is made from them.
+            // If a run ends early there may be no accelerations, and then nothing that is computed from them.
             let (seen, inputs, reactions, energies) = match run.observe_state(state) {
                 Ok(seen) => {
                     let (kinetic, potential) = (seen.kinetic_energy, seen.potential_energy);
@@ -254,7 +255,7 @@ impl Recording {
     }
 }
 
-/// The residual of the energy balance at a time: known at the ends of steps, interpolated between them.
+/// The residual of the energy balance at a time, interpolated between the ends of steps.
 fn residual_at(energies: &[Energies], t: f64) -> f64 {
     let Some(first) = energies.first() else {
         return 0.0;

@@ -1,7 +1,7 @@
 //! Runs of interpreted machines, compiled in this crate.
 //!
-//! A run is generic over its machine, and so compiled in each crate that calls [`Simulation::run`], with optimization for the same
-//! machine again in each. Crates that run what a spec says all run machines of one type: these are made here, once.
+//! A run is generic over its machine, so each crate that calls [`Simulation::run`] compiles it again, with optimization. Crates
+//! that run specs all run machines of the same type; these runs are compiled once, here.
 
 use crate::inputs::{InputLaw, Law};
 use crate::run::run;
@@ -14,7 +14,7 @@ use super::{InterpretedMachine, InterpretedSystem, ToBeMade};
 use std::vec::Vec;
 
 type Start<M> = State<Coordinates<M>>;
-/// A run as far as it came; an error where it could not begin.
+/// A run as far as it went, or an error if it could not begin.
 type RunAsFar<L> = Result<(Solution<InterpretedMachine, L>, Option<Error>), Error>;
 type SensitiveMachine<'m> = Sensitive<'m, InterpretedMachine>;
 
@@ -22,7 +22,7 @@ impl<L: InputLaw<InterpretedSystem>> Simulation<'_, InterpretedMachine, L> {
     /// [`run`](Self::run), compiled once for all crates that call it.
     ///
     /// # Errors
-    /// As of [`run`](Self::run).
+    /// As [`run`](Self::run).
     pub fn run_interpreted(
         self,
         start: Start<InterpretedMachine>,
@@ -33,7 +33,7 @@ impl<L: InputLaw<InterpretedSystem>> Simulation<'_, InterpretedMachine, L> {
     /// [`run_as_far_as_possible`](Self::run_as_far_as_possible), compiled once for all crates that call it.
     ///
     /// # Errors
-    /// As of [`run_as_far_as_possible`](Self::run_as_far_as_possible).
+    /// As [`run_as_far_as_possible`](Self::run_as_far_as_possible).
     pub fn run_interpreted_as_far_as_possible(
         self,
         start: Start<InterpretedMachine>,
@@ -43,14 +43,14 @@ impl<L: InputLaw<InterpretedSystem>> Simulation<'_, InterpretedMachine, L> {
 }
 
 impl<L: InputLaw<InterpretedSystem>> Simulation<'_, InterpretedMachine, L> {
-    /// Many runs with [`run_interpreted_as_far_as_possible`](Self::run_interpreted_as_far_as_possible), several at a time in
-    /// the lanes of the processor where [the machine has code for that](InterpretedMachine::may_run_in_lanes): a lane
-    /// whose run is over takes the next one, and each has its own steps, events and end. What each of them came to, in their order.
+    /// Makes many runs like [`run_interpreted_as_far_as_possible`](Self::run_interpreted_as_far_as_possible), several at a time in
+    /// vector lanes if [the machine has code for that](InterpretedMachine::may_run_in_lanes). A lane whose run is over takes the
+    /// next one, and each has its own steps, events and end. Returns the results in the order of the runs.
     ///
-    /// All of them are runs of one machine with whatever parameters, by one method with one relative tolerance; others are made
-    /// alone, and so are those of other methods than explicit ones, with constraints or contacts, or with inputs that change.
-    /// Every run has the bits that it has alone. What looks at runs while they are made is called by all of them in turn, and
-    /// [`Statistics::seconds`](crate::Statistics::seconds) of each is the time of all.
+    /// All of them must be runs of one machine with any parameters, by one method with one relative tolerance; other runs are made
+    /// alone, and so are runs by methods that are not explicit, with contacts, or with inputs that change. While constraints depend
+    /// on each other, the steps of a run are tried alone. Every run has the bits that it has alone. Callbacks are called by all
+    /// runs alternately, and [`Statistics::seconds`](crate::Statistics::seconds) of each is the time of all.
     ///
     /// ```
     /// # use lagrangian_mechanics::Compiled;
@@ -127,7 +127,7 @@ where
     /// [`run`](Self::run), compiled once for all crates that call it.
     ///
     /// # Errors
-    /// As of [`run`](Self::run).
+    /// As [`run`](Self::run).
     pub fn run_interpreted(
         self,
         start: Start<SensitiveMachine<'m>>,

@@ -1,4 +1,4 @@
-//! What drives the inputs of a machine that is read from a spec: formulas, tables, functions, and controllers that are sampled.
+//! Signals that drive the inputs of a machine read from a spec: formulas, tables, functions, and sampled controllers.
 
 use core::fmt::{self, Debug, Display};
 use std::string::String;
@@ -14,15 +14,15 @@ use crate::{InputLaw, Machine, NoPiece, Piece, Simulation};
 /// A function of time, coordinates and rates.
 pub type SignalFunction = Arc<dyn Fn(f64, &[f64], &[f64]) -> f64 + Send + Sync>;
 
-/// What an input does while the machine runs.
+/// The signal of an input.
 #[derive(Clone)]
 #[non_exhaustive]
 pub enum Signal {
-    /// It is the output of this number: a formula of the spec's language.
+    /// The output with this index: a formula in the spec language.
     Output(usize),
-    /// It is a table's value.
+    /// The value of a table.
     Table(Arc<Table>),
-    /// It is a function of time and state, which must depend on its arguments alone and be smooth.
+    /// A function of time and state, which must depend on its arguments alone and be smooth.
     Function(SignalFunction),
 }
 
@@ -36,7 +36,7 @@ impl Debug for Signal {
     }
 }
 
-/// The inputs of a machine that are driven, each with its signal: the others keep their defaults.
+/// The driven inputs of a machine, each with its signal; the others keep their defaults.
 ///
 /// ```
 /// use lagrangian::interpreted::{InterpretedMachine, Signal, Signals};
@@ -59,15 +59,15 @@ impl Debug for Signal {
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Signals {
-    /// In an order in which each reads only what was set before.
+    /// Ordered so that each reads only inputs that were set before.
     rules: Arc<[Rule]>,
     sampled: Option<Sampled>,
 }
 
-/// An input and what it does.
+/// An input and its signal.
 #[derive(Clone, Debug)]
 struct Rule {
-    /// The number of the input.
+    /// The index of the input.
     input: usize,
     signal: Signal,
     /// Whether it has one value within each piece of time.
@@ -86,7 +86,7 @@ struct Sampled {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SignalError {
-    /// There is no input, or no output, of that number.
+    /// There is no input, or no output, with this index.
     NoSuch(usize),
     /// An input is driven more than once.
     Twice(String),
@@ -122,10 +122,10 @@ impl Display for SignalError {
 impl core::error::Error for SignalError {}
 
 impl Signals {
-    /// Signals of the inputs of these numbers. A formula may read other inputs, but not in a circle, and no accelerations.
+    /// Signals for the inputs with these indices. A formula may read other inputs, but not in a cycle, and no accelerations.
     ///
     /// # Errors
-    /// Which signal cannot be.
+    /// The signal that is not possible, and why.
     pub fn new(
         machine: &InterpretedMachine,
         driven: impl IntoIterator<Item = (usize, Signal)>,
@@ -133,12 +133,12 @@ impl Signals {
         Signals::default().and(machine, driven, None)
     }
 
-    /// These signals and inputs beside them that are set at the start and every `period` seconds after it, to act `delay` seconds
-    /// later and to hold until they are set again. A formula reads other sampled inputs, and its own, as they were set the time
-    /// before; at first as their defaults.
+    /// Adds inputs that are set at the start and every `period` seconds after it. They take effect `delay` seconds later and hold
+    /// until they are set again. A formula reads sampled inputs, including its own, as they were set at the previous sample, and
+    /// initially their defaults.
     ///
     /// # Errors
-    /// Which signal cannot be.
+    /// The signal that is not possible, and why.
     pub fn and_sampled(
         self,
         machine: &InterpretedMachine,
@@ -214,8 +214,8 @@ impl Signals {
         self.sampled.as_ref().map_or(&[], |sampled| &sampled.rules)
     }
 
-    /// The numbers of the inputs that are driven while the machine runs, with their signals, in an order in which each reads only
-    /// what was set before. Inputs that are sampled are not among them.
+    /// The indices of the driven inputs with their signals, ordered so that each reads only inputs that were set before. Sampled
+    /// inputs are not included.
     pub fn driven(&self) -> impl Iterator<Item = (usize, &Signal)> {
         self.rules.iter().map(|rule| (rule.input, &rule.signal))
     }
@@ -225,19 +225,19 @@ impl Signals {
         self.rules.is_empty() && self.sampled.is_none()
     }
 
-    /// The number of the first input that changes within pieces of time: where there is one, the motion has no Taylor series.
+    /// The index of the first input that changes within pieces of time. If there is one, the motion has no Taylor series.
     pub fn first_varying(&self) -> Option<usize> {
         let varying = self.rules.iter().filter(|rule| !rule.is_constant);
         varying.map(|rule| rule.input).min()
     }
 
-    /// Whether inputs are set at certain instants and hold between them: then [`InputLaw::set`] does not know these, and an
+    /// Whether some inputs are set at certain instants and hold between them. [`InputLaw::set`] does not know their values; an
     /// [`Observation`](crate::Observation) does.
     pub fn is_sampled(&self) -> bool {
         self.sampled.is_some()
     }
 
-    /// A simulation of the machine whose inputs are driven so.
+    /// Drives the inputs of a simulation of the machine by these signals.
     pub fn drive<'a, L>(
         &self,
         simulation: Simulation<'a, InterpretedMachine, L>,
@@ -246,7 +246,7 @@ impl Signals {
         self.sample(simulation.law(self.clone()), machine)
     }
 
-    /// A simulation whose inputs are set by a law already, with the controller of these signals, if they have one.
+    /// Adds the controller of these signals, if they have one, to a simulation whose inputs already have a law.
     pub fn sample<'a, L>(
         &self,
         simulation: Simulation<'a, InterpretedMachine, L>,
@@ -272,7 +272,7 @@ impl Signals {
     }
 }
 
-/// What the signal of a rule is at a state, with the inputs as far as they are known.
+/// The value of the signal of a rule at a state, with the inputs that are known so far.
 fn value(
     rule: &Rule,
     piece: Piece,
@@ -287,11 +287,11 @@ fn value(
     }
 }
 
-/// What a signal depends on.
+/// The dependences of a signal.
 struct Reads {
     inputs: Vec<usize>,
     accelerations: bool,
-    /// Whether it depends on nothing that changes within a piece of time, but perhaps on inputs that do.
+    /// Whether it depends on nothing that changes within a piece of time, except possibly on inputs.
     is_constant: bool,
 }
 
@@ -323,14 +323,14 @@ impl Reads {
     }
 }
 
-/// The inputs that wait for each other, in the order in which each reads the next.
+/// The inputs that form a cycle, in the order in which each reads the next.
 fn names_of_circle(open: &[(Rule, Reads)], name: impl Fn(usize) -> String) -> Vec<String> {
     let next = |at: usize| {
         let reads = &open[at].1.inputs;
         open.iter()
             .position(|(other, _)| reads.contains(&other.input))
     };
-    // Every open rule reads an input of another open rule, so following them from any one ends in a circle.
+    // Every open rule reads an input of another open rule, so following them from any one ends in a cycle.
     let mut way: Vec<usize> = Vec::new();
     let mut at = 0;
     loop {

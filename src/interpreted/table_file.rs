@@ -30,7 +30,7 @@ pub struct TableFile {
     name: String,
     header: Vec<Cell>,
     rows: Vec<Vec<Cell>>,
-    /// Whether lines and columns are places in a text, and not numbers of rows.
+    /// Whether places are lines and columns of a text, or else row numbers.
     is_text: bool,
 }
 
@@ -42,13 +42,13 @@ struct Cell {
     place: (usize, usize),
 }
 
-/// What is wrong with a table in a file, and where.
+/// An error in a table file, and its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct TableFileError {
-    /// What the file is called.
+    /// The name of the file.
     pub file: String,
-    /// The line, from 1, and the column in it, in characters; or the row, from 1, of a file that is no text.
+    /// The line, from 1, and the column in it, in characters; or the row, from 1, if the file is not text.
     pub place: Option<(usize, Option<usize>)>,
     /// What is wrong.
     pub message: String,
@@ -68,12 +68,12 @@ impl Display for TableFileError {
 
 impl core::error::Error for TableFileError {}
 
-/// The most columns that a message lists.
+/// The largest number of columns that a message lists.
 const SHOWN: usize = 12;
 
 impl TableFile {
-    /// Reads comma-separated text, or text with semicolons, with a point as decimal mark. Lines may be empty, and what follows a
-    /// `#` is a comment.
+    /// Reads comma-separated text, or text with semicolons, with a point as decimal mark. Lines may be empty; a `#`
+    /// begins a comment.
     ///
     /// # Errors
     /// If there is no header, or a quote is not closed.
@@ -119,7 +119,7 @@ impl TableFile {
     /// Reads a table from bytes, which must be UTF-8.
     ///
     /// # Errors
-    /// As [`from_text`](Self::from_text), and where the bytes are no text.
+    /// As [`from_text`](Self::from_text), and if the bytes are not UTF-8.
     pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<TableFile, TableFileError> {
         match core::str::from_utf8(bytes) {
             Ok(text) => Self::from_text(name, text),
@@ -137,7 +137,7 @@ impl TableFile {
         }
     }
 
-    /// Makes a table of cells that were read by other means, the header first.
+    /// Makes a table from cells that were read by other means, the header first.
     ///
     /// # Errors
     /// If there is no header.
@@ -164,33 +164,33 @@ impl TableFile {
         }
     }
 
-    /// Times in seconds, from the column `t`, and the values of a column, in a unit. What a header says of its unit is checked and
-    /// converted; a column without one is in that unit already.
+    /// Times in seconds, from the column `t`, and the values of a column in a unit. The unit in the header is checked and converted;
+    /// a column without one is assumed to be in that unit.
     ///
     /// # Errors
-    /// Which column there is not, which unit is another one, and which cell is no number or, of times, no later one.
+    /// If there is no such column, if a unit does not match, if a cell is not a number, or if times do not increase.
     pub fn column(&self, name: &str, unit: &str) -> Result<(Vec<f64>, Vec<f64>), TableFileError> {
         let times = self.find("t", "s")?;
         self.read(times, (name, self.find(name, unit)?), false)
     }
 
-    /// What the columns behind that of times are called, each with the unit that its header has.
+    /// The names of the columns except that of times, each with the unit in its header.
     pub fn columns(&self) -> Vec<(String, Option<String>)> {
         let all = self.header.iter().map(split);
         all.filter(|(name, _)| name != "t").collect()
     }
 
-    /// Times in seconds, from the column `t`, and the numbers of a column as they stand, in the unit of its header if it has one. An
+    /// Times in seconds, from the column `t`, and the numbers of a column as they are, in the unit of its header if it has one. An
     /// empty cell, or `NaN`, is NaN: nothing was measured there.
     ///
     /// # Errors
-    /// As [`column`](Self::column), but for empty cells.
+    /// As [`column`](Self::column), except for empty cells.
     pub fn column_with_gaps(&self, name: &str) -> Result<(Vec<f64>, Vec<f64>), TableFileError> {
         let times = self.find("t", "s")?;
         self.read(times, (name, (self.place(name)?, 1.0)), true)
     }
 
-    /// Times in seconds and the numbers of a column in a unit, which the unit of its header is checked against and converted to.
+    /// Times in seconds and the numbers of a column, converted from the unit of its header to the given one.
     ///
     /// ```
     /// use lagrangian::interpreted::TableFile;
@@ -209,7 +209,7 @@ impl TableFile {
         self.read(times, (name, self.find(name, unit)?), true)
     }
 
-    /// Times, and the numbers of a column at a place, each with what it is multiplied by.
+    /// Times and the numbers of a column at an index, each with its factor.
     fn read(
         &self,
         (t, seconds): (usize, f64),
@@ -246,7 +246,7 @@ impl TableFile {
         }
     }
 
-    /// The place of a column, and what its numbers are to be multiplied by.
+    /// The index of a column, and the factor of its numbers.
     fn find(&self, name: &str, unit: &str) -> Result<(usize, f64), TableFileError> {
         let place = self.place(name)?;
         match split(&self.header[place]).1.as_deref() {
@@ -261,7 +261,7 @@ impl TableFile {
         }
     }
 
-    /// The place of a column.
+    /// The index of a column.
     fn place(&self, name: &str) -> Result<usize, TableFileError> {
         let columns: Vec<String> = self.header.iter().map(|cell| split(cell).0).collect();
         let mut found = (0..columns.len()).filter(|place| columns[*place] == name);
@@ -312,7 +312,7 @@ impl TableFile {
 
     fn wrong(&self, place: Option<(usize, usize)>, message: impl Into<String>) -> TableFileError {
         let place = place.map(|(line, column)| (line, self.is_text.then_some(column)));
-        // The header of a file that is no text is no row.
+        // The header of a file that is not text has no row number.
         let place = place.filter(|(line, _)| self.is_text || *line > 0);
         TableFileError {
             file: self.name.clone(),
@@ -334,13 +334,13 @@ fn split(cell: &Cell) -> (String, Option<String>) {
     }
 }
 
-/// How many of a unit another one is.
+/// The factor from one unit to another.
 fn factor(of: &str, unit: &str) -> Result<f64, String> {
     if !of.chars().any(char::is_alphabetic) && of != "1" {
         return Err("expected a unit, as in [N*m], [deg] or [1]".into());
     }
     let (mut sources, mut report) = (Sources::new(), Report::new());
-    // A bare number would count as one of the other unit.
+    // The factors keep a bare number from being read in the other unit.
     let text = format!("1*({of})*s/s");
     let factor = value_in(&text, unit, &mut sources, &mut report);
     let factor = factor.filter(|factor| factor.is_finite() && *factor != 0.0);
@@ -365,8 +365,8 @@ fn uncommented(line: &str) -> &str {
     end.and_then(|end| line.get(..end)).unwrap_or(line)
 }
 
-/// The cells of a line, each with the column at which it stands, in characters from 1; none where a quote is not closed. In a
-/// header a separator in brackets is none: `q[1,2]`.
+/// The cells of a line, each with its column in characters from 1; `None` if a quote is not closed. In a header a separator within
+/// brackets does not separate: `q[1,2]`.
 fn cells(line: &str, separator: char, is_header: bool) -> Option<Vec<(String, usize)>> {
     let mut cells = Vec::new();
     let (mut cell, mut from) = (String::new(), 1);
@@ -375,7 +375,7 @@ fn cells(line: &str, separator: char, is_header: bool) -> Option<Vec<(String, us
     let ended = |cell: &mut String, from: usize| {
         let text = core::mem::take(cell);
         let blank = text.chars().take_while(|c| c.is_whitespace()).count();
-        // An empty cell stands where it begins.
+        // The column of an empty cell is where it begins.
         let blank = if text.trim().is_empty() { 0 } else { blank };
         (text.trim().to_string(), from + blank)
     };

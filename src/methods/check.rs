@@ -1,4 +1,4 @@
-//! Whether a tableau is the method that it says it is: rows, nodes, order conditions.
+//! Checks that a tableau is consistent: rows, nodes, order conditions.
 //!
 //! A Runge–Kutta method has order `p` if `Σᵢ bᵢ Φᵢ(τ) = 1/γ(τ)` for every rooted tree τ of at most `p`
 //! vertices: E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.,
@@ -10,23 +10,22 @@ use core::fmt::{self, Display};
 use super::scheme::MAX_DENSE;
 use super::{MAX_STAGES, Spectrum, Tableau};
 
-/// Why a [`Tableau`] is not the method that it says it is. Stages and rows are counted from 0, as in
-/// the tableau.
+/// Why a [`Tableau`] is inconsistent. Stages and rows are counted from 0, as in the tableau.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum MethodError {
-    /// A number of the tableau, or the count of something, is not what it must be.
+    /// A number of the tableau, or a count, is wrong.
     Field {
         /// The field of [`Tableau`].
         field: &'static str,
         /// What it must be.
         needed: &'static str,
     },
-    /// A row is too long, or holds what is not a finite number.
+    /// A row is too long, or contains a number that is not finite.
     Row {
         /// The field of [`Tableau`].
         field: &'static str,
-        /// Which of its rows; 0 where it has only one.
+        /// The index of the row; 0 if there is only one.
         row: usize,
         /// What it must be.
         needed: &'static str,
@@ -40,25 +39,25 @@ pub enum MethodError {
         /// The node.
         node: f64,
     },
-    /// Weights do not meet an order condition that the stated order asks for.
+    /// Weights violate an order condition up to the stated order.
     Order {
-        /// Whose weights.
+        /// The weights.
         weights: Weights,
-        /// The tree of the condition; its vertices are the order.
+        /// The tree of the condition; its number of vertices is the order.
         tree: Tree,
         /// `Σᵢ bᵢ Φᵢ` of the weights.
         value: f64,
         /// What it must be.
         needed: f64,
     },
-    /// The stated power of the error is not that of the estimate.
+    /// The error estimate has another order than stated.
     ErrorPower {
-        /// The power by which the estimate falls.
+        /// The order of the estimate.
         found: u32,
-        /// The stated one.
+        /// The stated order.
         stated: u32,
     },
-    /// The eigenvalues or eigenvectors are not those of the three stages that depend on each other.
+    /// The eigenvalues or eigenvectors are not those of the matrix of the coupled stages.
     Spectrum {
         /// The condition that does not hold.
         condition: &'static str,
@@ -68,36 +67,37 @@ pub enum MethodError {
 /// Weights of stages in a [`Tableau`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Weights {
-    /// Of the new point: row `stages` of `a`.
+    /// Those of the new point: row `stages` of `a`.
     NewPoint,
-    /// Of the estimate of the error, `error`.
+    /// Those of the error estimate, `error`.
     Error,
-    /// Of the coarser estimate, `coarse_error`.
+    /// Those of the coarser estimate, `coarse_error`.
     CoarseError,
-    /// Of dense output at this fraction of the step: the cubic through both ends, and `dense`.
+    /// Those of dense output at this fraction of the step: the cubic through both ends, and `dense`.
     Dense(f64),
 }
 
 /// A rooted tree.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Tree {
-    /// How far from the root each vertex is, every vertex before what hangs from it.
+    /// The distance of each vertex from the root; every vertex comes before its descendants.
     levels: [u8; MAX_VERTICES],
     vertices: usize,
 }
 
-/// The stages of an implicit method, its beginning counted: two more have to be free for its solution.
+/// The largest number of stages of an implicit method, including the beginning of the step: its solution
+/// needs two free slots.
 const MOST_IMPLICIT: usize = MAX_STAGES - 2;
 
-/// No method that a tableau can hold has a higher order than its stages.
+/// Order conditions are checked up to this order, which no explicit method in a tableau exceeds.
 const MAX_VERTICES: usize = MAX_STAGES;
 
-/// Where dense output is looked at: more places than its polynomial in `θ` has coefficients, whose
-/// degree is at most `3 + MAX_DENSE`, or the order of the condition.
+/// The number of places at which dense output is checked. It exceeds the number of coefficients of its
+/// polynomial in `θ`, whose degree is at most `3 + MAX_DENSE` or the order of the condition.
 const PLACES: usize = 3 + MAX_DENSE + MAX_VERTICES;
 
 impl Tree {
-    /// The first tree of so many vertices: a single branch.
+    /// The first tree with this number of vertices: a single branch.
     fn tall(vertices: usize) -> Self {
         let mut levels = [0; MAX_VERTICES];
         for (i, level) in levels.iter_mut().enumerate() {
@@ -106,7 +106,7 @@ impl Tree {
         Self { levels, vertices }
     }
 
-    /// The tree after this one of as many vertices.
+    /// The next tree with the same number of vertices.
     fn next(mut self) -> Option<Self> {
         let levels = &mut self.levels[..self.vertices];
         let last = levels.iter().rposition(|level| *level > 1)?;
@@ -119,13 +119,13 @@ impl Tree {
         Some(self)
     }
 
-    /// All rooted trees of so many vertices, at most 16; none of 0.
+    /// All rooted trees with this number of vertices, at most 16; none for 0.
     pub fn of(vertices: usize) -> impl Iterator<Item = Tree> {
         let first = (1..=MAX_VERTICES).contains(&vertices);
         core::iter::successors(first.then(|| Tree::tall(vertices)), |tree| tree.next())
     }
 
-    /// How many vertices it has.
+    /// The number of vertices.
     pub fn vertices(&self) -> usize {
         self.vertices
     }
@@ -134,7 +134,7 @@ impl Tree {
         &self.levels[..self.vertices]
     }
 
-    /// Whose branch a vertex is; none of the root.
+    /// The parent of a vertex; `None` for the root.
     fn parent(&self, vertex: usize) -> Option<usize> {
         let own = self.levels[vertex];
         self.levels[..vertex]
@@ -155,8 +155,8 @@ impl Tree {
         density
     }
 
-    /// `Σᵢ bᵢ Φᵢ` where the stages take `a` from each other, and a bound on what rounding does to it,
-    /// that of the coefficients included.
+    /// `Σᵢ bᵢ Φᵢ` for the stage coefficients `a`, and a bound on its round-off, including that of
+    /// the coefficients.
     fn weight(&self, a: &[&[f64]], b: &[f64; MAX_STAGES]) -> (f64, f64) {
         // Φ of a vertex is the product over its branches of Σⱼ aᵢⱼ Φⱼ.
         let mut products = [[[1.0; 2]; MAX_STAGES]; MAX_VERTICES];
@@ -180,14 +180,14 @@ impl Tree {
             sum += b * value;
             size += b.abs() * most;
         }
-        // Each vertex brings a rounded coefficient, a rounded product, and sums of up to 16 terms.
+        // Each vertex contributes a rounded coefficient, a rounded product, and a sum of up to 16 terms.
         let roundings = self.vertices as f64 * (MAX_STAGES + 2) as f64;
         (sum, roundings * 0.5 * f64::EPSILON * size)
     }
 }
 
 impl Display for Tree {
-    /// A vertex is a pair of brackets around what hangs from it.
+    /// A vertex is a pair of brackets around its branches.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut open = 0;
         for level in self.levels() {
@@ -211,7 +211,7 @@ impl fmt::Debug for Tree {
     }
 }
 
-/// Everything that a tableau must obey.
+/// Checks all conditions on a tableau.
 pub(super) fn check(tableau: &Tableau) -> Result<(), MethodError> {
     sizes(tableau)?;
     rows(tableau)?;
@@ -237,7 +237,7 @@ pub(super) fn check(tableau: &Tableau) -> Result<(), MethodError> {
         .map_or(Ok(()), |spectrum| spectrum_of(tableau, spectrum))
 }
 
-/// Counts, and numbers of the whole method.
+/// Checks the counts, and the numbers that concern the whole method.
 fn sizes(tableau: &Tableau) -> Result<(), MethodError> {
     let field = |is_good: bool, field, needed| {
         if is_good {
@@ -271,7 +271,7 @@ fn sizes(tableau: &Tableau) -> Result<(), MethodError> {
     )?;
     field(tableau.dense.len() <= MAX_DENSE, "dense", "at most 5 rows")?;
     let most = match tableau.spectrum {
-        // Stages that depend on each other reach at most twice their number (section II.7).
+        // The order of an implicit method is at most twice the number of its stages (section II.7).
         Some(_) => 2 * (stages as u32 - 1),
         None => stages as u32,
     };
@@ -326,7 +326,7 @@ fn sizes(tableau: &Tableau) -> Result<(), MethodError> {
     Ok(())
 }
 
-/// Lengths and numbers of rows.
+/// Checks the lengths of the rows and that their numbers are finite.
 fn rows(tableau: &Tableau) -> Result<(), MethodError> {
     let check = |field, row, entries: &[f64], most: usize, needed| {
         let wrong = |needed| Err(MethodError::Row { field, row, needed });
@@ -371,7 +371,7 @@ fn rows(tableau: &Tableau) -> Result<(), MethodError> {
     }
 }
 
-/// Every stage is where it says.
+/// Checks that every row adds up to its node.
 fn nodes(tableau: &Tableau) -> Result<(), MethodError> {
     for (row, (entries, node)) in tableau.a.iter().zip(tableau.c).enumerate() {
         let sum: f64 = entries.iter().sum();
@@ -384,7 +384,8 @@ fn nodes(tableau: &Tableau) -> Result<(), MethodError> {
     Ok(())
 }
 
-/// `Σ bᵢ Φᵢ = θ^vertices / γ` for every tree of at most `order` vertices; 0 without `theta`.
+/// Checks `Σ bᵢ Φᵢ = θ^vertices / γ` for every tree with at most `order` vertices, or `= 0`
+/// without `theta`.
 fn conditions(
     tableau: &Tableau,
     weights: Weights,
@@ -398,7 +399,7 @@ fn conditions(
         for tree in Tree::of(vertices) {
             let (value, roundoff) = tree.weight(tableau.a, b);
             let needed = power / tree.density();
-            // What is not a number meets no condition.
+            // NaN satisfies no condition.
             let is_met = (value - needed).abs() <= roundoff + f64::EPSILON;
             if !is_met {
                 return Err(MethodError::Order {
@@ -413,9 +414,9 @@ fn conditions(
     Ok(())
 }
 
-/// The estimate of the error falls as stated: weights that take every tree of at most `k` vertices to 0
-/// make an estimate `O(h^(k + 1))`; the two of `error² / √(error² + 0.01 coarse²)` make one that falls by
-/// twice the power of the finer less that of the coarser.
+/// Checks the order of the error estimate: weights that map every tree with at most `k` vertices to 0 give
+/// an estimate `O(h^(k + 1))`; the combination `error² / √(error² + 0.01 coarse²)` has twice the order of
+/// the finer estimate less that of the coarser.
 fn estimates(tableau: &Tableau) -> Result<(), MethodError> {
     let of = |weights, row: &[f64], order| conditions(tableau, weights, &padded(row), order, None);
     let stated = tableau.error_power;
@@ -437,7 +438,7 @@ fn estimates(tableau: &Tableau) -> Result<(), MethodError> {
     }
 }
 
-/// Eigenvalues and eigenvectors of the stages that depend on each other.
+/// Checks the eigenvalues and eigenvectors of the coupled stages.
 fn spectrum_of(tableau: &Tableau, spectrum: &Spectrum) -> Result<(), MethodError> {
     type Complex = [f64; 2];
     let real = |x: f64| [x, 0.0];
@@ -448,7 +449,7 @@ fn spectrum_of(tableau: &Tableau, spectrum: &Spectrum) -> Result<(), MethodError
         row.get(j + 1).copied().unwrap_or(0.0)
     };
     let size = |[x, y]: Complex| x.abs() + y.abs();
-    // Sums of three products of rounded numbers.
+    // Both are sums of products of rounded numbers.
     let is = |x: Complex, y: Complex, terms: f64| {
         (x[0] - y[0]).abs() + (x[1] - y[1]).abs() <= 16.0 * f64::EPSILON * terms.max(1.0)
     };
@@ -510,7 +511,8 @@ fn padded(row: &[f64]) -> [f64; MAX_STAGES] {
     weights
 }
 
-/// The weights `b(θ)` of dense output: the polynomial of [`Interpolant`](crate::Interpolant), term by term.
+/// The weights `b(θ)` of dense output, from the polynomial of [`Interpolant`](crate::Interpolant),
+/// term by term.
 fn dense_weights(tableau: &Tableau, theta: f64) -> [f64; MAX_STAGES] {
     let eta = 1.0 - theta;
     let weight = |row: &[f64], j: usize| row.get(j).copied().unwrap_or(0.0);

@@ -1,10 +1,10 @@
-//! Coefficients to more digits than `f64` has, read from their decimals while the crate compiles.
+//! Coefficients to more digits than `f64` has, parsed from their decimals at compile time.
 //!
-//! A coefficient is published as a decimal or as a fraction. What stands in a tableau is the `f64` next to it; here is what that
-//! leaves out, so that the two together have some 31 digits.
+//! A coefficient is published as a decimal or as a fraction. The tableau holds the nearest `f64`; this module computes the remainder, so
+//! that the two together have some 31 digits.
 
-/// A number as the sum of two `f64`, of which the second is at most half a unit in the last place of the first. These are the
-/// operations of double-doubles, which constants can be computed by.
+/// A number as the unevaluated sum of two `f64`, the second at most half a unit in the last place of the first. The operations are the ones
+/// on double-doubles that are possible in constants.
 #[derive(Clone, Copy)]
 pub(super) struct Pair(pub f64, pub f64);
 
@@ -16,7 +16,7 @@ const fn two_sum(a: f64, b: f64) -> Pair {
     Pair(sum, (a - a_seen) + (b - b_seen))
 }
 
-/// A number as two halves of 26 bits, whose products are exact. T. J. Dekker, *A floating-point technique for extending the
+/// Splits a number into two halves of 26 bits, whose products are exact. T. J. Dekker, *A floating-point technique for extending the
 /// available precision*, Numer. Math. 18 (1971) 224–242.
 const fn halves(x: f64) -> [f64; 2] {
     let far = 134_217_729.0 * x; // 2²⁷ + 1
@@ -59,19 +59,19 @@ impl Pair {
         quotient
     }
 
-    /// What `high` leaves out of this number.
+    /// The remainder of this number after `high`.
     pub const fn beyond(self, high: f64) -> f64 {
         (self.0 - high) + self.1
     }
 
-    /// An integer below 2¹⁰⁶, or of 106 bits with zeros behind, exactly.
+    /// An integer below 2¹⁰⁶, or one whose nonzero bits span at most 106, exactly.
     const fn integer(n: u128) -> Self {
         let high = n as f64;
         Pair(high, (n as i128 - high as i128) as f64)
     }
 }
 
-/// What the `f64` leaves out of a coefficient that is written as `-0.25`, or as `44.0 / 45.0`.
+/// The remainder after the `f64` of a coefficient that is written as `-0.25` or as `44.0 / 45.0`.
 pub(super) const fn beyond(text: &str, high: f64) -> f64 {
     let text = text.as_bytes();
     let (mut number, mut divided, mut is_negative) = (None, None, false);
@@ -88,7 +88,7 @@ pub(super) const fn beyond(text: &str, high: f64) -> f64 {
             }
             b'/' => {
                 let scale = 10_u128.pow(places);
-                // A power of ten has few bits that are not 0, so that a pair holds it.
+                // The nonzero bits of a power of ten are few enough for a pair.
                 assert!(digits >> 106 == 0 && scale >> 126 == 0);
                 let read = Pair::integer(digits).over(Pair::integer(scale));
                 match number {
@@ -111,23 +111,23 @@ pub(super) const fn beyond(text: &str, high: f64) -> f64 {
     Pair(sign * exact.0, sign * exact.1).beyond(high)
 }
 
-/// What the `f64` of a tableau leave out, where that is known.
+/// The remainders after the `f64` of a tableau, if they are known.
 #[derive(Clone, Copy)]
 pub(crate) struct Beyond {
-    /// For each of the nodes.
+    /// One for each node.
     pub c: &'static [f64],
-    /// For each of the rows.
+    /// One for each entry of the rows.
     pub a: &'static [&'static [f64]],
-    /// For the estimate of the error: weights whose sum is 0 in all digits.
+    /// Those of the error estimate, whose weights sum to 0 in all digits.
     pub error: &'static [f64],
-    /// For the coarser estimate.
+    /// Those of the coarser estimate.
     pub coarse_error: &'static [f64],
-    /// For the rows of dense output.
+    /// Those of the rows of dense output.
     pub dense: &'static [&'static [f64]],
 }
 
-/// Nodes, rows, estimates of the error and dense output as the constants `C`, `A`, `ERROR`, `COARSE` and `DENSE`, and as `BEYOND` what these leave out of what is
-/// written.
+/// Defines nodes, rows, error estimates and dense output as the constants `C`, `A`, `ERROR`, `COARSE` and `DENSE`, and the remainders after
+/// these as `BEYOND`.
 macro_rules! coefficients {
     (
         c: [$($c:expr),* $(,)?],

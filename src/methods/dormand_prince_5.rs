@@ -1,4 +1,4 @@
-//! Dormand–Prince 5(4): the workhorse of middling tolerances.
+//! Dormand–Prince 5(4), for medium tolerances.
 
 use super::Tableau;
 use super::digits::coefficients;

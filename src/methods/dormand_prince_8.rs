@@ -1,4 +1,4 @@
-//! Dormand–Prince 8(5,3): the default, for smooth motion at any tolerance from coarse to roundoff.
+//! Dormand–Prince 8(5,3), the default, for smooth motion at any tolerance from coarse to round-off.
 
 #![expect(clippy::excessive_precision, reason = "the digits that are published")]
 
@@ -127,7 +127,7 @@ coefficients! {
             0.201365400804030348374776537501,
             0.0447106157277725905176885569043,
         ],
-        // Three more stages, for points between.
+        // Three more stages for dense output.
         [
             0.0561675022830479523392909219681,
             0.0,
@@ -303,8 +303,8 @@ pub(super) const TABLEAU: Tableau = Tableau {
     dense: DENSE,
 
     step_change: (0.333, 6.0),
-    // A third of the steps of a double pendulum is given up without it, one in twelve with it: 3 %
-    // more work for half of the error.
+    // Without smoothing a third of the steps of a double pendulum are rejected, with it one in
+    // twelve: 3 % more work for half of the error.
     smoothing: 0.04,
     stability: Some(6.1),
     spectrum: None,

@@ -1,12 +1,12 @@
-//! Gauss's methods, of orders 4, 6 and 8: for long runs of machines that lose nothing, in steps of a fixed length.
+//! Gauss methods of orders 4, 6 and 8, in steps of a fixed length, for long runs of conservative machines.
 
 use super::{Kind, Method, Rule, Tableau};
 
-/// Collocation at the zeros of Legendre's polynomial of degree `s`, of order `2 s`.
+/// Collocation at the zeros of the Legendre polynomial of degree `s`, of order `2 s`.
 ///
 /// E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, 2nd ed., 2006: section II.1.3 (table 1.1 has orders 4 and 6),
-/// section VI.4 (symplectic), section V.2 (symmetric). The stages are those of the equations in momenta, which the step is
-/// symplectic for (`fixed/gauss.rs`).
+/// section VI.4 (symplectic), section V.2 (symmetric). The stages are those of the equations in momenta, for which the step is
+/// symplectic (`stepper/of_fixed_length/gauss.rs`).
 const fn of(tableau: Tableau) -> Method {
     Method::of_kind(tableau, Kind::Fixed(Rule::Gauss))
 }
@@ -16,7 +16,7 @@ const COMMON: Tableau = Tableau {
     title: "",
     order: 0,
     error_power: 1,
-    // The motion between the ends of a step is the quintic through them, their rates and accelerations; at order 4 the cubic.
+    // The motion within a step is the quintic through its ends, their rates and accelerations; at order 4 it is the cubic.
     dense_order: 5,
     stages: 0,
     c: &[],

@@ -2,11 +2,11 @@
 
 use super::Tableau;
 
-/// Steps of a fixed length, in each of which contacts are asked once which impulses they give.
+/// Steps of a fixed length, each of which solves once for the impulses of the contacts.
 ///
 /// J. J. Moreau, *Unilateral contact and dry friction in finite freedom dynamics*, 1988, section 8; V. Acary, B. Brogliato,
 /// *Numerical Methods for Nonsmooth Dynamical Systems*, 2008, section 10.1.1, with θ = 1/2. Where no contact touches it is
-/// the explicit midpoint rule, of which this is the tableau: by its weights work and dissipation are integrated as well.
+/// the explicit midpoint rule, whose tableau this is; work and dissipation are integrated by its weights as well.
 pub(super) const TABLEAU: Tableau = Tableau {
     name: "moreau",
     title: "Moreau's time stepping",

@@ -1,5 +1,5 @@
 //! Radau IIA of order 5: for machines with parts that are far stiffer, or far more strongly damped,
-//! than their motion shows.
+//! than the time scale of their motion.
 
 use super::{Conjugates, Spectrum, Tableau};
 
@@ -9,15 +9,15 @@ const R: f64 = 2.449_489_742_783_178;
 /// Radau IIA with three stages: collocation at the zeros of Radau's polynomial, L-stable.
 ///
 /// E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, 2nd ed., 1996, section IV.5,
-/// table 5.6; the estimate of the error is that of eq. (IV.8.19), with `γ₀` the real eigenvalue, before
-/// it is [filtered](Spectrum::real).
+/// table 5.6; the error estimate is that of eq. (IV.8.19), with `γ₀` the real eigenvalue, before it
+/// is [filtered](Spectrum::real).
 ///
-/// The first stage here is the beginning of the step, which the new point does not depend on: the
-/// estimate and dense output use it. As the last node is at the end, its acceleration there is the
-/// slope of the collocation polynomial, smooth however stiff the machine is.
+/// The first stage here is the beginning of the step. The new point does not depend on it, but the
+/// error estimate and dense output do. Since the last node is at the end, the acceleration there is the
+/// slope of the collocation polynomial, which is smooth however stiff the machine is.
 ///
-/// Dense output is the quadrature of the cubic through the accelerations at 0, c₁, c₂ and 1. Beyond
-/// the cubic through both ends that is `h θ² (1 − θ)² · ¼ k[0, c₁, c₂, 1]`, with the third divided
+/// Dense output is the quadrature of the cubic through the accelerations at 0, c₁, c₂ and 1. Beyond the
+/// cubic through both ends that is `h θ² (1 − θ)² · ¼ k[0, c₁, c₂, 1]`, with the third divided
 /// difference; the weight of the node at 0 in the whole step is 0, so it meets the end exactly.
 pub(super) const TABLEAU: Tableau = Tableau {
     name: "radau5",
@@ -64,9 +64,9 @@ pub(super) const TABLEAU: Tableau = Tableau {
     spectrum: Some(SPECTRUM),
 };
 
-/// Of the matrix of the three stages. With `x = ∛81` and `y = ∛9` the eigenvalues are `(6 + x − y)/30`
-/// and `(12 − x + y)/60 ± i √3 (x + y)/60` (section IV.8); the vectors are scaled so that the last
-/// entries of the right ones are 1.
+/// The spectrum of the matrix of the three stages. With `x = ∛81` and `y = ∛9` the eigenvalues are
+/// `(6 + x − y)/30` and `(12 − x + y)/60 ± i √3 (x + y)/60` (section IV.8); the vectors are scaled so
+/// that the last entries of the right ones are 1.
 const SPECTRUM: Spectrum = Spectrum {
     real: 0.274_888_829_595_677_4,
     left_of_real: &[

@@ -2,13 +2,13 @@
 
 use super::{Conjugates, Spectrum, Tableau};
 
-/// Radau IIA with five stages, as [`radau5`](super::radau_5) with three: collocation, L-stable, the estimate of the error of the order of its stages,
-/// dense output the quadrature of the polynomial through the accelerations at the beginning and at the stages.
+/// Radau IIA with five stages, constructed like [`radau5`](super::radau_5) with three: collocation, L-stable, an error estimate of the
+/// order of its stages, and dense output by quadrature of the polynomial through the accelerations at the beginning and at the stages.
 ///
-/// E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, 2nd ed., 1996, sections IV.5 and IV.8; the same, *Stiff
-/// differential equations solved by Radau methods*, J. Comput. Appl. Math. 111 (1999) 93–111. The numbers are those of the definitions,
-/// computed to 80 digits: nodes the zeros of `Pₛ − Pₛ₋₁` of Legendre's polynomials, rows the integrals of Lagrange's, weights of the estimate `γ₀`
-/// and `−γ₀ ℓᵢ(0)`.
+/// E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, 2nd ed., 1996, sections IV.5 and IV.8; the same, *Stiff differential
+/// equations solved by Radau methods*, J. Comput. Appl. Math. 111 (1999) 93–111. The numbers follow from the definitions, computed to 80
+/// digits: the nodes are the zeros of `Pₛ − Pₛ₋₁` (Legendre polynomials), the rows are the integrals of Lagrange's polynomials, and the
+/// weights of the error estimate are `γ₀` and `−γ₀ ℓᵢ(0)`.
 pub(super) const NINTH: Tableau = Tableau {
     name: "radau9",
     title: "Radau IIA 9",
@@ -169,7 +169,7 @@ pub(super) const NINTH: Tableau = Tableau {
     }),
 };
 
-/// With seven stages.
+/// Radau IIA with seven stages.
 pub(super) const THIRTEENTH: Tableau = Tableau {
     name: "radau13",
     title: "Radau IIA 13",

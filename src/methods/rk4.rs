@@ -1,11 +1,11 @@
-//! The classical method of Runge and Kutta, in steps of a fixed length: for loops of a fixed rate.
+//! The classical Runge–Kutta method, in steps of a fixed length, for loops of a fixed rate.
 
 use super::Tableau;
 
 /// E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., 1993, section II.1, table 1.2.
 ///
-/// A step takes four evaluations, and one at its end, which is the first of the next. Between the ends of a step the motion is the
-/// cubic through them.
+/// A step takes four evaluations and one at its end, which is the first of the next. The motion within a step is the cubic
+/// through its ends.
 pub(super) const TABLEAU: Tableau = Tableau {
     name: "rk4",
     title: "Runge–Kutta 4",

@@ -1,4 +1,4 @@
-//! A tableau made ready for machines.
+//! Adapts a tableau to second-order systems.
 //!
 //! The state of a machine is `y = (q, v)` with `q' = v`, `v' = a(t, q, v)`. Put the stages of `q'`
 //! into those of `q`, and a Runge–Kutta method needs the accelerations `kⱼ` alone:
@@ -15,7 +15,7 @@
 use super::digits::{Beyond, Pair};
 use super::{MAX_STAGES, Tableau};
 
-/// The most rows that dense output may have beyond its cubic.
+/// The largest number of rows of dense output beyond its cubic.
 pub(super) const MAX_DENSE: usize = 5;
 
 /// A weighted sum of stages, for velocities and for positions.
@@ -23,24 +23,24 @@ pub(super) const MAX_DENSE: usize = 5;
 pub(crate) struct Row {
     terms: [Term; MAX_STAGES],
     length: usize,
-    /// What the weights of each term leave out of the published ones, as far as that is known. `f64` have no use for it, so it
-    /// stands apart.
+    /// The remainders after the `f64` weights of each term, as far as they are known. They are stored separately, since `f64`
+    /// does not use them.
     beyond: [Beyonds; MAX_STAGES],
 }
 
-/// What the `f64` of a [`Term`] leave out of its weights.
+/// The remainders after the `f64` weights of a [`Term`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Beyonds {
-    /// Of the weight in the velocity.
+    /// That of the weight in the velocity.
     pub velocity: f64,
-    /// Of the weight in the position.
+    /// That of the weight in the position.
     pub position: f64,
 }
 
-/// What one stage contributes.
+/// The contribution of one stage.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Term {
-    /// Which stage.
+    /// The index of the stage.
     pub stage: usize,
     /// Its weight in the velocity, times `h`.
     pub velocity: f64,
@@ -48,27 +48,27 @@ pub(crate) struct Term {
     pub position: f64,
 }
 
-/// The rows of a method, zeros left out.
+/// The rows of a method without zeros.
 #[derive(Debug)]
 pub(crate) struct Scheme {
     /// The stages, the new point (row `stages`) and the stages of dense output.
     pub rows: [Row; MAX_STAGES],
-    /// How many rows there are.
+    /// The number of rows.
     pub length: usize,
-    /// The estimate of the error.
+    /// The error estimate.
     pub error: Row,
     /// The coarser estimate; empty in methods that have none.
     pub coarse_error: Row,
     /// Whether an estimate needs the acceleration at the new point.
     pub error_needs_end: bool,
-    /// Coefficients of dense output beyond the cubic's.
+    /// Coefficients of dense output beyond the cubic.
     pub dense: [Row; MAX_DENSE],
-    /// How many of them.
+    /// The number of these.
     pub dense_length: usize,
-    /// What the nodes leave out of the published ones.
+    /// The remainders after the `f64` nodes.
     pub c_beyond: [f64; MAX_STAGES],
-    /// Whether what `f64` leave out of nodes and weights is known, so that a step is of its order in more digits than these
-    /// have.
+    /// Whether the remainders after the `f64` nodes and weights are known, so that a step keeps its order in numbers
+    /// with more digits.
     pub is_wide: bool,
 }
 
@@ -86,19 +86,19 @@ impl Row {
         }; MAX_STAGES],
     };
 
-    /// The terms that are not zero.
+    /// The nonzero terms.
     #[inline(always)]
     pub fn terms(&self) -> &[Term] {
         &self.terms[..self.length]
     }
 
-    /// The terms that are not zero, each with what rounding leaves out of its weights.
+    /// The nonzero terms, each with the remainders after its weights.
     #[inline(always)]
     pub fn wide_terms(&self) -> impl Iterator<Item = (&Term, &Beyonds)> {
         self.terms().iter().zip(&self.beyond)
     }
 
-    /// [`new`](Self::new) with what the `f64` leave out.
+    /// [`new`](Self::new) with the remainders after the `f64` coefficients.
     const fn wide(
         [weights, more]: [&[f64]; 2],
         [a, a_more]: [&'static [&'static [f64]]; 2],
@@ -123,7 +123,7 @@ impl Row {
             }
             row.beyond[term] = Beyonds {
                 velocity: if stage < more.len() { more[stage] } else { 0.0 },
-                // What stands for 0 is 0 in all digits.
+                // A weight that represents 0 is 0 in all digits.
                 position: if position == 0.0 {
                     0.0
                 } else {
@@ -143,7 +143,7 @@ impl Row {
             let (mut sum, mut size) = (0.0, 0.0);
             let mut i = 0;
             while i < weights.len() {
-                // A row may leave out the zeros at its end.
+                // A row may omit zeros at its end.
                 if j < a[i].len() {
                     let product = weights[i] * a[i][j];
                     sum += product;
@@ -151,8 +151,7 @@ impl Row {
                 }
                 i += 1;
             }
-            // A sum of at most 16 rounded products: what is no larger than their roundoff stands
-            // for 0.
+            // A sum of at most 16 rounded products that is no larger than their round-off represents 0.
             let position = if sum.abs() <= 16.0 * f64::EPSILON * size {
                 0.0
             } else {
@@ -171,7 +170,7 @@ impl Row {
         row
     }
 
-    /// Whether a stage has a part in it.
+    /// Whether a stage contributes to it.
     pub const fn uses(&self, stage: usize) -> bool {
         let mut i = 0;
         while i < self.length {
@@ -185,7 +184,7 @@ impl Row {
 }
 
 impl Scheme {
-    /// `beyond` is what the tableau leaves out, where that is known.
+    /// `beyond` holds the remainders after the coefficients of the tableau, if they are known.
     pub const fn new(tableau: &Tableau, beyond: Option<Beyond>) -> Self {
         let (a, stages) = (tableau.a, tableau.stages);
         assert!(a.len() <= MAX_STAGES && tableau.c.len() == a.len() && stages < a.len());

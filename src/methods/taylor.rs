@@ -1,13 +1,12 @@
-//! Taylor series of the motion: steps of an order that a tolerance asks for.
+//! Taylor series of the motion, in steps whose order depends on the tolerance.
 
 use super::Tableau;
 
-/// Steps by the Taylor series of the motion through their beginning, of order 12 or 20 by the tolerance.
+/// Steps by the Taylor series of the motion through their beginning, of order 12 or 20 depending on the tolerance.
 ///
 /// À. Jorba, M. Zou, *A software package for the numerical integration of ODEs by means of high-order Taylor methods*, Exp.
-/// Math. 14 (2005) 99–117. There are no stages: what stands here are nodes and weights of Gauss's and Radau's quadrature
-/// with the beginning of the step among its nodes, exact up to degree 28, for the work and the dissipation along
-/// the motion.
+/// Math. 14 (2005) 99–117. There are no stages: the tableau holds nodes and weights of a Gauss–Radau quadrature with the
+/// beginning of the step among its nodes, exact up to degree 28, for work and dissipation along the motion.
 pub(super) const TABLEAU: Tableau = Tableau {
     name: "taylor",
     title: "Taylor series",

@@ -1,12 +1,12 @@
-//! Which method a run takes that is free to choose, and when it goes on by another.
+//! Chooses the method of a run, and decides when to change it.
 //!
-//! All of it follows from counts and from the state: of operations, of steps and of evaluations, never from a clock. So the same call
-//! gives the same bits.
+//! All decisions follow from counts of operations, steps and evaluations and from the state, never from a clock. So the same call gives
+//! the same bits.
 //!
-//! * At the start by costs: a step by Taylor series against as many of `dop853` as cover it.
-//! * Where explicit steps are held short by stability, by a method of Radau. That they are is seen by the test of DOP853, and in series
-//!   by the fastest rate of the machine.
-//! * From a method of Radau back to `dop853` where its steps have taken more evaluations than explicit ones would that are stable.
+//! * At the start the costs decide: of a step by Taylor series, and of the steps of `dop853` that cover it.
+//! * If stability limits explicit steps, the run changes to a Radau method. The test of DOP853 detects this, and in series the fastest
+//!   rate of the machine does.
+//! * It changes from a Radau method back to `dop853` if its steps have taken more evaluations than stable explicit ones would.
 
 use super::Run;
 use crate::balance::Quadratures;
@@ -19,7 +19,7 @@ use crate::tolerance::Tolerance;
 use crate::{Error, Machine, StepError, System, Vector};
 use std::vec::Vec;
 
-/// Every method that a run may go on by, beside that by series.
+/// All methods that a run may change to, besides that by series.
 pub(super) const CANDIDATES: [&Method; 4] = [
     Method::DOP853,
     Method::RADAU5,
@@ -27,44 +27,44 @@ pub(super) const CANDIDATES: [&Method; 4] = [
     &RADAU_OF_HIGH_ORDER[1],
 ];
 
-/// Evaluations of a step of `dop853`.
+/// Number of evaluations in a step of `dop853`.
 const EVALUATIONS: f64 = 12.0;
 
-/// Explicit steps are tested after every so many: early enough that what a stiff machine takes until it is known is a small part of what an
-/// implicit method takes for all of it.
+/// Number of explicit steps between stiffness tests: so small that the work until a stiff machine is detected is a small part of the work
+/// of an implicit method for the whole motion.
 const STEPS_BETWEEN_TESTS: usize = 100;
 
-/// After so many steps by series the fastest rate is looked at, which takes some two evaluations for each coordinate.
+/// Number of steps by series between evaluations of the fastest rate, each of which takes some two evaluations for each coordinate.
 const STEPS_BETWEEN_LOOKS: usize = 64;
 
-/// A step by series is held short by stability if it is longer than this, in units of the inverse of the fastest rate: 0.86 of where the
-/// regions of stability of the series of orders 12 and 20 end on the negative real axis, 5.82 and 8.82. A harmonic motion of size 1 is followed
-/// to the same tolerances in steps of 2.5 and 4.2 at the most.
+/// Stability limits a step by series if it is longer than this, in units of the inverse of the fastest rate: 0.86 of where the stability
+/// regions of the series of orders 12 and 20 end on the negative real axis, 5.82 and 8.82. A harmonic motion of size 1 takes, at the same
+/// tolerances, steps of at most 2.5 and 4.2.
 const REACH_OF_SERIES: [f64; 2] = [5.0, 7.6];
 
-/// Where the region of stability of `dop853` ends, in the same units.
+/// Where the stability region of `dop853` ends, in the same units.
 const REACH: f64 = 6.1;
 
-/// Implicit steps that are looked at together.
+/// Number of implicit steps that are evaluated together.
 const WINDOW: usize = 8;
 
-/// In so many windows one after the other explicit steps have to take less; twice as many after each time that this did not last.
+/// Number of consecutive windows in which explicit steps must cost less; it doubles with each return to an explicit method.
 const WINDOWS: usize = 2;
 
-/// What a run that is free to choose knows of its steps.
+/// State of the choice of methods in a run.
 #[derive(Debug)]
 pub(super) struct Choosing {
     is_free: bool,
     pub choices: Vec<MethodChoice>,
     /// Time and work at the beginning of the window.
     since: (f64, Work),
-    /// In how many windows explicit steps would have taken less, and how many are asked for.
+    /// The number of consecutive windows in which explicit steps would have cost less, and the number required.
     paying: usize,
     needed: usize,
 }
 
 impl Choosing {
-    /// Of a run that is not.
+    /// For a run whose method is given.
     pub fn none() -> Self {
         Self {
             is_free: false,
@@ -75,12 +75,12 @@ impl Choosing {
         }
     }
 
-    /// Whether the run may go on by another method.
+    /// Whether the run may change its method.
     pub fn is_free(&self) -> bool {
         self.is_free
     }
 
-    /// Of a run that begins by a method.
+    /// For a run that begins with a method of its own choice.
     pub fn begun(
         t: f64,
         (method, reason): (&'static Method, MethodReason),
@@ -94,16 +94,17 @@ impl Choosing {
     }
 }
 
-/// The tolerance of a coordinate of size 1 that is asked for most sharply.
+/// The finest tolerance of any coordinate, at size 1.
 fn sharpest<V: Vector>(tolerance: &Tolerance<V>) -> f64 {
     let absolute = tolerance.absolute.as_slice().iter();
     tolerance.relative + absolute.fold(f64::INFINITY, |least, x| least.min(*x))
 }
 
-/// How many steps of `dop853` cover a step by series, both of them as long as this tolerance allows.
+/// The number of steps of `dop853` that cover one step by series, both as long as this tolerance allows.
 ///
-/// Steps of order p are as τ^(1/(p + 1)), so the quotient is a power of the tolerance; its size at one tolerance is that of the double
-/// pendulum, of which the crusher has 0.9 to 1.1 (`docs/benchmarks.md`). Series of coarse tolerances are asked for a tenth.
+/// Steps of order p are proportional to τ^(1/(p + 1)), so the ratio is a power of the tolerance; its size at one tolerance is that of the
+/// double pendulum, and the crusher has 0.9 to 1.1 times that (`docs/benchmarks.md`). At coarse tolerances series are computed to a tenth
+/// of the tolerance.
 fn steps_for_one(tolerance: f64) -> f64 {
     let (size, at, power) = match tolerance {
         coarse if coarse > taylor::FINE => (0.63, 2e-4, 1.0 / 9.0 - 1.0 / 13.0),
@@ -113,7 +114,7 @@ fn steps_for_one(tolerance: f64) -> f64 {
     size * crate::math::power(at / tolerance, power)
 }
 
-/// The method to begin with, and why.
+/// The method to begin with, and the reason.
 pub(super) fn first<S: System>(
     system: &S,
     tolerance: &Tolerance<S::Vector>,
@@ -135,7 +136,7 @@ pub(super) fn first<S: System>(
     }
 }
 
-/// The method of Radau whose order a tolerance asks for.
+/// The Radau method for a tolerance.
 fn implicit(tolerance: f64) -> &'static Method {
     match tolerance {
         coarse if coarse > 2e-7 => Method::RADAU5,
@@ -145,8 +146,7 @@ fn implicit(tolerance: f64) -> &'static Method {
 }
 
 impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
-    /// Begins to look whether another method takes less. One by series that is held short by stability from its start on is left at
-    /// once.
+    /// Begins to test whether another method costs less. If stability limits a series from the start on, it is left at once.
     pub(super) fn begin_choosing(&mut self) -> Result<(), Error> {
         if !self.choosing.is_free {
             return Ok(());
@@ -158,8 +158,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
     }
 
-    /// Goes on by another method, where that takes less. To be asked after a step that is kept, when no instant within the next one is
-    /// to be met.
+    /// Changes to another method if that costs less. Call it after an accepted step, when no instant within the next one has to be met.
     pub(super) fn choose_again(&mut self) -> Result<(), Error> {
         if !self.choosing.is_free || self.stepper.is_done() {
             return Ok(());
@@ -185,7 +184,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
     }
 
-    /// Goes on by an explicit method where a step by series has no value, or none that is long enough; says whether it does.
+    /// Changes to an explicit method if a step by series has no value, or none that is long enough; returns whether it does.
     pub(super) fn leave_series(&mut self, error: &StepError) -> bool {
         let is_of_series = matches!(
             error,
@@ -201,7 +200,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 .is_ok()
     }
 
-    /// The fastest rate, if steps by series reach beyond what is stable with it.
+    /// The fastest rate, if it makes steps by series unstable.
     fn rate_beyond_series(&mut self) -> Option<f64> {
         let length = self.stepper.length_in_series()?;
         let is_fine = sharpest(self.stepper.tolerance()) <= taylor::FINE;
@@ -221,8 +220,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         self.choosing.since = (self.stepper.t(), self.stepper.work());
     }
 
-    /// Goes back to an explicit method where that would have taken fewer evaluations, in steps that are stable and no longer than those
-    /// of the implicit one.
+    /// Returns to an explicit method if that would have taken fewer evaluations, in steps that are stable and no longer than those of the
+    /// implicit one.
     fn leave_implicit(&mut self) -> Result<(), Error> {
         let (since, before) = self.choosing.since;
         let work = self.stepper.work();
@@ -258,7 +257,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             steps.go_on_by(method);
         }
         let t = self.stepper.t();
-        // What was chosen at the start and left before the first step was never taken.
+        // A method that was chosen at the start and left before the first step was never used.
         if (self.choosing.choices.last()).is_some_and(|last| last.t == t) {
             self.choosing.choices.pop();
         }

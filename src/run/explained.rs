@@ -1,4 +1,4 @@
-//! What tolerance and rounding explain of the residual of an energy balance.
+//! The part of the residual of an energy balance that tolerance and rounding explain.
 
 use std::vec;
 use std::vec::Vec;
@@ -8,29 +8,28 @@ use crate::math::sqrt;
 use crate::stepper::Stepper;
 use crate::{Energies, Quadratures, System, Vector};
 
-/// Errors of steps are estimates, energies are bent, and bounds are taken at the ends of steps: by so much they
-/// may be exceeded.
+/// Safety factor, since errors of steps are estimates, energies are nonlinear, and bounds are evaluated at the ends of steps only.
 const MARGIN: f64 = 20.0;
 
 /// Roundings of an energy and of its integrals in each step, in units in the last place.
 const ROUNDINGS: f64 = 16.0;
 
-/// What there is of it so far.
+/// Contributions so far.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Explained {
     steps: usize,
     /// The sum over all steps, in J.
     by_tolerance: f64,
-    /// What rounding of coordinates made of the potential energy, and the greatest energies, in J.
+    /// Round-off of the potential energy by rounding of coordinates, and the largest energies, in J.
     by_rounding: f64,
     greatest: f64,
-    /// `√Mᵢᵢ`, as it was when the number of steps was last a power of two.
+    /// `√Mᵢᵢ`, from the last step whose number was a power of two.
     inertia: Vec<f64>,
 }
 
 impl Explained {
-    /// Takes the last step into account, with the energies at its end. Returns what tolerance and rounding explain of the residual
-    /// of this step, in J.
+    /// Adds the contribution of the last step, given the energies at its end. Returns the part of the residual of this step that
+    /// tolerance and rounding explain, in J.
     pub fn take<S: System, L: InputLaw<S>, A: Quadratures<S>>(
         &mut self,
         system: &S,
@@ -93,7 +92,7 @@ impl Explained {
         MARGIN * of_step + ROUNDINGS * (f64::EPSILON * self.greatest + self.by_rounding)
     }
 
-    /// Looks at what takes many evaluations.
+    /// Updates the quantities that take many evaluations.
     fn look<S: System>(&mut self, system: &S, (t, q, u): (f64, &S::Vector, &S::Inputs), here: f64) {
         let n = q.as_slice().len();
         self.inertia = vec![0.0; n];
@@ -124,7 +123,7 @@ impl Explained {
         }
     }
 
-    /// In J. `turned_over` is what went to and fro.
+    /// The total, in J. `turned_over` is the energy that was turned over.
     pub fn in_all(&self, turned_over: f64) -> f64 {
         let each = f64::EPSILON * (self.greatest + turned_over) + self.by_rounding;
         MARGIN * self.by_tolerance + ROUNDINGS * sqrt(self.steps as f64) * each

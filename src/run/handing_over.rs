@@ -1,5 +1,5 @@
-//! Where contacts meet too often for each instant to be found, a run goes on by time stepping; where they have become quiet, it
-//! finds every event again.
+//! Changes a run to time stepping when contacts change too often for each instant to be located, and back to locating every event when
+//! they have become quiet.
 
 use std::collections::VecDeque;
 use std::vec;
@@ -15,45 +15,44 @@ use crate::solution::Handover;
 use crate::stepper::Happened;
 use crate::{ContactTrouble, Error, Machine, StepError, System};
 
-/// So many instants at which contacts changed are looked at together.
+/// Number of instants of changes that are evaluated together.
 const WINDOW: usize = 128;
 
-/// Bounces of fewer contacts than these accumulate in geometric series, which end by themselves.
+/// Bounces of fewer contacts than this accumulate in geometric series, whose end is found otherwise.
 const FEWEST: usize = 3;
 
-/// The length of a step is this part of the time in which the greatest forces of late would stop the fastest rate at which a gap closed.
+/// The length of a step, as a fraction of the time in which the largest recent forces would stop the fastest closing gap.
 const PART: f64 = 1.0 / 256.0;
 
-/// After so many steps in which no contact changed every event is looked for again; twice as many after each time that this did not
-/// last.
+/// Number of steps without a change of contacts after which every event is located again; it doubles each time that this did not last.
 const QUIET: usize = 64;
 
-/// What has this part of the greatest kinetic energy at the ends of steps of time stepping, or less, is at rest.
+/// The machine is at rest if its kinetic energy is at most this fraction of the largest at the ends of steps of time stepping.
 const REST: f64 = 1e-20;
 
-/// When contacts met, and how long they have been quiet.
+/// How frequently contacts change, and how long they have been quiet.
 #[derive(Debug)]
 pub(super) struct Pace {
-    /// Whether the run may hand over at all.
+    /// Whether the run may change to time stepping at all.
     is_free: bool,
     /// The last instants at which contacts changed.
     times: VecDeque<f64>,
-    /// What forces added to the rates at which gaps close at these instants, in m/s². At one of them that may be next to nothing: a spring
-    /// passes through rest just when it lets go.
+    /// The accelerations at which forces close gaps at these instants, in m/s². At a single instant this may be almost zero: a spring
+    /// passes through rest just when it releases.
     pulls: VecDeque<f64>,
-    /// How many there were, and for each contact its last.
+    /// The number of instants, and for each contact the number of its last.
     count: usize,
     last: Vec<usize>,
-    /// Steps of time stepping in which no contact changed, and how many are asked for.
+    /// Number of consecutive steps of time stepping without a change of contacts, and the number required.
     quiet: usize,
     needed: usize,
-    /// The length of steps of time stepping that was chosen, in s, and the greatest kinetic energy at their ends, in J.
+    /// The length chosen for steps of time stepping, in s, and the largest kinetic energy at their ends, in J.
     step: f64,
     kinetic: f64,
 }
 
 impl Pace {
-    /// Of a machine with so many contacts.
+    /// For a machine with this number of contacts.
     pub fn new(is_free: bool, contacts: usize) -> Self {
         Self {
             is_free: is_free && contacts >= FEWEST,
@@ -68,7 +67,7 @@ impl Pace {
         }
     }
 
-    /// Takes note of what happened at an instant.
+    /// Records the changes at an instant.
     pub fn take(&mut self, t: f64, happened: &Happened) {
         if !self.is_free {
             return;
@@ -89,12 +88,12 @@ impl Pace {
         }
     }
 
-    /// Takes note of a step of time stepping.
+    /// Records a step of time stepping.
     pub fn take_step(&mut self, is_quiet: bool) {
         self.quiet = if is_quiet { self.quiet + 1 } else { 0 };
     }
 
-    /// Takes note of what forces add to the rates at which gaps close.
+    /// Records the acceleration at which forces close gaps.
     fn take_pull(&mut self, pull: f64) {
         if self.pulls.len() == WINDOW {
             self.pulls.pop_front();
@@ -102,7 +101,7 @@ impl Pace {
         self.pulls.push_back(pull);
     }
 
-    /// How long the last instants took, if there were many, of several contacts.
+    /// The duration of the last `WINDOW` instants, if there were as many, and enough contacts took part.
     fn window(&self) -> Option<f64> {
         let (first, last) = (self.times.front()?, self.times.back()?);
         let since = self.count.saturating_sub(WINDOW);
@@ -112,8 +111,8 @@ impl Pace {
 }
 
 impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
-    /// Goes on by time stepping if contacts have met oftener than it would take steps: so it takes less work, and where what
-    /// accumulates has no end, less by any factor.
+    /// Changes to time stepping if contacts have changed more often than it would take steps. Then it costs less, and where changes
+    /// accumulate without end, arbitrarily less.
     pub(super) fn hand_over_if_crowded(&mut self) -> Result<(), Error> {
         if !self.pace.is_free {
             return Ok(());
@@ -128,7 +127,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         Ok(())
     }
 
-    /// Goes on by time stepping where contacts do not settle at one instant, if it is allowed; says whether it does.
+    /// Changes to time stepping if contacts do not settle at one instant and it is allowed; returns whether it does.
     pub(super) fn hand_over_unsettled(&mut self, error: &StepError) -> Result<bool, Error> {
         let StepError::Contact { trouble, .. } = error else {
             return Ok(false);
@@ -138,7 +137,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let several = closed.filter(|mode| **mode != Mode::Open).count() >= FEWEST;
         match trouble {
             ContactTrouble::Unsettled => {}
-            // Of several contacts at once the cause may be one of them or the problem that they make together.
+            // With several contacts the cause may be one of them or the problem that they form together.
             ContactTrouble::Paradox | ContactTrouble::Unsolved | ContactTrouble::NotHeld
                 if several => {}
             _ => return Ok(false),
@@ -154,14 +153,14 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         self.hand_over(step, None)
     }
 
-    /// How long steps of time stepping are to be.
+    /// The length of steps of time stepping.
     fn length_of_steps(&mut self) -> f64 {
         let t = self.stepper.t();
         let [speed, pull] = self.stepper.closing();
         self.pace.take_pull(pull);
         let greatest = self.pace.pulls.iter().copied().fold(0.0, f64::max);
         let scale = Some(speed / greatest).filter(|scale| *scale > 0.0 && scale.is_finite());
-        // Without forces that close gaps nothing else is known than how long it took to come here.
+        // Without forces that close gaps the only known time scale is the duration of the run so far.
         let scale = scale.unwrap_or(t - self.start).min(self.until - self.start);
         (PART * scale).min(self.settings.longest_step)
     }
@@ -209,7 +208,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         self.model.system.kinetic_energy(t, q, v)
     }
 
-    /// Takes the last step of time stepping back if it was long, since everything was at rest, and ends in motion.
+    /// Undoes the last step of time stepping if it was long, because everything was at rest, but ends in motion.
     pub(super) fn is_roused(&mut self) -> bool {
         if self.settings.method.is_by_impulses() || self.stepper.last_step() <= self.pace.step {
             return false;
@@ -226,7 +225,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         true
     }
 
-    /// Goes on after a step of time stepping: in longer steps where everything has come to rest, or with every event again where
+    /// Continues after a step of time stepping: with longer steps if everything has come to rest, or by locating every event again if
     /// contacts have been quiet for long enough.
     pub(super) fn go_on_after_step(&mut self) -> Result<(), Error> {
         if self.settings.method.is_by_impulses() || self.stepper.is_done() {
@@ -242,8 +241,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         self.take_over_if_quiet()
     }
 
-    /// Finds every event again, if contacts have been quiet for long enough and each force among them is the only one: where contacts
-    /// share loads in several ways, as in piles, events cost more than steps.
+    /// Returns to locating every event if contacts have been quiet for long enough and their forces are unique: if contacts share loads in
+    /// several ways, as in piles, events cost more than steps.
     fn take_over_if_quiet(&mut self) -> Result<(), Error> {
         if self.pace.quiet < self.pace.needed {
             return Ok(());
@@ -255,7 +254,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             return Ok(());
         }
         let Ok(happened) = (self.stepper).end_stepping(method, (longest, step), self.stop) else {
-            // Time stepping goes on.
+            // Time stepping continues.
             return Ok(());
         };
         if let Some(steps) = &mut self.record.steps {
@@ -283,7 +282,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         Ok(())
     }
 
-    /// Keeps what contacts do from now on.
+    /// Records the present states of the contacts.
     pub(super) fn keep_phase(&mut self, change: Change) {
         if let Some(touching) = self.stepper.touching() {
             self.record.unilateral.phases.push(Phase {

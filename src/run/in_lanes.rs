@@ -1,6 +1,6 @@
-//! Many runs, several at a time in the lanes of the processor: a lane whose run is over takes the next one.
+//! Makes many runs, several at a time in vector lanes: a lane whose run is over takes the next one.
 //!
-//! A run here is what it is alone, step by step; only the tries of steps are made for all lanes together
+//! A run in a lane is the same as alone, step by step; only the tries of steps are made for all lanes together
 //! (`src/stepper/in_lanes.rs`). So a run has the bits that it has alone, whatever its neighbours do.
 
 use std::vec::Vec;
@@ -11,12 +11,12 @@ use crate::step_error::StepError;
 use crate::stepper::in_lanes::{Evaluate, LaneMask, Tries, Try, WIDTH};
 use crate::{Error, Inputs, Machine};
 
-/// Fewer lanes than this are run one after the other, which is faster than all of them together with most at rest.
+/// Fewer runs than this are made one after the other, which is faster than in lanes of which most are idle.
 const FEWEST: u32 = 3;
 
 /// The machines of all lanes.
 pub(crate) trait Machines<M: Machine>: Evaluate {
-    /// Puts a machine with its inputs into a lane, if it is of their kind.
+    /// Puts a machine with its inputs into a lane, if it is of the same kind as the others.
     fn put(&mut self, lane: usize, system: &M::System, inputs: &Inputs<M>) -> bool;
 }
 
@@ -34,7 +34,7 @@ type End = Result<Ending, Error>;
 /// A run that has ended, or the error for which it could not begin.
 type Ended<M> = Result<Finished<M>, Error>;
 
-/// Makes all these runs; what came of each of them, in their order.
+/// Makes all these runs, and returns their results in the same order.
 pub(crate) fn run_all<'a, 'l, M: Machine>(
     prepared: &mut [Prepared<'a, 'l, M>],
     machines: &mut impl Machines<M>,
@@ -109,12 +109,12 @@ pub(crate) fn run_all<'a, 'l, M: Machine>(
             }
         }
     }
-    // Each was begun, and a lane is empty only where its run has ended.
+    // Each run was begun, and a lane is empty only if its run has ended.
     ended.into_iter().flatten().collect()
 }
 
 impl<M: Machine> Lane<'_, '_, '_, M> {
-    /// Begins the next step, if the run is not over.
+    /// Begins the next step, or returns how the run ended.
     fn begin_step(&mut self) -> Option<End> {
         loop {
             if self.run.stepper.is_done() {
@@ -138,7 +138,7 @@ impl<M: Machine> Lane<'_, '_, '_, M> {
         }
     }
 
-    /// Goes on after a try of its step.
+    /// Continues after a try of its step.
     fn go_on(&mut self, lane: usize, tries: &Tries) -> Option<End> {
         let stepped = match self.next.take() {
             None => Ok(()),

@@ -1,4 +1,5 @@
-//! Where inputs change: at the ends of the pieces in which they are smooth, and where controllers look at a machine and set them.
+//! Changes of inputs: at the ends of the pieces in which they are smooth, and where sampled controllers read the state
+//! and set them.
 
 use std::collections::VecDeque;
 
@@ -12,18 +13,18 @@ use crate::solution::{Ending, is_beyond};
 use crate::stepper::Cause;
 use crate::{Error, Inputs, Machine, System};
 
-/// What it has set in a run.
+/// The inputs that a sampled controller has set in a run.
 pub(super) struct Sampling<I> {
-    /// How many looks were taken.
+    /// The number of samples taken.
     taken: u64,
-    /// What the last one set.
+    /// The inputs set at the last sample.
     latest: I,
-    /// What was set and does not act yet, and when it will.
+    /// Inputs that were set and have not taken effect yet, each with the time at which they will.
     pending: VecDeque<(f64, I)>,
 }
 
 impl<M: Machine> Sampled<'_, M> {
-    /// What is known of it at the start of a run.
+    /// Its state at the start of a run.
     pub(super) fn begin(&self, system: &M::System) -> Sampling<Inputs<M>> {
         Sampling {
             taken: 0,
@@ -34,9 +35,9 @@ impl<M: Machine> Sampled<'_, M> {
 }
 
 impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
-    /// Where inputs change: enters the piece of time that begins here, lets a sampled controller look at the machine and set its
-    /// inputs, if it is time for any of that; then goes on to where it will be time again. The answer is the event that ends the
-    /// run.
+    /// Changes the inputs if this is due: enters the piece of time that begins here, and lets a sampled controller read the state
+    /// and set its inputs. Then sets the next time at which a change is due as the end of the stepper. Returns the event that
+    /// ends the run, if any.
     pub(super) fn change_inputs(&mut self) -> Result<Option<Ending>, Error> {
         let forward = self.until >= self.start;
         let mut stop = self.model.sight.law.piece.end(forward);
@@ -88,7 +89,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
     }
 
-    /// The piece of time that the run enters now, if it comes to the end of the one before.
+    /// The piece of time that the run enters now, if it has reached the end of the one before.
     fn enter_piece(&mut self, forward: bool) -> Result<Option<Piece>, Error> {
         let t = self.stepper.t();
         let order = self.settings.method.tableau.order;
@@ -96,12 +97,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let law = &self.model.sight.law;
         let mut end = law.piece.end(forward);
         let mut entered: Option<Piece> = None;
-        // What follows within the roundoff of time is entered at once.
+        // Pieces that end within the round-off of time are passed at once.
         while end.is_finite() && is_beyond(t, end, direction) {
             let piece = law.law.piece(end, forward, order);
             let piece = piece.map_err(|none| none.error(t))?;
             if (piece.end(forward) - end) * direction <= 0.0 {
-                // A law by hand that does not get on.
+                // A law written by hand returned a piece that does not advance.
                 return Err(NoPiece::TooFine("an input").error(t));
             }
             let jumps = piece.jumps || entered.is_some_and(|before| before.jumps);
@@ -112,7 +113,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         Ok(entered)
     }
 
-    /// The inputs jump to other values.
+    /// Lets the inputs jump to other values.
     fn jump_inputs(
         &mut self,
         held: Option<Inputs<M>>,
@@ -152,7 +153,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if !at_start {
             return self.watch_jumps();
         }
-        // The start is as the first look leaves it.
+        // The state at the start is the one after the first sample.
         let now = (t, self.stepper.q().clone(), self.stepper.v().clone());
         let now = state(self.model.system, now);
         let observe = || self.model.sight.observe::<M, A>(&self.stepper, &now);

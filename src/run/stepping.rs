@@ -1,4 +1,4 @@
-//! What unilateral contacts do in time stepping, step by step.
+//! Unilateral contacts in time stepping: checks and records.
 
 use std::vec;
 use std::vec::Vec;
@@ -12,7 +12,8 @@ use crate::phases::{Change, Phase};
 use crate::{ContactEventKind, ContactImpact, Error, Machine};
 
 impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
-    /// Contacts at the start of time stepping: none may be penetrated, and each has a law that is known.
+    /// Checks the contacts at the start of time stepping: none may be penetrated, and time stepping must support
+    /// the law of each.
     pub(super) fn begin_stepping(&mut self, touching: &Touching) -> Result<(), Error> {
         let (t, q, v) = (self.stepper.t(), self.stepper.q(), self.stepper.v());
         touching
@@ -28,8 +29,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         Ok(())
     }
 
-    /// Takes note of what contacts did in the last step. One that presses for the first time has had an impact; if it
-    /// presses in the step after that too, it has closed.
+    /// Records the changes of contacts in the last step. A contact that presses for the first time has had an impact;
+    /// if it still presses in the next step, it has closed.
     pub(super) fn note_step(&mut self) {
         use ContactEventKind::{Closes, Lifts, Reverses, Slips, Sticks};
         let Some((stepped, before)) = self.stepper.stepped() else {
@@ -46,7 +47,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
         let mut told: Vec<Told> = Vec::new();
         for (place, impact) in impacts.iter().enumerate() {
-            // What friction takes while a contact lasts is no loss of an impact.
+            // Friction losses while a contact stays closed are not losses of an impact.
             let of_friction = match before[impact.contact] {
                 Mode::Open => 0.0,
                 _ => impact.taken_by_slip(),
@@ -104,7 +105,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     }
 }
 
-/// What stands in the way of time stepping for a machine; nothing where it is not asked for.
+/// Checks the step length of a method with fixed steps; passes for other methods.
 pub(super) fn check_length(has_fixed_steps: bool, longest: f64) -> Result<(), Error> {
     if has_fixed_steps && !longest.is_finite() {
         Err(Error::InvalidSetting {

@@ -1,54 +1,54 @@
-//! Which methods a run took that was free to choose.
+//! The methods of a run that chooses its method.
 
 use core::fmt::{self, Display};
 
 use crate::methods::Method;
 
-/// A run that [chooses its method](crate::Simulation::automatic) went on by one.
+/// A choice in a run that [chooses its method](crate::Simulation::automatic).
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct MethodChoice {
-    /// Since when, in s.
+    /// The time from which it holds, in s.
     pub t: f64,
     /// The method.
     pub method: &'static Method,
-    /// Why.
+    /// The reason.
     pub reason: MethodReason,
 }
 
-/// Why a run went on by a method.
+/// Why a run chose a method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum MethodReason {
-    /// A step by Taylor series, which takes `cost` evaluations of the accelerations, is that of so many evaluations of `dop853`,
-    /// `saved`, or more.
+    /// A step by Taylor series, which costs `cost` evaluations of the accelerations, replaces steps of `dop853` with at least as
+    /// many evaluations, `saved`.
     SeriesPays {
-        /// What a step costs, in evaluations of the accelerations.
+        /// The cost of a step by series, in evaluations of the accelerations.
         cost: f64,
-        /// What as much time costs in steps of the explicit method.
+        /// The cost of the same time in steps of the explicit method.
         saved: f64,
     },
-    /// As before, but steps of the explicit method take less.
+    /// The opposite: steps of the explicit method cost less.
     SeriesCosts {
-        /// What a step by series costs, in evaluations of the accelerations.
+        /// The cost of a step by series, in evaluations of the accelerations.
         cost: f64,
-        /// What as much time costs in steps of the explicit method.
+        /// The cost of the same time in steps of the explicit method.
         saved: f64,
     },
-    /// There is no series to choose, and nothing was known of stiffness.
+    /// There is no series to choose, and no stiffness was detected.
     Explicit,
-    /// Steps were held short by stability and not by accuracy: the fastest part of the machine, whose motion has died away, has this
-    /// rate, in 1/s, where that is known.
+    /// Stability and not accuracy limited the steps: the fastest part of the machine, whose motion has decayed, has this rate,
+    /// if it is known.
     Stiff {
-        /// The rate, in 1/s; 0 where only the length of steps has shown it.
+        /// The rate, in 1/s; 0 if only the lengths of steps revealed it.
         rate: f64,
     },
-    /// The fastest part of the machine has become as slow that explicit steps take less.
+    /// The fastest part of the machine has become so slow that explicit steps cost less.
     NotStiff {
         /// Its rate, in 1/s.
         rate: f64,
     },
-    /// The series has no value where the machine came to.
+    /// The series has no value at the state that the machine reached.
     NoSeries,
 }
 

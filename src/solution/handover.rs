@@ -1,23 +1,23 @@
-//! When a run went on by time stepping, and back.
+//! Changes of a run to time stepping and back.
 
 use crate::Warning;
 
-/// A run with unilateral contacts went on by time stepping, or found every event again.
+/// A run with unilateral contacts changed to time stepping, or back to locating every event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Handover {
-    /// When, in s.
+    /// The time of the change, in s.
     pub t: f64,
-    /// The length of the steps of time stepping that follow, in s, which are longer where everything rests; none where every event is
-    /// found again.
+    /// The length of the steps of time stepping that follow, in s, which become longer where everything is at rest. `None` if the run
+    /// returns to locating every event.
     pub step: Option<f64>,
-    /// At how many instants contacts had changed last, and within how long, in s. None where they did not settle at one instant, or
-    /// where every event is found again.
+    /// The number of instants at which contacts had changed last, and the time in which they did, in s. `None` if contacts did not
+    /// settle at one instant, or if the run returns to locating every event.
     pub crowd: Option<(usize, f64)>,
 }
 
-/// What the user should know of them.
+/// The warning about these changes, if there are any.
 pub(crate) fn warning(handovers: &[Handover]) -> Option<Warning> {
     let first = handovers.first()?;
     Some(Warning::HandedOver {

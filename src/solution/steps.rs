@@ -1,4 +1,4 @@
-//! The steps of a run that are kept.
+//! The recorded steps of a run.
 
 use std::vec::Vec;
 
@@ -9,28 +9,28 @@ use crate::methods::{MAX_STAGES, Method};
 use crate::step_error::StepError;
 use crate::{Quadratures, Stepper, System, Vector};
 
-/// The steps of a run: what dense output is made of, when somebody asks for it.
+/// The steps of a run, from which dense output is made on demand.
 #[derive(Clone, Debug)]
 pub(crate) struct Steps<V> {
     /// Beginning and length of each step.
     pub(super) times: Vec<(Sum, f64)>,
-    /// For each step, `q` and `v` at its beginning, and the accelerations at those of its stages
-    /// that dense output needs, its beginning first; after the last step, the same three at its
-    /// end.
+    /// For each step, `q` and `v` at its beginning, and the accelerations at the stages that dense output needs, first the
+    /// beginning; after the last step, the same three at its end.
     vectors: Vec<V>,
     /// The stages whose accelerations are kept; the first is the beginning.
     kept: Vec<usize>,
-    /// The methods of the steps, each with the number of the first step that it took.
+    /// The methods of the steps, each with the index of its first step.
     methods: Vec<(usize, &'static Method)>,
-    /// Of steps by series and by impulses their coefficients, so many for each.
+    /// The coefficients of steps by series and by impulses, `of_step` vectors for each.
     coefficients: Vec<V>,
     of_step: usize,
-    /// Where the coefficients of each step begin; none of a step by a method of Runge and Kutta, nor behind the last that has any.
+    /// Where the coefficients of each step begin; `None` for Runge–Kutta steps. Steps after the last one with coefficients
+    /// have no entry.
     series: Vec<Option<usize>>,
 }
 
 impl<V: Vector> Steps<V> {
-    /// Room for the steps of a run that begins by `method` and may go on by `others`.
+    /// Memory for the steps of a run that begins with `method` and may change to `others`.
     pub fn new(method: &'static Method, others: &[&'static Method]) -> Self {
         let methods = || others.iter().copied().chain([method]);
         let is_kept = |stage: &usize| *stage == 0 || methods().any(|method| keeps(method, *stage));
@@ -45,7 +45,7 @@ impl<V: Vector> Steps<V> {
         }
     }
 
-    /// Notes that the next step is one of another method.
+    /// Records that the next step belongs to another method.
     pub fn go_on_by(&mut self, method: &'static Method) {
         self.methods.push((self.times.len(), method));
     }
@@ -78,8 +78,8 @@ impl<V: Vector> Steps<V> {
         }
     }
 
-    /// Notes that the accelerations jump now: a step of no length, that keeps the end of the last one
-    /// apart from the beginning of the next.
+    /// Records a jump of the accelerations as a step of length zero, which separates the end of the last step from the
+    /// beginning of the next.
     pub fn jump<S: System<Vector = V>, L: InputLaw<S>, A: Quadratures<S>>(
         &mut self,
         stepper: &Stepper<'_, S, L, A>,
@@ -94,7 +94,7 @@ impl<V: Vector> Steps<V> {
         self.times
             .push((now, 0.0_f64.copysign(stepper.last_step())));
         if stepper.coefficients().is_some() && self.of_step != 0 {
-            // Of a step by series, all that there is of its motion: place and velocity.
+            // For a step by series of length zero, coordinates and rates are its only coefficients.
             let zeros = stepper.q().zeros_like();
             let state = [stepper.q().clone(), stepper.v().clone()];
             self.begin_series();
@@ -105,7 +105,7 @@ impl<V: Vector> Steps<V> {
         self.vectors.resize(self.times.len() * self.stride(), last);
     }
 
-    /// Notes that the coefficients of the newest step come next.
+    /// Records that the coefficients of the newest step follow.
     fn begin_series(&mut self) {
         self.series.resize(self.times.len(), None);
         if let Some(newest) = self.series.last_mut() {
@@ -113,7 +113,7 @@ impl<V: Vector> Steps<V> {
         }
     }
 
-    /// How many vectors a step has.
+    /// The number of vectors of a step.
     fn stride(&self) -> usize {
         2 + self.kept.len()
     }
@@ -127,7 +127,7 @@ impl<V: Vector> Steps<V> {
         (&self.vectors[at], &self.vectors[at + 1])
     }
 
-    /// The step that `t`, which is within the run, is in.
+    /// The step that contains `t`, which is within the run.
     pub(super) fn index(&self, t: f64) -> usize {
         let after = self.times.partition_point(|&(start, h)| {
             if h.is_sign_positive() {

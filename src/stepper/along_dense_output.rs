@@ -1,4 +1,4 @@
-//! The integrals of powers over a step that is too long for the weights of its method.
+//! Integrates powers over a step that is too long for the weights of its method.
 
 use std::vec::Vec;
 
@@ -7,8 +7,8 @@ use crate::balance::Quadratures;
 use crate::interpolant::Interpolant;
 use crate::{InputLaw, StepError, System, Vector};
 
-/// The rule of Gauss and Legendre with four points on [0, 1], exact for polynomials of degree 7: points and weights.
-/// M. Abramowitz, I. A. Stegun, *Handbook of Mathematical Functions*, 1964, table 25.4.
+/// The Gauss–Legendre rule with four points on [0, 1], exact for polynomials of degree 7: points and weights. M. Abramowitz, I. A.
+/// Stegun, *Handbook of Mathematical Functions*, 1964, table 25.4.
 const GAUSS: [[f64; 2]; 4] = [
     [0.069_431_844_202_973_71, 0.173_927_422_568_726_93],
     [0.330_009_478_207_571_9, 0.326_072_577_431_273_07],
@@ -16,19 +16,21 @@ const GAUSS: [[f64; 2]; 4] = [
     [0.930_568_155_797_026_3, 0.173_927_422_568_726_93],
 ];
 
-/// The most parts that a step is divided into: some 5 for each turn of a drive that turns ten thousand times in the step.
+/// The largest number of parts into which a step is divided: some 5 for each turn of a drive that turns ten thousand
+/// times in the step.
 const MOST_PARTS: usize = 1 << 16;
 
-/// The stage whose place among the rates is free after a step: that of the first is now, and that of the last the beginning.
+/// A stage whose rates are not needed after a step: those of the first stage are needed for the next step, and those of the last
+/// for undoing it.
 const FREE: usize = 1;
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
-    /// Integrates the powers over the last step along its dense output, by the rule of Gauss in 1, 2, 4 … parts, until work and
-    /// losses change by no more than `bound`, in J, and what went to and fro by no more than a hundredth.
+    /// Integrates the powers over the last step along its dense output, by the Gauss–Legendre rule in 1, 2, 4 … parts, until work and
+    /// losses change by at most `bound`, in J, and the integral of the absolute work rate by at most a hundredth.
     ///
-    /// The step was as long as the motion allows. Where a machine rests, a drive may turn many times in it, and the stages
-    /// of the method say little of its work. Where no division of the step is enough, the integrals stay as they were, and the answer
-    /// is no.
+    /// The step was as long as the motion allows. If the machine is at rest, a drive may turn many times during the step, and the
+    /// stages of the method do not represent its work. If no division of the step suffices, the integrals stay unchanged and the
+    /// result is false.
     pub(crate) fn integrate_along(
         &mut self,
         interpolant: &Interpolant<S::Vector>,
@@ -56,7 +58,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         Ok(is_known)
     }
 
-    /// The integrals over the last step of work rate, its absolute value, and dissipation rate, and of the parts of each unilateral
+    /// The integrals over the last step of work rate, its absolute value, and dissipation rate, and of the shares of each unilateral
     /// contact, in J.
     fn integrals_in_parts(
         &mut self,

@@ -1,4 +1,4 @@
-//! A run goes on by another method whose steps a tolerance chooses, and what decides whether it should.
+//! Changes the method of a run to another one with variable steps, and provides the data for that decision.
 
 use super::{Stepper, Stiffness};
 use crate::balance::Quadratures;
@@ -12,7 +12,7 @@ use crate::{StepError, System, Vector};
 use std::boxed::Box;
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
-    /// Goes on from now by `method`, of Runge and Kutta or by series. The step that was next is tried next.
+    /// Continues with `method`, a Runge–Kutta method or one by series. The next step keeps its length for the first try.
     pub(crate) fn go_on_with_method(&mut self, method: &'static Method) -> Result<(), StepError> {
         let spectrum = method.tableau.spectrum;
         let system = self.model.system.get();
@@ -26,24 +26,25 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         self.go_on_by(method, self.longest)
     }
 
-    /// Tests whether steps are held short by stability after every so many of them.
+    /// Sets the number of steps between two stiffness tests.
     pub(crate) fn test_stiffness_every(&mut self, steps: usize) {
         self.between_tests = steps;
     }
 
-    /// How exact steps are.
+    /// The tolerance of steps.
     pub(crate) fn tolerance(&self) -> &Tolerance<S::Vector> {
         &self.tolerance
     }
 
-    /// The length of a step by series from now, in s, if steps are by series.
+    /// The length of the next step by series, in s, if the method is by series.
     pub(crate) fn length_in_series(&mut self) -> Option<f64> {
         let taylor = self.taylor.as_mut()?;
         Some(taylor.length(&self.tolerance))
     }
 
-    /// The fastest rate of the motion near now, in 1/s: the spectral radius of the derivatives of `(q', v')` by `(q, v)`. Of an
-    /// implicit method it is of the derivatives that it keeps; else they are found by one evaluation and two for each coordinate.
+    /// The fastest rate of the motion at the present state, in 1/s: the spectral radius of the derivatives of `(q', v')` with
+    /// respect to `(q, v)`. Implicit methods use the derivatives that they keep; otherwise one evaluation and two for each
+    /// coordinate are needed.
     pub(crate) fn fastest_rate(&mut self) -> Option<f64> {
         if let Some(implicit) = &self.implicit {
             return Some(implicit.fastest_rate());

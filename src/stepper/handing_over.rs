@@ -1,4 +1,4 @@
-//! A run with unilateral contacts changes from finding every event to time stepping, and back.
+//! Changes a run with unilateral contacts from locating every event to time stepping, and back.
 
 use super::meeting::{Cause, Happened, hold};
 use super::{InImpulses, Stepper};
@@ -11,7 +11,7 @@ use crate::stages::Point;
 use crate::{StepError, System};
 use std::boxed::Box;
 
-/// What contacts that meet change of a stepper.
+/// A copy of the parts of a stepper that change when contacts meet.
 pub(crate) struct Standing<S: System, A> {
     now: Point<S::Vector>,
     touching: Option<Touching>,
@@ -20,7 +20,7 @@ pub(crate) struct Standing<S: System, A> {
 }
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
-    /// How it stands now, to be brought back to.
+    /// Copies the present state, for [`bring_back`](Self::bring_back).
     pub(crate) fn standing(&self) -> Standing<S, A> {
         Standing {
             now: self.now.clone(),
@@ -30,7 +30,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         }
     }
 
-    /// Brings it back to how it stood at the same instant: with the losses of impacts that did not settle, too.
+    /// Restores a state at the same instant. This also removes the losses of impacts that did not settle.
     pub(crate) fn bring_back(&mut self, standing: Standing<S, A>) {
         self.now = standing.now;
         self.model.touching = standing.touching;
@@ -38,13 +38,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         self.quadratures = standing.quadratures;
     }
 
-    /// Whether its steps are those of time stepping.
+    /// Whether the method is time stepping.
     pub(crate) fn is_by_impulses(&self) -> bool {
         self.impulses.is_some()
     }
 
-    /// The fastest rate at which any gap closed so far, in m/s, and what forces add to such a rate now, in m/s²: see
-    /// [`Touching`].
+    /// The fastest rate at which any gap closed so far, in m/s, and the acceleration that forces add to such a rate now, in m/s²:
+    /// see [`Touching`].
     pub(crate) fn closing(&mut self) -> [f64; 2] {
         let Self { model, now, .. } = self;
         model.set_inputs(now.t, &now.q, &now.v);
@@ -55,7 +55,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         [touching.speed(), touching.pull(model.system.get(), at)]
     }
 
-    /// Whether the forces in what was closed in the last step of time stepping would be the only ones, were it all constraints.
+    /// Whether the forces in the contacts that were closed in the last step of time stepping would be unique if all of these
+    /// were constraints.
     pub(crate) fn forces_are_the_only_ones(&mut self) -> bool {
         let Self { model, now, .. } = self;
         model.set_inputs(now.t, &now.q, &now.v);
@@ -68,13 +69,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         reaction.is_ok_and(|reaction| reaction.is_only)
     }
 
-    /// Goes on to `end` by time stepping, in steps of length `h`, with whatever is closed now.
+    /// Continues to `end` by time stepping, in steps of length `h`, with the contacts that are closed now.
     pub(crate) fn begin_stepping(&mut self, h: f64, end: f64) -> Result<(), StepError> {
         self.end = end;
         let Self { model, now, .. } = self;
         if let Some(touching) = &mut model.touching {
             touching.begin_stepping();
-            // What remains are the constraints of the machine.
+            // Only the constraints of the machine remain.
             model.constraints = hold(model.system.get(), touching, now)?;
         }
         let impulses = InImpulses::new(&self.now.q, &self.now.v);
@@ -82,9 +83,9 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         self.go_on_by(Method::MOREAU, h)
     }
 
-    /// Goes on to `end` by `method`, which finds every event, in steps no longer than `longest`, with what was closed in the last
-    /// step of time stepping as constraints. What bringing the state onto them takes is a loss. Where the contacts do not settle, everything
-    /// is as it was before.
+    /// Continues to `end` by `method`, which locates every event, in steps of at most `longest`, with the contacts that were closed in the
+    /// last step of time stepping as constraints. The energy that the projection onto these takes is a loss. If the contacts do not settle,
+    /// everything is restored.
     pub(crate) fn end_stepping(
         &mut self,
         method: &'static Method,
@@ -135,7 +136,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         }
     }
 
-    /// Goes on from now by another method.
+    /// Continues with another method.
     pub(super) fn go_on_by(
         &mut self,
         method: &'static Method,
@@ -143,7 +144,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     ) -> Result<(), StepError> {
         self.method = method;
         self.longest = longest;
-        // No step of the method has been taken yet that could be taken back.
+        // There is no step of the new method yet that could be undone.
         self.k.swap(0, self.newest);
         self.newest = 0;
         let Self {

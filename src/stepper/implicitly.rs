@@ -1,4 +1,4 @@
-//! A step whose stages depend on each other.
+//! Steps of implicit methods.
 
 use super::Stepper;
 use crate::attempt::{self, not_finite};
@@ -9,8 +9,8 @@ use crate::stages::stage_state;
 use crate::{InputLaw, StepError, System};
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
-    /// Tries a step of length `h` from `before`, to `now`. Returns its error, 1 being just tolerable;
-    /// infinite if its stages could not be found.
+    /// Tries a step of length `h` from `before` to `now`. Returns its error relative to the
+    /// tolerance, which is infinite if its stages could not be found.
     pub(super) fn attempt_implicitly(&mut self, h: f64, last: bool) -> Result<f64, StepError> {
         let Self {
             method,
@@ -72,8 +72,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 model.take_rates(quadratures, i, (t, q, v, &k[i]));
             }
         }
-        // The last stage is the end. Its acceleration is the slope of the polynomial there: an
-        // evaluation would show roundoff of the state times the stiffness of the machine.
+        // The last stage is the end. Its acceleration is the slope of the polynomial there, since an
+        // evaluation would amplify the round-off of the state by the stiffness of the machine.
         let (known, end) = k.split_at_mut(stages);
         end[0].clone_from(&known[stages - 1]);
         model.set_inputs(now.t, &now.q, &now.v);

@@ -1,4 +1,4 @@
-//! A step of Moreau's time stepping.
+//! Steps of Moreau's time stepping.
 
 use std::vec::Vec;
 
@@ -10,13 +10,14 @@ use crate::contact::{Mode, Stepped, Touching};
 use crate::stages::Point;
 use crate::{InputLaw, StepError, System, Vector};
 
-/// What the last step of time stepping was.
+/// The last step of time stepping.
 #[derive(Clone, Debug)]
 pub(crate) struct InImpulses<V> {
-    /// The motion in it, in powers of the time since its beginning: of the second degree, through the rates at both ends.
+    /// The motion within the step, in powers of the time since its beginning: of the second degree, through the rates
+    /// at both ends.
     of_step: Vec<V>,
     stepped: Stepped,
-    /// What was known of the contacts at its beginning.
+    /// The contacts at its beginning.
     before: Option<Touching>,
 }
 
@@ -34,14 +35,14 @@ impl<V: Vector> InImpulses<V> {
         &self.of_step
     }
 
-    /// The contacts at the beginning of the last step, which is taken back.
+    /// Returns the contacts at the beginning of the last step, which is being undone.
     pub fn retreat(&mut self) -> Option<Touching> {
         self.before.take()
     }
 }
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
-    /// What contacts did in the last step of time stepping, and what was known of them before it.
+    /// The changes of contacts in the last step of time stepping, and the contacts before it.
     pub(crate) fn stepped(&self) -> Option<(&Stepped, &Touching)> {
         let impulses = self.impulses.as_ref()?;
         Some((&impulses.stepped, impulses.before.as_ref()?))
@@ -117,7 +118,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         impulses.before.clone_from(&model.touching);
         impulses.stepped = Stepped::default();
 
-        // The rates in the middle that forces depend on, and the rates at the end, as if nothing touched.
+        // The rates at the middle, for forces that depend on rates, and the rates at the end, as if nothing touched.
         let touching = model.touching.take();
         let work = &mut control.work;
         let mut found = model.accelerations(t, q, &before.v, &mut k[1], work);
@@ -187,7 +188,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             let (from, to) = (before.q.as_slice()[i], now.q.as_slice()[i]);
             let change = (now.v.as_slice()[i] - before.v.as_slice()[i]) / h;
             bend.as_mut_slice()[i] = 0.5 * change;
-            // So that it ends where the step does.
+            // The linear coefficient is such that the polynomial ends where the step does.
             rate.as_mut_slice()[i] = (to - from) / h - half * change;
         }
         model.end(now, quadratures, stages, k, &mut control.work)

@@ -1,11 +1,10 @@
-//! One try of the steps of several steppers at once, in the lanes of the processor.
+//! One try of the steps of several steppers at once, in vector lanes.
 //!
-//! Each stepper chooses the length of its step, and decides what becomes of it: only what lies in between, the stages, is done
-//! for all of them together, by the sums that a stepper alone adds up. So each has the bits that it has alone. A lane in which
-//! anything is out of the ordinary, accelerations without a value or an error without measure, is tried again alone, which
-//! then says what it is.
+//! Each stepper chooses the length of its step and decides about the try: only the stages in between are computed for all of them
+//! together, by the same sums as in a single stepper. So each has the bits that it has alone. A lane in which something is exceptional
+//! (accelerations without a value or an infinite error) is tried again alone, which then gives the error.
 //!
-//! Where constraints hold a machine, each new point is brought onto them alone, and its error found there.
+//! With constraints, each new point is projected alone, and its error is estimated there.
 
 use std::vec::Vec;
 
@@ -22,25 +21,25 @@ use crate::tolerance::Tolerance;
 use crate::{System, Vector};
 use lagrangian_native::{Lanes, Number};
 
-/// How many lanes there are: as many as the widest registers have.
+/// The number of lanes: as many as the widest registers have.
 pub(crate) const WIDTH: usize = 8;
 
-/// A number of each lane.
+/// One number for each lane.
 pub(crate) type Wide = Lanes<WIDTH>;
 
-/// A bit for each lane, the lowest of the first.
+/// A bit for each lane, the lowest bit for the first.
 pub(crate) type LaneMask = u32;
 
-/// What evaluates the machines of all lanes.
+/// Evaluates the machines of all lanes.
 pub(crate) trait Evaluate {
-    /// Accelerations, and in which lanes they have values.
+    /// Evaluates the accelerations; returns the lanes in which they have values.
     fn accelerations(&mut self, at: (Wide, &[Wide], &[Wide]), a: &mut [Wide]) -> LaneMask;
 
-    /// What is done on the machines and what they lose, in W, and in which lanes these have values.
+    /// Evaluates the power of the work on the machines and their losses, in W; returns the lanes in which these have values.
     fn powers(&mut self, at: (Wide, &[Wide], &[Wide]), a: &[Wide]) -> ([Wide; 2], LaneMask);
 }
 
-/// A step that is being tried: how long the try is, whether it is of the last step, and how long it may be.
+/// A step that is being tried: the length of the try, whether it would be the last step, and the limits on its length.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Try {
     h: f64,
@@ -48,7 +47,7 @@ pub(crate) struct Try {
     room: Room,
 }
 
-/// What the steps of all lanes need.
+/// The data of the steps of all lanes.
 pub(crate) struct Tries {
     method: &'static Method,
     tolerance: Tolerance<Vec<Wide>>,
@@ -56,20 +55,20 @@ pub(crate) struct Tries {
     now: Point<Vec<Wide>, Wide>,
     k: [Vec<Wide>; MAX_STAGES],
     stage: (Vec<Wide>, Vec<Wide>),
-    /// Of work and of losses at each stage.
+    /// Work and losses at each stage.
     powers: Option<[[Wide; 2]; MAX_STAGES]>,
     h: Wide,
     end: Wide,
     is_last: [bool; WIDTH],
     errors: [f64; WIDTH],
-    /// Whether constraints hold the machines: then a try in lanes ends at the new point, which each brings onto them.
+    /// Whether the machines have constraints: then a try in lanes ends at the new point, which each stepper projects.
     are_held: bool,
-    /// Where the last try went as it should.
+    /// The lanes in which nothing exceptional happened in the last try.
     went_well: LaneMask,
 }
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
-    /// Whether its steps are made by explicit stages and nothing else, with inputs that stay as they are.
+    /// Whether its steps consist of explicit stages only, with constant inputs.
     pub(crate) fn may_run_in_lanes(&self) -> bool {
         let system = self.model.system.get();
         system.contacts().len() + system.unilateral_contacts().len() == 0
@@ -79,13 +78,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             && self.model.law.is_constant()
     }
 
-    /// Whether its next try may be made in lanes: not while constraints depend on each other, which asks for other equations.
+    /// Whether its next try may be made in lanes: not while constraints are dependent, which requires other equations.
     pub(crate) fn may_try_in_lanes(&self) -> bool {
         let constraints = self.model.constraints.as_ref();
         constraints.is_none_or(|constraints| !constraints.redundant && !constraints.at_fork)
     }
 
-    /// Begins a step: its first try.
+    /// Begins a step and its first try.
     pub(crate) fn begin_in_lanes(&mut self) -> Result<Try, StepError> {
         if self.changed {
             self.look_again()?;
@@ -99,7 +98,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         Try { h, last, room }
     }
 
-    /// Ends a try: the next one, or nothing where the step was taken.
+    /// Ends a try; returns the next one, or `None` if the step was taken.
     pub(crate) fn end_in_lanes(
         &mut self,
         lane: usize,
@@ -117,7 +116,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
 }
 
 impl Tries {
-    /// For steppers that go with this one.
+    /// For steppers that are compatible with this one.
     pub fn new<S: System, L: InputLaw<S>, A: Quadratures<S>>(of: &Stepper<'_, S, L, A>) -> Self {
         let spread = |numbers: &S::Vector| -> Vec<Wide> {
             let numbers = numbers.as_slice().iter();
@@ -147,7 +146,7 @@ impl Tries {
         }
     }
 
-    /// Whether a stepper goes with the one that this was made for: the same weights and the same relative tolerance for both.
+    /// Whether a stepper is compatible with the one that this was made for: the same method and the same relative tolerance.
     pub fn goes_with<S: System, L, A: Quadratures<S>>(&self, of: &Stepper<'_, S, L, A>) -> bool {
         std::ptr::eq(self.method, of.method)
             && self.tolerance.relative.to_bits() == of.tolerance.relative.to_bits()
@@ -175,19 +174,19 @@ impl Tries {
         self.is_last[lane] = next.last;
     }
 
-    /// Leaves the next try of every step to its stepper alone.
+    /// Leaves the next try of every step to its own stepper.
     pub fn skip(&mut self) {
         self.went_well = 0;
     }
 
-    /// Tries the steps of these lanes. What the others hold changes nothing.
+    /// Tries the steps of these lanes. The contents of the others have no effect.
     pub fn attempt(&mut self, which: LaneMask, machines: &mut impl Evaluate) {
         self.went_well = which;
         <Wide as Number>::run(Attempt(self, machines));
     }
 
-    /// Gives a stepper what a try of its step came to, and returns the error of the step, 1 being just tolerable, which says nothing where
-    /// constraints hold it. None if it is to be tried alone.
+    /// Passes the result of a try to its stepper, and returns the error of the step relative to the tolerance, which is meaningless with
+    /// constraints. `None` if the step has to be tried alone.
     fn take<S: System, L: InputLaw<S>, A: Quadratures<S>>(
         &self,
         lane: usize,
@@ -279,14 +278,14 @@ impl Tries {
     }
 }
 
-/// Whether constraints hold a machine.
+/// Whether a machine has constraints.
 fn is_held<S: System, L, A>(stepper: &Stepper<'_, S, L, A>) -> bool {
     stepper.model.system.get().constraints().len() != 0
 }
 
-/// Accelerations of a stage, and where they are kept the powers; in which lanes they have values.
+/// Evaluates the accelerations of a stage, and the powers if they are kept; returns the lanes in which they have values.
 ///
-/// A function, not a closure: that would not be compiled into its caller for wide registers.
+/// A function and not a closure, since a closure would not be compiled into its caller for wide registers.
 #[inline(always)]
 fn look<R: Scalar<Stored = Wide>>(
     (machines, powers): (&mut impl Evaluate, Option<&mut [[Wide; 2]; MAX_STAGES]>),
@@ -304,7 +303,7 @@ fn look<R: Scalar<Stored = Wide>>(
     fine
 }
 
-/// In which lanes all of these numbers are finite, or their sum at least.
+/// The lanes in which all of these numbers, or at least their sums, are finite.
 #[inline(always)]
 fn finite<R: Scalar<Stored = Wide>>(a: &[Wide]) -> LaneMask {
     if are_all_finite::<R>(a) {
@@ -317,7 +316,7 @@ fn finite<R: Scalar<Stored = Wide>>(a: &[Wide]) -> LaneMask {
     bits(&sum.are_finite())
 }
 
-/// One try of every lane, in the widest registers that there are.
+/// One try of every lane, in the widest registers available.
 struct Attempt<'a, E>(&'a mut Tries, &'a mut E);
 
 impl<E: Evaluate> Kernel<Wide> for Attempt<'_, E> {

@@ -1,4 +1,4 @@
-//! A step by the Taylor series of the motion.
+//! Steps by the Taylor series of the motion.
 
 use super::Stepper;
 use crate::attempt::not_finite;
@@ -7,7 +7,7 @@ use crate::control::Control;
 use crate::{InputLaw, StepError, System, Vector};
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
-    /// Expands the motion through now, for the first step or where what it depends on has changed.
+    /// Expands the motion through the present state, for the first step or after something that it depends on has changed.
     pub(super) fn expand(&mut self) -> Result<(), StepError> {
         let Self {
             model, now, taylor, ..
@@ -19,8 +19,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             .map_err(|singular| StepError::Singular { singular, t: now.t })
     }
 
-    /// The coefficients of the last step: of coordinates, in powers of the time since its beginning. None where the motion in a
-    /// step is no such polynomial.
+    /// The coefficients of the motion in the last step, of coordinates, in powers of the time since its beginning. `None` if
+    /// the motion in a step is not such a polynomial.
     pub(crate) fn coefficients(&self) -> Option<&[S::Vector]> {
         match &self.impulses {
             Some(impulses) => Some(impulses.of_step()),
@@ -28,7 +28,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         }
     }
 
-    /// Chooses the length of the next step. A first step that was asked for is not exceeded.
+    /// Chooses the length of the next step. The first step does not exceed a length that was set.
     pub(super) fn choose_length(&mut self) -> Result<(), StepError> {
         let Self {
             now,
@@ -52,13 +52,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         if work.steps == 0 && *step != 0.0 {
             length = length.min(step.abs());
         }
-        // Where nothing moves, a step is as long as the run.
+        // If the machine does not move, a step is as long as the run.
         *step = length.min(left.abs()).copysign(left);
         Ok(())
     }
 
-    /// Takes a step of length `h` from `before`, to `now`. It needs no estimate of its error: its length was chosen so that
-    /// there is none to speak of.
+    /// Takes a step of length `h` from `before` to `now`. It needs no error estimate, since its length was chosen so that the
+    /// error is tolerable.
     pub(super) fn attempt_in_series(&mut self, h: f64, last: bool) -> Result<f64, StepError> {
         let Self {
             method,
@@ -85,7 +85,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 t: now.t,
             });
         }
-        // By no more than what the series has left out, and rounding.
+        // The projection only removes truncation error and rounding.
         model.project(now)?;
         if quadratures.integrals().is_some() {
             for (i, k) in k.iter_mut().enumerate().take(stages).skip(1) {
@@ -112,7 +112,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     }
 }
 
-/// The first coordinate of which some coefficient is not finite.
+/// The first coordinate with a coefficient that is not finite.
 fn not_finite_among<V: Vector>(rows: &[V]) -> usize {
     let found = rows.iter().find_map(|row| not_finite(row, row, 0));
     found.unwrap_or(0)

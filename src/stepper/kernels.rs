@@ -1,4 +1,4 @@
-//! Tries of explicit steps as kernels: several coordinates at a time in the registers that the processor has.
+//! Tries of explicit steps as kernels: several coordinates at a time in the registers of the processor.
 
 use super::Stepper;
 use crate::System;

@@ -1,4 +1,4 @@
-//! Unilateral contacts close, open, stick and slip at the end of a step.
+//! Lets unilateral contacts close, open, stick and slip at the end of a step.
 
 use std::vec;
 use std::vec::Vec;
@@ -12,16 +12,16 @@ use crate::stages::Point;
 use crate::unilateral::ContactTrouble;
 use crate::{StepError, System, Vector};
 
-/// How many impacts may follow each other at one instant, for each contact.
+/// The largest number of consecutive impacts at one instant, per contact.
 const MOST_IMPACTS_AT_ONCE: usize = 1000;
 
-/// A step is no longer than so many of the flight that follows: it is to be seen in it.
+/// The next step is at most this many times as long as the flight that follows an impact, so that it does not miss the flight.
 const FLIGHTS: f64 = 8.0;
 
-/// Why contacts are asked what they do next.
+/// The reason for which the next states of contacts are determined.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Cause {
-    /// A gap has closed, or nothing is known but that something changes.
+    /// A gap has closed, or it is only known that something changes.
     Asked,
     /// The force of a contact has vanished.
     Lifts(usize),
@@ -31,36 +31,36 @@ pub(crate) enum Cause {
     Stops(usize),
     /// The friction of a contact is used up.
     Breaks(usize),
-    /// A contact that yields begins to press.
+    /// A compliant contact begins to press.
     Presses(usize),
     /// A layer turns from loading to unloading, or comes back to its greatest depth.
     Turns(usize),
 }
 
-/// What happened at an instant.
+/// The changes at an instant.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Happened {
     pub impacts: Vec<Impact>,
-    /// What contacts did before, and what they do now.
+    /// The states of contacts before, and now.
     pub before: Vec<Mode>,
     pub after: Vec<Mode>,
-    /// Contacts whose bounces came to their end, with how long these would have gone on, in s.
+    /// Contacts whose bounces end, with the time for which these would have continued, in s.
     pub ended: Vec<(usize, f64)>,
-    /// What was lost in impacts that no impulse tells: the last bounces, in J.
+    /// Losses in impacts that are not represented by impulses: the last bounces, in J.
     pub lost_at_end: f64,
-    /// Layers that turned: whether they are loaded now.
+    /// Layers whose loading changed direction: whether they are loaded now.
     pub turned: Vec<(usize, bool)>,
-    /// The length of the flight that follows, if there is one and it is known.
+    /// The length of the flight that follows, if there is one and its length is known.
     flight: Option<f64>,
 }
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
-    /// What is known of the unilateral contacts.
+    /// The state of the unilateral contacts.
     pub(crate) fn touching(&self) -> &Option<Touching> {
         &self.model.touching
     }
 
-    /// Lets contacts that touch meet, and goes on to `end` with whatever then is closed.
+    /// Lets contacts that touch meet, and continues to `end` with the contacts that are closed then.
     pub(crate) fn meet(
         &mut self,
         cause: Cause,
@@ -80,14 +80,15 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let stored_before = stored_by_each(model.system.get(), &touching, now);
         let loaded_before: Vec<bool> = touching.loaded().collect();
         model.set_inputs(t, &now.q, &now.v);
-        // Where a slip in space is at right angles to what it was, it may have turned and not stopped.
+        // A slip in space that has become perpendicular to its earlier direction may have turned instead of stopped.
         let cause = match cause {
             Cause::Stops(k) => {
                 let at = (t, &now.q, &now.v, &model.inputs);
                 if touching.has_stopped(model.system.get(), at, k)? {
                     cause
                 } else {
-                    // So close to where it was seen it cannot turn: its tangents jump here, and what follows is to begin behind that.
+                    // It cannot turn so close to the place at which it was evaluated: the tangents jump here, and the next step has
+                    // to begin beyond the jump.
                     move_by_rounding(&mut now.q, &now.v);
                     model.set_inputs(t, &now.q, &now.v);
                     Cause::Asked
@@ -179,7 +180,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let energy_after = energy(model, now);
         let mut free = now.v.zeros_like();
         if !happened.impacts.is_empty() {
-            // What the machine does with all open that has been hit: how long the next flight is.
+            // The motion with all contacts that were hit open determines the length of the next flight.
             let mut flying = touching.clone();
             let modes = (closed.iter().zip(touching.modes()))
                 .map(|(closed, mode)| if *closed { *mode } else { Mode::Open })
@@ -209,11 +210,11 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         }
 
         touching.lean(&mut closed);
-        // A slip that has stopped is at rest, and so is what was closed at last.
+        // A slip that has stopped is at rest, and so is one at a contact that has just closed.
         let mut held = vec![Mode::Open; closed.len()];
         let rests = touching.resting(model.system.get(), (t, &now.q, &now.v), &closed);
         for (k, _) in closed.iter().enumerate().filter(|(_, closed)| **closed) {
-            // What yields has no impulse that would stop it again when an impact elsewhere has made it slip.
+            // A compliant contact has no impulse that would stop it again after an impact elsewhere has made it slip.
             let pressed = touching.leans(k).unwrap_or(k);
             let is_torn = touching.yields(pressed) && !rests[k] && !happened.impacts.is_empty();
             held[k] = match touching.modes()[k] {
@@ -255,7 +256,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             happened.lost_at_end = energy_after - energy(model, now);
         }
         let lost = told + happened.lost_at_end;
-        // What impulses do beyond losses is work of what moves by itself.
+        // The energy that impulses add beyond the losses is work of prescribed motion.
         let gained = energy(model, now) - energy_before;
         if !happened.impacts.is_empty() {
             self.quadratures.add_at_once(gained + lost, lost);
@@ -271,7 +272,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             let of = |stored: &[f64]| stored.get(contact).copied().unwrap_or(0.0);
             let released = of(&stored_before) - of(&stored_after);
             if released != 0.0 {
-                // A force that vanishes before its contact is back leaves what is stored to nobody.
+                // If a force vanishes before its contact has recovered, the energy still stored is lost.
                 self.quadratures.add_at_once(0.0, released);
                 let part = PartOfContact {
                     yielding: released,
@@ -284,7 +285,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         Ok(happened)
     }
 
-    /// Goes on with the accelerations of now.
+    /// Continues with the accelerations of the present state.
     fn begin_again(&mut self, end: f64, step: f64, flight: Option<f64>) -> Result<(), StepError> {
         let Self { model, now, k, .. } = self;
         let newest = self.newest;
@@ -314,14 +315,14 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
 }
 
 impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
-    /// Takes note of the beginning of a step.
+    /// Records the beginning of a step.
     pub(super) fn begin_contacts(&mut self, now: &Point<S::Vector>) {
         if let Some(touching) = &mut self.touching {
             touching.take_headings(self.system.get(), now.t, &now.q, &now.v);
         }
     }
 
-    /// Takes note of the end of a step.
+    /// Records the end of a step.
     pub(super) fn accept_contacts(&mut self, now: &Point<S::Vector>) {
         let Some(touching) = &self.touching else {
             return;
@@ -329,7 +330,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         if let Some(constraints) = &mut self.constraints {
             constraints.accept(&now.q, &now.v);
             if constraints.redundant {
-                // Where that fails, the rows of before will do, or the next step will say why not.
+                // If that fails, the previous rows will do, or the next step returns the error.
                 let held = touching.machine(self.system.get());
                 let _ = constraints.choose_again(&held, now.t, &now.q);
             }
@@ -337,12 +338,12 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     }
 }
 
-/// What each contact that yields holds, in J.
+/// The energy stored in each compliant contact, in J.
 fn stored_by_each<S: System>(system: &S, touching: &Touching, now: &Point<S::Vector>) -> Vec<f64> {
     touching.stored_by_each(system, now.t, &now.q, &now.v)
 }
 
-/// Brings a state onto what is held; what is known of these constraints.
+/// Projects a state onto the closed contacts and the constraints; returns the state of these constraints.
 pub(super) fn hold<S: System>(
     system: &S,
     touching: &Touching,
@@ -355,7 +356,7 @@ pub(super) fn hold<S: System>(
     let mut constraints = Constraints::new(&held, &now.q, &now.v);
     let begun = constraints.begin(&held, &mut now.place(), None);
     begun.map_err(|error| touching.explain(system, error))?;
-    // Contacts that share a load depend on each other for as long as they last.
+    // Contacts that share a load stay dependent for as long as they are closed.
     constraints.at_fork = false;
     Ok(Some(constraints))
 }

@@ -1,4 +1,4 @@
-//! Steps of a fixed length, in which a tolerance decides nothing.
+//! Steps of a fixed length, on which tolerances have no effect.
 
 #[cfg(feature = "std")]
 mod canonical;
@@ -34,14 +34,14 @@ pub(crate) enum Fixed<V, M> {
 
 #[cfg(feature = "std")]
 impl<V, M> Fixed<V, M> {
-    /// Takes the last step back.
+    /// Undoes the last step.
     pub fn retreat(&mut self) {
         if let Self::GeneralizedAlpha(alpha) = self {
             alpha.retreat();
         }
     }
 
-    /// Forgets what was: the accelerations have jumped.
+    /// Forgets the previous steps, since the accelerations have jumped.
     pub fn forget(&mut self) {
         if let Self::GeneralizedAlpha(alpha) = self {
             alpha.forget();
@@ -50,7 +50,7 @@ impl<V, M> Fixed<V, M> {
 }
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
-    /// Makes ready for the steps of a rule, where it can follow the machine.
+    /// Prepares the steps of a rule, if it supports the machine.
     #[cfg(feature = "std")]
     pub(super) fn begin_fixed(&mut self, rule: Rule) -> Result<(), StepError> {
         let Self { model, now, .. } = self;
@@ -110,7 +110,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         Ok(())
     }
 
-    /// A step of the semi-implicit method of Euler.
+    /// Takes a semi-implicit Euler step.
     fn attempt_by_euler(&mut self, h: f64, last: bool) -> Result<(), StepError> {
         let Self { before, now, k, .. } = self;
         for i in 0..now.v.as_slice().len() {
@@ -122,8 +122,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         self.arrive_without_stages(h)
     }
 
-    /// What follows where `now` is the end of a step that has no stages: it goes onto the constraints, the powers in its middle are
-    /// taken note of, and the acceleration there is found.
+    /// Completes a step without stages whose end is in `now`: projects it onto the constraints, evaluates the powers at its middle,
+    /// and evaluates the acceleration at its end.
     fn arrive_without_stages(&mut self, h: f64) -> Result<(), StepError> {
         let Self {
             method,
@@ -141,7 +141,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         self.take_rates_in_middle(h)
     }
 
-    /// Takes note of the powers in the middle of a step, where the state is that of the cubic through its ends.
+    /// Evaluates the powers at the middle of a step, at the state of the cubic through its ends.
     fn take_rates_in_middle(&mut self, h: f64) -> Result<(), StepError> {
         let Self {
             model,
@@ -170,13 +170,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     }
 }
 
-/// Adds to a number of a vector, with what rounding took from it.
+/// Adds to a number of a vector, as a compensated sum.
 fn add<V: Vector>(high: &mut V, low: &mut V, i: usize, by: f64) {
     let (high, low) = (&mut high.as_mut_slice()[i], &mut low.as_mut_slice()[i]);
     (*high, *low) = two_sum(*high, *low + by);
 }
 
-/// Whether a state has left the range of numbers.
+/// Checks that a state has not overflowed.
 fn check_finite<V: Vector>(now: &Point<V>) -> Result<(), StepError> {
     match not_finite(&now.q, &now.v, 0) {
         Some(coordinate) => Err(StepError::NotFinite {

@@ -1,4 +1,4 @@
-//! A stepper that owns its system: for loops of a controller, where inputs are set from outside.
+//! A stepper that owns its system, for control loops in which inputs are set from outside.
 
 use core::ops::Deref;
 
@@ -11,7 +11,7 @@ use crate::step_error::StepError;
 use crate::tolerance::Tolerance;
 use crate::{State, System, Vector};
 
-/// A system that is borrowed, or one's own.
+/// A borrowed or an owned system.
 #[derive(Clone, Debug)]
 pub(crate) enum Whose<'s, S> {
     Borrowed(&'s S),
@@ -37,10 +37,10 @@ impl<S> Deref for Whose<'_, S> {
     }
 }
 
-/// A stepper that owns its system and is told its inputs.
+/// A stepper that owns its system and whose inputs are set from outside.
 pub type ControlledStepper<S> = Stepper<'static, S, HeldInputs<<S as System>::Inputs>>;
 
-/// A stepper in the making: what [`Stepper::builder`] begins and [`start`](Self::start) ends.
+/// Builds a stepper: [`Stepper::builder`] creates it and [`start`](Self::start) returns the stepper.
 #[derive(Clone, Debug)]
 #[must_use = "a stepper comes of it by `start(state)`"]
 pub struct StepperBuilder<S: System> {
@@ -54,10 +54,10 @@ pub struct StepperBuilder<S: System> {
 }
 
 impl<S: System> Stepper<'static, S, HeldInputs<S::Inputs>> {
-    /// A stepper that owns `system`, in the making: with the default method, a tolerance of 10⁻⁹ and the inputs of the
-    /// description.
+    /// A builder of a stepper that owns `system`. Defaults: the default method, a tolerance of 10⁻⁹ and the inputs of
+    /// the description.
     ///
-    /// The stepper allocates nothing while it steps, and [`advance_to`](Stepper::advance_to) takes it from one instant of a
+    /// The stepper allocates nothing while it steps. [`advance_to`](Stepper::advance_to) takes it from one sample of a
     /// controller to the next:
     ///
     /// ```
@@ -96,38 +96,38 @@ impl<S: System> Stepper<'static, S, HeldInputs<S::Inputs>> {
 }
 
 impl<S: System> StepperBuilder<S> {
-    /// The method of integration: [`Method::DOP853`] if nobody says.
+    /// The method of integration, by default [`Method::DOP853`].
     pub fn method(mut self, method: &'static Method) -> Self {
         self.method = method;
         self
     }
 
-    /// How exact each step shall be, relative and absolute: the error in a number `y` is kept below `tolerance · (1 + |y|)`.
+    /// The tolerance of each step, relative and absolute: the error in a number `y` is kept below `tolerance · (1 + |y|)`.
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance.relative = tolerance;
         self.tolerance.absolute.as_mut_slice().fill(tolerance);
         self
     }
 
-    /// The tolerances of a step: one relative, and absolute ones for each coordinate and rate in their units.
+    /// The tolerances of a step: a relative one, and absolute ones for each coordinate and rate in their units.
     pub fn tolerances(mut self, tolerance: Tolerance<S::Vector>) -> Self {
         self.tolerance = tolerance;
         self
     }
 
-    /// The length of the first step, in s, which otherwise is chosen by the motion at the start.
+    /// The length of the first step, in s, which is otherwise chosen from the motion at the start.
     pub fn first_step(mut self, step: f64) -> Self {
         self.first_step = Some(step);
         self
     }
 
-    /// The greatest length of a step, in s.
+    /// The length of the longest step, in s.
     pub fn longest_step(mut self, step: f64) -> Self {
         self.longest_step = step;
         self
     }
 
-    /// How many steps one [`advance_to`](Stepper::advance_to) may take: see [`set_max_steps`](Stepper::set_max_steps).
+    /// The largest number of steps of one [`advance_to`](Stepper::advance_to): see [`set_max_steps`](Stepper::set_max_steps).
     pub fn max_steps(mut self, steps: usize) -> Self {
         self.max_steps = steps;
         self
@@ -139,11 +139,11 @@ impl<S: System> StepperBuilder<S> {
         self
     }
 
-    /// The stepper, at a state. A machine with constraints starts at the state on them that is nearest.
+    /// Starts the stepper at a state. A machine with constraints starts at the nearest state that satisfies them.
     ///
     /// # Errors
-    /// Where the accelerations at the start have no value, no state near is on the constraints, or the machine has unilateral
-    /// contacts, which a [`Simulation`](crate::Simulation) follows.
+    /// If the accelerations at the start have no value, if no state nearby satisfies the constraints, or if the machine has
+    /// unilateral contacts, which only a [`Simulation`](crate::Simulation) follows.
     pub fn start(self, state: State<S::Coordinates>) -> Result<ControlledStepper<S>, StepError> {
         let Self {
             system,
@@ -175,18 +175,18 @@ impl<S: System> StepperBuilder<S> {
 impl<S: System, A: Quadratures<S>> Stepper<'_, S, HeldInputs<S::Inputs>, A> {
     /// Sets the inputs from now on. Allocates nothing for compiled machines.
     ///
-    /// The last step stays what it was; see [`inputs_changed`](Self::inputs_changed).
+    /// The last step is unaffected; see [`inputs_changed`](Self::inputs_changed).
     pub fn set_inputs(&mut self, inputs: S::Inputs) {
         self.set_law(HeldInputs(inputs));
     }
 }
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
-    /// Steps to time `t`, later or earlier than now, and stands there: a step ends at `t`.
+    /// Steps to time `t`, later or earlier than now, and stops there: a step ends at `t`.
     ///
     /// # Errors
-    /// If a step cannot be taken, or more steps would be needed than [may be taken](Self::set_max_steps); now is then where the last
-    /// good one ended. If `t` is not a finite number; then nothing happens.
+    /// If a step cannot be taken, or more steps are needed than [allowed](Self::set_max_steps); the present state is then the end of
+    /// the last good step. If `t` is not a finite number; then nothing happens.
     pub fn advance_to(&mut self, t: f64) -> Result<(), StepError> {
         if !t.is_finite() {
             return Err(StepError::NoTime { t });
@@ -211,10 +211,10 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         }
     }
 
-    /// The state at a time within the last step, from its [`t_before`](Self::t_before) to now: on the continuous extension of
-    /// the method, and on the constraints.
+    /// The state at a time within the last step, from [`t_before`](Self::t_before) to now: on the continuous extension of the
+    /// method, projected onto the constraints.
     ///
-    /// Costs what [`interpolant`](Self::interpolant) costs, which is better for many times.
+    /// It costs as much as [`interpolant`](Self::interpolant), which is better for many times.
     ///
     /// # Errors
     /// If `t` is outside of the last step, or [as for `interpolant`](Self::interpolant) after the inputs were changed.

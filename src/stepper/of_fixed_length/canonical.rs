@@ -1,36 +1,36 @@
 //! The equations of motion in the momenta `p = M(q, t) v`.
 //!
-//! What is symplectic keeps the area of positions and momenta, not that of positions and rates, unless the mass matrix is constant. With
-//! the kinetic energy `T = ½ vᵀ M v + mᵀ v + T₀` the bias is a polynomial of the rates, `h(v) = b₂(v, v) + B v + b₀`, and
+//! Symplectic methods preserve areas in positions and momenta, not in positions and rates, unless the mass matrix is constant. With the
+//! kinetic energy `T = ½ vᵀ M v + mᵀ v + T₀` the bias is a polynomial in the rates, `h(v) = b₂(v, v) + B v + b₀`, and
 //!
 //! ```text
 //! dp/dt = Q − b₀ − ½ (B − Bᵀ) v + vᵀ b₂(v, ·)
 //! ```
 //!
-//! since the last term is `½ ∂(vᵀ M v)/∂q`, the symmetric part of `B` is `∂M/∂t`, and `M a = Q − h`. Without explicit time only the first and
-//! the last are there: the canonical equations. Differences of the bias, which is of the second degree, give them without an error but
-//! rounding:
+//! since the last term is `½ ∂(vᵀ M v)/∂q`, the symmetric part of `B` is `∂M/∂t`, and `M a = Q − h`. Without explicit time only the first
+//! and the last term remain: the canonical equations. Finite differences of the bias, which is of the second degree, give these terms
+//! exactly to rounding:
 //!
 //! ```text
 //! dpᵢ/dt = Qᵢ − hᵢ(0) − ¼ (hᵢ(v) − hᵢ(−v)) + vᵀ (h(v + s eᵢ) − h(v − s eᵢ)) / (4 s)
 //! ```
 //!
-//! Where the base turns, `½ (B − Bᵀ) v` is Coriolis's force, and `p` are not the momenta of Hamilton: then a step keeps its order and
-//! its symmetry, but is not symplectic.
+//! If the base turns, `½ (B − Bᵀ) v` is the Coriolis force, and `p` are not Hamilton's momenta: then a step keeps its order and its
+//! symmetry, but is not symplectic.
 
 use std::vec::Vec;
 
 use crate::constraints::algebra::{backward, cholesky, forward};
 use crate::{Singular, StepError, System, Vector};
 
-/// The mass matrix at a place, and memory for the forces.
+/// The mass matrix at a configuration, and memory for the forces.
 #[derive(Clone, Debug)]
 pub(super) struct Canonical<V, M> {
     matrix: M,
-    /// Cholesky's factor of it.
+    /// Its Cholesky factor.
     factor: M,
     shares: Vec<f64>,
-    /// For each coordinate, the first of the same unit; and the greatest rate of that unit.
+    /// For each coordinate, the first one of the same unit; and the largest rate of that unit.
     alike: Vec<usize>,
     greatest: Vec<f64>,
     rates: V,
@@ -39,7 +39,7 @@ pub(super) struct Canonical<V, M> {
 }
 
 impl<V: Vector, M: Vector> Canonical<V, M> {
-    /// Room, where the mass matrix is known and no force of a contact acts.
+    /// Allocates the memory, if the mass matrix is known and there are no contact forces.
     pub fn new<S: System<Vector = V, Matrix = M>>(
         system: &S,
         (t, q): (f64, &V),
@@ -79,7 +79,7 @@ impl<V: Vector, M: Vector> Canonical<V, M> {
         }
     }
 
-    /// Finds the mass matrix at a place, and its factors.
+    /// Evaluates the mass matrix at a configuration, and its factor.
     pub fn go_to<S: System<Vector = V, Matrix = M>>(
         &mut self,
         system: &S,
@@ -91,7 +91,7 @@ impl<V: Vector, M: Vector> Canonical<V, M> {
         cholesky(self.factor.as_mut_slice(), &mut self.shares)
     }
 
-    /// Adds `scale M v` of the place to `p`.
+    /// Adds `scale M v` to `p`.
     pub fn add_momenta(&self, scale: f64, v: &V, p: &mut V) {
         let n = v.as_slice().len().max(1);
         let rows = self.matrix.as_slice().chunks_exact(n);
@@ -101,13 +101,13 @@ impl<V: Vector, M: Vector> Canonical<V, M> {
         }
     }
 
-    /// `M⁻¹ p` of the place, in place.
+    /// Computes `M⁻¹ p` in place.
     pub fn to_rates(&self, p: &mut [f64]) {
         forward(self.factor.as_slice(), p);
         backward(self.factor.as_slice(), p);
     }
 
-    /// `dp/dt` at a state, constraints apart.
+    /// `dp/dt` at a state, without the forces of constraints.
     pub fn force<S: System<Vector = V, Matrix = M>>(
         &mut self,
         system: &S,
@@ -146,7 +146,7 @@ impl<V: Vector, M: Vector> Canonical<V, M> {
         rates.clone_from(v);
         for (i, &first) in alike.iter().enumerate() {
             let here = v.as_slice()[i];
-            // Of the size of the rates there are; any is exact but for rounding.
+            // Of the size of the rates; any increment is exact except for rounding.
             let by = match greatest[first] {
                 0.0 => 1.0,
                 size => size,
@@ -165,17 +165,17 @@ impl<V: Vector, M: Vector> Canonical<V, M> {
     }
 }
 
-/// Whether rounds of an iteration have come as close as rounding lets them: from the squares of their changes in the metric of inertia.
+/// Detects when an iteration has converged to rounding, from the squares of its changes in the metric of inertia.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rounds {
     count: usize,
     before: f64,
 }
 
-/// An iteration that is not at its end after so many rounds goes on too slowly for the length of the step.
+/// An iteration that has not converged after this many rounds converges too slowly: the step is too long.
 const MOST_ROUNDS: usize = 100;
 
-/// The square of what a change may be relative to the rates, where rounds may end: they end when they come no closer.
+/// The iteration may end once the square of a change is below this relative to the rates; it ends when changes no longer decrease.
 const CLOSE: f64 = 1e-22;
 
 impl Rounds {
@@ -184,13 +184,13 @@ impl Rounds {
         before: f64::INFINITY,
     };
 
-    /// Whether that was the last round, by its change and by the size of what was changed; none where there are no numbers, or
-    /// too many rounds.
+    /// Whether that was the last iteration, given its change and the size of the changed quantity; `None` if the change is not finite or
+    /// there were too many iterations.
     pub fn is_last(&mut self, change: f64, size: f64) -> Option<bool> {
         self.is_last_beside(change, (size, 0.0))
     }
 
-    /// [`is_last`](Self::is_last) where rounding alone changes as much as is said.
+    /// [`is_last`](Self::is_last) with a given change by rounding alone.
     pub fn is_last_beside(&mut self, change: f64, (size, rounding): (f64, f64)) -> Option<bool> {
         self.count += 1;
         let before = core::mem::replace(&mut self.before, change);

@@ -1,12 +1,13 @@
-//! A step of a method of Gauss: collocation of the equations in momenta,
+//! Steps of Gauss methods: collocation of the equations in momenta,
 //!
 //! ```text
 //! Qᵢ = q₀ + h Σⱼ aᵢⱼ Vⱼ,   M(Qᵢ) Vᵢ = p₀ + h Σⱼ aᵢⱼ Fⱼ,   F = dp/dt at (Q, V)
 //! q₁ = q₀ + h Σⱼ bⱼ Vⱼ,    M(q₁) v₁ = p₀ + h Σⱼ bⱼ Fⱼ
 //! ```
 //!
-//! E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, 2nd ed., 2006, sections II.1.3 and VI.4. Solved by
-//! fixed-point iteration to rounding, section VIII.6.1: what an iteration leaves is not symplectic.
+//! E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, 2nd ed., 2006, sections II.1.3 and VI.4. The
+//! equations are solved by fixed-point iteration to rounding, section VIII.6.1, since the remaining error of an iteration
+//! is not symplectic.
 
 use std::vec::Vec;
 
@@ -17,7 +18,7 @@ use crate::methods::Method;
 use crate::stages::Point;
 use crate::{InputLaw, StepError, System, Vector};
 
-/// Room for the stages.
+/// Memory for the stages.
 #[derive(Clone, Debug)]
 pub(crate) struct Gauss<V, M> {
     canonical: Canonical<V, M>,
@@ -49,7 +50,7 @@ impl<V: Vector, M: Vector> Gauss<V, M> {
 }
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
-    /// Takes a step of length `h` from `before`, to `now`.
+    /// Takes a step of length `h` from `before` to `now`.
     pub(super) fn attempt_by_gauss(&mut self, h: f64, last: bool) -> Result<(), StepError> {
         let Self {
             method,
@@ -112,7 +113,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 canonical
                     .go_to(model.system.get(), time(i + 1), place)
                     .map_err(singular)?;
-                // The residual of the equation of this stage, and the change of its rates that follows from it.
+                // The residual of the equation of this stage, and the resulting change of its rates.
                 scratch.clone_from(momenta);
                 for (j, p) in scratch.as_mut_slice().iter_mut().enumerate() {
                     *p += h * weighted(&tableau.a[i + 1][1..], forces, j);
@@ -168,7 +169,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     }
 }
 
-/// `Σᵢ wᵢ xᵢ` of a coordinate.
+/// `Σᵢ wᵢ xᵢ` for one coordinate.
 fn weighted<V: Vector>(weights: &[f64], stages: &[V], coordinate: usize) -> f64 {
     let pairs = weights.iter().zip(stages);
     pairs

@@ -1,13 +1,13 @@
-//! A step of the generalized-α method,
+//! Steps of the generalized-α method,
 //!
 //! ```text
 //! q₁ = q₀ + h v₀ + h² ((½ − β) α₀ + β α₁),   v₁ = v₀ + h ((1 − γ) α₀ + γ α₁)
 //! (1 − αₘ) α₁ + αₘ α₀ = (1 − α_f) a(q₁, v₁) + α_f a(q₀, v₀)
 //! ```
 //!
-//! with the parameters of Chung and Hulbert for `ρ∞`: `αₘ = (2 ρ − 1)/(ρ + 1)`, `α_f = ρ/(ρ + 1)`, `γ = ½ − αₘ + α_f`, `β = ¼ (1 − αₘ +
-//! α_f)²`. `α` is an acceleration of the method's own, which begins as that of the machine. The unknown is `a(q₁, v₁)`, by Newton's
-//! method with derivatives by differences.
+//! with the parameters of Chung and Hulbert for `ρ∞`: `αₘ = (2 ρ − 1)/(ρ + 1)`, `α_f = ρ/(ρ + 1)`, `γ = ½ − αₘ + α_f`,
+//! `β = ¼ (1 − αₘ + α_f)²`. `α` is an auxiliary acceleration, which initially equals that of the machine. The unknown `a(q₁, v₁)` is
+//! found by Newton's method with a finite-difference Jacobian.
 
 use std::vec::Vec;
 
@@ -18,27 +18,27 @@ use crate::implicit::lu::Lu;
 use crate::methods::MAX_STAGES;
 use crate::{InputLaw, StepError, System, Vector};
 
-/// Newton's method has converged by then, or the step is too long for it.
+/// The number of iterations within which Newton's method converges; otherwise the step is too long.
 const ROUNDS: usize = 12;
 
-/// What it leaves, relative to what is tolerable in a number.
+/// Error left by Newton's method, relative to the tolerance.
 const LEFT: f64 = 0.01;
 
-/// Roundoff that it leaves, in units of the last place.
+/// Round-off left by Newton's method, in units of the last place.
 const ROUNDOFF: f64 = 8.0;
 
-/// A round that leaves more of the change than this comes no closer.
+/// An iteration that leaves more than this fraction of the change stagnates.
 const STANDS: f64 = 0.5;
 
-/// What the method remembers from step to step.
+/// State that the method keeps from step to step.
 #[derive(Clone, Debug)]
 pub(crate) struct GeneralizedAlpha {
     weights: Weights,
     jacobian: Jacobian,
     matrix: Lu<f64>,
-    /// The step for which the matrix is; 0 for none.
+    /// The step length of the matrix; 0 if there is none.
     factored: f64,
-    /// `α` at the end of the last step and at its beginning; empty where it is the acceleration of the machine.
+    /// `α` at the end of the last step and at its beginning; empty if it equals the acceleration of the machine.
     alpha: [Vec<f64>; 2],
     change: Vec<f64>,
 }
@@ -82,14 +82,14 @@ impl GeneralizedAlpha {
         self.alpha[0].clear();
     }
 
-    /// The acceleration of the method at the end of a step in which the machine goes from acceleration `from` to `to`.
+    /// `α` at the end of a step in which the acceleration of the machine changes from `from` to `to`.
     fn ahead(&self, i: usize, from: f64, to: f64) -> f64 {
         let Weights { inertia, force, .. } = self.weights;
         let sum = (1.0 - force) * to + force * from - inertia * self.alpha[1][i];
         sum / (1.0 - inertia)
     }
 
-    /// By what factors an acceleration at the end changes the position and the rate there.
+    /// The factors by which an acceleration at the end changes the position and the rate there.
     fn factors(&self, h: f64) -> [f64; 2] {
         let Weights {
             inertia,
@@ -101,7 +101,7 @@ impl GeneralizedAlpha {
         [h * h * beta * share, h * gamma * share]
     }
 
-    /// Makes the matrix `I − h γ' ∂a/∂v − h² β' ∂a/∂q`. Says whether it can be inverted.
+    /// Factorizes the matrix `I − h γ' ∂a/∂v − h² β' ∂a/∂q`. Returns whether it is invertible.
     fn factor(&mut self, h: f64) -> bool {
         let n = self.change.len();
         let [by_position, by_rate] = self.factors(h);
@@ -117,7 +117,7 @@ impl GeneralizedAlpha {
 }
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
-    /// Takes a step of length `h` from `before`, to `now`.
+    /// Takes a step of length `h` from `before` to `now`.
     pub(super) fn attempt_by_alpha(&mut self, h: f64, last: bool) -> Result<(), StepError> {
         let Some(Fixed::GeneralizedAlpha(alpha)) = self.fixed.as_deref_mut() else {
             return Ok(());
@@ -127,7 +127,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             now.extend_from_slice(self.k[0].as_slice());
         }
         before.clone_from(now);
-        // Old derivatives serve as long as Newton's method converges with them.
+        // An old Jacobian is used as long as Newton's method converges with it.
         let is_fresh = alpha.factored != h;
         let mut solved = !is_fresh && self.newton_of_alpha(h)?;
         if !solved {
@@ -190,13 +190,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         check_finite(now)?;
         model.set_inputs(now.t, &now.q, &now.v);
         model.project(now)?;
-        // The acceleration is the one that was solved for: an evaluation would show roundoff of the state times the stiffness of
-        // the machine.
+        // The acceleration is the solution of the iteration, since an evaluation would amplify the round-off of the state by the
+        // stiffness of the machine.
         model.take_rates(quadratures, stages, (now.t, &now.q, &now.v, &k[stages]));
         self.take_rates_in_middle(h)
     }
 
-    /// Solves for the acceleration at the end of a step, to `k` behind the stages. Says whether it is found.
+    /// Solves for the acceleration at the end of a step, in `k` after the stages. Returns whether it was found.
     fn newton_of_alpha(&mut self, h: f64) -> Result<bool, StepError> {
         let Self {
             method,
@@ -246,7 +246,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                     let tolerable = LEFT * (absolute + tolerance.relative * y.abs());
                     let least = tolerable.max(ROUNDOFF * f64::EPSILON * y.abs());
                     let ratio = by.abs() / least;
-                    // What is no number must not pass for none.
+                    // NaN must not count as zero.
                     size = if ratio > size || ratio.is_nan() {
                         ratio
                     } else {
@@ -271,7 +271,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
 }
 
 impl GeneralizedAlpha {
-    /// By how much a position and its rate change in a step that ends with `ahead`.
+    /// The changes of a position and its rate in a step that ends with `ahead`.
     fn rises(&self, i: usize, h: f64, rate: f64, ahead: f64) -> [f64; 2] {
         let Weights { beta, gamma, .. } = self.weights;
         let behind = self.alpha[1][i];

@@ -1,4 +1,4 @@
-//! A step of Rattle: the method of Störmer and Verlet in momenta, with constraints of positions,
+//! Steps of RATTLE: the Störmer–Verlet method in momenta, with constraints of positions,
 //!
 //! ```text
 //! p½ = p₀ + h/2 (F(q₀, v₀*) + G(q₀)ᵀ λ),   v₀* = M(q₀)⁻¹ p½
@@ -6,8 +6,8 @@
 //! p₁ = p½ + h/2 (F(q₁, v₁*) + G(q₁)ᵀ μ),   G(q₁) M(q₁)⁻¹ p₁ + ∂g/∂t = 0
 //! ```
 //!
-//! E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, 2nd ed., 2006, section VII.1.4, eq. (1.26); `F` is dp/dt without
-//! constraints.
+//! E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, 2nd ed., 2006, section VII.1.4, eq. (1.26). `F` is dp/dt
+//! without the forces of constraints.
 
 use std::vec::Vec;
 
@@ -19,10 +19,10 @@ use crate::constraints::algebra::{backward, cholesky, forward};
 use crate::stages::Point;
 use crate::{InputLaw, StepError, System, Vector};
 
-/// Room for both ends of a step.
+/// Memory for both ends of a step.
 #[derive(Clone, Debug)]
 pub(crate) struct Rattle<V, M> {
-    /// At the beginning and at the end.
+    /// The mass matrices and forces at the beginning and at the end.
     ends: [Canonical<V, M>; 2],
     /// `v₀*` and `v₁*`.
     rates: [V; 2],
@@ -40,7 +40,7 @@ struct Held {
     rows: [Vec<f64>; 2],
     /// `G M⁻¹` at the beginning, then at the end.
     by_force: Vec<f64>,
-    /// `G(q₁) M⁻¹ Gᵀ`, symmetric but for the change of `G` in a step, and its factor.
+    /// `G(q₁) M⁻¹ Gᵀ`, symmetric except for the change of `G` in a step, and its factor.
     matrix: Vec<f64>,
     shares: Vec<f64>,
     multipliers: Vec<f64>,
@@ -88,7 +88,7 @@ impl Held {
         self.multipliers.is_empty()
     }
 
-    /// Finds the factor of `scale G M⁻¹ Gᵀ` at one end. Says whether there is one.
+    /// Factorizes `scale G M⁻¹ Gᵀ` at one end. Returns whether it is invertible.
     fn factor<V: Vector, M: Vector>(
         &mut self,
         end: usize,
@@ -111,13 +111,13 @@ impl Held {
         cholesky(&mut self.matrix, &mut self.shares).is_ok()
     }
 
-    /// What multipliers make the residuals vanish, to `residuals`.
+    /// Computes the multipliers that make the residuals vanish, in `residuals`.
     fn solve(&mut self) {
         forward(&self.matrix, &mut self.residuals);
         backward(&self.matrix, &mut self.residuals);
     }
 
-    /// Adds `scale Gᵀ x` of one end to `p`.
+    /// Adds `scale Gᵀ x` at one end to `p`.
     fn add_forces<V: Vector>(&self, end: usize, scale: f64, of: &[f64], p: &mut V) {
         let p = p.as_mut_slice();
         for (row, x) in self.rows[end].chunks_exact(p.len()).zip(of) {
@@ -129,7 +129,7 @@ impl Held {
 }
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
-    /// Takes a step of length `h` from `before`, to `now`.
+    /// Takes a step of length `h` from `before` to `now`.
     pub(super) fn attempt_by_rattle(&mut self, h: f64, last: bool) -> Result<(), StepError> {
         let Self {
             model,
@@ -176,7 +176,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             }
             held.multipliers.fill(0.0);
         }
-        // What rounding makes of the constraints is a change of the rates too, however slow these are: from rest they are all there is.
+        // Round-off in the constraints changes the rates too, however slow they are; from rest it is their only change.
         let mut rounding = 0.0;
         if !held.is_empty() {
             scratch.as_mut_slice().fill(0.0);
@@ -201,7 +201,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             held.add_forces(0, half, &held.multipliers, half_way);
             let mut change = 0.0;
             let mut size = dot(half_way, here).abs();
-            // By how much that changes the rates at the beginning, then those at the end.
+            // The resulting change of the rates at the beginning, then of those at the end.
             improve(start, half_way, here, scratch, &mut change);
             for j in 0..n {
                 let rates = here.as_slice()[j] + there.as_slice()[j];
@@ -217,7 +217,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 for (multiplier, residual) in held.multipliers.iter_mut().zip(&held.residuals) {
                     *multiplier -= residual;
                 }
-                // What that changes of the rates at both ends, so that the next round begins on the constraints.
+                // The resulting change of the rates at both ends, so that the next iteration begins on the constraints.
                 for (at, rates) in [(&*start, &mut *here), (&*ahead, &mut *there)] {
                     scratch.as_mut_slice().fill(0.0);
                     held.add_forces(0, -half, &held.residuals, scratch);
@@ -272,7 +272,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     }
 }
 
-/// Makes the rates those of the momenta `p`, and adds to `change` the square of that in the metric of inertia.
+/// Sets the rates to those of the momenta `p`, and adds the square of the change in the metric of inertia to `change`.
 fn improve<V: Vector, M: Vector>(
     at: &Canonical<V, M>,
     p: &V,
