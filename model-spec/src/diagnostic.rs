@@ -1,7 +1,7 @@
-//! What is wrong with a spec, told so that a mechanic knows what to change.
+//! Diagnostics: messages about errors in a spec, which tell a mechanic what to change.
 //!
-//! A message names the smallest culprit, says what was expected and what was found, and ends with a
-//! help line. Every kind of message has a [`Code`] that stays the same from version to version.
+//! A message marks the smallest culprit, says what was expected and what was found, and ends with a
+//! help line. Every kind of message has a [`Code`] that stays the same across versions.
 
 use std::collections::BTreeSet;
 
@@ -9,9 +9,10 @@ use crate::source::{SourceId, Span};
 
 mod render;
 
-/// The most messages that one report keeps.
+/// The largest number of messages that one report keeps.
 ///
-/// Nobody reads more, and a file that is no spec at all would give one for each of its characters.
+/// Nobody reads more, and a file that is not a spec at all would give one for each of
+/// its characters.
 pub const REPORT_LIMIT: usize = 256;
 
 macro_rules! codes {
@@ -40,11 +41,11 @@ codes! {
     UnreadableFile => "unreadable-file",
 
     // Characters.
-    /// A character that no token of the language begins with.
+    /// A character with which no token begins.
     UnknownCharacter => "unknown-character",
     /// A string, a comment or a quoted character that does not end.
     Unterminated => "unterminated",
-    /// A number that is written as the language does not write numbers: `0x1F`, `1.5f32`.
+    /// A number in a notation that the language does not have: `0x1F`, `1.5f32`.
     MalformedNumber => "malformed-number",
     /// A number beyond what a floating-point number can hold.
     NumberOutOfRange => "number-out-of-range",
@@ -54,19 +55,19 @@ codes! {
     // Grammar.
     /// A bracket without its partner.
     UnbalancedBracket => "unbalanced-bracket",
-    /// One thing was expected, another was found.
+    /// A token other than the expected one.
     UnexpectedToken => "unexpected-token",
     /// Brackets or operators nested deeper than any formula.
     NestedTooDeeply => "nested-too-deeply",
-    /// There is no machine in the source.
+    /// The source contains no machine.
     NoMachine => "no-machine",
-    /// A machine that says nothing.
+    /// A machine without content.
     EmptyMachine => "empty-machine",
     /// More than one machine in one source.
     SecondMachine => "second-machine",
-    /// A machine that does not say whether it moves in the plane or in space.
+    /// A machine without `in plane` or `in space`.
     MissingSpace => "missing-space",
-    /// A part of a machine that says the same thing twice: a field, `gravity`, `in plane`.
+    /// A repeated part of a machine: a field, `gravity`, `in plane`.
     SaidTwice => "said-twice",
     /// A section that the language does not have.
     UnknownSection => "unknown-section",
@@ -84,15 +85,15 @@ codes! {
     MissingValue => "missing-value",
     /// `remove` in a machine that extends nothing.
     NothingToRemove => "nothing-to-remove",
-    /// A family where one thing is needed, or an index where none can stand.
+    /// A family where a single thing is needed, or an index where none is allowed.
     MisplacedIndex => "misplaced-index",
 
     // Variants.
     /// A file that extends itself, directly or through others.
     ExtendsItself => "extends-itself",
-    /// A longer chain of variants than anybody writes.
+    /// A chain of variants that is too long.
     ExtendsTooDeep => "extends-too-deep",
-    /// A variant that moves elsewhere than its base.
+    /// A variant in the plane with a base in space, or the other way round.
     SpaceChanged => "space-changed",
 
     // Names.
@@ -104,9 +105,9 @@ codes! {
     UnknownFunction => "unknown-function",
     /// A name that is declared twice.
     DuplicateName => "duplicate-name",
-    /// A name that means something else already, or that no Rust field can have.
+    /// A name that has another meaning already, or that is not allowed as a Rust field.
     ReservedName => "reserved-name",
-    /// A name of a machine that no Rust type can have.
+    /// A name of a machine that is not allowed as a Rust type.
     MachineName => "machine-name",
     /// A definition that needs itself.
     CircularDefinition => "circular-definition",
@@ -114,49 +115,49 @@ codes! {
     // Families.
     /// A family where one of its members is needed.
     MissingIndex => "missing-index",
-    /// An index behind a name that is no family.
+    /// An index on a name that is not a family.
     NotAFamily => "not-a-family",
-    /// An index that is no whole number.
+    /// An index that is not an integer.
     IndexNotWhole => "index-not-whole",
     /// An index that no member of the family has.
     IndexOutOfRange => "index-out-of-range",
-    /// More members, or longer formulas, than any machine has.
+    /// More members, or longer formulas, than are allowed.
     TooLarge => "too-large",
 
     // Kinds of values.
-    /// A number where a vector is needed, a frame where a number is needed.
+    /// A value of the wrong kind: a number instead of a vector, or a frame instead of a number.
     WrongKind => "wrong-kind",
     /// A vector with too few or too many components.
     WrongDimension => "wrong-dimension",
     /// A function with too few or too many arguments.
     WrongArguments => "wrong-arguments",
-    /// What exists only in the plane, in space; or the other way round.
+    /// Something that exists only in the plane, used in space, or the other way round.
     WrongSpace => "wrong-space",
     /// A body that is used as a frame without having one.
     NoFrame => "no-frame",
 
     // Units.
-    /// Two units that should be one.
+    /// Two units that should be equal.
     UnitMismatch => "unit-mismatch",
-    /// A power whose unit cannot be told.
+    /// A power whose unit cannot be determined.
     UnitOfPower => "unit-of-power",
     /// A coordinate that is not declared in an SI unit.
     UnitOfState => "unit-of-state",
 
     // Numbers.
-    /// A division by what is zero.
+    /// A division by zero.
     DivisionByZero => "division-by-zero",
-    /// A root, a logarithm or an inverse function of a number that has none.
+    /// A root, a logarithm or an inverse function outside its domain.
     OutsideDomain => "outside-domain",
     /// A mass, an inertia or a radius that is not positive.
     NotPositive => "not-positive",
     /// An assumption that never holds.
     FalseAssumption => "false-assumption",
 
-    // What may depend on what.
+    // Dependencies.
     /// A mass or an inertia that varies along the motion.
     VariableMass => "variable-mass",
-    /// A quantity that depends on what it cannot depend on here.
+    /// A quantity that depends on something that is not allowed here.
     ForbiddenDependence => "forbidden-dependence",
     /// A derivative that does not exist: of an input, of an acceleration.
     CannotDifferentiate => "cannot-differentiate",
@@ -166,9 +167,9 @@ codes! {
     // Items.
     /// An item without a field that it needs.
     MissingField => "missing-field",
-    /// Fields that do not go together.
+    /// Conflicting fields.
     ConflictingFields => "conflicting-fields",
-    /// A body of which it is not said how it turns.
+    /// A body whose orientation is not given.
     MissingRotation => "missing-rotation",
     /// A machine without a body.
     NoBodies => "no-bodies",
@@ -176,40 +177,41 @@ codes! {
     NoCoordinates => "no-coordinates",
 
     // Derivation.
-    /// What the language has and cannot be derived yet.
+    /// Something that the language has but that cannot be derived yet.
     NotSupported => "not-supported",
     /// A coordinate that moves no mass.
     NoInertia => "no-inertia",
-    /// A body that slides is not held by its guide, or by more than that.
+    /// A sliding body that its guide does not hold, or that something else holds too.
     NoGuide => "no-guide",
-    /// What moves with a guided body, and is tied to it by nothing that the spec names.
+    /// A body that moves with a guided body without being tied to it by anything that the
+    /// spec names.
     Untied => "untied",
     /// A small coordinate about whose zero an energy has no expansion.
     NoExpansion => "no-expansion",
     /// An energy or an equation that has no value anywhere.
     Undefined => "undefined",
-    /// A program that is not what Lagrange's equations say: a defect of the compiler.
+    /// A program that disagrees with Lagrange's equations: a bug of the compiler.
     Internal => "internal-error",
 
     // Warnings.
-    /// Something is declared that nothing uses.
+    /// A declaration that nothing uses.
     Unused => "unused",
-    /// An angle that is in degrees by its looks, where radians stand.
+    /// An angle that looks like degrees where radians are expected.
     LooksLikeDegrees => "looks-like-degrees",
-    /// A machine whose bodies hang, and that has no gravity.
+    /// A machine with hanging bodies and without gravity.
     NoGravity => "no-gravity",
     /// A spring that pushes away, or a damper that drives.
     NegativeCoefficient => "negative-coefficient",
-    /// Constraints that contradict each other where the machine starts.
+    /// Constraints that contradict each other at the start.
     Contradiction => "contradiction",
 }
 
-/// How much a message weighs.
+/// The severity of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
-    /// The spec is wrong, and nothing comes of it.
+    /// The spec is wrong, and no machine results.
     Error,
-    /// The spec means something, but perhaps not what was meant.
+    /// The spec is valid, but perhaps not what was intended.
     Warning,
 }
 
@@ -224,7 +226,7 @@ impl Severity {
 }
 
 impl Code {
-    /// How much messages of this kind weigh.
+    /// The severity of messages of this kind.
     pub fn severity(self) -> Severity {
         match self {
             Code::Unused
@@ -246,13 +248,13 @@ impl std::fmt::Display for Code {
 /// One message.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// What kind of mistake it is.
+    /// The kind of error.
     pub code: Code,
-    /// What is wrong: expected, found.
+    /// What is wrong: expected and found.
     pub message: String,
     /// What to change.
     pub help: Option<String>,
-    /// The smallest stretch that is wrong.
+    /// The smallest stretch of the text that is wrong.
     pub span: Span,
     /// Other places that explain it.
     pub notes: Vec<(Span, String)>,
@@ -270,31 +272,32 @@ impl Diagnostic {
         }
     }
 
-    /// With a help line.
+    /// Adds a help line.
     pub fn help(mut self, help: impl Into<String>) -> Diagnostic {
         self.help = Some(help.into());
         self
     }
 
-    /// With another place that explains it.
+    /// Adds another place that explains it.
     pub fn note(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
         self.notes.push((span, text.into()));
         self
     }
 }
 
-/// Everything that is wrong with a spec, and what it may not have meant.
+/// All errors and warnings of a spec.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
     diagnostics: Vec<Diagnostic>,
     warnings: Vec<Diagnostic>,
-    /// What was said already: the members of a family all make the same mistake in the same place.
+    /// The messages that were reported already: the members of a family all have the same error at
+    /// the same place.
     said: BTreeSet<(Span, Code, String)>,
     omitted: usize,
 }
 
 impl Report {
-    /// Nothing wrong yet.
+    /// A report without messages.
     pub fn new() -> Report {
         Report::default()
     }
@@ -319,12 +322,12 @@ impl Report {
         list.push(diagnostic);
     }
 
-    /// True as soon as something is wrong; a warning is not.
+    /// Whether there are any errors; warnings do not count.
     pub fn has_errors(&self) -> bool {
         !self.diagnostics.is_empty()
     }
 
-    /// True if a mistake of this kind was found in this text.
+    /// Whether an error of this kind was found in this text.
     pub fn has(&self, source: SourceId, code: Code) -> bool {
         let mut list = self.diagnostics.iter();
         list.any(|diagnostic| diagnostic.code == code && diagnostic.span.source == source)
@@ -335,7 +338,7 @@ impl Report {
         by_position(&self.diagnostics)
     }
 
-    /// The warnings by position. There may be some of a spec that is right.
+    /// The warnings by position. A valid spec may have some.
     pub fn warnings(&self) -> Vec<&Diagnostic> {
         by_position(&self.warnings)
     }
@@ -345,7 +348,7 @@ impl Report {
         by_position(self.diagnostics.iter().chain(&self.warnings))
     }
 
-    /// How many errors were left out because of [`REPORT_LIMIT`].
+    /// The number of errors that were omitted because of [`REPORT_LIMIT`].
     pub fn omitted(&self) -> usize {
         self.omitted
     }
@@ -357,13 +360,13 @@ fn by_position<'a>(list: impl IntoIterator<Item = &'a Diagnostic>) -> Vec<&'a Di
     list
 }
 
-/// The candidate that `name` was most likely meant to be, if one is near enough.
+/// The candidate that is most similar to `name`, if one is similar enough.
 ///
-/// Near is: the same but for case, or at most one slip in three characters, where a slip is a
-/// letter too many, too few, wrong, or two neighbours exchanged. Of equally near ones the first
-/// wins.
+/// Similar means equal except for case, or at most one slip in three characters, where a slip is a
+/// missing, extra or wrong letter, or two neighbouring letters exchanged. In case of a tie the
+/// first wins.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    /// Longer names are not compared: the work is the product of the lengths.
+    /// Longer names are not compared, since the work is the product of the lengths.
     const LONGEST: usize = 64;
     let letters: Vec<char> = name
         .chars()
@@ -385,7 +388,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
             continue;
         }
         let slips = slips(&letters, &other);
-        // One letter is one slip away from every other letter: that tells nothing.
+        // A single letter is one slip away from every other letter, which means nothing.
         let tells = slips == 0 || letters.len() > 1 || other.len() > 1;
         let better = best.is_none_or(|(least, _)| slips < least);
         if slips <= allowed && tells && better && candidate != name {

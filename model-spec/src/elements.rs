@@ -1,11 +1,11 @@
-//! The elements of the language: what may stand in a machine beside its bodies, and contributes to the
-//! equations.
+//! The elements of the language: everything in a machine besides its bodies that contributes to
+//! the equations.
 //!
-//! Each is one file with all that is known of it: how its section is written, units and stages of its
-//! fields, what it contributes, how it is called and drawn, what can be wrong with it. A new one is a
-//! file more, and a row of [`ROWS`]. The parser and the resolver are given this list and name none of
-//! it; behind them an element is what [`element`](crate::model::element) says, a few contributions that
-//! mechanics knows.
+//! Each element is one file with all knowledge about it: the syntax of its section, units and stages
+//! of its fields, its contributions, its names and drawing, its errors. A new element is one more
+//! file and a row of [`ROWS`]. The parser and the resolver receive this list and name none of its
+//! entries; after them an element is described by [`element`](crate::model::element), as a few
+//! mechanical contributions.
 
 mod actuator;
 mod bushing;
@@ -41,7 +41,7 @@ use crate::source::{Files, SourceId, Sources};
 use crate::syntax::{SectionKind, Spec};
 use crate::token::Token;
 
-/// The sections of elements, in the order in which their items are worked out and listed.
+/// The sections of elements, in the order in which their items are resolved and listed.
 const ROWS: &[Row] = &[
     rotor::ROW,
     spring::ROW,
@@ -69,7 +69,7 @@ const ROWS: &[Row] = &[
 /// All sections.
 const SECTIONS: &[SectionKind] = &sections::<{ ROWS.len() + SectionKind::OF_OTHERS.len() }>();
 
-/// Those of elements stand behind the bodies.
+/// The sections of elements come after the bodies.
 const fn sections<const COUNT: usize>() -> [SectionKind; COUNT] {
     let mut all = [SectionKind::Bodies; COUNT];
     let (mut from, mut to) = (0, 0);
@@ -90,27 +90,27 @@ const fn sections<const COUNT: usize>() -> [SectionKind; COUNT] {
 }
 
 impl SectionKind {
-    /// All sections, in the order of the reference.
+    /// All sections, in the order of the reference manual.
     pub const ALL: &[SectionKind] = SECTIONS;
 
-    /// The section that a word heads.
+    /// The section with a heading word.
     pub fn named(word: &str) -> Option<SectionKind> {
         SectionKind::named_among(SectionKind::ALL, word)
     }
 }
 
 impl Spec {
-    /// Reads the tokens of `source`. Whatever is wrong is reported, all at once.
+    /// Parses the tokens of `source`. All errors are reported at once.
     pub fn parse(tokens: &[Token], source: SourceId, report: &mut Report) -> Spec {
         Spec::read(tokens, source, SectionKind::ALL, report)
     }
 }
 
 impl<'d> Model<'d> {
-    /// Finds out what a spec means.
+    /// Resolves a spec into a model.
     ///
     /// `constants` replaces the values of constants, by name: `N = 64`. `files` is where `extends`
-    /// finds the base. There is a model only if the report has no errors.
+    /// finds the base. Returns a model only if the report has no errors.
     pub fn resolve(
         spec: Spec,
         dag: &'d Dag,
@@ -134,7 +134,7 @@ impl<'d> Model<'d> {
         )
     }
 
-    /// Resolves a spec with formulas that are to be computed beside what the spec says: further outputs, behind its own.
+    /// Resolves a spec with additional formulas as further outputs, after its own.
     pub fn resolve_with(
         spec: Spec,
         dag: &'d Dag,

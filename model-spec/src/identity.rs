@@ -1,14 +1,15 @@
-//! What is equal, and what equations do not depend on although it stands in them: tested at points of
-//! a prime field.
+//! Tests identities, and whether expressions really depend on the symbols in them, at points of a
+//! prime field.
 //!
-//! Sines and cosines cancel in ways that no local rule sees: how far a top has spun about its own
-//! axis is in the position of every particle of it and in none of its equations. So it is not
-//! looked for but tried: two expressions are evaluated at points of a prime field, where nothing is
-//! rounded. Different values prove a difference; equal values at a random point leave a chance of
-//! about the degree of the expressions over 2⁴⁸ that they differ after all (J. T. Schwartz, *Fast
-//! probabilistic algorithms for verification of polynomial identities*, J. ACM 27 (1980) 701–717).
+//! Sines and cosines cancel in ways that no local rule detects: the angle by which a top has spun
+//! about its own axis occurs in the position of each of its particles and in none of its equations.
+//! So identities are not derived but tested: two expressions are evaluated at points of a prime
+//! field, where nothing is rounded. Different values prove a difference; equal values at a random
+//! point leave a probability of about the degree of the expressions over 2⁴⁸ that they differ after
+//! all (J. T. Schwartz, *Fast probabilistic algorithms for verification of polynomial identities*,
+//! J. ACM 27 (1980) 701–717).
 //!
-//! Points are fixed, so the same machine gives the same equations.
+//! The points are fixed, so the same machine gives the same equations.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -18,22 +19,23 @@ use lagrangian_symbolic::{
     substitute,
 };
 
-/// How many points have to agree.
+/// The number of points that must agree.
 const POINTS: usize = 3;
 
-/// How many points have to agree where signs stand in an expression: a sign has two values, so that each point
-/// leaves a chance of ½.
+/// The number of points that must agree if an expression contains signs: a sign has two values, so each point
+/// leaves a probability of ½.
 const POINTS_WITH_SIGNS: usize = 64;
 
-/// How many points are tried for each one that counts: a square root exists at every second point.
+/// The number of points that are tried for each one that counts: a square root exists at every
+/// second point.
 const TRIALS: usize = 16;
 
-/// The [work](evaluation_work) that the tests of one machine may take: some seconds. What is
-/// open then stays as it is.
+/// The largest [work](evaluation_work) of the tests of one machine: some seconds. Whatever is
+/// undecided then stays as it is.
 const WORK: usize = 30_000_000;
 
-/// Whether the two are equal, as far as the prime field can tell; `None` where neither has a value
-/// at any point.
+/// Whether two expressions are equal, as far as the prime field can tell; `None` if they have no
+/// values at any point.
 pub fn equal(a: Expr<'_>, b: Expr<'_>) -> Option<bool> {
     let dag = a.dag();
     let needed = needed_points(dag, &[a, b]);
@@ -53,8 +55,8 @@ pub fn equal(a: Expr<'_>, b: Expr<'_>) -> Option<bool> {
     None
 }
 
-/// Whether an expression is zero, as far as the prime field can tell; `None` where it has a value at
-/// no point.
+/// Whether an expression is zero, as far as the prime field can tell; `None` if it has no value at
+/// any point.
 pub fn is_zero(expression: Expr<'_>) -> Option<bool> {
     if expression.is_zero() {
         Some(true)
@@ -63,9 +65,10 @@ pub fn is_zero(expression: Expr<'_>) -> Option<bool> {
     }
 }
 
-/// Writes 0 for what is zero, however it is spelled: `1 - sin(x)^2 - cos(x)^2`.
+/// Replaces expressions that are identically zero by 0, whatever their form:
+/// `1 - sin(x)^2 - cos(x)^2`.
 pub fn write_zeros<'d>(dag: &'d Dag, expressions: &mut [Expr<'d>]) {
-    // One evaluation of all leaves few to be looked at one by one.
+    // One evaluation of all leaves only a few to be tested one by one.
     let values = evaluate(dag, expressions, |symbol| random(0, symbol));
     for (expression, value) in expressions.iter_mut().zip(values) {
         let is_suspect = value == Residue::ZERO || !value.is_finite();
@@ -75,10 +78,10 @@ pub fn write_zeros<'d>(dag: &'d Dag, expressions: &mut [Expr<'d>]) {
     }
 }
 
-/// Whether one may divide by all of these: none is zero at a random point. `names` are symbols in them
-/// with what they stand for, in which there are none of these symbols.
+/// Whether all of these may be divided by: none is zero at a random point. `names` are symbols in them
+/// with their meanings, which contain none of these symbols.
 ///
-/// What has a value at no point that is tried is not known to be zero.
+/// An expression that has no value at any point tried is not known to be zero.
 pub fn are_divisors<'d>(
     dag: &'d Dag,
     divisors: &[Expr<'d>],
@@ -105,14 +108,14 @@ pub fn are_divisors<'d>(
     true
 }
 
-/// Whether an expression is a function of parameters alone, whatever else stands in it.
+/// Whether an expression is a function of parameters alone, whatever symbols occur in it.
 pub fn is_free_of_motion(expression: Expr<'_>) -> bool {
     constants(expression.dag(), &[expression])[0].is_some()
 }
 
-/// The directions that a matrix takes to zero, wherever all entries have a value: one for each of as
-/// many columns as it lacks in rank, with 1 in this column. `None` where they have a value at no point
-/// that is tried.
+/// A basis of the null space of a matrix, at a point where all entries have a value: one vector
+/// for each dependent column, with 1 in this column. `None` if the entries have no value at any
+/// point tried.
 pub fn null_space<'d>(dag: &'d Dag, rows: &[Vec<Expr<'d>>]) -> Option<Vec<Vec<Residue>>> {
     let all: Vec<Expr<'d>> = rows.iter().flatten().copied().collect();
     let width = rows.first().map_or(0, Vec::len);
@@ -134,8 +137,9 @@ fn subtract(row: &mut [Residue], factor: Residue, other: &[Residue]) {
 
 /// The sign of an expression, if it is the same everywhere: that of a number times a square.
 ///
-/// In the field a sign is the Legendre symbol, and that of `c x²` is that of `c` at every point, though
-/// it need not be the sign of the number `c`: this is seen where the expression has a real value.
+/// In the field a sign is the Legendre symbol, and that of `c x²` is that of `c` at every point. It
+/// need not be the sign of the number `c`, which is determined at a point where the expression has a
+/// real value.
 pub fn steady_sign(expression: Expr<'_>) -> Option<bool> {
     let dag = expression.dag();
     let mut signs = Vec::new();
@@ -155,7 +159,7 @@ pub fn steady_sign(expression: Expr<'_>) -> Option<bool> {
     if signs.len() < POINTS_WITH_SIGNS {
         return None;
     }
-    /// Far above any rounding.
+    /// Far above round-off.
     const CLEAR: f64 = 1e-9;
     let real =
         (0..TRIALS as u32).map(|point| evaluate(dag, &[expression], |s| number(point, s))[0]);
@@ -167,8 +171,8 @@ pub fn steady_sign(expression: Expr<'_>) -> Option<bool> {
         .then_some(positive)
 }
 
-/// Whether the last of some rows is a combination of the others, wherever all have a value. Of rows
-/// that have one nowhere it is not said.
+/// Whether the last of some rows is a linear combination of the others, wherever all have values;
+/// false if they have no values anywhere.
 pub fn is_combination<'d>(dag: &'d Dag, rows: &[Vec<Expr<'d>>]) -> bool {
     let all: Vec<Expr<'d>> = rows.iter().flatten().copied().collect();
     let width = rows.first().map_or(0, Vec::len);
@@ -192,19 +196,19 @@ pub fn is_combination<'d>(dag: &'d Dag, rows: &[Vec<Expr<'d>>]) -> bool {
     last.iter().all(|x| *x == Residue::ZERO)
 }
 
-/// An expression with nothing but parameters in it, if it is a function of them alone.
+/// The expression with only parameters in it, if it is a function of these alone.
 pub fn as_function_of_parameters(expression: Expr<'_>) -> Option<Expr<'_>> {
     let mut settled = [expression];
     settle(expression.dag(), &mut settled);
     (settled[0].stage() <= Stage::PARAMETER && !settled[0].is_undefined()).then_some(settled[0])
 }
 
-/// The symbols among `candidates` that stand in the expressions although none depends on them.
+/// The symbols among `candidates` that occur in the expressions although none depends on them.
 ///
-/// With 0 put in for these symbols all expressions keep their values.
+/// With 0 substituted for these symbols all expressions keep their values.
 pub fn cyclic<'d>(dag: &'d Dag, expressions: &[Expr<'d>], candidates: &[Symbol]) -> Vec<Symbol> {
-    // The slopes of a random combination of the expressions, all in one sweep, leave few to be
-    // tried one by one.
+    // The derivatives of a random combination of the expressions, all from one sweep, leave only a
+    // few to be tested one by one.
     let combined: Vec<_> = (1..)
         .map(|n: i64| dag.int(n * n + 7 * n + 1))
         .zip(expressions)
@@ -228,8 +232,8 @@ pub fn cyclic<'d>(dag: &'d Dag, expressions: &[Expr<'d>], candidates: &[Symbol])
     irrelevant(dag, expressions, suspects)
 }
 
-/// The symbols of a list on which none of the expressions depends: with 0 put in for them all keep
-/// their values.
+/// The symbols of a list on which none of the expressions depends: with 0 substituted for them all
+/// keep their values.
 pub fn irrelevant<'d>(
     dag: &'d Dag,
     expressions: &[Expr<'d>],
@@ -259,8 +263,8 @@ pub fn irrelevant<'d>(
     Vec::new()
 }
 
-/// The expressions with 0 put in for symbols on which they do not depend; as they were if that has
-/// no value.
+/// The expressions with 0 substituted for symbols on which they do not depend; unchanged if that
+/// has no value.
 pub fn without<'d>(dag: &'d Dag, expressions: Vec<Expr<'d>>, symbols: &[Symbol]) -> Vec<Expr<'d>> {
     let zeros: Vec<_> = symbols.iter().map(|&symbol| (symbol, dag.zero())).collect();
     let shorter = substitute(dag, &expressions, &zeros);
@@ -268,8 +272,8 @@ pub fn without<'d>(dag: &'d Dag, expressions: Vec<Expr<'d>>, symbols: &[Symbol])
     if has_value { shorter } else { expressions }
 }
 
-/// Rewrites every expression that depends on nothing but parameters such that nothing else stands
-/// in it; what is zero becomes the constant 0.
+/// Rewrites every expression that depends on parameters alone so that nothing else occurs in it;
+/// expressions that are zero become the constant 0.
 pub fn settle<'d>(dag: &'d Dag, expressions: &mut [Expr<'d>]) {
     let constants = constants(dag, expressions);
     for (expression, constant) in expressions.iter_mut().zip(constants) {
@@ -287,10 +291,10 @@ pub fn settle<'d>(dag: &'d Dag, expressions: &mut [Expr<'d>]) {
     }
 }
 
-/// For each expression that depends on nothing but parameters its value at a point; the point is
-/// the same for all.
+/// For each expression that depends on parameters alone its value at a point; the point is the same
+/// for all.
 fn constants(dag: &Dag, expressions: &[Expr<'_>]) -> Vec<Option<Residue>> {
-    // One more: the first has nothing to agree with.
+    // One more, since the first has nothing to agree with.
     let needed = needed_points(dag, expressions) + 1;
     let mut trials: Vec<Trial> = varying(dag, expressions)
         .into_iter()
@@ -321,10 +325,10 @@ fn constants(dag: &Dag, expressions: &[Expr<'_>]) -> Vec<Option<Residue>> {
     trials.into_iter().map(constant).collect()
 }
 
-/// Which expressions surely depend on more than parameters: ordinary numbers say so where the
-/// difference is large, at a hundredth of the price.
+/// The expressions that certainly depend on more than parameters: ordinary numbers show large
+/// differences, at a hundredth of the cost.
 fn varying(dag: &Dag, expressions: &[Expr<'_>]) -> Vec<bool> {
-    /// Far above any rounding.
+    /// Far above round-off.
     const CLEAR: f64 = 1e-6;
     let at = |point: u32| {
         evaluate(dag, expressions, |symbol| {
@@ -336,15 +340,15 @@ fn varying(dag: &Dag, expressions: &[Expr<'_>]) -> Vec<bool> {
     at(1).into_iter().zip(at(2)).map(differ).collect()
 }
 
-/// A number between ½ and 1½ for a symbol: fractions of multiples of √2, √3, …, which are spread
-/// evenly (H. Weyl, *Über die Gleichverteilung von Zahlen mod. Eins*, Math. Ann. 77 (1916)
-/// 313–352).
+/// A number between ½ and 1½ for a symbol: fractional parts of multiples of √2, √3, …, which are
+/// uniformly distributed (H. Weyl, *Über die Gleichverteilung von Zahlen mod. Eins*, Math. Ann. 77
+/// (1916) 313–352).
 pub fn number(point: u32, symbol: Symbol) -> f64 {
     let root = (symbol.index() as f64 + 2.0).sqrt() * std::f64::consts::E;
     0.5 + (f64::from(point + 1) * root).fract()
 }
 
-/// What is known of an expression after some points at which parameters stay the same.
+/// The knowledge about an expression after some points with the same parameters.
 #[derive(Clone, Default)]
 struct Trial {
     first: Option<Residue>,
@@ -366,7 +370,7 @@ pub fn random(seed: u64, symbol: Symbol) -> Residue {
     Residue::random(seed, symbol.index() as u64)
 }
 
-/// Parameters always the same, everything else new at every point.
+/// Keeps parameters the same, and gives everything else a new value at every point.
 fn varied(dag: &Dag, seed: u64, symbol: Symbol) -> Residue {
     let seed = if dag.stage_of(symbol) > Stage::PARAMETER {
         seed
@@ -376,7 +380,7 @@ fn varied(dag: &Dag, seed: u64, symbol: Symbol) -> Residue {
     random(seed, symbol)
 }
 
-/// How many points prove something about the expressions.
+/// The number of points that prove something about the expressions.
 fn needed_points(dag: &Dag, expressions: &[Expr<'_>]) -> usize {
     use Function::{Abs, Max, Min, Sign};
     let is_sign = |id| matches!(dag.node(id), Node::Function(Abs | Max | Min | Sign, _));

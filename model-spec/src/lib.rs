@@ -1,11 +1,11 @@
-//! The compiler: from the text of a machine to its equations, its program, and code.
+//! The front end of the compiler: parses the text of a machine and resolves it into a [`Model`].
 //!
 //! ```text
 //! text or tokens ─▶ Spec ─▶ Model ─▶ Equations ─▶ Program ─▶ Rust, Markdown, LaTeX, C, numbers
 //! ```
 //!
-//! Each stage is a plain value: print it, compare it, test it alone. A stage reads the one before
-//! it and never edits it; whatever is wrong with a spec goes into one [`Report`].
+//! Each stage is a plain value that can be printed, compared and tested alone. A stage reads the
+//! one before it and never edits it; every error in a spec is collected in one [`Report`].
 
 pub mod diagnostic;
 mod elements;
@@ -24,19 +24,19 @@ use model::Model;
 use source::{Files, Sources};
 use syntax::Spec;
 
-/// What a text says: its tokens, and the tree that they make.
+/// Lexes and parses a text into its syntax tree.
 ///
-/// `name` is what messages call the text, and what the path of an `extends` in it is relative to.
+/// Messages refer to the text as `name`, and the path of an `extends` in it is relative to `name`.
 pub fn parse(sources: &mut Sources, name: &str, text: &str, report: &mut Report) -> Spec {
     let source = sources.add(name, text);
     let tokens = token::lex(source, text, report);
     Spec::parse(&tokens, source, report)
 }
 
-/// What a text means: [`parse`], then [`Model::resolve`].
+/// Reads a text into a model: [`parse`], then [`Model::resolve`].
 ///
-/// `constants` replaces the values of constants, by name. There is a model only if nothing is wrong
-/// with the spec; the report says what is.
+/// `constants` replaces the values of constants, by name. Returns a model only if the spec has no
+/// errors; the report lists them.
 ///
 /// ```
 /// use lagrangian_spec::{diagnostic::Report, source::{InMemory, Sources}};

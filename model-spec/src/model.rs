@@ -1,15 +1,15 @@
-//! What a machine is: names found, units agreed, families unrolled, variants merged.
+//! The meaning of a spec: names resolved, units checked, families unrolled, variants merged.
 //!
-//! A [`Model`] says nothing about how it was written (no tokens, only spans for messages) and
-//! nothing about equations. Its expressions live in one [`Dag`]. What holds here:
+//! A [`Model`] keeps no syntax (no tokens, and spans only for messages) and no equations. Its
+//! expressions live in one [`Dag`]. Invariants:
 //!
-//! * every expression is defined over symbols of this model, and its unit is the one its place
-//!   demands;
-//! * stages are what [`stage`] says: a mass is no later than [`stage::PARAMETER`], a position no
-//!   later than [`stage::POSITION`], and so on for every field, as its docs say;
+//! * every expression is defined over symbols of this model, and its unit is the one that its
+//!   field requires;
+//! * stages obey [`stage`]: a mass is no later than [`stage::PARAMETER`], a position no later than
+//!   [`stage::POSITION`], and so on for every field, as its docs say;
 //! * a pose comes after its parent in [`Model::poses`]; pose 0 is the ground;
-//! * vectors and points have two components in the plane and three in space, along the ground's
-//!   axes.
+//! * vectors and points have two components in the plane and three in space, along the
+//!   ground's axes.
 
 use lagrangian_symbolic::{Dag, Expr};
 
@@ -33,11 +33,11 @@ use element::Element;
 use polygons::Corner;
 use quaternion::Quaternion;
 
-/// When a value becomes known: the order in which work can be done once and kept.
+/// When a value becomes known. Values of earlier stages can be computed once and reused.
 pub mod stage {
     use lagrangian_symbolic::Stage;
 
-    /// Known when the machine is derived.
+    /// Known when the equations are derived.
     pub const CONSTANT: Stage = Stage(0);
     /// Known when a run starts.
     pub const PARAMETER: Stage = Stage(1);
@@ -53,10 +53,10 @@ pub mod stage {
     pub const ACCELERATION: Stage = Stage(6);
 }
 
-/// A machine: what it is, not what its equations are.
+/// A machine as the spec describes it, without its equations.
 #[derive(Clone)]
 pub struct Model<'d> {
-    /// Where its expressions live.
+    /// The graph that its expressions live in.
     pub dag: &'d Dag,
     /// The machine's name, a Rust type name.
     pub name: String,
@@ -70,58 +70,60 @@ pub struct Model<'d> {
     pub time: Expr<'d>,
     /// Run-time parameters, in the order of their declaration.
     pub parameters: Vec<Parameter<'d>>,
-    /// Parameters that follow from others, in the order of their declaration; expressions hold their formulas already.
+    /// Parameters that follow from others, in the order of their declaration; their formulas are already substituted
+    /// into the expressions.
     pub derived_parameters: Vec<DerivedParameter<'d>>,
-    /// Compile-time constants; expressions hold their values already.
+    /// Compile-time constants; their values are already substituted into the expressions.
     pub constants: Vec<Constant<'d>>,
-    /// Generalized coordinates, in the order of `q`: those of the spec, then the integrals of its states of
-    /// first order.
+    /// Generalized coordinates, in the order of `q`: those of the spec, then the time integrals of its
+    /// first-order states.
     pub coordinates: Vec<Coordinate<'d>>,
     /// Values that the user sets while the machine runs.
     pub inputs: Vec<Input<'d>>,
-    /// Facts that the simplifier may use and a run checks.
+    /// Facts that the simplifier may use and that a run checks.
     pub assumptions: Vec<Assumption<'d>>,
     /// Every pose that a frame or body is built from, parents first.
     pub poses: Vec<Pose<'d>>,
-    /// The fours of coordinates by which frames are turned, each once; no coordinate is in two of them.
+    /// The quaternions that turn frames, each once; no coordinate belongs to two of them.
     pub quaternions: Vec<Quaternion<'d>>,
     /// Named frames of reference.
     pub frames: Vec<Frame>,
-    /// Rigid bodies and particles, and behind them what `rotors` says: bodies without mass that turn by an angle.
+    /// Rigid bodies and particles, followed by the rotors of `rotors`: bodies without mass that turn by an angle.
     pub bodies: Vec<Body<'d>>,
-    /// Whatever contributes to the equations beside the inertia of the bodies: springs, gravity, forces,
-    /// constraints, section by section.
+    /// Everything that contributes to the equations besides the inertia of the bodies: springs, gravity,
+    /// forces, constraints, section by section.
     pub elements: Vec<Element<'d>>,
-    /// This machine with every guide of `sliding` relaxed: what the guided body is built on can
-    /// move off, by two coordinates for each guide behind all others. It tells what holds the guides
-    /// shut. None where nothing slides.
+    /// This machine with every guide of `sliding` relaxed: a guided body, with everything built on
+    /// its frame, can move off by extra coordinates, two for each guide in the plane and three in
+    /// space, appended to the others. The equations of these coordinates give the normal reactions.
+    /// None if nothing slides.
     pub relaxed: Option<Box<Model<'d>>>,
-    /// Circles that can touch, or in space spheres.
+    /// Circles (in space spheres) that can touch.
     pub circles: Vec<Circle<'d>>,
     /// Unilateral contacts.
     pub contacts: Vec<Contact<'d>>,
-    /// Coordinates that are not treated exactly.
+    /// Coordinates that are approximated.
     pub approximations: Vec<Approximation>,
     /// Quantities to observe.
     pub outputs: Vec<Output<'d>>,
-    /// What the accelerations are to be differentiated by, each once, in the order of
-    /// [`Variable`].
+    /// The variables by which the accelerations are to be differentiated, each once, in the order
+    /// of [`Variable`].
     pub derivatives: Vec<Variable>,
-    /// Which stages of the accelerations are to be computed by themselves.
+    /// The stages of the accelerations that are to be computed by functions of their own.
     pub stages: Stages,
-    /// Where emitted code is asked to have the Taylor series of the motion, if it is.
+    /// Where the spec asks for emitted code with the Taylor series of the motion, if it does.
     pub taylor: Option<Span>,
-    /// Which start values stay as they are where the start does not obey the constraints:
-    /// coordinates and rates, each once.
+    /// The start values, coordinates and rates, that are kept when a start that violates the
+    /// constraints is corrected; each once.
     pub kept: Vec<Variable>,
-    /// Where the fastest motion ends, by coordinates; may depend on parameters. Empty where nobody
-    /// says it.
+    /// The end of the fastest motion, in coordinates; may depend on parameters. Empty if the spec
+    /// gives none.
     pub destination: Vec<Expr<'d>>,
-    /// Equations that somebody printed.
+    /// Published equations to compare with.
     pub published: Vec<Published<'d>>,
-    /// What masses, coefficients and the like must obey.
+    /// Bounds that masses, coefficients and similar values must obey.
     pub bounds: Vec<Bound<'d>>,
-    /// The headings of the sections that the machine and its bases have, where each is said first.
+    /// The section headings of the machine and its bases, each where it occurs first.
     pub sections: Vec<(SectionKind, Span)>,
 }
 
@@ -136,14 +138,14 @@ impl<'d> Model<'d> {
 }
 
 impl Model<'_> {
-    /// Where a section begins, for what is to be said about all of it.
+    /// The heading of a section, for messages about the section as a whole.
     pub fn section(&self, kind: SectionKind) -> Option<Span> {
         let found = self.sections.iter().find(|(section, _)| *section == kind);
         found.map(|(_, span)| *span)
     }
 }
 
-/// Where the machine lives.
+/// Whether the machine moves in the plane or in space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Space {
     /// Two dimensions; rotations are angles.
@@ -161,8 +163,8 @@ impl Space {
         }
     }
 
-    /// How many components the normal reaction of a guide has. In the plane it has one, along the normal; in space a guide
-    /// presses in any direction across, and its reaction is a vector in ground axes.
+    /// The number of components of the normal reaction of a guide. In the plane it is one, along the normal; in space a
+    /// guide can press in any direction across itself, and its reaction is a vector in ground axes.
     pub fn reaction_axes(self) -> usize {
         match self {
             Space::Plane => 1,
@@ -201,13 +203,13 @@ pub struct DerivedParameter<'d> {
     pub unit: Unit,
     /// Its unit as the spec writes it: `N/m` and `rad`, which are `kg/s^2` and `1` to [`Unit`].
     pub unit_text: String,
-    /// Its value in that unit, of parameters.
+    /// Its value in that unit, a function of parameters.
     pub value: Expr<'d>,
     /// Its name in the spec.
     pub span: Span,
 }
 
-/// A value folded in when the machine is derived.
+/// A value that is substituted when the equations are derived.
 #[derive(Clone)]
 pub struct Constant<'d> {
     /// Its name.
@@ -235,14 +237,15 @@ pub struct Coordinate<'d> {
     pub unit: Unit,
     /// Its unit as the spec writes it: `N/m` and `rad`, which are `kg/s^2` and `1` to [`Unit`].
     pub unit_text: String,
-    /// Where it starts; may depend on parameters.
+    /// Its start value; may depend on parameters.
     pub start: Expr<'d>,
-    /// Its rate there, 0 where the spec gives none; may depend on parameters.
+    /// Its rate at the start, 0 if the spec gives none; may depend on parameters.
     pub start_rate: Expr<'d>,
-    /// None of a coordinate. A state of first order `s` is the rate of a coordinate that nothing depends
-    /// on, its integral over time; then this is `ds/dt`, of states, coordinates, rates, inputs and time.
+    /// `None` for a coordinate. A first-order state `s` is the rate of a coordinate on which nothing
+    /// depends, its integral over time; `rate` is then `ds/dt`, a function of states, coordinates,
+    /// rates, inputs and time.
     pub rate: Option<Expr<'d>>,
-    /// Its symbol, that of its velocity, and that of its acceleration.
+    /// The symbol of the coordinate.
     pub q: Expr<'d>,
     /// The symbol of its velocity.
     pub v: Expr<'d>,
@@ -263,7 +266,7 @@ pub struct Input<'d> {
     pub unit: Unit,
     /// Its unit as the spec writes it: `N/m` and `rad`, which are `kg/s^2` and `1` to [`Unit`].
     pub unit_text: String,
-    /// Its value where nobody sets it, a constant; 0 where the spec gives none.
+    /// Its value if the user does not set it, a constant; 0 if the spec gives none.
     pub default: Expr<'d>,
     /// Its symbol.
     pub symbol: Expr<'d>,
@@ -271,12 +274,12 @@ pub struct Input<'d> {
     pub span: Span,
 }
 
-/// A fact: `excess > 0`, or `excess ≥ 0`.
+/// An assumption: `excess > 0`, or `excess ≥ 0`.
 #[derive(Clone)]
 pub struct Assumption<'d> {
     /// As the spec writes it.
     pub text: String,
-    /// The greater side less the smaller.
+    /// The greater side minus the smaller.
     pub excess: Expr<'d>,
     /// Whether 0 is excluded.
     pub strict: bool,
@@ -289,7 +292,7 @@ pub struct Assumption<'d> {
 pub struct PoseId(pub u32);
 
 impl PoseId {
-    /// The ground: origin 0, the ground's axes.
+    /// The ground: its origin is 0, its axes are the ground axes.
     pub const GROUND: PoseId = PoseId(0);
 
     /// Its place in [`Model::poses`].
@@ -298,12 +301,12 @@ impl PoseId {
     }
 }
 
-/// Where a frame is and how it is turned, and how it got there from its parent.
+/// Position and orientation of a frame, and the step that leads to it from its parent.
 #[derive(Clone)]
 pub struct Pose<'d> {
-    /// What it was made from; the ground is its own parent.
+    /// The pose that it was made from; the ground is its own parent.
     pub parent: PoseId,
-    /// What was done to the parent.
+    /// The step from the parent to this pose.
     pub step: Step<'d>,
     /// Its origin, in ground axes.
     pub origin: Vec<Expr<'d>>,
@@ -316,9 +319,9 @@ pub struct Pose<'d> {
 /// How a pose differs from its parent.
 #[derive(Clone)]
 pub enum Step<'d> {
-    /// Not at all: the ground.
+    /// No difference: the ground.
     Ground,
-    /// The origin moves along the parent's axes.
+    /// A shift of the origin, in the parent's axes.
     Shift(Vec<Expr<'d>>),
     /// A turn about an axis (0, 1, 2 for x, y, z) of the frame itself; in the plane always 2.
     Turn {
@@ -327,7 +330,7 @@ pub enum Step<'d> {
         /// The angle.
         angle: Expr<'d>,
     },
-    /// A turn by four coordinates, in space: see [`quaternion`].
+    /// A rotation by the four coordinates of a quaternion, in space: see [`quaternion`].
     Quaternion([Expr<'d>; 4]),
 }
 
@@ -338,7 +341,7 @@ pub struct Frame {
     pub name: Name,
     /// What the spec says about it.
     pub docs: String,
-    /// Where it is.
+    /// Its pose.
     pub pose: PoseId,
     /// Its name in the spec.
     pub span: Span,
@@ -357,21 +360,21 @@ pub struct Body<'d> {
     pub inertia: Inertia<'d>,
     /// Its mass centre.
     pub at: Vec<Expr<'d>>,
-    /// The mass centre along the axes of a frame, where the spec gives it so: `arm.point(0, 0,
-    /// l/2)`, or the frame's origin. In space the motion is shorter that way.
+    /// The mass centre in the axes of a frame, if the spec gives it so: `arm.point(0, 0, l/2)`, or
+    /// the origin of the frame. In space this form gives shorter equations of motion.
     pub local: Option<Local<'d>>,
-    /// How it is turned.
+    /// Its orientation.
     pub rotation: Rotation<'d>,
-    /// The corners of a polygon that is drawn for it, in their order, along the axes of its frame, or from its mass centre
-    /// along its own axes; none where nothing is said of its shape.
+    /// The corners of the polygon that is drawn for it, in order, in the axes of its frame, or in its own axes from its
+    /// mass centre; empty if the spec gives no outline.
     pub outline: Vec<Vec<Expr<'d>>>,
     /// Its name in the spec.
     pub span: Span,
-    /// What the spec says of where it is: `at`, or `frame` where that is all.
+    /// The field that places it: `at`, or `frame` if that is the only one.
     pub place: Span,
 }
 
-/// A point along the axes of a frame.
+/// A point in the axes of a frame.
 #[derive(Clone, Debug)]
 pub struct Local<'d> {
     /// The frame.
@@ -383,7 +386,7 @@ pub struct Local<'d> {
 /// Inertia about the mass centre.
 #[derive(Clone)]
 pub enum Inertia<'d> {
-    /// None: rotation carries no energy.
+    /// None: rotation carries no kinetic energy.
     Particle,
     /// In the plane.
     Planar(Expr<'d>),
@@ -392,18 +395,18 @@ pub enum Inertia<'d> {
     Tensor([Expr<'d>; 6]),
 }
 
-/// How a body is turned.
+/// Orientation of a body.
 #[derive(Clone, Copy)]
 pub enum Rotation<'d> {
-    /// The spec does not say; fine for a particle.
+    /// Not given; allowed for a particle.
     Unspecified,
     /// By an angle from the ground, in the plane.
     Angle(Expr<'d>),
-    /// As a frame is.
+    /// The same as a frame.
     Frame(PoseId),
 }
 
-/// What a body slides on, a circle sits on, or a force acts on.
+/// A frame or body: what a body slides on, what a circle is fixed to, or what a force acts on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// A frame of reference.
@@ -439,15 +442,16 @@ pub struct Touching {
 /// What a circle touches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Surface {
-    /// Another circle, by its index, in which it is.
+    /// The inside of another circle, by its index.
     Inside(usize),
-    /// Another circle, by its index, out of which it is.
+    /// The outside of another circle, by its index.
     Outside(usize),
-    /// The first axis of a frame, on the side of the second; in space the plane of its first two axes, on the side of the third.
+    /// The first axis of a frame, with the circle on the side of the second; in space the plane of its first two axes, with the
+    /// sphere on the side of the third.
     Along(PoseId),
 }
 
-/// The most unilateral contacts of a machine.
+/// The largest number of unilateral contacts of a machine.
 pub const MOST_UNILATERAL: usize = 250;
 
 /// A unilateral contact: gap ≥ 0.
@@ -455,22 +459,22 @@ pub const MOST_UNILATERAL: usize = 250;
 pub struct Contact<'d> {
     /// Its name.
     pub name: Name,
-    /// Which circles, or the gap and the slip velocity in terms of coordinates.
+    /// The two surfaces, or the gap and the slip velocity as expressions in coordinates.
     pub geometry: ContactGeometry<'d>,
-    /// What it does where its gap closes.
+    /// Its response when the gap closes.
     pub response: Response<'d>,
-    /// Coefficient of friction; none where there is no friction at all.
+    /// Coefficient of friction; none if the contact is frictionless.
     pub friction: Option<Expr<'d>>,
-    /// Coefficient of friction of what sticks, where it is another.
+    /// Coefficient of static friction, if it differs.
     pub static_friction: Option<Expr<'d>>,
-    /// Coefficient of rolling resistance, a length in m; none where nothing resists rolling.
+    /// Coefficient of rolling resistance, a length in m; none if nothing resists rolling.
     pub rolling_resistance: Option<Expr<'d>>,
     /// Its name in the spec.
     pub span: Span,
 }
 
 impl Contact<'_> {
-    /// Whether friction acts along two tangents, in space.
+    /// Whether friction acts along two tangents, as in space.
     pub fn slips_across(&self, space: Space) -> bool {
         let has_two = match &self.geometry {
             ContactGeometry::Circles(_) | ContactGeometry::Point { .. } => space == Space::Space,
@@ -481,31 +485,32 @@ impl Contact<'_> {
     }
 }
 
-/// What a contact does where its gap closes.
+/// The response of a contact when its gap closes.
 #[derive(Clone, Copy)]
 pub enum Response<'d> {
-    /// The gap stays ≥ 0: there is an impact.
+    /// Rigid: the gap stays ≥ 0, so there is an impact.
     Rigid {
-        /// How it bounces.
+        /// The impact law.
         law: ImpactLaw,
-        /// Whether with the others or one after the other.
+        /// Whether simultaneous impacts are solved together or one after the other.
         order: ImpactOrder,
-        /// What becomes of it where its friction leaves no motion.
+        /// What happens if friction leaves no consistent motion (Painlevé's paradox).
         painleve: Painleve,
-        /// Coefficients of restitution along the normal and along the tangent, 0 there where nothing is said.
+        /// Coefficients of restitution along the normal and along the tangent; the latter is 0 if it is
+        /// not given.
         restitution: [Expr<'d>; 2],
     },
-    /// It yields, and presses by a law of force.
+    /// Compliant: the contact deforms and presses by a force law.
     Compliant {
-        /// The law.
+        /// The force law.
         law: Compliance,
-        /// Its parameters, in SI units; 0 where it has but one.
+        /// Its parameters, in SI units; the second is 0 if it has only one.
         parameters: [Expr<'d>; 2],
     },
 }
 
 impl<'d> Response<'d> {
-    /// Its two numbers: coefficients of restitution, or parameters of a law of force.
+    /// The two numbers of the response: coefficients of restitution, or parameters of a force law.
     pub fn coefficients(self) -> [Expr<'d>; 2] {
         match self {
             Response::Rigid { restitution, .. } => restitution,
@@ -513,7 +518,7 @@ impl<'d> Response<'d> {
         }
     }
 
-    /// How it bounces, if it does.
+    /// The impact law, if the contact is rigid.
     pub fn impact_law(self) -> Option<ImpactLaw> {
         match self {
             Response::Rigid { law, .. } => Some(law),
@@ -521,7 +526,7 @@ impl<'d> Response<'d> {
         }
     }
 
-    /// In which order it bounces with others, if it does.
+    /// The order of simultaneous impacts, if the contact is rigid.
     pub fn order(self) -> Option<ImpactOrder> {
         match self {
             Response::Rigid { order, .. } => Some(order),
@@ -529,7 +534,7 @@ impl<'d> Response<'d> {
         }
     }
 
-    /// What becomes of it where its friction leaves no motion.
+    /// What happens if friction leaves no consistent motion (Painlevé's paradox).
     pub fn painleve(self) -> Painleve {
         match self {
             Response::Rigid { painleve, .. } => painleve,
@@ -537,7 +542,7 @@ impl<'d> Response<'d> {
         }
     }
 
-    /// By which law it presses, if it yields.
+    /// The force law, if the contact is compliant.
     pub fn compliance(self) -> Option<Compliance> {
         match self {
             Response::Rigid { .. } => None,
@@ -546,21 +551,21 @@ impl<'d> Response<'d> {
     }
 }
 
-/// How a contact is given.
+/// How the geometry of a contact is given.
 #[derive(Clone)]
 pub enum ContactGeometry<'d> {
-    /// By two circles.
+    /// Two circles.
     Circles(Touching),
-    /// By a point, which is a circle of no radius, and what it touches.
+    /// A point, which is a circle of radius 0, and the surface that it touches.
     Point {
         /// The point.
         point: Circle<'d>,
-        /// What it touches.
+        /// The surface that it touches.
         surface: Surface,
     },
-    /// By a corner of a convex polygon and another such polygon, in the plane.
+    /// A corner of a convex polygon and another convex polygon, in the plane.
     Corner(Corner<'d>),
-    /// By expressions.
+    /// Expressions.
     Expressions {
         /// The gap, which stays ≥ 0.
         gap: Expr<'d>,
@@ -571,12 +576,12 @@ pub enum ContactGeometry<'d> {
     },
 }
 
-/// A coordinate that is not treated exactly.
+/// A coordinate that is approximated.
 #[derive(Clone, Copy, Debug)]
 pub struct Approximation {
     /// Its index.
     pub coordinate: usize,
-    /// How it is treated.
+    /// The kind of approximation.
     pub kind: ApproximationKind,
     /// Where the spec says it.
     pub span: Span,

@@ -1,37 +1,37 @@
-//! From what is written to what is meant: names found, units agreed, families unrolled, variants
-//! merged.
+//! Resolution, from a [`Spec`] to a [`Model`]: finds names, checks units, unrolls families,
+//! merges variants.
 //!
-//! Sections stand in any order, and what is declared last may be needed first. So everything is
-//! worked out when it is needed ([`work`]), without recursion from one definition to the next.
-//! What is wrong is reported as it is found, each mistake once, and the rest goes on; there is a
-//! model only if nothing is wrong.
+//! Sections stand in any order, and a declaration may be needed before the place where it stands.
+//! So each definition is resolved when it is needed ([`work`]), without recursion from one
+//! definition to the next. Errors are reported as they are found, each once, and resolution
+//! continues; there is a model only if there are no errors.
 //!
-//! | file | finds |
+//! | file | resolves |
 //! | --- | --- |
 //! | [`layers`] | the files that a variant extends |
-//! | [`names`] | what is declared under a name, and the members of families |
-//! | [`work`] | in which order |
+//! | [`names`] | the declarations of a name, and the members of families |
+//! | [`work`] | the order in which definitions are resolved |
 //! | [`expression`] | the value and the unit of an expression |
-//! | [`tables`] | functions that tables give |
+//! | [`tables`] | functions given by tables |
 //! | [`frames`] | frames and points |
-//! | [`motion`] | angular velocities of frames, velocities of points fixed to them |
+//! | [`motion`] | angular velocities of frames, velocities of points fixed to frames |
 //! | [`fields`] | the fields of records |
 //! | [`items`] | parameters, coordinates, bodies, circles, … |
 //! | [`outlines`] | the shapes of bodies |
-//! | [`element`] | what elements mean, by the list that it is given |
+//! | [`element`] | the elements, by the list of their sections |
 //! | [`rates`] | rates at the start |
-//! | [`states`] | states of first order, and their rates |
-//! | [`bounds`] | numbers that no machine has |
-//! | [`warnings`] | what may not be meant |
+//! | [`states`] | first-order states and their rates |
+//! | [`bounds`] | bounds on numbers, such as positive masses |
+//! | [`warnings`] | constructs that are probably unintended |
 //! | [`relaxation`] | the same machine with its guides relaxed |
-//! | [`derivatives`] | what accelerations are to be differentiated by |
-//! | [`stages`] | which of their stages are to be computed by themselves |
-//! | [`methods`] | the methods of integration that emitted code is to have more for |
-//! | [`keep`] | which start values stay as they are |
-//! | [`brachistochrone`] | where the fastest motion ends |
-//! | [`outside`] | values that are given from outside |
-//! | [`formulas`] | formulas that are given from outside |
-//! | [`published`] | assumptions, and equations that somebody printed |
+//! | [`derivatives`] | the variables by which accelerations are to be differentiated |
+//! | [`stages`] | the stages of the accelerations that are to be computed separately |
+//! | [`methods`] | the integration methods for which emitted code needs more functions |
+//! | [`keep`] | the start values that a correction of the start keeps |
+//! | [`brachistochrone`] | the end of the fastest motion |
+//! | [`outside`] | values supplied by the caller |
+//! | [`formulas`] | formulas supplied by the caller |
+//! | [`published`] | assumptions and published equations |
 
 mod bounds;
 mod brachistochrone;
@@ -87,38 +87,38 @@ use tables::Tables;
 use value::MemberId;
 use work::Need;
 
-/// The most nodes that the expressions of one machine may have.
+/// The largest number of nodes that the expressions of one machine may have.
 ///
-/// A chain of ten thousand links has a third of it. What is larger would take the later stages
-/// minutes, and is most often a size with a digit too many.
+/// A chain of ten thousand links has a third of this. A larger machine would take minutes in later
+/// stages, and most often comes from a size with a digit too many.
 pub const NODE_LIMIT: usize = 500_000;
 
-/// The most parts of expressions that are looked at, families unrolled.
+/// The largest number of parts of expressions that are visited, with families unrolled.
 ///
-/// Members that all mean the same make no new nodes, and still take time.
+/// Members with equal meaning create no new nodes, but visiting them still takes time.
 const STEP_LIMIT: usize = 2_000_000;
 
-/// The most names of the base in a message.
+/// The largest number of constants of the base that a message lists.
 const SHOWN_CONSTANTS: usize = 8;
 
-/// What a spec is read with: the sections of the language, and what those of elements mean.
+/// The sections that a spec may have, and the meaning of those that hold elements.
 #[derive(Clone, Copy)]
 pub(crate) struct Language {
-    /// All sections, in the order of the reference.
+    /// All sections, in the order of the reference manual.
     pub sections: &'static [SectionKind],
-    /// Those of elements, in the order in which they are worked out.
+    /// The sections of elements, in the order in which they are resolved.
     pub elements: &'static [Row],
 }
 
 impl Language {
-    /// That of values alone.
+    /// The language of bare values, which has no sections.
     const WITHOUT_SECTIONS: Language = Language {
         sections: &[],
         elements: &[],
     };
 }
 
-/// Finds out what a spec means. There is a model only if the report has no errors.
+/// Resolves a spec. Returns a model only if the report has no errors.
 pub(crate) fn resolve<'d>(
     spec: Spec,
     language: Language,
@@ -137,7 +137,7 @@ pub(crate) fn resolve<'d>(
     resolver.tables = Some(&tables);
     let mut model = resolver.resolve(&layers.specs)?;
     if !model.sliding().is_empty() {
-        // What is wrong has been said.
+        // Errors of the same spec were already reported the first time.
         let mut unread = Report::new();
         let mut resolver = Resolver::new(&layers, language, dag, constants, &mut unread);
         resolver.tables = Some(&tables);
@@ -154,18 +154,20 @@ pub(crate) struct Resolver<'a, 'd, 'r> {
     pub(crate) dag: &'d Dag,
     pub(crate) space: Space,
     language: Language,
-    /// The values that the caller sets for constants, and for parameters that are derived otherwise.
+    /// The values that the caller sets for constants, and for parameters that would otherwise
+    /// be derived.
     overrides: &'r [(String, Rational)],
-    /// The parameters that the caller sets later.
+    /// The parameters that the caller will set later.
     given: Vec<String>,
-    /// The declarations of parameters whose values depend on other parameters.
+    /// Indices of the declarations of parameters whose values depend on other parameters.
     derived: FxHashSet<usize>,
     report: &'r mut Report,
-    /// What was reported where: all members of a family make the same mistake.
+    /// What was reported where, since all members of a family make the same error.
     said: FxHashSet<(Span, Code)>,
-    /// Where wrong units go while a published formula is read: they are no mistakes of the spec.
+    /// Diagnostics of wrong units while a published formula is read; these are not errors of
+    /// the spec.
     remarks: Option<Vec<Diagnostic>>,
-    /// Whether declarations are missing, so that an unknown name is no news.
+    /// Whether declarations are missing, so that an unknown name need not be reported.
     incomplete: bool,
     layer_count: usize,
 
@@ -173,41 +175,41 @@ pub(crate) struct Resolver<'a, 'd, 'r> {
     groups: Vec<Group<'a>>,
     group_of: FxHashMap<(Namespace, &'a str), usize>,
     members: Vec<Member<'d>>,
-    /// Which one of its section a member is, once the order is known.
+    /// The index of each member within its section, once the order is known.
     ordinals: FxHashMap<MemberId, usize>,
     needs: Vec<(Need, Span)>,
 
     time: Expr<'d>,
     tangent: Option<Tangent<'d>>,
-    /// What is assumed not to be negative, with the symbols in it.
+    /// Expressions that are assumed to be nonnegative, with the symbols in them.
     facts: Vec<(Expr<'d>, BTreeSet<Symbol>)>,
     /// The outlines of bodies that have one.
     outlines: Vec<Outline<'d>>,
     poses: Vec<Pose<'d>>,
     pose_of: FxHashMap<PoseKey, PoseId>,
-    /// The fours of coordinates that turn frames, and where they do so first.
+    /// The quaternions that turn frames, and the span where each does so first.
     quaternions: Vec<([Expr<'d>; 4], Span)>,
     /// The guides that are relaxed.
     guides: Vec<Guide<'d>>,
-    /// The symbols that are to be used again, by name.
+    /// Symbols to reuse, by name.
     symbols: FxHashMap<String, Expr<'d>>,
 
-    /// What turns and has no place, behind all bodies.
+    /// Rotors: bodies that turn and have no position, listed after all bodies.
     rotors: Vec<Body<'d>>,
-    /// The tables of the spec, where it is read with its files.
+    /// The tables of the spec, if it is read together with its files.
     tables: Option<&'r Tables>,
-    /// Facts that the spec does not say itself: that tables are not asked for what is beyond their ends, that ropes lie on pulleys.
+    /// Facts that the spec implies but does not state: tables are not evaluated beyond their ends, ropes lie on their pulleys.
     further_facts: Vec<Assumption<'d>>,
 
-    /// The groups of which a member is used.
+    /// The groups that have a member in use.
     used: FxHashSet<usize>,
-    /// Numbers that are bounded.
+    /// Bounded numbers.
     bounds: Vec<Bound<'d>>,
 
-    /// How many nodes there were before.
+    /// The number of nodes before resolution began.
     first_node: usize,
     steps: usize,
-    /// Whether a limit is reached, and nothing is worked out any more.
+    /// Whether a limit was reached, so that nothing more is resolved.
     exhausted: bool,
 }
 
@@ -365,7 +367,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         Some(model)
     }
 
-    /// Works out each member of a section, in order.
+    /// Resolves each member of a section, in order.
     fn each<T>(
         &mut self,
         section: SectionKind,
@@ -411,17 +413,17 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         }
     }
 
-    /// Adds what turns and has no place.
+    /// Adds a rotor.
     pub(crate) fn add_rotor(&mut self, rotor: Body<'d>) {
         self.rotors.push(rotor);
     }
 
-    /// Which one of its section a member is.
+    /// The index of a member within its section.
     pub(crate) fn ordinal(&self, member: MemberId) -> Option<usize> {
         self.ordinals.get(&member).copied()
     }
 
-    /// The headings of all sections, each where it is said first.
+    /// The headings of all sections, each where it occurs first.
     fn sections_of(&self, layers: &[Spec]) -> Vec<(SectionKind, Span)> {
         let heading = |&kind: &SectionKind| {
             let span = layers.iter().find_map(|spec| spec.section(kind))?;
@@ -430,10 +432,10 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         self.language.sections.iter().filter_map(heading).collect()
     }
 
-    /// What can be wrong with the head of a machine.
+    /// Checks the head of a machine.
     fn check_machine(&mut self, machine: &'a Spec, layers: &'a [Spec]) {
-        /// Rust's keywords, and the names of its primitive types: no type can be named so without
-        /// hiding what every program needs.
+        /// Rust's keywords and primitive types: a type with such a name is not allowed, or hides a
+        /// type that every program needs.
         #[rustfmt::skip]
         const NO_TYPE_NAMES: [&str; 71] = [
             "_", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue",
@@ -463,7 +465,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         }
     }
 
-    /// Constants that the caller sets must exist.
+    /// Checks that the constants set by the caller exist.
     fn check_overrides(&mut self, machine: &'a Spec) {
         if self.incomplete {
             return;
@@ -500,14 +502,14 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
                 let few = (1..=SHOWN_CONSTANTS).contains(&constants.len());
                 few.then(|| format!("its constants are `{}`", constants.join("`, `")))
             });
-            self.report.push(names::with_help(diagnostic, help)); // each name is a mistake of its own
+            self.report.push(names::with_help(diagnostic, help)); // each unknown name is an error of its own
         }
     }
 
-    /// A machine moves, and something moves in it.
+    /// Checks that the machine has coordinates and something that moves with them.
     fn check_not_empty(&mut self, machine: &'a Spec) {
         if self.report.has_errors() {
-            return; // whatever is missing may be what could not be read
+            return; // what seems to be missing may be what could not be read
         }
         let name = &machine.name;
         if self.members_of(SectionKind::Coordinates).is_empty() {
@@ -522,7 +524,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         }
     }
 
-    /// Reports a mistake, once in each place.
+    /// Reports a diagnostic, once at each place.
     pub(crate) fn push(&mut self, diagnostic: Diagnostic) {
         let about_units = matches!(diagnostic.code, Code::UnitMismatch | Code::UnitOfPower);
         match &mut self.remarks {
@@ -535,12 +537,12 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         }
     }
 
-    /// Reports a mistake that needs no more words.
+    /// Reports an error that needs no further explanation.
     pub(crate) fn error(&mut self, code: Code, span: Span, message: impl Into<String>) {
         self.push(Diagnostic::new(code, span, message));
     }
 
-    /// Counts a step of work; false when there have been too many.
+    /// Counts a step of work; returns false if a limit is reached.
     fn step(&mut self, span: Span) -> bool {
         if self.exhausted {
             return false;
@@ -557,11 +559,11 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
     }
 }
 
-/// Where the machine moves: as the first of its bases says that says it.
+/// Plane or space, as given by the first layer that says it.
 fn space_of(layers: &[Spec]) -> Space {
     let said = layers.iter().find_map(|spec| spec.space);
     match said.map(|space| space.value) {
         Some(syntax::Space::Space) => Space::Space,
-        _ => Space::Plane, // where nobody says it, the parser has reported that
+        _ => Space::Plane, // if no layer says it, the parser has reported that
     }
 }

@@ -1,4 +1,4 @@
-//! Where words of a spec stand: files, positions in them, and how `extends` finds another file.
+//! Source texts of a spec: files, positions in them, and the files that `extends` names.
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 /// The longest source that is read, in bytes.
 ///
-/// A spec of a thousand bodies has 100 kB. Whatever is larger is not a spec, and refusing it early
-/// bounds the memory and the time that every later stage can take.
+/// A spec of a thousand bodies has 100 kB. A larger file is not a spec, and refusing it early
+/// bounds the memory and time of every later stage.
 pub const SOURCE_LIMIT: usize = 4 << 20;
 
 /// One of the texts of a compilation; an index into [`Sources`].
@@ -17,7 +17,7 @@ pub struct SourceId(pub u16);
 /// A stretch of one source, `start..end`: bytes of a file, or ordinals of tokens in a macro body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Span {
-    /// Which text.
+    /// The text.
     pub source: SourceId,
     /// The first byte, or the first token.
     pub start: u32,
@@ -31,7 +31,7 @@ impl Span {
         Span { source, start, end }
     }
 
-    /// From the beginning of `self` to the end of `last`, where both stand in one source.
+    /// From the beginning of `self` to the end of `last`, if both are in one source.
     pub fn to(self, last: Span) -> Span {
         if self.source != last.source {
             return self;
@@ -43,7 +43,7 @@ impl Span {
         }
     }
 
-    /// The empty stretch right after this one: where something is missing.
+    /// The empty stretch right after this one, the place of something missing.
     pub fn after(self) -> Span {
         Span {
             start: self.end,
@@ -52,7 +52,7 @@ impl Span {
     }
 }
 
-/// Every text that takes part in a compilation: the spec, and what it extends.
+/// Every text of a compilation: the spec, and those that it extends.
 #[derive(Clone, Debug, Default)]
 pub struct Sources {
     list: Vec<Source>,
@@ -78,7 +78,7 @@ impl Sources {
         Sources::default()
     }
 
-    /// Adds a file; `name` is what messages call it.
+    /// Adds a file; messages refer to it as `name`.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> SourceId {
         let text = text.into();
         let after_newlines = text.match_indices('\n').map(|(at, _)| at as u32 + 1);
@@ -89,8 +89,8 @@ impl Sources {
         })
     }
 
-    /// Adds the body of a macro, whose spans count tokens; `positions` holds the line and the
-    /// column of each token, from 1, in the file that `name` says.
+    /// Adds the body of a macro, whose spans count tokens; `positions` are the line and column of
+    /// each token, from 1, in the file `name`.
     pub fn add_tokens(
         &mut self,
         name: impl Into<String>,
@@ -103,13 +103,13 @@ impl Sources {
     }
 
     fn push(&mut self, source: Source) -> SourceId {
-        // A chain of 65 536 files is not a spec: the last of them share a number, nothing panics.
+        // A chain of 65 536 files is not a spec: the last ones share a number, and nothing panics.
         let id = SourceId(u16::try_from(self.list.len()).unwrap_or(u16::MAX));
         self.list.push(source);
         id
     }
 
-    /// What messages call this source.
+    /// The name of this source in messages.
     pub fn name(&self, id: SourceId) -> &str {
         self.get(id).map_or("", |source| &source.name)
     }
@@ -122,7 +122,7 @@ impl Sources {
         }
     }
 
-    /// The words that a span covers; empty in a macro body.
+    /// The text that a span covers; empty in a macro body.
     pub fn words(&self, span: Span) -> &str {
         self.text(span.source)
             .get(span.start as usize..span.end as usize)
@@ -147,7 +147,7 @@ impl Sources {
         self.list.is_empty()
     }
 
-    /// Line and column where a span begins, both from 1; a column counts characters.
+    /// The line and column at which a span begins, both from 1; a column counts characters.
     pub fn line_column(&self, span: Span) -> (usize, usize) {
         match self.get(span.source).map(|source| &source.content) {
             Some(Content::Text { text, lines }) => {
@@ -184,12 +184,12 @@ impl Sources {
     }
 }
 
-/// Where the texts that a spec names with `extends` come from.
+/// The source of the texts that a spec names with `extends`.
 pub trait Files {
-    /// Reads the file `path`, taken relative to the file `from` that says it.
+    /// Reads the file `path`, relative to the file `from` that names it.
     ///
-    /// Returns the name by which the file is known from now on (two ways to one file give one name)
-    /// and its text; or what hinders, as a sentence without the path.
+    /// Returns the canonical name of the file (the same name for different paths to it) and its
+    /// text; or the reason for a failure, as a sentence without the path.
     fn read(&mut self, path: &str, from: Option<&str>) -> Result<(String, String), String>;
 }
 
@@ -204,7 +204,7 @@ impl Files for Disk {
             .unwrap_or(Path::new(""));
         let path: PathBuf = beside.join(path);
         let file = std::fs::File::open(&path).map_err(|error| error.to_string())?;
-        // One byte more than is allowed tells that there is more, whatever the file claims to be.
+        // One byte more than allowed shows that the file is too long, whatever size it reports.
         let mut bytes = Vec::new();
         file.take(SOURCE_LIMIT as u64 + 1)
             .read_to_end(&mut bytes)
@@ -214,14 +214,14 @@ impl Files for Disk {
         }
         let text = String::from_utf8(bytes)
             .map_err(|error| format!("byte {} is not UTF-8", error.utf8_error().valid_up_to()))?;
-        // `a/../b.machine` and `b.machine` are one file: a circle of `extends` must be seen.
+        // `a/../b.machine` and `b.machine` are one file, so that circular `extends` are detected.
         let canonical = path.canonicalize().map_err(|error| error.to_string())?;
         let shown = if is_plain(&path) { path } else { canonical };
         Ok((shown.to_string_lossy().into_owned(), text))
     }
 }
 
-/// True where a path is its own shortest form, relative or not, so that messages may show it.
+/// Whether a path is already in its shortest form, relative or not, so that messages may show it.
 fn is_plain(path: &Path) -> bool {
     use std::path::Component;
     path.components()
@@ -240,7 +240,7 @@ impl InMemory {
         InMemory::default()
     }
 
-    /// With one more file.
+    /// Adds a file.
     pub fn with(mut self, name: impl Into<String>, text: impl Into<String>) -> InMemory {
         self.texts.insert(name.into(), text.into());
         self

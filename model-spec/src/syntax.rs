@@ -1,10 +1,10 @@
-//! What a spec says, as written: the syntax tree, and the parser that makes it.
+//! The syntax tree of a spec, and its parser.
 //!
-//! Nothing is looked up here. Names may be unknown, units may disagree, a family may be huge; that
-//! is for the stage after this one to find.
+//! Nothing is looked up here. Unknown names, conflicting units or huge families are detected by the
+//! next stage.
 //!
-//! The tokens are Rust's (see [`token`](crate::token)), so that a file and the inside of
-//! `machine! { … }` are the same text. In the grammar, `[x]` may be left out, `{x}` repeats, and
+//! The tokens are those of Rust (see [`token`](crate::token)), so that a file and the inside of
+//! `machine! { … }` are the same text. In the grammar, `[x]` is optional, `{x}` repeats, and
 //! `list(x)` is `[x {"," x} [","]]`. Documentation, `/// …`, may stand before every `item`, `fact`,
 //! `print` and `entry`.
 //!
@@ -58,10 +58,9 @@
 //! factor      = ("1" | NAME | "(" unit ")") ["^" ["-"] NUMBER]
 //! ```
 //!
-//! A parameter, a coordinate, an input and an output need their unit, a constant and an output
-//! their value. Which fields a record may have says [`SectionKind::fields`]. Of the
-//! sections whose items are elements the grammar shows those that there are: the parser is given their
-//! list, see [`Section`].
+//! A parameter, a coordinate, an input and an output need a unit, a constant and an output a value.
+//! [`SectionKind::fields`] lists the fields of a record. The sections of elements in the grammar are
+//! those of the list that the parser receives, see [`Section`].
 
 mod ast;
 mod brackets;
@@ -72,11 +71,11 @@ mod parse;
 mod section;
 mod unit;
 
-/// What to write instead of a branch.
+/// The advice for a branch.
 pub(crate) const NO_BRANCHES: &str =
     "expressions have no branches: write them with `max`, `min`, `abs` or `sign`";
 
-/// The coordinate whose rate has a name.
+/// The coordinate whose rate has this name.
 pub(crate) fn coordinate_of_rate(name: &str) -> Option<&str> {
     name.strip_prefix("der(")?.strip_suffix(')')
 }

@@ -1,8 +1,8 @@
-//! The words of a spec: exactly Rust's tokens, flat, each with its place.
+//! The tokens of a spec: those of Rust, as a flat list, each with its place.
 //!
-//! A file is cut up by [`lex`]. In a macro the compiler has done that already: the macro turns each
-//! of its tokens into one of ours, literals by [`literal`], and brackets that a `macro_rules!`
-//! made invisible into parentheses. After that nobody can tell where a spec came from.
+//! [`lex`] splits a file into tokens. In a macro the compiler has done that already: the macro
+//! converts each of its tokens, literals by [`literal`], and invisible brackets of a `macro_rules!`
+//! to parentheses. After that the two sources of a spec cannot be distinguished.
 
 use std::borrow::Cow;
 
@@ -11,7 +11,8 @@ use unicode_normalization::{UnicodeNormalization, is_nfc};
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::source::{SOURCE_LIMIT, SourceId, Span};
 
-/// The longest number, in characters: the digits of the largest floating-point number, and some.
+/// The longest number, in characters: the digits of the largest floating-point number, and
+/// some more.
 const NUMBER_LIMIT: usize = 400;
 
 /// The three kinds of brackets.
@@ -25,16 +26,16 @@ pub enum Delimiter {
     Bracket,
 }
 
-/// What a token is.
+/// The kind of a token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum TokenKind {
     /// A word; the token's text is without the `r#` of a raw identifier.
     Ident,
     /// A decimal number; the token's text is without `_`.
     Number,
-    /// A string; the token's text is what stands between the quotes, escapes replaced.
+    /// A string; the token's text is the content of the quotes, with escapes replaced.
     Text,
-    /// Documentation of what follows; the token's text is the comment without its marks.
+    /// Documentation of the next item; the token's text is the comment without its marks.
     Doc,
     /// One character of punctuation.
     Punct(char),
@@ -42,25 +43,26 @@ pub enum TokenKind {
     Open(Delimiter),
     /// A closing bracket.
     Close(Delimiter),
-    /// What means nothing in a spec, and was reported: `'a'`, `b"…"`, `§`.
+    /// A token without meaning in a spec, which was reported: `'a'`, `b"…"`, `§`.
     Unknown,
 }
 
 /// One token.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Token {
-    /// What it is.
+    /// Its kind.
     pub kind: TokenKind,
-    /// What it says.
+    /// Its text.
     pub text: Box<str>,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
-    /// True for punctuation with more punctuation right behind it: both may be one operator.
+    /// Whether it is punctuation directly followed by more punctuation, with which it may form
+    /// an operator.
     pub joint: bool,
 }
 
-/// Cuts a text into its tokens. Whatever is no token of a spec is reported and becomes
-/// [`TokenKind::Unknown`].
+/// Splits a text into its tokens. Anything that is not a token of a spec is reported and
+/// becomes [`TokenKind::Unknown`].
 pub fn lex(source: SourceId, text: &str, report: &mut Report) -> Vec<Token> {
     if text.len() > SOURCE_LIMIT {
         let message = format!(
@@ -83,7 +85,7 @@ pub fn lex(source: SourceId, text: &str, report: &mut Report) -> Vec<Token> {
         tokens: Vec::new(),
         report,
     };
-    // Some editors begin a file with an invisible mark that says it is UTF-8.
+    // Some editors begin a UTF-8 file with an invisible byte order mark.
     lexer.eat("\u{feff}");
     while let Some(c) = lexer.peek() {
         lexer.token(c);
@@ -113,7 +115,7 @@ pub fn literal(text: &str, span: Span, report: &mut Report) -> Token {
     }
 }
 
-/// A name as the Rust compiler reads it, in the normalization form C: `é` is one name, whether it is
+/// A name as the Rust compiler reads it, in normalization form C: `é` is one name, whether it is
 /// written as one character or as `e` and an accent.
 pub fn normalized(name: &str) -> Cow<'_, str> {
     if is_nfc(name) {
@@ -123,26 +125,26 @@ pub fn normalized(name: &str) -> Cow<'_, str> {
     }
 }
 
-/// What Rust counts as punctuation.
+/// Whether Rust counts a character as punctuation.
 fn is_punctuation(c: char) -> bool {
     "~!@#$%^&*-=+|;:,<.>/?'".contains(c)
 }
 
-/// True for the first character of a word.
+/// Whether a character can begin a word.
 ///
-/// Rust says XID_Start; the letters of Unicode differ from it in a few dozen circled and
-/// half-width forms that nobody names a coordinate after.
+/// Rust uses XID_Start; the letters of Unicode differ from it in a few dozen circled and half-width
+/// forms that are hardly ever used as names.
 fn begins_word(c: char) -> bool {
     c == '_' || c.is_alphabetic()
 }
 
-/// True for a further character of a word: letters, digits and combining accents (`q̇`), but not
-/// `²`.
+/// Whether a character can continue a word: letters, digits and combining accents (`q̇`), but
+/// not `²`.
 fn continues_word(c: char) -> bool {
     begins_word(c) || c.is_ascii_digit() || ('\u{300}'..='\u{36f}').contains(&c)
 }
 
-/// What Rust skips between tokens.
+/// Whether Rust skips a character between tokens.
 fn is_space(c: char) -> bool {
     matches!(
         c,
@@ -154,7 +156,7 @@ struct Lexer<'a> {
     source: SourceId,
     text: &'a str,
     at: usize,
-    /// True once the rest of the text was read again after a string that does not end.
+    /// Whether the rest of the text was already read once more after an unterminated string.
     resumed: bool,
     tokens: Vec<Token>,
     report: &'a mut Report,
@@ -182,7 +184,7 @@ impl<'a> Lexer<'a> {
         self.at += rest.find(|c| !belongs(c)).unwrap_or(rest.len());
     }
 
-    /// From `start` to here.
+    /// The span from `start` to the current position.
     fn span(&self, start: usize) -> Span {
         Span::new(self.source, start as u32, self.at as u32)
     }
@@ -198,7 +200,7 @@ impl<'a> Lexer<'a> {
         });
     }
 
-    /// The token that begins with `c`, or the space or comment before it.
+    /// Reads the token that begins with `c`, or the space or comment before it.
     fn token(&mut self, c: char) {
         let rest = self.rest();
         if is_space(c) {
@@ -220,7 +222,7 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    /// `// …`, or documentation `/// …`; four slashes are a comment again.
+    /// `// …`, or documentation `/// …`; four slashes are an ordinary comment.
     fn line_comment(&mut self) {
         let start = self.at;
         self.eat_while(|c| c != '\n');
@@ -283,7 +285,7 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    /// Reports a string that does not end.
+    /// Reports an unterminated string.
     fn unterminated(&mut self, start: usize, opening: usize) {
         self.report.push(
             Diagnostic::new(
@@ -293,8 +295,8 @@ impl<'a> Lexer<'a> {
             )
             .help("end it with `\"`"),
         );
-        // It was most likely meant to end on its line, so the lines below are worth reading. Doing
-        // so once is enough for a reader, and many times would take quadratic time.
+        // It was most likely meant to end on its line, so the lines below are worth reading. This
+        // is done only once, since repeating it would take quadratic time.
         self.eat_while(|c| c != '\n');
         if self.resumed {
             self.at = self.text.len();
@@ -327,7 +329,7 @@ impl<'a> Lexer<'a> {
         self.push_literal(start);
     }
 
-    /// `x'`, which is no derivative here.
+    /// `x'`, which does not denote a derivative here.
     fn prime(&mut self, start: usize) {
         let name = self.tokens.last().map_or("x", |token| &token.text);
         let message = "a prime means nothing in a spec";
@@ -351,7 +353,7 @@ impl<'a> Lexer<'a> {
         self.push(TokenKind::Ident, &normalized(text), start);
     }
 
-    /// A number as Rust cuts it out: `1..N` is `1`, `.`, `.`, `N`, and a suffix belongs to it.
+    /// A number as Rust splits it: `1..N` is `1`, `.`, `.`, `N`, and a suffix belongs to it.
     fn number(&mut self) {
         let start = self.at;
         let is_digit = |c: char| c.is_ascii_digit() || c == '_';
@@ -383,7 +385,7 @@ impl<'a> Lexer<'a> {
         self.tokens.push(literal(text, span, self.report));
     }
 
-    /// A bracket, punctuation, or a character that is not of the language.
+    /// A bracket, punctuation, or a character that is not in the language.
     fn mark(&mut self, c: char) {
         let start = self.at;
         self.at += c.len_utf8();
@@ -417,17 +419,17 @@ impl<'a> Lexer<'a> {
     }
 }
 
-/// How a string begins and ends.
+/// The delimiters of a string.
 struct Quote {
     /// Length of the prefix and the opening quote.
     opening: usize,
-    /// True where a backslash is a backslash.
+    /// Whether a backslash stands for itself.
     raw: bool,
     /// The closing quote.
     closing: String,
 }
 
-/// The opening quote of a string, where the text begins with one: `"`, `b"`, `c"`, `r#"`, `br"`, ….
+/// The opening quote of a string, if the text begins with one: `"`, `b"`, `c"`, `r#"`, `br"`, ….
 fn opening_quote(text: &str) -> Option<Quote> {
     let after_kind = text.strip_prefix(['b', 'c']).unwrap_or(text);
     let after_raw = after_kind.strip_prefix('r');
@@ -444,7 +446,7 @@ fn opening_quote(text: &str) -> Option<Quote> {
     })
 }
 
-/// The length up to and including the closing quote; a backslash hides what follows it.
+/// The length up to and including the closing quote; a backslash escapes the next character.
 fn length_to_quote(inside: &str, quote: char) -> Option<usize> {
     let mut hidden = false;
     for (at, c) in inside.char_indices() {
@@ -459,7 +461,7 @@ fn length_to_quote(inside: &str, quote: char) -> Option<usize> {
     None
 }
 
-/// A decimal number without `_`, `1` where it is not one.
+/// A decimal number without `_`; `1` if it is malformed.
 fn number(text: &str, span: Span, report: &mut Report) -> String {
     let one = || "1".to_owned();
     let digits: String = text.chars().filter(|&c| c != '_').collect();
@@ -498,7 +500,7 @@ fn number(text: &str, span: Span, report: &mut Report) -> String {
     };
     let mantissa = digits.split(['e', 'E']).next().unwrap_or("");
     let exponent = digits.split(['e', 'E']).nth(1).unwrap_or("0");
-    // The exponent of a zero counts too: 0e999999999 must not become a power of ten.
+    // The exponent of a zero is checked too: 0e999999999 must not become a power of ten.
     let moderate = exponent
         .parse::<i32>()
         .is_ok_and(|exponent| exponent.unsigned_abs() as usize <= NUMBER_LIMIT);
@@ -538,7 +540,7 @@ fn quoted(text: &str, span: Span, report: &mut Report) -> String {
                     return content;
                 }
             },
-            // Rust reads the line breaks of Windows as those of everybody else.
+            // Like Rust, treat Windows line breaks as plain line breaks.
             '\r' if rest.as_str().starts_with('\n') => {}
             c => content.push(c),
         }
@@ -593,7 +595,7 @@ fn no_suffix(suffix: &str, span: Span, report: &mut Report) {
     }
 }
 
-/// What a character from a book or a word processor stands for.
+/// The ASCII equivalent of a character from a book or a word processor.
 fn meant(c: char) -> Option<&'static str> {
     Some(match c {
         '−' | '–' | '—' => "-",
@@ -613,7 +615,7 @@ fn meant(c: char) -> Option<&'static str> {
     })
 }
 
-/// A piece of text in a message, cut where it is long.
+/// A piece of text in a message, truncated if it is long.
 pub(crate) fn shown(text: &str) -> String {
     const LONGEST: usize = 40;
     match text.char_indices().nth(LONGEST) {
@@ -622,7 +624,7 @@ pub(crate) fn shown(text: &str) -> String {
     }
 }
 
-/// A character in a message; by its number where it cannot be seen.
+/// A character in a message; by its number if it is invisible.
 fn shown_char(c: char) -> String {
     if c.is_control() || c.is_whitespace() || c == '\u{feff}' || c == '\u{200b}' {
         format!("U+{:04X}", c as u32)
@@ -635,7 +637,7 @@ fn shown_char(c: char) -> String {
 mod tests {
     use super::*;
 
-    /// Kinds and texts of the tokens, and the codes of what was reported.
+    /// The kinds and texts of the tokens, and the codes that were reported.
     fn lexed(text: &str) -> (Vec<(TokenKind, String)>, Vec<Code>) {
         let mut report = Report::new();
         let tokens = lex(SourceId(0), text, &mut report);

@@ -1,4 +1,5 @@
-//! The whole chain behind the model, and what a printed page or a comment shows of it.
+//! Runs all stages from a model to proved programs, and collects the formulas that printed pages
+//! and comments show.
 
 use std::collections::BTreeMap;
 
@@ -13,22 +14,22 @@ use lagrangian_program::{Basis, Role};
 use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
 use lagrangian_spec::model::Model;
 
-/// A machine, through every stage.
+/// A machine with the results of every stage.
 #[derive(Clone)]
 pub struct Compiled<'d> {
-    /// What it is.
+    /// The model.
     pub model: Model<'d>,
-    /// Its equations of motion, in the form that the accelerations are computed from.
+    /// Its equations of motion, in the form from which the accelerations are computed.
     pub equations: Equations<'d>,
-    /// How they are computed; held against Lagrange's equations of this machine.
+    /// Its program, proved against Lagrange's equations of this machine.
     pub program: Proved,
-    /// The Taylor series of its motion, proved; where the machine asks for it.
+    /// The Taylor series of its motion, proved; if the spec asks for it.
     pub series: Option<ProvedSeries>,
 }
 
 impl<'d> Compiled<'d> {
-    /// Derives the equations of a model, lowers them, and proves what comes out; `None` where the
-    /// report says why not.
+    /// Derives the equations of a model, lowers them, and proves the program; `None` if that fails,
+    /// with the reasons in the report.
     pub fn new(model: Model<'d>, report: &mut Report) -> Option<Compiled<'d>> {
         let equations = Equations::derive(&model, report)?;
         if report.has_errors() {
@@ -37,7 +38,7 @@ impl<'d> Compiled<'d> {
         let expanded = equations.expanded();
         let program = lower_by(&model, &equations, expanded.as_ref(), &best);
         if program.function(program.solving()).is_none() {
-            // Solving for the accelerations takes more than may be written down.
+            // Solving for the accelerations takes more operations than are allowed.
             refuse_large(&model, report);
             return None;
         }
@@ -82,7 +83,7 @@ impl<'d> Compiled<'d> {
     }
 }
 
-/// The series of a machine as emitted code has it.
+/// The series of a machine, as emitted code contains it.
 fn emitted_series(model: &Model<'_>) -> Result<ProvedSeries, String> {
     if !model.contacts.is_empty() {
         return Err("it has contacts that close and open".into());

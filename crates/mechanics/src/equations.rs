@@ -1,4 +1,4 @@
-//! From a [`Model`] to its [`Equations`].
+//! Derives the [`Equations`] of motion of a [`Model`].
 //!
 //! ```text
 //! M a = f = Q − h        M(q, t)   mass matrix
@@ -6,14 +6,14 @@
 //!                        Q(q, v, t, u)  applied generalized forces
 //! ```
 //!
-//! Two routes lead there. [`Oracle`] is Lagrange's equations of the second kind, term by term;
-//! [`Equations::derive`] takes the cheap route of [`projected`] wherever it holds, which is always
-//! but under approximations. Tests prove both equal, at random points of a prime field, for every
-//! machine of the library; what is made of any machine is proved on its way out against [`literal`],
-//! the same equations evaluated and not expanded. The numbers (E1), (E2), … are those of `docs/equations.md`.
+//! There are two derivations. [`Oracle`] is Lagrange's equations of the second kind, term by term;
+//! [`Equations::derive`] takes the cheaper route of [`projected`] wherever it holds, which is always except
+//! under approximations. Tests prove that both are equal, at random points of a prime field, for every
+//! machine of the library. Whatever is generated for any machine is also proved against [`literal`], the same
+//! equations evaluated rather than expanded. The numbers (E1), (E2), … are those of `docs/equations.md`.
 //!
-//! What holds here: every expression is defined; `M` has no `v`, `a` or inputs in it, `h` no `a`
-//! and no inputs; `Q` and `f` no `a`; nothing that explicit time contributes is dropped.
+//! Invariants: every expression is defined; `M` contains no `v`, `a` or inputs, `h` no `a` and no
+//! inputs; `Q` and `f` contain no `a`; no contribution of explicit time is dropped.
 
 mod approximation;
 mod brachistochrone;
@@ -60,22 +60,23 @@ use lagrangian_spec::identity;
 use lagrangian_spec::model::Model;
 use projected::{Loads, Projection};
 
-/// The most terms of one entry of `M` or `h` that is multiplied out; longer ones have never been
-/// the shorter program.
+/// The largest number of terms of an entry of `M` or `h` that is multiplied out; longer ones have
+/// never given the shorter program.
 const EXPANDED_TERMS: usize = 200;
 
-/// The most coordinates of equations that are multiplied out: from four links of a chain on they
-/// are not the shorter program, and their terms grow with the cube of the number of coordinates.
+/// The largest number of coordinates of equations that are multiplied out: from four links of a
+/// chain on the expanded equations do not give the shorter program, and the number of terms grows
+/// with the cube of the number of coordinates.
 const EXPANDED_COORDINATES: usize = 6;
 
-/// The equations of motion of a machine, and what else is derived from its energies.
+/// The equations of motion of a machine, and everything else that is derived from its energies.
 #[derive(Clone, Debug)]
 pub struct Equations<'d> {
     /// Kinetic energy `T(q, v, t)`, eq. (E1).
     pub kinetic_energy: Expr<'d>,
     /// Potential energy `V(q, t)`, eq. (E2).
     pub potential_energy: Expr<'d>,
-    /// Energy `E(s, q, t)` that states of first order store, eq. (E59).
+    /// Energy `E(s, q, t)` stored in first-order states, eq. (E59).
     pub state_energy: Expr<'d>,
     /// Rayleigh's dissipation function `D(q, v, t)`, eq. (E3).
     pub dissipation: Expr<'d>,
@@ -89,73 +90,72 @@ pub struct Equations<'d> {
     pub forces: Vec<Expr<'d>>,
     /// The equations of motion before projection, where no coordinate is approximated.
     pub unprojected: Option<Unprojected<'d>>,
-    /// The bilateral constraints, which the accelerations obey and `M`, `h`, `Q` and `f` know nothing
-    /// of.
+    /// The bilateral constraints. The accelerations obey them; `M`, `h`, `Q` and `f` do not
+    /// contain them.
     pub constraints: Vec<ConstraintEquation<'d>>,
-    /// The guided contacts with friction, of which `M`, `h`, `Q` and `f` know nothing either.
+    /// The guided contacts with friction, which are not contained in `M`, `h`, `Q` and `f` either.
     pub sliding: Vec<SlidingEquation<'d>>,
-    /// The unilateral contacts, of which nothing else here knows anything.
+    /// The unilateral contacts, which are contained in nothing else here.
     pub unilateral: Vec<UnilateralEquation<'d>>,
-    /// This machine without the coordinates that constraints settle, if they settle any.
+    /// This machine without the coordinates that constraints determine, if there are any.
     pub reduction: Option<Box<Reduction<'d>>>,
-    /// The residual of the equations of motion where accelerations are given, `f − M a`, eq. (E25); with
-    /// constraints `f − M a + Gᵀ λ`, and behind it `γ − G a`. Empty where no derivative is asked
-    /// for.
+    /// The residual of the equations of motion at given accelerations, `f − M a`, eq. (E25); with
+    /// constraints `f − M a + Gᵀ λ`, followed by `γ − G a`. Empty if no derivative is asked for.
     pub unbalanced: Vec<Expr<'d>>,
-    /// For each variable of [`Model::derivatives`], the derivatives of `f − M a` by it at given
-    /// accelerations, one for each coordinate, and behind these one for each constraint.
+    /// For each variable of [`Model::derivatives`], the derivatives of `f − M a` with respect to it
+    /// at given accelerations, one for each coordinate, followed by one for each constraint.
     pub slopes: Vec<Vec<Expr<'d>>>,
     /// Power of forces, torques, inputs and prescribed motion, eq. (E19). Accelerations may occur.
     pub work_rate: Expr<'d>,
-    /// Power that dissipation takes, eq. (E18).
+    /// Power taken out by dissipation, eq. (E18).
     pub dissipation_rate: Expr<'d>,
     /// The values of [`Model::outputs`], in their order. Accelerations may occur.
     pub outputs: Vec<Expr<'d>>,
-    /// What concerns single bodies, in the order of [`Model::bodies`].
+    /// Quantities of single bodies, in the order of [`Model::bodies`].
     pub bodies: Vec<BodyEquations<'d>>,
     /// How `M`, `h` and `f` were derived.
     pub route: Route,
 }
 
-/// Inertia and loads on the velocities that carry them, before they are projected on coordinates:
+/// Inertia and loads at the velocities that carry them, before projection onto the coordinates:
 ///
 /// ```text
 /// T = ½ Σ weight u w,    Σ (weight ẇ − load) ∂u/∂v = 0
 /// ```
 ///
 /// The velocities `u(q, v, t)` are nodes of one graph, in which the velocity of a body is built
-/// from that of what it hangs on. Solving on this graph instead of `M a = f` is what makes a
-/// chain's accelerations linear in its length.
+/// from that of the body it hangs on. Solving on this graph instead of solving `M a = f` makes the
+/// cost of a chain's accelerations linear in its length.
 #[derive(Clone, Debug)]
 pub struct Unprojected<'d> {
     /// Every pair of velocities with inertia.
     pub inertia: Vec<InertialPair<'d>>,
-    /// `u` and the load on it.
+    /// Each `u` with the load on it.
     pub loads: Vec<(Expr<'d>, Expr<'d>)>,
-    /// Whether velocities have accelerations where no coordinate has one; if not, these are among
-    /// the loads, and `u̇` is `Σ aᵢ ∂u/∂vᵢ` alone.
+    /// Whether velocities have accelerations when all coordinate accelerations are zero. If false,
+    /// these accelerations are already among the loads, and `u̇` is `Σ aᵢ ∂u/∂vᵢ` alone.
     pub drifts: bool,
 }
 
 /// A term `½ weight u w` of the kinetic energy.
 ///
-/// Two bodies may have the same velocity `u`, one along the ground and the other against gravity, so
-/// free fall belongs to the pair, and not to `u`.
+/// Two bodies may share a velocity `u` that is horizontal for one and vertical for the other, so the
+/// acceleration of free fall belongs to the pair and not to `u`.
 #[derive(Clone, Copy, Debug)]
 pub struct InertialPair<'d> {
     /// `u`.
     pub u: Expr<'d>,
     /// `w`, often `u` again.
     pub w: Expr<'d>,
-    /// The mass, or moment of inertia; of two different velocities twice the product of inertia.
+    /// The mass or moment of inertia; if `u` and `w` differ, twice the product of inertia.
     pub weight: Expr<'d>,
-    /// The acceleration of free fall along `u`, of pairs `u u` whose weights are not among the loads:
-    /// the load on `u` is this times `weight`.
+    /// The acceleration of free fall along `u`, for pairs `u u` whose weights are not among the
+    /// loads: the load on `u` is this times `weight`.
     pub fall: Option<Expr<'d>>,
 }
 
 impl<'d> InertialPair<'d> {
-    /// A pair that gravity does not act on, or whose load by gravity is among the loads.
+    /// A pair without free fall: gravity does not act on it, or its weight is among the loads.
     pub(crate) fn weightless(u: Expr<'d>, w: Expr<'d>, weight: Expr<'d>) -> InertialPair<'d> {
         InertialPair {
             u,
@@ -187,7 +187,8 @@ pub enum Route {
 }
 
 impl<'d> Equations<'d> {
-    /// The equations of a machine; nothing, and a message for each reason, if it has none.
+    /// Derives the equations of a machine. Returns nothing, and reports each reason, if it
+    /// has none.
     pub fn derive(model: &Model<'d>, report: &mut Report) -> Option<Equations<'d>> {
         if refusal::refuse_unsupported(model, report)
             || refusal::refuse_unturned(model, report)
@@ -197,14 +198,15 @@ impl<'d> Equations<'d> {
         {
             return None;
         }
-        // Whatever the machine: what the bound leaves undefined is refused below.
+        // The bound holds for every machine; expressions that it leaves undefined are
+        // refused below.
         model.dag.set_limit(refusal::MOST_SIZE);
         let equations = Equations::within_bounds(model, report);
         model.dag.set_limit(usize::MAX);
         equations
     }
 
-    /// The equations of a model, while the size of the graph is bounded.
+    /// Derives the equations while the size of the graph is bounded.
     fn within_bounds(model: &Model<'d>, report: &mut Report) -> Option<Equations<'d>> {
         let approximations = Approximations::of(model);
         let derived = if approximations.is_empty() {
@@ -245,20 +247,20 @@ impl<'d> Equations<'d> {
 
     /// These equations with `M` and `h` multiplied out; nothing if that takes too many terms.
     ///
-    /// Where few coordinates hang on each other that is shorter: what a projection computes along
-    /// one axis and projects back on it cancels. A double pendulum takes 29 multiplications and
-    /// additions so, against 40; a chain of six links 377 against 339. What is applied stays as it
-    /// is: a spring's force must come from its stretch, or the differences that make it are
-    /// rounded.
+    /// If only a few coordinates depend on each other, this is shorter, because terms that a
+    /// projection computes along one axis and projects back onto it cancel. A double pendulum takes
+    /// 29 multiplications and additions instead of 40; a chain of six links 377 instead of 339.
+    /// Applied forces stay as they are: a spring's force must be computed from its stretch, or
+    /// cancellation among the terms of the difference amplifies round-off.
     pub fn expanded(&self) -> Option<Equations<'d>> {
         if self.bias.len() > EXPANDED_COORDINATES {
             return None;
         }
         let mut expanded = self.clone();
-        // How accelerations follow along the machine is the same: the other program has it already.
+        // Elimination along the machine would be the same; the other program contains it already.
         expanded.unprojected = None;
         expanded.reduction = None;
-        // The bias first: it is what grows beyond the limit.
+        // The bias goes first, since it is the part that exceeds the limit.
         let matrix = expanded.mass_matrix.lower_mut();
         for entry in expanded.bias.iter_mut().chain(matrix) {
             *entry = normal::expand(*entry, EXPANDED_TERMS)?.to_expr();
@@ -269,7 +271,7 @@ impl<'d> Equations<'d> {
             .zip(&expanded.bias)
             .zip(&self.applied)
         {
-            // Term by term, so that the sum can be regrouped as one.
+            // Added term by term, so that the sum can be regrouped as a whole.
             *force = match bias.node() {
                 Node::Sum(terms) => {
                     let dag = bias.dag();
@@ -282,9 +284,9 @@ impl<'d> Equations<'d> {
         Some(expanded)
     }
 
-    /// The derivatives of `f − M a`, as they were derived and, for few coordinates, from M and f as
-    /// they are here: where these are multiplied out that may be shorter. Empty where none is asked
-    /// for.
+    /// The derivatives of `f − M a` in several forms: as they were derived and, for few
+    /// coordinates, from `M` and `f` as they stand here, which may be shorter if these are
+    /// multiplied out. Empty if none is asked for.
     pub(crate) fn slopes_in_forms(&self, model: &Model<'d>) -> Vec<Vec<Vec<Expr<'d>>>> {
         if self.slopes.is_empty() {
             return Vec::new();
@@ -298,9 +300,9 @@ impl<'d> Equations<'d> {
         forms
     }
 
-    /// The generalized friction on a coordinate where every contact slides along its direction and
-    /// presses to the side of its normal, eqs. (E33) and (E34): `−Σ μ N τᵢ`, accelerations in it. What
-    /// constraints and other friction forces press is not. On a surface it slides in any direction, and each tangent has its part.
+    /// The generalized friction force on a coordinate if every contact slides along its direction and presses on the side of its
+    /// normal, eqs. (E33) and (E34): `−Σ μ N τᵢ`, with accelerations in it. Normal reactions caused by constraints and by other
+    /// friction forces are not included. On a surface a contact slides in any direction, and each tangent has its share.
     pub fn sliding_friction(&self, model: &Model<'d>, coordinate: usize) -> Expr<'d> {
         let friction = |(k, s): (usize, &SlidingEquation<'d>)| {
             let first = k - usize::from(s.is_second());
@@ -317,8 +319,7 @@ impl<'d> Equations<'d> {
         model.dag.sum(all.map(friction))
     }
 
-    /// Adds the power of constraints that move by themselves, `v·Gᵀλ = v·(M a − f)`; the others do no
-    /// work.
+    /// Adds the power of rheonomic constraints, `v·Gᵀλ = v·(M a − f)`; the others do no work.
     fn add_power_of_constraints(&mut self, model: &Model<'d>) {
         let dag = model.dag;
         let moves = constraints::rates_at_rest(model, &self.constraints);
@@ -326,11 +327,11 @@ impl<'d> Equations<'d> {
             return;
         }
         let forces = derivatives::unbalanced(model, &self.mass_matrix, &self.forces);
-        // The row of a state is no balance of forces, and no constraint stands in it.
+        // The row of a state is not a balance of forces, and no constraint contributes to it.
         let rows = model.coordinates.iter().zip(forces);
         let rows = rows.filter(|(coordinate, _)| coordinate.rate.is_none());
         let power = rows.map(|(coordinate, left)| -(coordinate.v * left));
-        // What is left of the lengths of four numbers is no power.
+        // The inertia and the load on the lengths of quaternions contribute no power.
         let mut total = Variables::of(model).total(model);
         let lengths = model.quaternions.iter().map(|four| {
             let rate = total.of(four.size());
@@ -341,8 +342,8 @@ impl<'d> Equations<'d> {
         self.work_rate = dag.sum(all);
     }
 
-    /// Takes coordinates and time out of equations that do not depend on them, eqs. (E21) and
-    /// (E22).
+    /// Removes coordinates and time from equations that do not depend on them, eqs. (E21)
+    /// and (E22).
     fn drop_what_cancels(&mut self, model: &Model<'d>) {
         let x = Variables::of(model);
         let candidates: Vec<Symbol> = x.q.iter().copied().chain([x.t]).collect();
@@ -358,7 +359,7 @@ impl<'d> Equations<'d> {
             .for_each(|(place, value)| **place = value);
     }
 
-    /// Everything that follows from energies and forces alone.
+    /// All expressions that follow from energies and forces alone.
     fn dynamics(&mut self) -> Vec<&mut Expr<'d>> {
         let lists = [
             &mut self.bias,
@@ -398,7 +399,7 @@ fn exact<'d>(model: &Model<'d>) -> Option<Equations<'d>> {
     let mut applied = Loads::default();
     projection.add_gravity(&mut applied);
     projection.add_applied(&mut applied);
-    // Inertia with gravity in it, reversed: one sweep for all that acts.
+    // Reversed inertia forces together with gravity, so that one sweep collects all loads.
     let mut forces = projection.bias_loads(-1, true);
     projection.add_applied(&mut forces);
 
@@ -430,7 +431,8 @@ fn exact<'d>(model: &Model<'d>) -> Option<Equations<'d>> {
     })
 }
 
-/// The equations of approximated energies, by Lagrange; nothing if they become too large.
+/// The equations of approximated energies, by Lagrange's equations; nothing if they become
+/// too large.
 fn approximate<'d>(
     model: &Model<'d>,
     approximations: &Approximations<'d>,
@@ -507,7 +509,7 @@ fn approximate<'d>(
     })
 }
 
-/// Where bodies are, how fast they move, and their share of the kinetic energy.
+/// Positions and velocities of the bodies, and their shares of the kinetic energy.
 fn bodies<'d>(
     model: &Model<'d>,
     x: &Variables<'d>,

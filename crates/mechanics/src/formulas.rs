@@ -11,14 +11,15 @@ use lagrangian_program::quantity::Entry;
 use lagrangian_program::{Program, Role};
 use lagrangian_spec::model::Model;
 
-/// The most numbers, symbols and operations of a formula that is shown. Whoever wants to read more derives it as a page.
+/// The largest number of numbers, symbols and operations of a formula that is shown. Longer ones can be read in the
+/// printed derivation.
 const LONGEST_LINE: u64 = 250;
 
-/// The most that the comment of one function shows.
+/// The same limit for the comment of one function.
 const LONGEST_COMMENT: u64 = 2500;
 
-/// For each function the lines that say what it computes, `M[theta, x] = m*l*cos(theta)`, in the spec language; zeros are
-/// left out, and what is long is `…`.
+/// For each function the lines of its formulas, `M[theta, x] = m*l*cos(theta)`, in the spec language; zeros are left out,
+/// and long formulas are `…`.
 pub fn formulas<'d>(
     program: &Program,
     model: &Model<'d>,
@@ -26,7 +27,7 @@ pub fn formulas<'d>(
 ) -> BTreeMap<Role, Vec<String>> {
     let shown = quantities(model, equations)
         .into_iter()
-        // `f = Q - h`, and by how much a fact holds, is said in words.
+        // `f = Q - h` and the margin of an assumption are described in words.
         .filter(|quantity| !matches!(quantity.role, Role::Forces | Role::Assumption(_)));
     shown
         .map(|Quantity { role, values, .. }| {

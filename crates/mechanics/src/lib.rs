@@ -1,13 +1,14 @@
-//! From a [`Model`](lagrangian_spec::model::Model) to its [`Equations`], from these to a [`Program`], and its proof.
+//! Derives the [`Equations`] of a [`Model`](lagrangian_spec::model::Model), lowers them to a [`Program`], and
+//! proves it.
 //!
 //! ```text
 //! Model ─▶ Equations ─▶ Program ─▶ Proved
 //!          equations    lower      proof
 //! ```
 //!
-//! [`equations`] derives, symbolically; [`mod@lower`] finds the shortest exact way to compute what was derived, eliminates, and
-//! writes it down as straight-line arithmetic; [`proof`] holds the program against Lagrange's equations of this very machine,
-//! and nothing that prints or runs programs takes one that it has not let pass.
+//! [`equations`] derives symbolically. [`mod@lower`] looks for the shortest exact way to compute the result, eliminates, and
+//! writes straight-line arithmetic. [`proof`] compares the program with Lagrange's equations of the same machine; code that
+//! prints or runs programs accepts only proved ones.
 
 pub mod compile;
 pub mod equations;

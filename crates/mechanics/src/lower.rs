@@ -1,4 +1,4 @@
-//! From expressions to programs.
+//! Lowers the expressions of the equations to a [`Program`] of straight-line arithmetic.
 
 mod articulated;
 mod bars;
@@ -30,26 +30,25 @@ use lagrangian_spec::model::{Model, Name, Stages, Variable, stage};
 use lagrangian_spec::unit::Unit;
 use lagrangian_units::rate_name;
 
-/// A named result: what a function is to compute.
+/// A result that a function is to compute, by its role.
 #[derive(Clone, Debug)]
 pub struct Quantity<'d> {
-    /// What it is.
+    /// Its role.
     pub role: Role,
     /// How the values are arranged.
     pub shape: Shape,
-    /// The values, [`Shape::len`] many, over the symbols of the model.
+    /// The values, [`Shape::len`] of them, over the symbols of the model.
     pub values: Vec<Expr<'d>>,
 }
 
-/// The program of a machine: every function that [`Role`] names, each in the cheapest way that
-/// is known.
+/// Lowers a machine to its program: every function of [`Role`], each in the cheapest known form.
 pub fn lower<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Program {
     let expanded = equations.expanded();
     lower_by(model, equations, expanded.as_ref(), &best)
 }
 
-/// [`lower`] with another choice: `choose` is given the programs for one function, two or
-/// more, and says which it is to be.
+/// [`lower`] with another choice: `choose` is given two or more drafts of one function and says
+/// which one to take.
 ///
 /// `expanded` are the same equations, [multiplied out](Equations::expanded).
 pub fn lower_by<'d>(
@@ -77,7 +76,7 @@ pub fn lower_by<'d>(
     let source = Origin {
         quantities: &quantities(model, equations),
         expanded: &expanded.map_or_else(Vec::new, |expanded| matrix_and_forces(model, expanded)),
-        // What runs along a machine that closes would not close.
+        // Elimination along the machine would not close the loops of a closed-loop mechanism.
         unprojected: equations
             .unprojected
             .as_ref()
@@ -137,7 +136,7 @@ pub fn lower_by<'d>(
 
 /// The program that computes the quantities.
 ///
-/// If a mass matrix and forces are among them, there are accelerations too.
+/// If a mass matrix and forces are among them, the accelerations are computed too.
 pub fn of_quantities<'d>(model: &Model<'d>, quantities: &[Quantity<'d>]) -> Program {
     let source = Origin {
         quantities,
@@ -313,14 +312,14 @@ fn build<'d>(
         functions,
         choices,
     };
-    // Contacts are named by the caller, who verifies then.
+    // If there are contacts, the caller names them and verifies the program afterwards.
     if source.sliding.is_empty() && model.contacts.is_empty() {
         debug_assert_eq!(program.verify(), Ok(()));
     }
     program
 }
 
-/// What a start value is called: as its coordinate is, or `der(phi)`.
+/// The name of a start value: the name of its coordinate, or `der(phi)`.
 fn start_name(model: &Model<'_>, of: Variable) -> String {
     match of {
         Variable::Rate(i) => rate_name(&model.coordinates[i].name.to_string(), ""),
@@ -346,20 +345,20 @@ struct Origin<'a, 'd> {
     /// Some of the same quantities, multiplied out.
     expanded: &'a [Quantity<'d>],
     unprojected: Option<&'a Unprojected<'d>>,
-    /// The equations before projection of a closed-loop mechanism.
+    /// The unprojected equations of a closed-loop mechanism.
     cut_open: Option<&'a Unprojected<'d>>,
-    /// The derivatives of `f − M a` that are asked for, in one form or several, of the equations as
-    /// they were derived or multiplied out.
+    /// The requested derivatives of `f − M a`, in one form or several, of the equations as derived
+    /// or multiplied out.
     slopes: &'a dyn Fn(Basis) -> Vec<Vec<Vec<Expr<'d>>>>,
     /// The contacts with friction.
     sliding: &'a [SlidingEquation<'d>],
-    /// The symbols of the multipliers in them.
+    /// The symbols of their multipliers.
     multipliers: &'a [Expr<'d>],
-    /// This machine without the coordinates that constraints settle.
+    /// This machine without the coordinates that constraints determine.
     reduced: Option<Set<'a, 'd>>,
 }
 
-/// A set of equations that accelerations can be taken from.
+/// A set of equations from which accelerations can be solved.
 #[derive(Clone, Copy)]
 struct Set<'a, 'd> {
     model: &'a Model<'d>,
@@ -367,12 +366,12 @@ struct Set<'a, 'd> {
     expanded: &'a [Quantity<'d>],
     unprojected: Option<&'a Unprojected<'d>>,
     cut_open: Option<&'a Unprojected<'d>>,
-    /// How its coordinates are among those of the machine, where these are more.
+    /// How its coordinates are embedded in those of the machine, if the machine has more.
     reduction: Option<&'a Reduction<'d>>,
 }
 
 impl<'a, 'd> Origin<'a, 'd> {
-    /// All coordinates.
+    /// The set with all coordinates.
     fn whole(self, model: &'a Model<'d>) -> Set<'a, 'd> {
         Set {
             model,
@@ -385,7 +384,7 @@ impl<'a, 'd> Origin<'a, 'd> {
     }
 }
 
-/// What there is to compute of a machine, in the order of [`Role`]; accelerations follow from it.
+/// The quantities of a machine, in the order of [`Role`]; accelerations follow from them.
 pub fn quantities<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Quantity<'d>> {
     let outputs = (0..equations.outputs.len()).map(Role::Output);
     let facts = (0..model.assumptions.len()).map(Role::Assumption);
@@ -396,7 +395,7 @@ pub fn quantities<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Quant
         .collect()
 }
 
-/// A quantity in expressions; `None` if the machine has it not, or it follows from others.
+/// A quantity as expressions; `None` if the machine does not have it, or if it follows from others.
 fn quantity<'d>(model: &Model<'d>, equations: &Equations<'d>, role: Role) -> Option<Quantity<'d>> {
     let sizes = Sizes {
         coordinates: model.coordinates.len(),
@@ -443,7 +442,7 @@ fn quantity<'d>(model: &Model<'d>, equations: &Equations<'d>, role: Role) -> Opt
         Role::ContactCoefficients => unilateral.iter().flat_map(|u| u.coefficients).collect(),
         Role::Output(index) => vec![equations.outputs[index]],
         Role::Assumption(index) => vec![model.assumptions[index].excess],
-        // These are found by elimination, or are no expressions of the equations.
+        // These are found by elimination, or are not expressions of the equations.
         Role::Prepare
         | Role::Start
         | Role::Accelerations
@@ -463,7 +462,7 @@ fn quantity<'d>(model: &Model<'d>, equations: &Equations<'d>, role: Role) -> Opt
     })
 }
 
-/// What a program says of a constraint.
+/// The description of a constraint in the program.
 fn constraint(equation: &ConstraintEquation<'_>) -> Constraint {
     Constraint {
         name: equation.name.clone(),
@@ -473,7 +472,7 @@ fn constraint(equation: &ConstraintEquation<'_>) -> Constraint {
     }
 }
 
-/// Takes the mass matrix by [`articulated::mass_matrix`] where that is shorter.
+/// Replaces the mass matrix by that of [`articulated::mass_matrix`] if that is shorter.
 fn shorten_mass_matrix<'d>(
     model: &Model<'d>,
     machine: &Unprojected<'d>,
@@ -491,7 +490,7 @@ fn shorten_mass_matrix<'d>(
     }
 }
 
-/// How many numbers are multiplied and added at run time, before anything is shared but nodes.
+/// The number of multiplications and additions at run time, sharing only identical nodes.
 fn operations(dag: &Dag, roots: &[Expr<'_>]) -> usize {
     let varies = |id: &symbolic::Id| dag.expr(*id).stage() > Stage::PARAMETER;
     let each = |id: symbolic::Id| match dag.node(id) {
@@ -505,7 +504,7 @@ fn operations(dag: &Dag, roots: &[Expr<'_>]) -> usize {
     reachable(dag, roots).into_iter().map(each).sum()
 }
 
-/// `M`, `h` and `f`: what is different in equations that are multiplied out.
+/// `M`, `h` and `f`: the quantities that differ if the equations are multiplied out.
 fn matrix_and_forces<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Quantity<'d>> {
     [Role::MassMatrix, Role::Bias, Role::Forces]
         .into_iter()
@@ -513,10 +512,10 @@ fn matrix_and_forces<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Qu
         .collect()
 }
 
-/// Expressions on their way into the graph.
+/// Converts expressions to nodes of the graph.
 struct Lowering<'m, 'd> {
     model: &'m Model<'d>,
-    /// How many constraints there are.
+    /// The number of constraints.
     constraints: usize,
     graph: Graph,
     sources: FxHashMap<Symbol, Source>,
@@ -534,7 +533,7 @@ impl<'m, 'd> Lowering<'m, 'd> {
         }
     }
 
-    /// Brings the expressions and all their parts into the graph.
+    /// Adds the expressions and all their parts to the graph.
     fn lower(&mut self, roots: &[Expr<'d>]) {
         for id in reachable(self.model.dag, roots) {
             if !self.values.contains_key(&id) {
@@ -544,7 +543,7 @@ impl<'m, 'd> Lowering<'m, 'd> {
         }
     }
 
-    /// Lets symbols stand for values that are computed once.
+    /// Makes symbols stand for values that are computed once.
     fn name(&mut self, names: &[(Expr<'d>, Expr<'d>)]) {
         for (name, meaning) in names {
             self.lower(&[*meaning]);
@@ -589,7 +588,7 @@ impl<'m, 'd> Lowering<'m, 'd> {
         }
     }
 
-    /// M and f, if both are there; of the constraints behind them those that they come with.
+    /// `M` and `f`, if both are present, followed by the constraints that belong to them.
     fn system(
         &mut self,
         quantities: &[Quantity<'d>],
@@ -604,7 +603,7 @@ impl<'m, 'd> Lowering<'m, 'd> {
         let coordinates = forces.len();
         let rows = values(constraints, Role::ConstraintMatrix).unwrap_or_default();
         let drifts = values(constraints, Role::ConstraintDrift).unwrap_or_default();
-        // A machine whose coordinates are all settled has rows without entries.
+        // A machine whose coordinates are all determined by constraints has rows without entries.
         for k in 0..drifts.len() {
             matrix.extend(&rows[k * coordinates..][..coordinates]);
             matrix.extend(vec![Scaled::ZERO; k + 1]);
@@ -633,17 +632,17 @@ struct Planned {
     shape: Shape,
     results: Vec<Scaled>,
     pivots: Vec<Pivot>,
-    /// How many rows the system has that the pivots are of.
+    /// The number of rows of the system that the pivots belong to.
     rows: usize,
 }
 
-/// A function of which it is not yet decided whether it is taken.
+/// A candidate form of a function, before one of them is chosen.
 struct Draft {
     form: Form,
     function: Function,
-    /// The nodes that its `Read(Prepared(k))` stand for.
+    /// The nodes that its `Read(Prepared(k))` refer to.
     prepared: Vec<Id>,
-    /// Pivots that parameters alone decide.
+    /// Pivots that depend on parameters alone.
     known_pivots: Vec<Pivot>,
 }
 
@@ -654,8 +653,8 @@ impl Draft {
 }
 
 impl Planned {
-    /// The function in the ways that there are: common pairs shared, and before that, factors taken
-    /// out of sums.
+    /// The function in its alternative forms: with common pairs shared, and with factors taken out
+    /// of sums before that.
     fn drafts(self, graph: &mut Graph, basis: Basis) -> Vec<Draft> {
         let net = self.net(graph, true);
         let mut factored = net.clone();
@@ -667,7 +666,7 @@ impl Planned {
         drafts
     }
 
-    /// The function without a choice, of parameters.
+    /// The function in its only form, for functions of parameters.
     fn only(self, graph: &mut Graph) -> Draft {
         let net = self.net(graph, false);
         self.draft(None, net, Basis::Derived, false)
@@ -679,7 +678,8 @@ impl Planned {
         Net::of_values(graph, &values, cut)
     }
 
-    /// The function of a net; with the graph, what is known once the parameters are is prepared.
+    /// The function of a net. If the graph is given, values that depend on parameters alone
+    /// are prepared.
     fn draft(
         &self,
         graph: Option<&mut Graph>,
@@ -725,7 +725,7 @@ impl Planned {
     }
 }
 
-/// The one that is chosen, and the record of the choice if there was one.
+/// The draft that is chosen, and the record of the choice if there was one.
 fn taken(
     mut drafts: Vec<Draft>,
     graph: &Graph,
@@ -754,7 +754,7 @@ fn taken(
     (Some(draft), Some(Choice { candidates, chosen }))
 }
 
-/// What rounding does to the results of each draft, what is prepared for it included.
+/// The effect of round-off on the results of each draft, including the values prepared for it.
 fn roundings(drafts: &[&Draft], graph: &Graph, states: &States) -> Option<Vec<Rounding>> {
     let all = drafts.iter().flat_map(|draft| draft.prepared.iter());
     let mut ids: Vec<Id> = all.copied().collect();
@@ -778,7 +778,7 @@ fn roundings(drafts: &[&Draft], graph: &Graph, states: &States) -> Option<Vec<Ro
     states.roundings(&prepare, &functions)
 }
 
-/// A quantity as it was derived and multiplied out.
+/// The drafts of a quantity, as derived and multiplied out.
 fn of_quantity<'d>(
     lowering: &mut Lowering<'_, 'd>,
     quantity: &Quantity<'d>,
@@ -804,7 +804,7 @@ fn of_quantity<'d>(
     drafts
 }
 
-/// The accelerations from the mass matrix, and along the machine.
+/// The drafts of the accelerations, from the mass matrix and along the machine.
 fn accelerations<'d>(lowering: &mut Lowering<'_, 'd>, source: Set<'_, 'd>) -> Vec<Draft> {
     let Some(derived) = lowering.system(source.quantities, source.quantities) else {
         return Vec::new();
@@ -818,7 +818,8 @@ fn accelerations<'d>(lowering: &mut Lowering<'_, 'd>, source: Set<'_, 'd>) -> Ve
     let has_other = elimination.multiplications <= MOST_MULTIPLICATIONS;
     let mut drafts = Vec::new();
     for basis in [Basis::Along, Basis::Ahead] {
-        // One way there has to be; where formulas are nearly all of the work, no second one.
+        // At least one draft is needed; if formulas are nearly all of the work, a second one is
+        // not tried.
         let machine = source
             .unprojected
             .filter(|machine| !has_other || !is_mostly_formulas(source.model, machine));
@@ -843,8 +844,8 @@ fn accelerations<'d>(lowering: &mut Lowering<'_, 'd>, source: Set<'_, 'd>) -> Ve
         .min();
     for (basis, system) in systems {
         let elimination = Elimination::of(&lowering.graph, &system);
-        // What is certainly longer is not even written down: it grows with the cube of the number
-        // of coordinates.
+        // A certainly longer elimination is not even written down, since it grows with the cube of
+        // the number of coordinates.
         let most = shortest.map_or(MOST_MULTIPLICATIONS, |ops| ops.min(MOST_MULTIPLICATIONS));
         if elimination.multiplications > most {
             continue;
@@ -855,9 +856,10 @@ fn accelerations<'d>(lowering: &mut Lowering<'_, 'd>, source: Set<'_, 'd>) -> Ve
     drafts
 }
 
-/// What the square of a coefficient that parameters decide has to exceed by the tolerance of guards, for
-/// its value not to be rounding of its terms alone: `n Σ t²` times that tolerance. `None` where it has
-/// no rounding to speak of: a product, or a sum or difference of two numbers that are given.
+/// The scale in the guard of a squared coefficient that depends on parameters alone: `n Σ t²` over its
+/// terms `t`, times the tolerance of guards, so that the guard fails if the coefficient may be nothing
+/// but round-off of its terms. `None` if its round-off is negligible: a product, or a sum or difference
+/// of two given numbers.
 fn rounding_of(coefficient: Expr<'_>, rows: usize) -> Option<Expr<'_>> {
     let dag = coefficient.dag();
     let symbolic::Node::Sum(terms) = coefficient.node() else {
@@ -874,17 +876,17 @@ fn rounding_of(coefficient: Expr<'_>, rows: usize) -> Option<Expr<'_>> {
         .iter()
         .map(|(id, c)| (dag.expr(*id) * c.clone()).square());
     let tolerance = solve::pivot_tolerance(rows) * terms.len() as f64;
-    // A power of 2 at least as large: the tolerance is no number of the equations.
+    // Rounded up to a power of 2, so that the tolerance is not a number in the equations.
     let halvings = -tolerance.log2().ceil() as i32;
     Some(dag.sum(squares) / dag.int(2).powi(halvings))
 }
 
-/// The most nodes that velocities and loads may take, and as many more for every pair of coordinates, where the
-/// order of elimination is looked for. A chain of 64 links takes some 20 for each pair.
+/// The largest number of nodes of velocities and loads, and how many more for every pair of coordinates, for
+/// which an elimination order is searched. A chain of 64 links takes some 20 for each pair.
 const FORMULAS: [usize; 2] = [20_000, 1_000];
 
-/// Whether velocities and loads are so long, for so few coordinates, that the order in which these are eliminated
-/// cannot matter: it changes what is multiplied for each pair of coordinates, not the formulas.
+/// Whether velocities and loads are so long, relative to the number of coordinates, that the elimination order
+/// cannot matter: it changes the products for pairs of coordinates, not the formulas.
 fn is_mostly_formulas(model: &Model<'_>, machine: &Unprojected<'_>) -> bool {
     let carriers = machine.inertia.iter().flat_map(|pair| [pair.u, pair.w]);
     let loads = machine.loads.iter().flat_map(|&(u, load)| [u, load]);
@@ -894,11 +896,11 @@ fn is_mostly_formulas(model: &Model<'_>, machine: &Unprojected<'_>) -> bool {
     reachable(model.dag, &roots).len() > FORMULAS[0] + FORMULAS[1] * pairs
 }
 
-/// The most multiplications of an elimination that is written down: every one is an instruction, and
-/// takes 2 kB until it is one. 115 coordinates that all depend on each other take as many.
+/// The largest number of multiplications of an elimination that is written down: each becomes an
+/// instruction, and takes 2 kB until then. 115 fully coupled coordinates take this many.
 const MOST_MULTIPLICATIONS: usize = 250_000;
 
-/// A solution for the coordinates that are left, as one for all coordinates.
+/// Extends a solution for the independent coordinates to all coordinates.
 fn embedded<'d>(
     lowering: &mut Lowering<'_, 'd>,
     reduction: &Reduction<'d>,
@@ -910,7 +912,8 @@ fn embedded<'d>(
     for (&i, &value) in left.iter().zip(&solution.accelerations) {
         accelerations[i] = value;
     }
-    // What was lowered before may hold the accelerations as arguments, as outputs do.
+    // Values that were lowered earlier, such as outputs, may contain the accelerations
+    // as arguments.
     let before = lowering.values.clone();
     for (i, value) in accelerations.iter().enumerate() {
         let symbol = lowering.model.coordinates[i].a;
@@ -942,7 +945,7 @@ fn embedded<'d>(
         ..pivot
     });
     let mut pivots: Vec<Pivot> = pivots.collect();
-    // What was divided by; the determinant has its square.
+    // The coefficient was divided by; the determinant contains its square.
     let rows = all + lowering.constraints;
     for dependent in &reduction.dependents {
         lowering.lower(&[dependent.coefficient]);
@@ -1016,8 +1019,8 @@ fn multipliers<'d>(
     drafts
 }
 
-/// The accelerations with their derivatives, if any are asked for: from the equations that the
-/// accelerations were taken from.
+/// The accelerations with their derivatives, if any are requested, from the same equations as
+/// the accelerations.
 fn derivatives<'d>(
     lowering: &mut Lowering<'_, 'd>,
     source: Origin<'_, 'd>,
@@ -1039,7 +1042,7 @@ fn derivatives<'d>(
     (!slopes.is_empty()).then(|| derivatives::derivatives(lowering, &asked))
 }
 
-/// The programs of a solution; pivots that parameters alone decide are kept apart.
+/// The drafts of a solution; pivots that depend on parameters alone are kept apart.
 fn solved<'d>(
     lowering: &mut Lowering<'_, 'd>,
     source: Set<'_, 'd>,
@@ -1068,8 +1071,8 @@ fn solved<'d>(
     drafts
 }
 
-/// The accelerations by [`articulated::solve`]; `None` where these are too long for a way beside that from the mass
-/// matrix, and there is one.
+/// The accelerations by [`articulated::solve`]; `None` if these are too long and the mass matrix already gives
+/// another draft.
 fn along_the_machine<'d>(
     lowering: &mut Lowering<'_, 'd>,
     source: Set<'_, 'd>,
@@ -1081,7 +1084,7 @@ fn along_the_machine<'d>(
         Basis::Ahead => Order::Ahead,
         _ => Order::Short,
     };
-    // What four numbers turn moves with three velocities.
+    // A frame that is turned by a quaternion moves with three velocities.
     let Some(turned::Along {
         accelerations,
         pivots,
@@ -1141,13 +1144,13 @@ fn along_the_machine<'d>(
     Some(if is_cheap { full } else { lean })
 }
 
-/// Of a machine's diagonal entries of M, against which its pivots are held, the most that they may
-/// cost, in percent of the rest. Where they are not at hand, as in a chain in relative angles, a
+/// The largest cost, in percent of the rest, of computing the diagonal entries of `M` with which
+/// pivots are compared. If they are not available at this cost, as in a chain in relative angles, a
 /// pivot need only be positive.
 const DEAREST_GUARDS: usize = 10;
 
-/// The function that computes what the others read, the formulas of its results, and the others
-/// with their final indices.
+/// The function that computes the prepared values, the formulas of its results, and the other
+/// functions with their final indices.
 fn prepare(
     graph: &mut Graph,
     drafts: Vec<Draft>,
@@ -1180,7 +1183,7 @@ fn prepare(
     (prepare, formulas, functions)
 }
 
-/// Where the symbols of a model come from.
+/// The source of each symbol of a model.
 pub(super) fn sources(model: &Model<'_>) -> FxHashMap<Symbol, Source> {
     let mut sources = FxHashMap::default();
     let mut add = |symbol: Expr<'_>, source: Source| {

@@ -1,35 +1,37 @@
-//! Every program is proved before it is emitted or run.
+//! Proves every program before it is emitted or run.
 //!
-//! A [`Program`] becomes [`Proved`] by being held against Lagrange's equations of its own machine,
-//! evaluated literally ([`literal`](crate::equations::literal)); emitters and the machines that are
-//! interpreted take nothing else. What is compared:
+//! A [`Program`] becomes [`Proved`] by comparison with Lagrange's equations of its own machine,
+//! evaluated literally ([`literal`](crate::equations::literal)); emitters and interpreted machines
+//! accept only proved programs. The comparison covers:
 //!
-//! * energies, `M`, `h`, `Q`, `f`, the power of drives and dampers, outputs, facts and the start;
-//! * residual, rate, row and drift of each constraint, slip, row and drift of each guide;
-//! * accelerations, multipliers, and what friction forces bring about, by putting them into `M a = f + Gᵀλ
-//!   + Σ τᵀF`, `G a = γ` and the equations of the displacements that would open the guides;
+//! * energies, `M`, `h`, `Q`, `f`, the power of drives and dampers, outputs, assumptions and
+//!   the start;
+//! * residual, rate, row and drift of each constraint; slip, row and drift of each guide;
+//! * accelerations, multipliers, and their dependence on friction forces, by substitution into
+//!   `M a = f + Gᵀλ + Σ τᵀF`, `G a = γ` and the equations of the displacements that would open
+//!   the guides;
 //! * derivatives, by running the accelerations over dual numbers;
-//! * accelerations in stages, and the pivots that are guarded.
+//! * accelerations in stages, and the guarded pivots.
 //!
-//! # In which numbers
+//! # Number types
 //!
-//! First in those of a prime field ([`Residue`]), at [`POINTS`] random points. There
-//! nothing is rounded: equal is equal, and what differs does so but for a chance of about the degree
-//! of the difference over 2⁶¹, over 2⁴⁸ where it stands in angles (J. T. Schwartz, J. ACM 27 (1980)
-//! 701–717; R. Zippel, EUROSAM 1979). Rows of matrices and vectors are not compared one by one but
-//! all at once, multiplied by a vector drawn at random, which leaves the same chance; where that
-//! fails they are looked at one by one, to say which is wrong.
+//! The comparison is made first in a prime field ([`Residue`]), at [`POINTS`] random points. There
+//! nothing is rounded: equal values are identical, and different ones agree with a probability of
+//! about the degree of their difference over 2⁶¹, or over 2⁴⁸ if it is a difference in angles (J. T.
+//! Schwartz, J. ACM 27 (1980) 701–717; R. Zippel, EUROSAM 1979). Rows of matrices and vectors are
+//! compared all at once, multiplied by a random vector, which leaves the same probability; if that
+//! fails they are compared one by one, to say which is wrong.
 //!
-//! A field has no order, and no powers and logarithms of real numbers. So where a machine has any
-//! function but sine and cosine, or guides, whose reactions have a side; where the field knows no
-//! point at which all roots exist; and where it says that something differs: there the comparison is
-//! made (once more) in double-doubles that carry a bound of their own error ([`Ball`]), at
-//! [`STATES`] random states of the machine. It says for certain what differs, and has the last
-//! word: what is equal in 32 digits, up to the bound, at all of these states is equal, and the field
-//! may not know a law of powers or of roots that was used.
+//! A field has no order, and no real powers and logarithms. A second comparison is therefore made if
+//! a machine has any function but sine and cosine, or guides, whose reactions have a side; if the
+//! field has no point at which all roots exist; or if the field reports a difference. It is made in
+//! double-doubles that carry a bound of their own error ([`Ball`]), at [`STATES`] random states of
+//! the machine. It detects differences with certainty, and it decides: values that are equal in 32
+//! digits, up to the bound, at all of these states count as equal, since the field may not obey a
+//! law of powers or of roots that was used.
 //!
-//! Points and states are the same in every run: the same text has the same verdict. A failure tells
-//! the number of the point, which is its seed.
+//! Points and states are the same in every run, so the same text has the same verdict. A failure
+//! reports the number of the point, which is its seed.
 
 pub(crate) mod derived;
 pub(crate) mod number;
@@ -53,29 +55,30 @@ use lagrangian_spec::diagnostic::{Code, Diagnostic};
 use lagrangian_spec::model::{Model, Space, Variable};
 use number::{Number, Sight};
 
-/// The states at which programs are compared in double-doubles.
+/// The number of states at which programs are compared in double-doubles.
 pub const STATES: usize = 4;
 
-/// The most states to try.
+/// The largest number of states to try.
 const MOST_STATES: u64 = 96;
 
-/// The most points of the field to try. A root needs a point where its argument is a square, which
-/// is one of two; a machine with more than ten roots is compared at states.
+/// The largest number of points of the field to try. A root needs a point where its argument
+/// is a square, which holds with probability ½; a machine with more than ten roots is compared
+/// at states.
 const MOST_POINTS: u64 = 4096;
 
-/// The most values of expressions that may be computed in search of a point.
+/// The largest number of expression values that the search for a point may compute.
 const MOST_VALUES: u64 = 4_000_000;
 
-/// A comparison may say nothing, where a pivot or a value is missing that the search for a point has not seen.
-/// So many comparisons are made for each that must say something,
+/// The number of comparisons allowed for each one that must be conclusive. A comparison may be inconclusive if
+/// a pivot or a value is undefined that the search for a point did not examine.
 const COMPARISONS: u64 = 8;
 
-/// and as many more as compute no more than so many values: no proof costs more than so many times one
-/// that succeeds at once, or a second.
+/// Further comparisons are allowed until they have computed this many values. So a proof costs at most
+/// [`COMPARISONS`] times one that succeeds at once, or a second.
 const MOST_COMPARED: u64 = 40_000_000;
 
-/// A program that computes what Lagrange's equations of its machine say; see the
-/// [module](self).
+/// A program that was proved to compute what Lagrange's equations of its machine say; see
+/// the [module](self).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Proved(Program);
 
@@ -83,7 +86,7 @@ impl Proved {
     /// Proves a program.
     ///
     /// # Errors
-    /// What is wrong with it, or that nothing can be said of it.
+    /// The first disagreement, or that the comparison is inconclusive.
     pub fn new<'d>(
         program: Program,
         model: &Model<'d>,
@@ -99,10 +102,10 @@ impl Proved {
         }
     }
 
-    /// This program with some functions only, as [`Program::restricted`]; proved to give the values that they gave here.
+    /// This program with some of its functions, as [`Program::restricted`]; proved to give the same values as here.
     ///
     /// # Errors
-    /// If it does not.
+    /// If it gives other values.
     pub fn restricted(&self, roles: &[Role]) -> Result<Proved, Unproved> {
         let part = self.0.restricted(roles);
         for &role in roles {
@@ -117,7 +120,7 @@ impl Proved {
         Ok(Proved(part))
     }
 
-    /// The program.
+    /// The program itself.
     pub fn into_program(self) -> Program {
         self.0
     }
@@ -144,11 +147,11 @@ pub struct Unproved {
     pub disagreement: Disagreement,
     /// Where it was seen.
     pub witness: Witness,
-    /// What is wrong, by the names of the spec.
+    /// What is wrong, in the names of the spec.
     what: String,
 }
 
-/// In which numbers a program was found wrong.
+/// The numbers in which a program was found wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Witness {
     /// Those of the prime field.
@@ -158,7 +161,7 @@ pub enum Witness {
 }
 
 impl Unproved {
-    /// What a user is told, at the name of the machine.
+    /// The message for the user, at the name of the machine.
     pub fn diagnostic(&self, model: &Model<'_>) -> Diagnostic {
         match self.disagreement {
             Disagreement::Undefined => Diagnostic::new(
@@ -208,7 +211,7 @@ impl fmt::Display for Unproved {
 
 impl std::error::Error for Unproved {}
 
-/// The subject of a sentence that goes on with what Lagrange's equations say.
+/// The subject of the sentence that a message completes with what Lagrange's equations say.
 fn told(disagreement: &Disagreement, program: &Program) -> String {
     let member = |(kind, index): (Kind, usize)| {
         let name = program.member((kind, index));
@@ -284,7 +287,7 @@ fn told(disagreement: &Disagreement, program: &Program) -> String {
     }
 }
 
-/// Holds a program against the equations of its machine.
+/// Compares a program with the equations of its machine.
 fn validate<'d>(
     program: &Program,
     model: &Model<'d>,
@@ -327,7 +330,7 @@ fn validate<'d>(
     }
 }
 
-/// What functions of a machine's equations ask on which side of 0 it is.
+/// The arguments whose side of 0 is asked for by functions in the equations.
 fn asked_sides<'d>(machine: &Lagrange<'_, 'd>) -> Vec<(Expr<'d>, [bool; 2])> {
     let dag = machine.model.dag;
     let nodes = reachable(dag, &machine.roots).into_iter();
@@ -344,8 +347,8 @@ fn asked_sides<'d>(machine: &Lagrange<'_, 'd>) -> Vec<(Expr<'d>, [bool; 2])> {
     arguments.map(|argument| (argument, [false; 2])).collect()
 }
 
-/// About how many values one comparison computes, for a machine of so many nodes: each with three
-/// infinitesimals, which are eight numbers.
+/// The approximate number of values that one comparison computes, for a machine of `nodes` nodes:
+/// each has three infinitesimals, so it is eight numbers.
 fn work(program: &Program, nodes: usize) -> u64 {
     let code = |function: &lagrangian_program::Function| function.code.len() as u64;
     let functions: u64 = program.functions.iter().map(code).sum();
@@ -357,7 +360,7 @@ fn work(program: &Program, nodes: usize) -> u64 {
     8 * nodes as u64 + functions + 2 * slopes
 }
 
-/// Which coordinates the accelerations do not look at, since constraints settle them.
+/// The coordinates that the accelerations do not read, since constraints determine them.
 fn settled<'a, 'd>(program: &Program, equations: &'a Equations<'d>) -> &'a [Dependent<'d>] {
     let choice = program.choice(program.solving());
     let is_reduced = choice.is_none_or(|choice| choice.chosen().form.reduced);
@@ -367,7 +370,7 @@ fn settled<'a, 'd>(program: &Program, equations: &'a Equations<'d>) -> &'a [Depe
     }
 }
 
-/// What a prover works with.
+/// The inputs of a prover.
 #[derive(Clone, Copy)]
 struct Parts<'a, 'd> {
     program: &'a Program,
@@ -376,18 +379,18 @@ struct Parts<'a, 'd> {
     settled: &'a [Dependent<'d>],
 }
 
-/// What came of a comparison.
+/// The result of a comparison.
 #[derive(Clone, Debug, PartialEq)]
 enum Found {
     Equal,
     Wrong(Disagreement),
-    /// Too few points at which everything has a value.
+    /// There are too few points at which everything has a value.
     Nothing,
-    /// As [`Found::Nothing`], after this number of comparisons, which are all that may be made.
+    /// As [`Found::Nothing`], after this number of comparisons, the most that are allowed.
     Exhausted(u64),
 }
 
-/// Why a comparison says nothing yet, or that something is wrong.
+/// Why a comparison is inconclusive or has failed.
 enum Verdict {
     Elsewhere,
     Wrong(Disagreement),
@@ -399,7 +402,7 @@ impl From<Disagreement> for Verdict {
     }
 }
 
-/// A sum, and how large the numbers are that went into it.
+/// A sum, with the magnitude of its terms.
 #[derive(Clone, Copy)]
 struct Sum<R> {
     value: R,
@@ -443,12 +446,12 @@ fn equal<R: Number>(a: R, b: R) -> Result<bool, Verdict> {
     Sum::of([a, -b]).vanishes()
 }
 
-/// Entry (i, j) of a symmetric matrix, by its lower triangle.
+/// Row `i` of a symmetric matrix that is given by its lower triangle.
 fn row<R: Copy>(lower: &[R], n: usize, i: usize) -> impl Iterator<Item = R> {
     (0..n).map(move |j| lower[Shape::index(i, j)])
 }
 
-/// What the functions of a program give at a state.
+/// The results of the functions of a program at a state.
 struct Computed<R> {
     mass_matrix: Vec<R>,
     bias: Vec<R>,
@@ -458,7 +461,7 @@ struct Computed<R> {
     drift: Vec<R>,
 }
 
-/// A program, run in some numbers and compared.
+/// Runs a program in one kind of numbers and compares it.
 struct Prover<'a, 'd, R> {
     parts: Parts<'a, 'd>,
     interpreter: Interpreter<R>,
@@ -467,16 +470,16 @@ struct Prover<'a, 'd, R> {
     /// The accelerations over dual numbers, where derivatives are to be compared.
     slopes: Option<Interpreter<Dual<R>>>,
     number: u64,
-    /// How many comparisons were begun.
+    /// The number of comparisons that were begun.
     comparisons: u64,
-    /// For each output whether it had a value yet.
+    /// For each output whether it has had a value.
     seen: Vec<bool>,
-    /// The functions that were looked at.
+    /// The functions that were compared.
     called: BTreeSet<Role>,
-    /// Whether accelerations were, at any point.
+    /// Whether accelerations existed at any point.
     has_moved: bool,
-    /// Arguments of what asks on which side of 0 they are, and whether each has been below and above it where all was equal. A
-    /// program that is right on one side alone agrees at any number of states there.
+    /// Arguments whose side of 0 the equations ask for, and whether each has been below and above it at a point where all was
+    /// equal. A program that is right only on one side agrees at any number of states on that side.
     sides: Vec<(Expr<'d>, [bool; 2])>,
 }
 
@@ -506,7 +509,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         }
     }
 
-    /// Compares at so many points, of at most `most`, each comparison being so much `work`.
+    /// Compares at `points` points out of at most `most`; each comparison costs about `work`.
     fn run(mut self, points: usize, most: u64, work: u64) -> Found {
         let allowed = COMPARISONS * points as u64 + MOST_COMPARED / work.max(1);
         let mut good = 0;
@@ -520,7 +523,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
                 Err(Verdict::Elsewhere) => {}
                 Err(Verdict::Wrong(disagreement)) => return Found::Wrong(disagreement),
             }
-            // An output that has a value hardly anywhere is not waited for all the time, nor a side where hardly anything is.
+            // An output or a side that hardly ever occurs is not waited for indefinitely.
             let has_seen = self.seen.iter().all(|seen| *seen)
                 && self.sides.iter().all(|(_, sides)| *sides == [true; 2]);
             let has_seen = has_seen || good >= 4 * points;
@@ -535,8 +538,8 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         }
     }
 
-    /// Whether every function of the program was looked at: a quantity of which the proof knows nothing is
-    /// not proved. Where there are no accelerations, there is nothing to compare with those.
+    /// Whether every function of the program was compared: a quantity that the proof does not know is not
+    /// proved. If there are no accelerations, functions that are compared with them are exempt.
     fn covered(&self) -> Found {
         let is_covered = |role: Role| {
             self.called.contains(&role) || (role.row().called != Use::Seldom && !self.has_moved)
@@ -552,7 +555,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         let machine = self.parts.machine;
         let model = machine.model;
         let state = R::state(self.number, machine);
-        // Most points without roots are found out here, for little.
+        // Most points without roots are rejected here, at little cost.
         let facts: Vec<Expr<'d>> = model.assumptions.iter().map(|fact| fact.excess).collect();
         let facts = machine.values(&facts, &state);
         let here = machine.values(&machine.roots, &state);
@@ -573,7 +576,8 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             }
         }
         match compared {
-            // Where the spec's facts do not hold, agreement is agreement, and a difference is none.
+            // Where the assumptions of the spec do not hold, agreement counts and a difference
+            // does not.
             Err(Verdict::Wrong(_)) if !are_facts => Err(Verdict::Elsewhere),
             result => result,
         }
@@ -613,7 +617,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         self.check_stages(&state, &computed)
     }
 
-    /// Numbers drawn for this point; those of different kinds are independent.
+    /// Random numbers for this point; those of different kinds are independent.
     fn many(&self, kind: u64, len: usize) -> Vec<R> {
         let one = |i: usize| R::random(self.number, (kind << 32) + 1 + i as u64);
         (0..len).map(one).collect()
@@ -629,7 +633,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         self.settle(role, index, Sum::of([found, -expected]))
     }
 
-    /// Compares a result by its difference from what is expected.
+    /// Compares a result, given its difference from the expected value.
     fn settle(&self, role: Role, index: usize, difference: Sum<R>) -> Result<(), Verdict> {
         if !difference.value.is_finite() {
             return Err(Verdict::Elsewhere);
@@ -641,7 +645,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         }
     }
 
-    /// The results of a function, whether they have values or not.
+    /// The results of a function, which may be undefined.
     fn try_call(interpreter: &mut Interpreter<R>, role: Role, at: &State<R>, len: usize) -> Vec<R> {
         let arguments = Arguments {
             t: at.t,
@@ -657,7 +661,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         }
     }
 
-    /// The results of a function.
+    /// The results of a function; an error if they are undefined.
     fn call(&mut self, role: Role, at: &State<R>, len: usize) -> Result<Vec<R>, Verdict> {
         let results = Self::try_call(&mut self.interpreter, role, at, len);
         self.called.insert(role);
@@ -681,7 +685,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         })
     }
 
-    /// Energies, `M`, `h`, `Q` and `f`.
+    /// Compares energies, `M`, `h`, `Q` and `f`.
     fn check_dynamics(
         &mut self,
         at: &State<R>,
@@ -734,14 +738,14 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         Ok(())
     }
 
-    /// What the equations say for one coordinate.
+    /// The literal equations for one coordinate.
     fn literal(&self, at: &State<R>, i: usize) -> Literal<R> {
         let mut w = vec![R::ZERO; at.q.len()];
         w[i] = R::ONE;
         self.parts.machine.at(at, &w)
     }
 
-    /// Which entry of `M` or `h` is wrong.
+    /// Finds the wrong entry of `M` or `h`.
     fn wrong_inertia(&self, at: &State<R>, computed: &Computed<R>) -> Verdict {
         let n = at.q.len();
         let coasting = State {
@@ -774,9 +778,9 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         self.wrong(Role::MassMatrix, 0)
     }
 
-    /// The power of drives and dampers, by the balance of energy: whatever the accelerations are,
-    /// `d(T + V + E)/dt = P − R + v·(M a − f)`. Where constraints move by themselves, their power is in
-    /// `P` and the last term is not there.
+    /// Compares the power of drives and dampers by the balance of energy, which holds for any
+    /// accelerations: `d(T + V + E)/dt = P − R + v·(M a − f)`. If constraints are rheonomic, their
+    /// power is in `P` and the last term is absent.
     fn check_power(
         &mut self,
         at: &State<R>,
@@ -796,9 +800,9 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         self.compare(Role::DissipationRate, 0, found, lost)?;
         let power = self.call(Role::WorkRate, at, 1)?[0];
         let with_constraints = Sum::of([power, -literal.energy_rate, -lost]);
-        // How long four numbers are is no business of the balance.
+        // The lengths of quaternions are excluded from the balance.
         let mut without = with_constraints.plus(-literal.of_lengths);
-        // The row of a state is no balance of forces.
+        // The row of a state is not a balance of forces.
         for i in (0..n).filter(|&i| model.coordinates[i].rate.is_none()) {
             without = without.plus(-(at.v[i] * computed.forces[i]));
             for (m, &a) in row(&computed.mass_matrix, n, i).zip(&at.a) {
@@ -843,7 +847,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
                 constraint.position,
             )?;
             self.compare(Role::ConstraintRates, k, rates[k], constraint.rate)?;
-            // What is said of positions must not depend on rates.
+            // Positions must not depend on rates.
             self.compare(Role::ConstraintPositions, k, constraint.by_rates, R::ZERO)?;
             let row = &computed.rows[k * n..][..n];
             let along = Sum::products(row, w).plus(-constraint.along);
@@ -865,8 +869,8 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         Ok(())
     }
 
-    /// The slips, and for each whether the program counts it as the spec does: in a field it may be
-    /// the other way round, since a length there has no sign.
+    /// Compares the slips, and finds for each whether the program has the same sign as the literal
+    /// equations; in a field it may be opposite, since a length there has no sign.
     fn check_slips(
         &mut self,
         at: &State<R>,
@@ -905,8 +909,8 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         Ok(signs)
     }
 
-    /// The unilateral contacts: gaps, and the rates, rows and drifts of both directions, each as those
-    /// of a constraint that would hold it; and the coefficients.
+    /// Compares the unilateral contacts: gaps; the rates, rows and drifts of both directions, each
+    /// like those of a constraint that would hold the contact; and the coefficients.
     fn check_unilateral(
         &mut self,
         at: &State<R>,
@@ -940,7 +944,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         }
         for (k, contact) in literal.unilateral.iter().enumerate() {
             self.compare(Role::Gaps, k, gaps[k], contact.open.position)?;
-            // What is said of positions must not depend on rates.
+            // Positions must not depend on rates.
             self.compare(Role::Gaps, k, contact.open.by_rates, R::ZERO)?;
             self.compare(Role::Gaps, k, contact.gap.by_rates, R::ZERO)?;
             for (i, direction) in [contact.gap, contact.slip].into_iter().enumerate() {
@@ -960,7 +964,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         Ok(())
     }
 
-    /// Outputs, facts and the start. An output may have no value here.
+    /// Compares outputs, assumptions and the start. An output may have no value here.
     fn check_rest(&mut self, at: &State<R>, facts: &[R]) -> Result<(), Verdict> {
         let machine = self.parts.machine;
         let model = machine.model;
@@ -992,7 +996,8 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         self.interpreter.start(&mut q, &mut v);
         let found = q.into_iter().chain(v);
         for (i, (found, expected)) in found.zip(machine.values(&starts, at)).enumerate() {
-            // A start that does not exist, as √(−1) of a parameter, is the business of the run.
+            // A start that does not exist, such as √(−1) of a parameter, is left to the run
+            // to report.
             if found.is_finite() && expected.is_finite() {
                 self.compare(Role::Start, i, found, expected)?;
             }
@@ -1000,8 +1005,8 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         Ok(())
     }
 
-    /// The state with the coordinates that constraints settle where they are settled. That they are
-    /// is seen by the constraints themselves.
+    /// Moves the coordinates that constraints determine to where these are satisfied; the
+    /// constraints themselves show whether they are.
     fn follow(&self, mut at: State<R>) -> Result<State<R>, Verdict> {
         let (machine, settled) = (self.parts.machine, self.parts.settled);
         let point = self.number;
@@ -1058,7 +1063,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         Ok(at)
     }
 
-    /// The lower triangle of the matrix that is eliminated: `M`, and behind it the rows of `G`.
+    /// The lower triangle of the matrix that is eliminated: `M`, followed by the rows of `G`.
     fn lower(&self, computed: &Computed<R>) -> Vec<R> {
         let n = computed.bias.len();
         let mut lower = computed.mass_matrix.clone();
@@ -1069,8 +1074,8 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         lower
     }
 
-    /// Whether there are no accelerations since the equations do not determine any, which the guards
-    /// of the program tell whoever runs it.
+    /// Whether the accelerations are undefined because the equations do not determine them; the
+    /// guards of the program then report this at run time.
     fn has_no_accelerations(
         &mut self,
         at: &State<R>,
@@ -1090,8 +1095,8 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         let n = at.q.len() + self.parts.program.constraints.len();
         let determinant = determinant(&lower, n);
         let is_singular = if R::IS_ORDERED {
-            // Of numbers that are rounded nobody knows a determinant to be 0, but a constraint may
-            // be seen to say nothing that the others do not say.
+            // A determinant of rounded numbers cannot be known to be 0, but a constraint may be
+            // seen to depend on the others.
             has_dependent(&computed.rows, at.q.len())
         } else {
             !determinant.is_finite() || determinant.look(0.0) == Sight::Zero
@@ -1103,7 +1108,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         }
     }
 
-    /// `M a = f + Gᵀλ` and `G a = γ`.
+    /// Checks `M a = f + Gᵀλ` and `G a = γ`.
     fn check_motion(&mut self, at: &State<R>, computed: &Computed<R>) -> Result<(), Verdict> {
         let (n, m) = (at.q.len(), self.parts.program.constraints.len());
         let a = self.call(Role::Accelerations, at, n)?;
@@ -1111,7 +1116,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         self.check_balance(computed, &a, &multipliers, &computed.forces)
     }
 
-    /// `M a = f + Gᵀλ` and `G a = γ` for given accelerations, multipliers and forces.
+    /// Checks `M a = f + Gᵀλ` and `G a = γ` for given accelerations, multipliers and forces.
     fn check_balance(
         &self,
         computed: &Computed<R>,
@@ -1123,8 +1128,8 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         for (constraint, row) in computed.rows.chunks(n.max(1)).enumerate() {
             let open = Sum::products(row, a).plus(-computed.drift[constraint]);
             if !open.vanishes()? {
-                // What the others say already may contradict them; then no accelerations exist, and it
-                // is for the run to say so where it comes to it.
+                // A dependent constraint may contradict the others. Then no accelerations exist, and
+                // the run reports it if it gets there.
                 return if is_dependent(&computed.rows, n, constraint) {
                     Ok(())
                 } else {
@@ -1147,8 +1152,8 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         Ok(())
     }
 
-    /// With any friction forces the accelerations, multipliers and normal reactions obey the equations of
-    /// motion, of the constraints, and of the displacements that would open the guides.
+    /// Checks that for any friction forces the accelerations, multipliers and normal reactions obey the
+    /// equations of motion, of the constraints, and of the displacements that would open the guides.
     fn check_friction(
         &mut self,
         at: &State<R>,
@@ -1206,7 +1211,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         if layout.axes != 1 {
             let told = responses[layout.directions()..].chunks_exact(3);
             for (k, (told, contact)) in told.zip(&contacts).enumerate() {
-                // Up to its sign, which no square root in a field knows.
+                // Compared up to sign, because square roots in a field have none.
                 for (i, j) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)] {
                     let place = layout.directions() + 3 * k + j;
                     let expected = contact.telling[i] * contact.telling[j];
@@ -1223,8 +1228,8 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         self.check_reactions(&moving, &contacts, &pressed)
     }
 
-    /// The normal reactions balance what would open the guides: the equations of the relaxed
-    /// machine along their normals.
+    /// Checks that the normal reactions balance the forces that would open the guides: the
+    /// equations of the relaxed machine along their normals.
     fn check_reactions(
         &self,
         at: &State<R>,
@@ -1262,7 +1267,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
                 (k, relaxed.at(&at, &w))
             })
             .collect();
-        // In a field nobody knows on which side a body is: there any will do. In space there are no sides.
+        // The side is unknown in a field, where any combination is accepted. In space there are no sides.
         let patterns = if R::IS_ORDERED || relaxed.model.space == Space::Space {
             1
         } else {
@@ -1312,17 +1317,17 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         Err(Disagreement::Reaction { contact, point }.into())
     }
 
-    /// The product of the pivots is the determinant of `M`, one for each coordinate, and each is
-    /// held against its `Mᵢᵢ` or itself; with constraints it is that of their matrix too, up to the
-    /// signs of theirs.
+    /// Checks that the product of the pivots, one for each coordinate, is the determinant of `M`,
+    /// and that each pivot is compared with its `Mᵢᵢ` or itself; with constraints the product is
+    /// that of their matrix too, up to the signs of theirs.
     fn check_pivots(&mut self, at: &State<R>, computed: &Computed<R>) -> Result<(), Verdict> {
         let program = self.parts.program;
         let n = at.q.len() + program.constraints.len();
         let coordinates = guarded_coordinates(program);
         let mut sorted = coordinates.clone();
         sorted.sort_unstable();
-        // A coordinate that a constraint settles may have none; then the constraint's is what it is
-        // divided by.
+        // A coordinate that a constraint determines may have no pivot; then the pivot of the
+        // constraint is divided by.
         let missing: Vec<usize> = (0..n).filter(|i| !sorted.contains(i)).collect();
         let settled = self.parts.settled;
         let is_settled = |i: &usize| settled.iter().any(|d| d.coordinate == *i);
@@ -1339,8 +1344,8 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         self.check_pairs(&pairs, &self.lower(computed), missing.is_empty())
     }
 
-    /// The product of pivots is the determinant of the matrix with that lower triangle, and where
-    /// they are those of `M` the scales are its diagonal.
+    /// Checks that the product of pivots is the determinant of the matrix with that lower triangle
+    /// and, for the pivots of `M`, that the scales are its diagonal.
     fn check_pairs(
         &self,
         pairs: &[[R; 2]],
@@ -1379,8 +1384,8 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         Ok(())
     }
 
-    /// The accelerations over dual numbers have the derivatives that the program says: along one
-    /// direction drawn at random, and only where that fails by one variable at a time.
+    /// Checks that the accelerations over dual numbers have the derivatives that the program gives,
+    /// along one random direction, and one variable at a time only if that fails.
     fn check_derivatives(&mut self, at: &State<R>) -> Result<(), Verdict> {
         let (role, n) = (Role::Derivatives, at.q.len());
         let variables = &self.parts.program.derivatives;
@@ -1411,7 +1416,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         Ok(())
     }
 
-    /// The derivatives of the accelerations along a direction.
+    /// The directional derivatives of the accelerations.
     fn slopes_along(&mut self, at: &State<R>, direction: &[R]) -> Result<Vec<R>, Verdict> {
         let Some(interpreter) = &mut self.slopes else {
             return Err(Verdict::Elsewhere);
@@ -1445,8 +1450,8 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         Ok(a.iter().map(|a| a.derivative).collect())
     }
 
-    /// The accelerations in stages are those at once, and the pivots that are guarded on the way are
-    /// those of `M`.
+    /// Checks that the accelerations in stages equal those computed at once, and that the pivots
+    /// guarded on the way are those of `M`.
     fn check_stages(&mut self, at: &State<R>, computed: &Computed<R>) -> Result<(), Verdict> {
         let program = self.parts.program;
         let roles = program.staged_roles();
@@ -1455,7 +1460,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         };
         let n = program.dimension();
         let expected = self.call(Role::Accelerations, at, n)?;
-        // Pivots of parameters alone; those of the stages take the place of others.
+        // These pivots depend on parameters alone; those of the stages replace the others.
         let mut pivots: Vec<Option<[R; 2]>> = vec![None; n + program.constraints.len()];
         let known = &program.prepare.guards;
         let varying = program
@@ -1495,16 +1500,16 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
     }
 }
 
-/// What acts in the guides.
+/// The forces in the guides.
 struct Pressed<'a, R> {
     multipliers: &'a [R],
     friction_forces: &'a [R],
     normals: &'a [R],
-    /// Whether the program counts slips as the spec does.
+    /// Whether the signs of the program's slips agree with the spec.
     signs: &'a [R],
 }
 
-/// The first place where what was found is not what was expected.
+/// The first index at which the found and the expected value differ.
 fn first_difference<R: Number>(len: usize, at: impl Fn(usize) -> (R, R)) -> usize {
     let differs = |i: &usize| {
         let (found, expected) = at(*i);
@@ -1513,7 +1518,7 @@ fn first_difference<R: Number>(len: usize, at: impl Fn(usize) -> (R, R)) -> usiz
     (0..len).find(differs).unwrap_or(0)
 }
 
-/// Whether a function gives the same in two programs of one machine.
+/// Checks that a function gives the same results in two programs of one machine.
 fn same_results(whole: &Program, part: &Program, role: Role) -> Result<(), Disagreement> {
     let len = whole.function(role).map_or(0, |f| f.results.len());
     let list = |kind: u64, len: usize| -> Vec<Residue> {
@@ -1556,7 +1561,7 @@ fn same_results(whole: &Program, part: &Program, role: Role) -> Result<(), Disag
     Ok(())
 }
 
-/// Whether one of some rows of length `n` is a combination of the others.
+/// Whether one of some rows of length `n` is a linear combination of the others.
 fn is_dependent<R: Number>(rows: &[R], n: usize, one: usize) -> bool {
     let mut ordered: Vec<&[R]> = rows.chunks(n.max(1)).collect();
     let one = ordered.remove(one);
@@ -1564,14 +1569,14 @@ fn is_dependent<R: Number>(rows: &[R], n: usize, one: usize) -> bool {
     vanishing(&ordered).last() == Some(&true)
 }
 
-/// Whether some of the rows are combinations of others.
+/// Whether some of the rows are linear combinations of others.
 fn has_dependent<R: Number>(rows: &[R], n: usize) -> bool {
     let rows: Vec<&[R]> = rows.chunks(n.max(1)).collect();
     vanishing(&rows).contains(&true)
 }
 
-/// For each row whether it is a combination of those before it, by elimination; of numbers that are
-/// rounded whatever may be 0 counts as 0.
+/// For each row whether it is a linear combination of those before it, by elimination; a rounded
+/// number that may be 0 counts as 0.
 fn vanishing<R: Number>(rows: &[&[R]]) -> Vec<bool> {
     let is_zero = |x: &R| !matches!(x.look(0.0), Sight::NotZero);
     let mut pivots: Vec<(usize, Vec<R>)> = Vec::new();

@@ -1,10 +1,10 @@
 //! The Taylor series of a machine's motion, proved.
 //!
-//! The equations of motion in the form of `residual.rs` become the rows of a [`Series`]. Its first coefficients are put into
-//! Lagrange's equations, evaluated literally over [`Jet`]s: truncated power series in time. What these equations leave,
-//! along one direction drawn at random, must vanish in every coefficient. The numbers are those of the prime field first;
-//! where the machine has functions of which the field knows no laws, and wherever it objects, `Ball`s, as for
-//! [programs](crate::Proved).
+//! The equations of motion in the form of `residual.rs` become the rows of a [`Series`]. Its first coefficients are
+//! substituted into Lagrange's equations, evaluated literally over [`Jet`]s, truncated power series in time. The
+//! residual along one random direction must vanish in every coefficient. The numbers are those of the prime field
+//! first; `Ball`s if the machine has functions whose laws do not hold in the field, and if the field finds a
+//! difference, as for [programs](crate::Proved).
 
 mod lower;
 mod residual;
@@ -21,14 +21,14 @@ use crate::equations::literal::{Lagrange, State};
 use crate::proof::number::{Number, Sight};
 use crate::{POINTS, STATES};
 
-/// How many coefficients of the equations are compared. A recurrence is one rule for all orders; five see both
-/// halves of every square, and every term of a sum that leaves out its ends.
+/// The number of coefficients of the equations that are compared. A recurrence is one rule for all orders;
+/// five of them cover both halves of every square, and every term of a sum that leaves out its ends.
 const ORDERS: usize = 5;
 
-/// The most states to try.
+/// The largest number of states to try.
 const MOST_STATES: u64 = 96;
 
-/// A series of which it is known that it obeys the equations of motion of its machine.
+/// A series that was proved to obey the equations of motion of its machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProvedSeries(Arc<Series>);
 
@@ -44,7 +44,8 @@ impl ProvedSeries {
     /// Proves a series of a machine's motion.
     ///
     /// # Errors
-    /// If it does not obey the equations of motion, or no state was found to tell by.
+    /// If it does not obey the equations of motion, or if no state was found at which they can
+    /// be compared.
     pub fn new(series: Series, model: &Model<'_>) -> Result<ProvedSeries, NoSeries> {
         let series = Arc::new(series);
         if is_proved(&series, model) {
@@ -82,7 +83,7 @@ fn is_proved(series: &Arc<Series>, model: &Model<'_>) -> bool {
     }
 }
 
-/// Whether the equations hold at so many states; nothing where there are not so many at which they have a value.
+/// Whether the equations hold at `states` states; nothing if they do not have values at that many.
 fn compare<R: Number>(
     series: &Arc<Series>,
     machine: &Lagrange<'_, '_>,
@@ -105,7 +106,7 @@ fn compare<R: Number>(
     None
 }
 
-/// Whether the equations hold at a state along a direction; nothing where they have no value.
+/// Whether the equations hold at a state along a direction; nothing if they have no value.
 fn holds<R: Number>(
     series: &Arc<Series>,
     machine: &Lagrange<'_, '_>,
@@ -143,7 +144,7 @@ fn holds<R: Number>(
     for (k, constraint) in literal.constraints.iter().enumerate() {
         let series = expander.of_multiplier(k);
         held = held + Jet(std::array::from_fn(|order| series[order])) * constraint.along;
-        // Accelerations and velocity products cancel in it: these are its size.
+        // Accelerations and velocity products cancel in the residual, so their size is its scale.
         for (order, rate) in constraint.acceleration.0.into_iter().enumerate() {
             let sizes = moving.a.iter().map(|a| a.0[order].size());
             pairs.push((rate, R::ZERO, 1.0 + sizes.sum::<f64>()));

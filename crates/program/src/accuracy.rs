@@ -1,74 +1,76 @@
-//! How exact a program is at given states, held against the same program in double-doubles.
+//! Measures the accuracy of a program at given states, by comparison with the same program
+//! in double-doubles.
 //!
-//! An error alone says little: where a result is a small difference of large terms, the data decide it no better than to many
-//! units in its last place, whatever the program does. So an error is told as a share of what is unavoidable: half a unit in the
-//! last place of the result itself, and what half a unit in the last place of every argument and parameter makes of it, each drawn
-//! at random, the greatest of several draws. A share of some units is a program as exact as any can be; a large one is a loss of
-//! digits that a better formula would not have (N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed. 2002,
-//! section 1.5: forward error, backward error and condition).
+//! An absolute error says little: if a result is a small difference of large terms, the data determine it only to many units in
+//! its last place, whatever the program does. So an error is reported relative to the unavoidable error: half a unit in the last
+//! place of the result itself, plus the effect of changing every argument and parameter at random by up to half a unit in its last
+//! place, the largest effect of several draws. A ratio of a few units means that the program is as accurate as possible; a large
+//! one is a loss of digits that a better formula would not have (N. J. Higham, *Accuracy and Stability of Numerical Algorithms*,
+//! 2nd ed. 2002, section 1.5: forward error, backward error and condition).
 
 use lagrangian_scalar::{DoubleDouble, Scalar};
 
 use super::rounding::{SplitMix, State};
 use super::{Arguments, Interpreter, Program, Role};
 
-/// Half the distance between 1 and the next number: a rounding is off by at most this, relatively.
+/// Half the distance between 1 and the next number: the bound of the relative error of a rounding.
 const HALF_UNIT: f64 = f64::EPSILON / 2.0;
 
-/// How often all data are moved by half a unit in their last place.
+/// The number of times that all data are perturbed by up to half a unit in their last place.
 const DRAWS: usize = 8;
 
-/// How often the way towards a singular state is shortened before it ends.
+/// The number of times that the step towards a singular state is shortened before the search ends.
 const ROUNDS: usize = 16;
 
-/// What rounding does to one of a machine's quantities.
+/// The rounding errors of one of a machine's quantities.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Accuracy {
-    /// Which quantity.
+    /// The quantity.
     pub role: Role,
-    /// At how many states it has a value.
+    /// The number of states at which it has a value.
     pub known: usize,
-    /// The median over states of the greatest share among its numbers.
+    /// The median over states of the largest ratio among its numbers.
     pub median: f64,
-    /// Where that is greatest.
+    /// The state and number with the largest ratio.
     pub worst: Worst,
 }
 
-/// Where a quantity is least exact.
+/// The least accurate number of a quantity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Worst {
-    /// The error as a share of what is unavoidable.
+    /// The error relative to the unavoidable error.
     pub share: f64,
     /// The error in units in the last place of the result.
     pub units: f64,
     /// The error, in the unit of the result.
     pub error: f64,
-    /// Which of its numbers.
+    /// The index of the number.
     pub index: usize,
-    /// At which state, counted in the order in which they were looked at.
+    /// The index of the state, in the order in which states were examined.
     pub state: usize,
 }
 
-/// Computes the numbers of a quantity, and says whether it has a value there.
+/// Computes the numbers of a quantity, and returns whether they have values.
 pub type Compute<'a> = dyn FnMut(Role, Arguments<'_, f64>, &mut [f64]) -> bool + 'a;
 
-/// Looks at a program state by state.
+/// Examines a program state by state.
 #[derive(Debug)]
 pub struct Judge<'p> {
     program: &'p Program,
     near: Interpreter<f64>,
     exact: Interpreter<DoubleDouble>,
-    /// With other parameters, each moved by up to half a unit in its last place.
+    /// Interpreters with perturbed parameters, each parameter by up to half a unit in its
+    /// last place.
     moved: Vec<Interpreter<DoubleDouble>>,
     random: SplitMix,
-    /// How many states were looked at.
+    /// The number of states that were examined.
     states: usize,
-    /// Of each function its role, the greatest share at each state, and the worst.
+    /// For each function its role, the largest ratio at each state, and the worst number.
     seen: Vec<(Role, Vec<f64>, Worst)>,
 }
 
 impl<'p> Judge<'p> {
-    /// For a program with these parameters.
+    /// A judge of a program with these parameters.
     ///
     /// # Panics
     /// If `parameters` is not as long as [`Program::parameters`].
@@ -83,7 +85,7 @@ impl<'p> Judge<'p> {
         });
         let moved = moved.collect();
         let functions = program.functions.iter().map(|function| function.role);
-        // Stages compute parts of the accelerations, and are read by each other only.
+        // Stages compute parts of the accelerations that only other stages read.
         let whole = functions.filter(|role| {
             !matches!(
                 role,
@@ -103,7 +105,7 @@ impl<'p> Judge<'p> {
         }
     }
 
-    /// Whether all that the machine assumes holds at a state.
+    /// Whether all assumptions of the machine hold at a state.
     pub fn holds(&mut self, state: &State) -> bool {
         let facts = self.program.assumptions.iter().zip(0..);
         let mut all = true;
@@ -116,8 +118,8 @@ impl<'p> Judge<'p> {
         all
     }
 
-    /// Looks at a state. `fast` is what is judged: it computes a quantity in the arithmetic of compiled machines, and says whether that
-    /// has a value.
+    /// Examines a state. `fast` is the code that is judged: it computes a quantity in the arithmetic of compiled machines, and returns
+    /// whether it has a value.
     pub fn look(&mut self, state: &State, fast: &mut Compute<'_>) {
         let compute = fast;
         let number = self.states;
@@ -191,8 +193,8 @@ impl<'p> Judge<'p> {
         }
     }
 
-    /// A state from `from` on in which the machine is nearly singular: where the least share that elimination leaves of a pivot is
-    /// smallest, as far as a search along one coordinate after the other finds it.
+    /// A state near `from` at which the machine is nearly singular: where the smallest ratio of pivot to scale is smallest, as far
+    /// as a search along one coordinate after the other finds it.
     pub fn towards_singular(&mut self, from: &State) -> State {
         let mut best = from.clone();
         let mut least = self.margin(&best);
@@ -205,7 +207,7 @@ impl<'p> Judge<'p> {
                     let mut there = best.clone();
                     there.q[i] += by;
                     let margin = self.margin(&there);
-                    // What is no number is no margin.
+                    // A NaN margin compares false and is rejected.
                     if margin < least && self.holds(&there) {
                         (best, least, found) = (there, margin, true);
                         break;
@@ -217,7 +219,7 @@ impl<'p> Judge<'p> {
         best
     }
 
-    /// The least share that elimination leaves of a pivot; infinite where it has none, or the machine is singular.
+    /// The smallest ratio of pivot to scale; infinite if there is no pivot, or if the machine is singular.
     fn margin(&mut self, state: &State) -> f64 {
         let role = self.program.solving();
         let length = self.program.function(role).map_or(0, |of| of.results.len());
@@ -228,7 +230,7 @@ impl<'p> Judge<'p> {
         }
     }
 
-    /// What was seen, in the order of the program's functions; without those that have no value at any state.
+    /// The results, in the order of the program's functions, without those that have no value at any state.
     pub fn finish(self) -> Vec<Accuracy> {
         let seen = self
             .seen
@@ -247,7 +249,7 @@ impl<'p> Judge<'p> {
     }
 }
 
-/// Numbers, each moved by up to half a unit in its last place.
+/// Numbers, each perturbed by up to half a unit in its last place.
 fn moved(row: &[f64], random: &mut SplitMix) -> Vec<DoubleDouble> {
     let moved = |&x: &f64| {
         let by = x * random.uniform(-HALF_UNIT, HALF_UNIT);

@@ -1,50 +1,48 @@
-//! Which of several programs for one function is taken.
+//! Chooses among several programs for one function.
 //!
-//! There is no form of the equations that is the best for every machine: multiplied out they are
-//! the cheapest for a double pendulum, never for a long chain; eliminating along the machine is for
-//! whatever has free bodies or long chains, the mass matrix for what is small and tightly coupled.
-//! So each function is made in the ways that may be the best, and of those that are exact enough
-//! the one of the least [cost](Cost) is taken. What was made, what it would have cost and what
-//! rounding would have done stays on record.
+//! No form of the equations is best for every machine: multiplied out they are cheapest for a
+//! double pendulum, but never for a long chain; elimination along the machine is best with free
+//! bodies or long chains, the mass matrix for small, tightly coupled machines. So each function is
+//! made in every form that may be the best, and among those that are accurate enough the one of the
+//! least [cost](Cost) is taken. All candidates are recorded with their costs and roundings.
 //!
-//! Exact enough is what loses no more than one bit: a candidate whose [rounding](Rounding) is at
-//! most [`MOST_ROUNDING`] times that of the most exact one.
+//! Accurate enough means a loss of at most one bit: a candidate whose [rounding](Rounding) is at
+//! most [`MOST_ROUNDING`] times that of the most accurate one.
 
 use std::cmp::Ordering;
 use std::fmt;
 
 use super::{Cost, Counts, Program, Role, Rounding};
 
-/// How many times the rounding of the most exact candidate that of another may be.
+/// The largest acceptable ratio of the rounding of a candidate to that of the most accurate one.
 ///
-/// Rounding is the whole error of a run once its tolerance is small: no tolerance takes it back, whereas time can be bought. But what is below this factor, a bit, is not worth
-/// any time, and could not be told for certain: a [`Rounding`] is the median of a few states, and
-/// the ratio of two is right to a factor of one and a half. So whatever is taken is truly at most
-/// three times as far off as the most exact candidate, which tests hold for every machine of the
-/// library, and whatever is left aside for its rounding truly is farther off.
+/// Rounding is the whole error of a run once its tolerance is small: no tolerance removes it, whereas time can be bought. But a difference below this factor,
+/// one bit, is not worth any time, and could not be measured reliably: a [`Rounding`] is the median of a few states, and the ratio of two is accurate to a
+/// factor of one and a half. So the error of the chosen candidate is at most three times that of the most accurate one, as tests check for every machine of the
+/// library, and every candidate rejected for its rounding is truly less accurate.
 pub const MOST_ROUNDING: u64 = 2;
 
-/// What a function is made from.
+/// The equations that a function is made from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Basis {
     /// The equations as they were derived.
     Derived,
     /// The equations, multiplied out.
     Expanded,
-    /// Inertia and loads where they are, eliminated from the tips of the machine to the ground.
+    /// Inertia and loads on velocities, eliminated from the tips of the machine to the ground.
     Along,
-    /// As [`Basis::Along`], with as little as there can be between one division and the next.
+    /// Like [`Basis::Along`], with as few operations as possible between one division and the next.
     Ahead,
 }
 
-/// A way to make a function.
+/// A form in which a function is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Form {
-    /// What it computes.
+    /// Its role.
     pub role: Role,
-    /// What it is made from.
+    /// The equations it is made from.
     pub basis: Basis,
-    /// Whether coordinates that constraints settle are put in before anything is derived.
+    /// Whether coordinates that constraints determine are substituted before anything is derived.
     pub reduced: bool,
     /// Whether factors are taken out of sums before common pairs are shared.
     pub factored: bool,
@@ -53,19 +51,19 @@ pub struct Form {
 /// A program that was made for a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Candidate {
-    /// How it was made.
+    /// Its form.
     pub form: Form,
-    /// Its operations.
+    /// Its operation counts.
     pub counts: Counts,
-    /// How long it takes.
+    /// Its cost.
     pub cost: Cost,
-    /// What rounding does to its results, where that is known: it is for all candidates or none.
+    /// Its rounding, if known; it is known for all candidates or for none.
     pub rounding: Option<Rounding>,
 }
 
 impl Candidate {
-    /// Which of two is the cheaper one; of two that cost the same, the one of fewer operations where
-    /// none is contracted.
+    /// Orders two candidates by cost; at equal cost, by the number of operations
+    /// without contraction.
     pub fn compare(&self, other: &Candidate) -> Ordering {
         let ops = |candidate: &Candidate| candidate.counts.ops();
         let by_cost = self.cost.compare(other.cost);
@@ -73,27 +71,27 @@ impl Candidate {
     }
 }
 
-/// The programs that were made for one function, and which of them was taken.
+/// The programs that were made for one function, and the one that was chosen.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Choice {
-    /// All of them, two or more, no two of them the same.
+    /// All candidates, two or more, no two of them equal.
     pub candidates: Vec<Candidate>,
-    /// The index of the one that was taken.
+    /// The index of the chosen one.
     pub chosen: usize,
 }
 
 impl Choice {
-    /// What the function computes.
+    /// The role of the function.
     pub fn role(&self) -> Role {
         self.chosen().form.role
     }
 
-    /// The program that was taken.
+    /// The chosen candidate.
     pub fn chosen(&self) -> &Candidate {
         &self.candidates[self.chosen]
     }
 
-    /// The others, the best first.
+    /// The others, best first.
     pub fn others(&self) -> Vec<&Candidate> {
         ranked(&self.candidates)
             .into_iter()
@@ -104,25 +102,26 @@ impl Choice {
 }
 
 impl Program {
-    /// What was chosen from for a function; `None` if there was only one way to make it.
+    /// The choice that was made for a function; `None` if there was only one form.
     pub fn choice(&self, role: Role) -> Option<&Choice> {
         self.choices.iter().find(|choice| choice.role() == role)
     }
 }
 
-/// The index of the best: the cheapest of those that are exact enough; of several, the first. Where
-/// nothing is known of rounding, all of them are.
+/// The index of the best candidate: the cheapest of those that are accurate enough; the first in
+/// case of a tie. If the rounding is unknown, all count as accurate enough.
 pub fn best(candidates: &[Candidate]) -> usize {
     ranked(candidates).first().copied().unwrap_or(0)
 }
 
-/// The indices from the best to the worst: those that are exact enough, then the others, each from
-/// the cheapest to the dearest.
+/// The indices from best to worst: those that are accurate enough, then the others, each by
+/// increasing cost.
 fn ranked(candidates: &[Candidate]) -> Vec<usize> {
     let least = candidates.iter().filter_map(|c| c.rounding).min();
     let is_rough = |candidate: &Candidate| match (candidate.rounding, least) {
         (Some(rounding), Some(least)) => !rounding.is_within(MOST_ROUNDING, least),
-        // At these states it has no value, as where it divides by a length that is zero.
+        // It has no value at these states, for instance because it divides by a length that
+        // is zero.
         (None, Some(_)) => true,
         (_, None) => false,
     };
@@ -171,7 +170,7 @@ impl fmt::Display for Candidate {
     }
 }
 
-/// What was taken, and what the next best would have been: one line for the head of a module.
+/// The chosen candidate and the next best one, in one line for the head of a module.
 impl fmt::Display for Choice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.chosen())?;
@@ -186,7 +185,7 @@ impl fmt::Display for Choice {
 mod tests {
     use super::*;
 
-    /// Candidates of these costs, in cycles, and roundings.
+    /// Candidates with these costs, in cycles, and roundings.
     fn candidates(of: &[(u64, Option<f64>)]) -> Vec<Candidate> {
         let candidate = |&(cycles, rounding): &(u64, Option<f64>)| Candidate {
             form: Form {

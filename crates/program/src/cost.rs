@@ -1,15 +1,15 @@
-//! How long a function takes, for choosing between programs.
+//! Estimates the time of a function, to choose between programs.
 //!
 //! A processor works on many operations at once, so two things bound the time of a call: the work,
-//! divided by how much of it is done in a cycle, and the longest chain of operations of which each
-//! waits for the one before. One call by itself takes about the larger of the two. Where many
-//! calls run side by side, as in lanes, no one waits, and only the work counts.
+//! divided by the throughput, and the latency of the longest chain of dependent operations. A
+//! single call takes about the larger of the two. If many calls run side by side, as in lanes,
+//! latencies are hidden, and only the work counts.
 //!
 //! The figures are those of current x86 cores with two units for floating-point arithmetic (A. Fog,
-//! *Instruction tables*, Technical University of Denmark), and for the rest measured with emitted
-//! code:
+//! *Instruction tables*, Technical University of Denmark), and measurements with emitted code for
+//! the rest:
 //!
-//! | operation | cycles of work | cycles until it is known |
+//! | operation | cycles of work | cycles of latency |
 //! | --- | --- | --- |
 //! | multiplication, addition, fused multiply-add | 0.4 | 4 |
 //! | division | 4.5 | 13 |
@@ -29,24 +29,24 @@ use super::{Counts, Function, Op};
 /// Sines and cosines that are computed together.
 const PACK: usize = 4;
 
-/// How long a function takes, in tenths of a processor cycle.
+/// The estimated time of a function, in tenths of a processor cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cost {
-    /// Its work: what a call takes among many that run side by side.
+    /// Its work: the time of a call among many that run side by side.
     pub throughput: u64,
-    /// The longest chain of operations of which each waits for the one before.
+    /// The latency of the longest chain of dependent operations.
     pub path: u64,
 }
 
 impl Cost {
     /// The cost of a call.
     ///
-    /// [Contracted](super::fused()) products count nothing beside the additions that they go into.
+    /// [Contracted](super::fused()) products add nothing to the additions that absorb them.
     pub fn of(function: &Function) -> Cost {
         let timing = Timing::of(function);
         let contracted = timing.fused.iter().flatten().count() as u64;
         let work: u64 = function.code.iter().map(work).sum();
-        // Counted by angle, not by operation.
+        // Sines and cosines are counted by angle, not by operation.
         let counts = Counts::of(function);
         let angles = 120 * counts.sincos.div_ceil(PACK) as u64;
         let guards = 8 * counts.guards as u64;
@@ -60,13 +60,13 @@ impl Cost {
         }
     }
 
-    /// What one call by itself takes.
+    /// The time of a single call.
     pub fn alone(self) -> u64 {
         self.throughput.max(self.path)
     }
 
-    /// Which of two programs is the better one: with the smaller sum of what a call takes by itself
-    /// and what it takes among others, since one program serves for both.
+    /// Orders two programs by the sum of the time of a single call and that of a call among others,
+    /// since one program serves for both.
     pub fn compare(self, other: Cost) -> Ordering {
         let both = |cost: Cost| cost.alone() + cost.throughput;
         both(self).cmp(&both(other))

@@ -1,4 +1,4 @@
-//! How much work a function is.
+//! Counts the operations of a function.
 
 use std::fmt;
 use std::ops::AddAssign;
@@ -16,7 +16,7 @@ pub struct Counts {
     pub additions: usize,
     /// Divisions.
     pub divisions: usize,
-    /// Angles of which the sine, the cosine or both are taken.
+    /// Angles whose sine, cosine or both are taken.
     pub sincos: usize,
     /// Other functions: roots, powers, arctangents, …
     pub other: usize,
@@ -25,7 +25,7 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// The work of one call.
+    /// The operations of one call.
     pub fn of(function: &Function) -> Counts {
         let mut counts = Counts {
             guards: function.guards.len(),
@@ -37,7 +37,8 @@ impl Counts {
                 Op::Constant(_) | Op::Pi | Op::Read(_) => {}
                 Op::Add(..) | Op::Sub(..) | Op::Neg(_) => counts.additions += 1,
                 Op::Mul(..) => counts.multiplications += 1,
-                // One fused operation; three sums, three more for the order of the terms.
+                // A product error takes one fused operation; a sum error three sums, and three more
+                // for the order of the terms.
                 Op::ProductError(..) => counts.multiplications += 1,
                 Op::SumError(..) => counts.additions += 6,
                 Op::Div(..) => counts.divisions += 1,
@@ -50,16 +51,16 @@ impl Counts {
         counts
     }
 
-    /// Multiplications and additions: what is meant by "ops" where programs are compared.
+    /// Multiplications and additions: the "ops" in comparisons of programs.
     pub fn ops(&self) -> usize {
         self.multiplications + self.additions
     }
 
-    /// An estimate of the time of a call, in tenths of a processor cycle, for choosing between
-    /// programs.
+    /// An estimate of the time of a call, in tenths of a processor cycle, for choosing
+    /// between programs.
     ///
     /// By throughput on a current x86 core: 2.5 multiplications or additions a cycle, 4.5 cycles
-    /// for a division, 12 for a group of four sines and cosines. Other functions are taken for a
+    /// for a division, 12 for a group of four sines and cosines. Other functions are counted like a
     /// sine and cosine computed alone.
     pub fn cost(&self) -> usize {
         4 * self.ops() + 45 * self.divisions + 30 * self.sincos + 120 * self.other
@@ -77,7 +78,7 @@ impl AddAssign for Counts {
     }
 }
 
-/// `12 mul, 7 add, 1 div, 2 sincos`, without what does not occur; `no operations`.
+/// `12 mul, 7 add, 1 div, 2 sincos`, without kinds that do not occur; `no operations`.
 impl fmt::Display for Counts {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let kinds = [

@@ -1,16 +1,15 @@
-//! Factors that terms of a sum have in common, taken out: `x·y + x·z·w + u` becomes `x·(y + z·w) +
-//! u`.
+//! Takes common factors out of sums: `x·y + x·z·w + u` becomes `x·(y + z·w) + u`.
 //!
-//! Greedy: the factor that most terms have is taken out of these, and so on with the remaining terms
-//! inside and outside. Among factors that occur equally often, the one known last is taken, so
-//! that what remains inside is known early. Products that something else uses too are left alone:
-//! they would have to be computed twice.
+//! The algorithm is greedy: the factor that occurs in most terms is taken out of them, and so on
+//! with the remaining terms inside and outside. Among factors that occur equally often, the one
+//! known last is taken, so that what remains inside is known early. Products that are also used
+//! elsewhere are left alone, since they would have to be computed twice.
 //!
 //! This is Horner's rule for several variables, with the order of variables chosen on the way (J.
 //! Carnicer and M. Gasca, *Evaluation of multivariate polynomials and their derivatives*, Math.
-//! Comp. 54 (1990) 231–243, say what it saves). It competes with [common
-//! pairs](super::pairs): a factor that is taken out is no longer there to be shared. So a
-//! program is made both ways, and the cheaper one is taken.
+//! Comp. 54 (1990) 231–243, analyse its savings). It competes with [common pairs](super::pairs): a
+//! factor that is taken out can no longer be shared. So a program is made both ways, and the
+//! cheaper one is taken.
 
 use std::cmp::Reverse;
 
@@ -18,28 +17,28 @@ use rustc_hash::FxHashMap;
 
 use super::net::{Index, Item, Net, Signed};
 
-/// Longer sums are left as they are: every factor that is taken out is found by counting all.
+/// Longer sums are left as they are, since every search for a factor counts all of them.
 const LONGEST_SUM: usize = 512;
 
-/// How deep factors are taken out of what others were taken out of.
+/// The largest depth of nested sums from which factors are taken out.
 const DEEPEST: usize = 48;
 
-/// How many factors may be looked at in one function, counted anew for each one that is taken out.
-/// Where it takes more, the sums after that stay as they are.
+/// The largest number of factors that are counted in one function, anew for each factor taken out.
+/// After that the remaining sums stay as they are.
 const LOOKS: usize = 2_000_000;
 
 /// A term of a sum.
 struct Monomial {
-    /// Its factors by index, repeated for powers; of a term that is no product of its own, the
-    /// term.
+    /// Its factors by index, repeated for powers; if the term is not a product of its own, the
+    /// term itself.
     factors: Vec<Index>,
     negative: bool,
-    /// The item that it is, unless it has been changed.
+    /// Its item, unless it was changed.
     item: Option<Index>,
 }
 
 impl Monomial {
-    /// Whether a factor may be taken out: a term that is nothing but a factor stays.
+    /// Whether a factor may be taken out: a term that is only a factor stays.
     fn is_product(&self) -> bool {
         self.factors.len() > 1
     }
@@ -54,7 +53,7 @@ impl Monomial {
 }
 
 impl Net {
-    /// Takes common factors out of all sums; says whether there were any.
+    /// Takes common factors out of all sums; returns whether there were any.
     pub fn factor(&mut self) -> bool {
         let uses = self.uses();
         let mut changed = false;
@@ -74,7 +73,7 @@ impl Net {
             let terms = self.factored(monomials, 0, &mut looks);
             let terms: Vec<Signed> = terms.into_iter().map(|term| self.written(term)).collect();
             self.items[index] = match *terms.as_slice() {
-                // All of it is one product; its item is nobody else's.
+                // The whole sum is one product, and nothing else uses its item.
                 [(product, false)] => self.items[product as usize].clone(),
                 _ => Item::Sum(terms),
             };
@@ -139,7 +138,7 @@ impl Net {
             let (mut inside, outside) = terms.into_iter().partition::<Vec<_>, _>(has);
             let mut common = vec![factor];
             inside.iter_mut().for_each(|term| term.divide(factor));
-            // What else all of them have.
+            // Further factors that all of them have in common.
             while let Some(&next) = inside[0].factors.iter().find(|next| {
                 inside
                     .iter()
@@ -168,8 +167,9 @@ impl Net {
         terms
     }
 
-    /// The factor that most products among the terms have, if two have one: of several, the one known
-    /// last, then the oldest. None once so many factors have been looked at.
+    /// The factor that occurs in most products among the terms, if it occurs in two or more: in
+    /// case of a tie, the one known last, then the oldest. None once the limit of counted factors
+    /// is reached.
     fn most_common(&self, terms: &[Monomial], looks: &mut usize) -> Option<Index> {
         let factors: usize = terms.iter().map(|term| term.factors.len()).sum();
         *looks = looks.checked_sub(factors)?;

@@ -1,4 +1,4 @@
-//! What a value is, as a spec would write it: for comments and listings.
+//! Writes values as formulas in the spec language, for comments and listings.
 
 use std::fmt::Write as _;
 
@@ -7,10 +7,10 @@ use lagrangian_symbolic::{Function, Rational};
 use super::Source;
 use super::graph::{Graph, Id, Node, Scaled};
 
-/// Formulas longer than this are cut: nobody reads on.
+/// Formulas longer than this are truncated.
 const LONGEST: usize = 100;
 
-/// The text of a value; `name` tells what an argument is called.
+/// The text of a value; `name` gives the name of an argument.
 pub fn formula(graph: &mut Graph, value: Scaled, name: &dyn Fn(Source) -> String) -> String {
     let id = graph.unsigned(value);
     let mut writer = Writer {
@@ -68,7 +68,7 @@ fn decimal(value: &Rational) -> Option<String> {
     ))
 }
 
-/// What a place binds tighter than: whether what stands there needs brackets.
+/// The binding strength of a position, which decides whether an expression there needs brackets.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Binding {
     Sum,
@@ -84,7 +84,7 @@ struct Writer<'a> {
 
 impl Writer<'_> {
     /// Writes a node. Every level of nesting writes something before it goes deeper, so the limit
-    /// on the length limits the depth too.
+    /// on the length also limits the depth.
     fn write(&mut self, id: Id, place: Binding) {
         if self.text.len() > LONGEST {
             return;
@@ -155,7 +155,7 @@ impl Writer<'_> {
         self.text.push_str(if brackets { ")" } else { "" });
     }
 
-    /// Numbers first, then factors, then what it is divided by.
+    /// Numbers first, then factors, then divisors.
     fn product(&mut self, factors: &[(Id, i32)]) {
         let is_number = |id: Id| matches!(self.graph.node(id), Node::Constant(_));
         let mut up: Vec<(Id, i32)> = factors

@@ -1,8 +1,9 @@
-//! Which products are contracted into the sums that use them.
+//! Decides which products are contracted into the sums that use them.
 //!
-//! Programs keep multiplications and additions apart; where a processor has a fused multiply-add,
-//! `a·b ± c` is one operation with one rounding. Whether it is done is the emitter's choice, which
-//! products it is done to is said here once, for the emitters and for the [cost](super::Cost).
+//! Programs keep multiplications and additions apart; a processor with a fused multiply-add
+//! computes `a·b ± c` in one operation with one rounding. Whether to contract is the choice
+//! of the emitter; which products to contract is decided here, once for the emitters and for
+//! the [cost](super::Cost).
 
 use super::latency::latency;
 use super::{Function, Op, Value};
@@ -17,12 +18,12 @@ pub enum Side {
 }
 
 /// For each operation the operand that is a product to be contracted into it, if there is one:
-/// `Left` of `a·b + c` and `a·b − c`, `Right` of `c + a·b` and `c − a·b`.
+/// `Left` for `a·b + c` and `a·b − c`, `Right` for `c + a·b` and `c − a·b`.
 ///
-/// Such a product is used once in the whole function, by this addition or subtraction; so its
-/// multiplication need not be written. Where both operands are such products, the one whose
-/// factors are known later is contracted, and the other is multiplied while they are awaited; of
-/// two that are known together, the left one.
+/// Such a product is used only once in the whole function, by this addition or subtraction, so its
+/// multiplication need not be written. If both operands are such products, the one whose factors
+/// are known later is contracted, and the other is multiplied in the meantime; if both are known at
+/// the same time, the left one is contracted.
 pub fn fused(function: &Function) -> Vec<Option<Side>> {
     Timing::of(function).fused
 }
@@ -30,7 +31,7 @@ pub fn fused(function: &Function) -> Vec<Option<Side>> {
 /// A sum and the product that is contracted into it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Contraction {
-    /// Which of the three it is.
+    /// The kind of contraction.
     pub kind: Contracted,
     /// The factors a and b of the product.
     pub factors: [Value; 2],
@@ -38,7 +39,7 @@ pub struct Contraction {
     pub term: Value,
 }
 
-/// What is done to a product and a term.
+/// The operation on a product and a term.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Contracted {
     /// a·b + c
@@ -49,7 +50,7 @@ pub enum Contracted {
     SubFrom,
 }
 
-/// What [`fused`] says, by sums and by products.
+/// The result of [`fused`], by sums and by products.
 #[derive(Clone, Debug)]
 pub struct Contractions {
     sums: Vec<Option<Contraction>>,
@@ -58,7 +59,7 @@ pub struct Contractions {
 }
 
 impl Contractions {
-    /// Those of a function.
+    /// The contractions of a function.
     pub fn of(function: &Function) -> Contractions {
         let n = function.code.len();
         let mut all = Contractions {
@@ -92,7 +93,7 @@ impl Contractions {
         all
     }
 
-    /// No sums and no products: every operation by itself.
+    /// No contractions: every operation stands by itself.
     pub fn none(function: &Function) -> Contractions {
         let n = function.code.len();
         Contractions {
@@ -101,23 +102,23 @@ impl Contractions {
         }
     }
 
-    /// What the sum at an index is, if a product is contracted into it.
+    /// The contraction in a sum, if a product is contracted into it.
     pub fn sum(&self, value: Value) -> Option<Contraction> {
         self.sums[value.index()]
     }
 
-    /// Whether a value is a product that the sum which uses it computes.
+    /// Whether a value is a product that the sum using it computes.
     pub fn is_part(&self, value: Value) -> bool {
         self.is_part[value.index()]
     }
 }
 
-/// When values are known.
+/// The times at which values are known.
 pub struct Timing {
-    /// What [`fused`] says.
+    /// The result of [`fused`].
     pub fused: Vec<Option<Side>>,
-    /// For each operation, how long after the arguments its value is known if nothing else has to
-    /// wait, in tenths of a cycle.
+    /// For each operation, how long after the arguments its value is known if only its operands
+    /// delay it, in tenths of a cycle.
     pub ready: Vec<u64>,
 }
 
@@ -165,13 +166,13 @@ impl Timing {
     }
 }
 
-/// For each operation, how long after the arguments its value is known if nothing else has to wait,
-/// in tenths of a cycle.
+/// For each operation, how long after the arguments its value is known if only its operands delay
+/// it, in tenths of a cycle.
 pub fn ready(function: &Function) -> Vec<u64> {
     Timing::of(function).ready
 }
 
-/// How often each value is used: by operations, guards and as a result.
+/// How often each value is used: by operations and guards, and as a result.
 pub fn uses(function: &Function) -> Vec<u32> {
     let mut uses = vec![0; function.code.len()];
     let operands = function.code.iter().flat_map(Op::operands);
@@ -189,7 +190,7 @@ mod tests {
     use super::super::{Role, Shape, Source};
     use super::*;
 
-    /// A function of coordinates 0, 1, 2 and more operations, of which the last are results.
+    /// A function of coordinates 0, 1, 2 and more operations, the last of which are results.
     fn function(more: &[Op], results: usize) -> Function {
         let mut code: Vec<Op> = (0..3).map(|i| Op::Read(Source::Coordinate(i))).collect();
         code.extend_from_slice(more);
@@ -215,7 +216,7 @@ mod tests {
         assert_eq!(fused(&left)[4], Some(Side::Left));
         let right = function(&[Op::Mul(v(0), v(1)), Op::Sub(v(2), v(3))], 1);
         assert_eq!(fused(&right)[4], Some(Side::Right));
-        // Contracted or not, only the sum has the one.
+        // With or without contraction, only the sum has an entry.
         assert_eq!(fused(&right)[..4], [None; 4]);
     }
 

@@ -1,16 +1,17 @@
-//! All values of all functions of a machine, each once, with products and sums still whole.
+//! The graph of all values of all functions of a machine, each once, with products and sums
+//! still whole.
 //!
-//! Here the *stages are split*: whatever only parameters decide is kept apart from the rest, so
-//! that it becomes a prepared value. Every value is written `±p·x`, a [`Scaled`]: `p` is known once
-//! the parameters are, `x` has no such factor. In a sum whose terms share `p` it moves out, and so
-//! on outwards, until it meets other parameters and costs nothing:
+//! Here the *stages are split*: whatever depends on parameters alone is separated from the rest, so
+//! that it becomes a prepared value. Every value is written `±p·x`, a [`Scaled`]: `p` depends on
+//! parameters alone, `x` has no such factor. If the terms of a sum share `p`, it moves out of the
+//! sum, and so on outwards, until it meets other parameters and costs nothing:
 //!
 //! ```text
 //! m·(l·s₁ + l·s₂)·v²  =  (m·l)·((s₁ + s₂)·v²)
 //! ```
 //!
-//! Never more multiplications than before: one for each term that loses its factor, against one
-//! where the sum is used.
+//! This never adds multiplications: it removes one for each term that loses its factor, and adds
+//! one where the sum is used.
 
 use lagrangian_scalar::Scalar;
 use lagrangian_symbolic::{Function, Rational};
@@ -19,8 +20,8 @@ use rustc_hash::FxHashMap;
 use super::Source;
 use super::interpret::{binary, unary};
 
-/// Products of as many factors are factors of others as they stand. The slopes of what is nested n deep are products of up to
-/// n factors, which taken apart would be n² in all.
+/// Products of at least this many factors remain whole as factors of other products. The derivatives of n nested functions
+/// are products of up to n factors; flattened, they would have n² in all.
 const LONGEST_PRODUCT: usize = 64;
 
 /// A node of a [`Graph`]; operands have smaller ids.
@@ -33,13 +34,13 @@ impl Id {
     /// The number 1.
     pub const ONE: Id = Id(1);
 
-    /// Its place among the nodes of the graph.
+    /// Its index among the nodes of the graph.
     pub fn index(self) -> usize {
         self.0 as usize
     }
 }
 
-/// What a node is.
+/// The kinds of nodes.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Node {
     /// A number.
@@ -48,14 +49,14 @@ pub enum Node {
     Pi,
     /// An argument.
     Read(Source),
-    /// At least two terms, by id, the first of them positive; or a single negative one.
+    /// At least two terms, ordered by id, the first of them positive; or a single negative one.
     Sum(Box<[Term]>),
-    /// Factors and their powers, by id; no factor is a product, but for one that is known or long. Two
-    /// factors at least, or one with a power other than 1.
+    /// Factors and their powers, ordered by id. No factor is a product, unless it depends on
+    /// parameters alone or is long. There are two factors at least, or one with a power other than 1.
     Product(Box<[(Id, i32)]>),
     /// A function of its arguments.
     Function(Function, Box<[Id]>),
-    /// A value that is computed on its own: a factor of products, whatever it is a product of.
+    /// A value that is computed on its own: it stays one factor, even if it is a product.
     Whole(Id),
 }
 
@@ -68,15 +69,14 @@ pub struct Term {
     pub negative: bool,
 }
 
-/// `±factor·core`: the factor is known once the parameters are, the core is 1 or has no such
-/// factor.
+/// `±factor·core`: the factor depends on parameters alone, the core is 1 or has no such factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scaled {
     /// Whether the sign is −.
     pub negative: bool,
-    /// What parameters decide.
+    /// The part that depends on parameters alone.
     pub factor: Id,
-    /// What they do not.
+    /// The rest.
     pub core: Id,
 }
 
@@ -93,7 +93,7 @@ impl Scaled {
         self.factor == Id::ZERO
     }
 
-    /// Whether parameters alone decide it.
+    /// Whether it depends on parameters alone.
     pub fn is_known(self) -> bool {
         self.core == Id::ONE
     }
@@ -107,10 +107,10 @@ impl Scaled {
     }
 }
 
-/// Expressions as nodes that are shared: the same operation on the same operands is there once.
+/// Hash-consed expressions: equal operations on equal operands are one node.
 pub struct Graph {
     nodes: Vec<Node>,
-    /// Whether parameters alone decide the node.
+    /// Whether the node depends on parameters alone.
     known: Vec<bool>,
     ids: FxHashMap<Node, Id>,
 }
@@ -130,17 +130,17 @@ impl Default for Graph {
 }
 
 impl Graph {
-    /// What a node is.
+    /// The node of an id.
     pub fn node(&self, id: Id) -> &Node {
         &self.nodes[id.index()]
     }
 
-    /// How many nodes there are; the numbers 0 and 1 always are.
+    /// The number of nodes; the numbers 0 and 1 are always among them.
     pub fn size(&self) -> usize {
         self.nodes.len()
     }
 
-    /// Whether parameters alone decide the node.
+    /// Whether the node depends on parameters alone.
     pub fn is_known(&self, id: Id) -> bool {
         self.known[id.index()]
     }
@@ -164,7 +164,7 @@ impl Graph {
         id
     }
 
-    /// A node as a scaled value, parameters into the factor.
+    /// A node as a scaled value, with its parameters in the factor.
     pub fn scaled(&self, id: Id) -> Scaled {
         if self.is_known(id) {
             Scaled {
@@ -205,8 +205,8 @@ impl Graph {
 
     /// The function of its arguments.
     pub fn function(&mut self, function: Function, arguments: &[Scaled]) -> Scaled {
-        // A sum may have been turned round when it was built, so that its angle is −x: sin(−x) =
-        // −sin x, cos(−x) = cos x.
+        // The sign of a sum may have been flipped when it was built, so that the angle is −x:
+        // sin(−x) = −sin x, cos(−x) = cos x.
         if let ([x], Function::Sin | Function::Cos) = (arguments, function) {
             let argument = self.unsigned(*x);
             let id = self.intern(Node::Function(function, Box::new([argument])));
@@ -250,7 +250,8 @@ impl Graph {
         self.product(&[(numerator, 1), (denominator, -1)])
     }
 
-    /// The product of nodes, products that are not long taken apart and constants multiplied.
+    /// The product of nodes; products that are not long are flattened, and constants
+    /// are multiplied.
     fn product_of(&mut self, list: &[(Id, i32)]) -> Id {
         let mut constant = Rational::ONE;
         let mut factors: Vec<(Id, i32)> = Vec::with_capacity(list.len() + 1);
@@ -267,7 +268,7 @@ impl Graph {
             }
         }
         factors.retain(|&(id, power)| {
-            // What has no exact value (1/0, more digits than any number needs) stays a factor.
+            // A factor without an exact value (1/0, or too many digits) stays a factor.
             let exact = match self.node(id) {
                 Node::Constant(value) => value
                     .pow(power)
@@ -352,7 +353,7 @@ impl Graph {
         }
     }
 
-    /// The sum of the factors of terms of one core; the core of the result is 1.
+    /// The sum of the factors of terms with equal cores; the core of the result is 1.
     fn sum_of_known(&mut self, terms: &[Scaled]) -> Scaled {
         // c₁·p + c₂·p = (c₁ + c₂)·p for numbers c.
         let mut multiples: Vec<(Id, Rational)> = Vec::with_capacity(terms.len());
@@ -447,7 +448,7 @@ impl Graph {
         if x.factor == Id::ONE || x.is_known() {
             return self.product_of(&[(x.factor, 1), (x.core, 1)]);
         }
-        // The factor stays one factor: all of it is known before.
+        // The factor stays one factor, since all of it is known earlier.
         let mut factors = vec![(x.factor, 1)];
         match self.node(x.core) {
             Node::Product(inner) if inner.len() < LONGEST_PRODUCT => {
@@ -470,7 +471,7 @@ impl Graph {
         }
     }
 
-    /// A value with its sign in the factor.
+    /// A value whose sign is moved into the factor.
     pub fn with_signed_factor(&mut self, x: Scaled) -> Scaled {
         let factor = match self.node(x.factor) {
             Node::Constant(value) if x.negative => {
@@ -486,7 +487,7 @@ impl Graph {
         }
     }
 
-    /// Values over any numbers, given those of what is read.
+    /// Evaluates values over any type of number, given the values of the arguments.
     pub fn evaluate<S: Scalar>(&self, roots: &[Scaled], read: impl Fn(Source) -> S) -> Vec<S> {
         let mut needed = vec![false; self.nodes.len()];
         for root in roots {
@@ -544,7 +545,7 @@ impl Graph {
         roots.iter().map(value).collect()
     }
 
-    /// A value, computed on its own wherever it is used: not multiplied out.
+    /// A value that is computed on its own wherever it is used, and never multiplied out.
     pub fn whole(&mut self, x: Scaled) -> Scaled {
         if x.is_known() {
             return x;

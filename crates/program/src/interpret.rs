@@ -1,5 +1,5 @@
-//! Programs run over any number, without a compiler: the command line's engine, and what generated
-//! code is tested against.
+//! The interpreter: runs programs over any type of number without a compiler. The command line uses
+//! it, and generated code is tested against it.
 
 use lagrangian_scalar::Scalar;
 use lagrangian_symbolic::Function as Call;
@@ -9,10 +9,9 @@ use super::{Contracted, Contractions, Function, Op, Program, Role, Singular, Sou
 
 /// A program ready to run over numbers of type `S`.
 ///
-/// It does what the program says in the order in which the program says it, and contracts the
-/// products that generated code contracts: in the same arithmetic its results have the same bits as
-/// those of generated code.
-/// Nothing is allocated after [`Interpreter::new`].
+/// It executes the operations in the order of the program, and contracts the products that
+/// generated code contracts, so in the same arithmetic its results have the same bits as those of
+/// generated code. Nothing is allocated after [`Interpreter::new`].
 #[derive(Clone, Debug)]
 pub struct Interpreter<S> {
     layout: Layout,
@@ -21,11 +20,11 @@ pub struct Interpreter<S> {
     functions: Vec<Tape<S>>,
     /// Constants, arguments, then the values of operations.
     registers: Vec<S>,
-    /// Why there are no accelerations at any state.
+    /// Why there are no accelerations at any state, if so.
     singular: Option<Singular>,
 }
 
-/// The arguments of a call. What a function does not read may be empty.
+/// The arguments of a call. Those that a function does not read may be empty.
 #[derive(Clone, Copy, Debug)]
 pub struct Arguments<'a, S> {
     /// The time.
@@ -41,7 +40,7 @@ pub struct Arguments<'a, S> {
 }
 
 impl<S: Scalar<Stored = S>> Interpreter<S> {
-    /// The program with the given parameters.
+    /// Prepares a program for the given parameters.
     ///
     /// # Panics
     /// If `parameters` is not as long as [`Program::parameters`].
@@ -52,7 +51,7 @@ impl<S: Scalar<Stored = S>> Interpreter<S> {
         let prepare = tape(&program.prepare);
         let start = tape(&program.start);
         let functions: Vec<Tape<S>> = program.functions.iter().map(tape).collect();
-        // Constants come last: how many there are is known only now.
+        // Constants come last, since their number is known only now.
         let temporaries = [&prepare, &start]
             .into_iter()
             .chain(&functions)
@@ -98,18 +97,18 @@ impl<S: Scalar<Stored = S>> Interpreter<S> {
         &self.registers[start..start + len]
     }
 
-    /// The prepared values, which the parameters alone decide.
+    /// The prepared values, which depend on parameters alone.
     pub fn prepared(&self) -> &[S] {
         let Region { start, len } = self.layout.prepared;
         &self.registers[start..start + len]
     }
 
-    /// Why the parameters alone leave the machine without accelerations, if they do.
+    /// Why the machine has no accelerations with these parameters, if so.
     pub fn singular(&self) -> Option<Singular> {
         self.singular
     }
 
-    /// Where the coordinates start, and how fast.
+    /// Writes the coordinates and velocities at the start.
     ///
     /// # Panics
     /// If `q` or `v` is not as long as [`Program::coordinates`].
@@ -120,7 +119,7 @@ impl<S: Scalar<Stored = S>> Interpreter<S> {
         let results = self.start.results.iter();
         let mut values = results.map(|&value| self.registers[value as usize]);
         for place in q.iter_mut().chain(v) {
-            // A machine that starts at rest has no results for its rates.
+            // A machine that starts at rest has no results for its velocities.
             *place = values.next().unwrap_or(S::ZERO);
         }
     }
@@ -129,8 +128,8 @@ impl<S: Scalar<Stored = S>> Interpreter<S> {
     /// [`Shape`](super::Shape) says.
     ///
     /// # Panics
-    /// If an argument that the function reads, or `results`, has another length than the program
-    /// says.
+    /// If an argument that the function reads, or `results`, has not the length that the
+    /// program requires.
     pub fn call(
         &mut self,
         role: Role,
@@ -140,8 +139,8 @@ impl<S: Scalar<Stored = S>> Interpreter<S> {
         self.call_in::<S>(role, arguments, results)
     }
 
-    /// [`call`](Self::call) in arithmetic on numbers `N`, which are kept as `S`: what generated code does for
-    /// accelerations and their derivatives.
+    /// [`call`](Self::call) in the arithmetic of numbers `N`, which are stored as `S`, as generated code does
+    /// for accelerations and their derivatives.
     ///
     /// # Panics
     /// As [`call`](Interpreter::call).
@@ -176,7 +175,7 @@ impl<S: Scalar<Stored = S>> Interpreter<S> {
         tape.check(registers)
     }
 
-    /// The least share of its scale that a pivot had in the last call, which was of this role; infinite where there is no pivot.
+    /// The smallest ratio of pivot to scale in the last call, which must have been of this role; infinite if there is no pivot.
     pub fn margin(&self, role: Role) -> f64 {
         let tape = self.functions.iter().find(|tape| tape.role == role);
         let checks = tape.map_or(&[][..], |tape| &tape.checks);
@@ -188,8 +187,8 @@ impl<S: Scalar<Stored = S>> Interpreter<S> {
         shares.fold(f64::INFINITY, f64::min)
     }
 
-    /// Hands the results of [`Role::AtTime`] or [`Role::AtPosition`] to the calls of the next
-    /// stage.
+    /// Passes the results of [`Role::AtTime`] or [`Role::AtPosition`] to the calls of the
+    /// next stage.
     ///
     /// # Panics
     /// If `values` is not as long as the results of that role.
@@ -202,7 +201,7 @@ impl<S: Scalar<Stored = S>> Interpreter<S> {
     }
 }
 
-/// Which registers hold what.
+/// The assignment of registers.
 #[derive(Clone, Debug)]
 struct Layout {
     parameters: Region,
@@ -273,7 +272,7 @@ impl Layout {
     }
 }
 
-/// Constants of all functions, each once.
+/// The constants of all functions, each once.
 struct Constants<S> {
     values: Vec<S>,
     index_of: FxHashMap<Op, u32>,
@@ -291,7 +290,7 @@ impl<S> Default for Constants<S> {
 /// A register.
 type Register = u32;
 
-/// Marks the number of a constant, until it is known where constants are.
+/// Marks the number of a constant, until the position of the constants is known.
 const IS_CONSTANT: Register = 1 << 31;
 
 /// One operation on registers.
@@ -390,7 +389,7 @@ impl<S: Scalar> Tape<S> {
         let mut temporaries = 0;
         let mut register: Vec<Register> = Vec::with_capacity(function.code.len());
         let mut steps = Vec::with_capacity(function.code.len());
-        // The step that computes the sine or the cosine of a register.
+        // The step that computes the sine or the cosine of each register.
         let mut circular: FxHashMap<Register, usize> = FxHashMap::default();
         let contractions = Contractions::of(function);
         for (index, op) in function.code.iter().enumerate() {
@@ -542,7 +541,7 @@ impl<S: Scalar> Tape<S> {
         }
     }
 
-    /// Runs the steps in arithmetic on numbers `N`, which are kept as `S`.
+    /// Runs the steps in the arithmetic of numbers `N`, which are stored as `S`.
     #[inline(always)]
     fn run<N: Scalar<Stored = S>>(&self, registers: &mut [S])
     where
@@ -600,7 +599,7 @@ impl<S: Scalar> Tape<S> {
             );
             if !pivot.exceeds(check.tolerance * scale) {
                 let (pivot, scale) = (pivot.to_f64(), scale.to_f64());
-                // A scale of 0 has a pivot of 0: the ratio 0/0 is told as 0.
+                // If the scale is 0, so is the pivot: the ratio 0/0 is reported as 0.
                 let ratio = if pivot == 0.0 { 0.0 } else { pivot / scale };
                 return Err(Singular {
                     coordinate: check.coordinate,

@@ -1,10 +1,10 @@
-//! How long operations take, by the table of [`Cost`](crate::Cost).
+//! Latencies of operations, by the table of [`Cost`](crate::Cost).
 
 use lagrangian_symbolic as symbolic;
 
 use super::Op;
 
-/// How long after its operands the value of an operation is known, in tenths of a processor cycle.
+/// The latency of an operation, from its operands to its value, in tenths of a processor cycle.
 pub fn latency(op: &Op) -> u64 {
     use symbolic::Function::{Abs, Max, Min, Sign, Sqrt};
     match op {

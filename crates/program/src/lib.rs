@@ -1,28 +1,28 @@
-//! Straight-line arithmetic: what every way of running a machine starts from.
+//! Straight-line arithmetic, the form from which a machine is emitted, compiled or interpreted.
 //!
-//! A [`Program`] knows named values with shapes, not mechanics: it says which operations, in which
-//! order, turn the arguments of a function into its results. The emitters print it, the
-//! [interpreter](Interpreter) runs it over any number, the proof holds it against Lagrange's
-//! equations.
+//! A [`Program`] knows named values with shapes, not mechanics: it lists the operations, in order,
+//! that turn the arguments of a function into its results. The emitters print it, the
+//! [interpreter](Interpreter) runs it over any type of number, and the proof compares it with
+//! Lagrange's equations.
 //!
 //! ```text
 //! parameters ─▶ prepare ─▶ prepared values ─┐
 //!                          t, q, v, u, a ───┴▶ function ─▶ results
 //! ```
 //!
-//! What holds of every program, and what [`Program::verify`] checks after every pass in debug
-//! builds:
+//! Invariants of every program, which [`Program::verify`] checks after every pass in debug builds:
 //!
 //! * code is in static single assignment form: the value of the operation at index k is [`Value`]
 //!   k, and the operands of an operation have smaller indices than it;
 //! * a function reads no arguments but those in its row of the [table of quantities](quantity);
-//! * every operation is used, directly or not, by a result or a guard of its function;
+//! * every operation is used, directly or indirectly, by a result or a guard of its function;
 //! * only [`Program::prepare`] and [`Program::start`] read parameters, and they read nothing else;
-//!   all other functions read prepared values instead, and contain no operation whose operands are
-//!   all known once parameters are;
-//! * no two operations of a function do the same thing;
-//! * the order of operations is the order of rounding: whoever runs a program reorders nothing, and
-//!   joins a multiplication and an addition into one rounding only where [`fused`] says so;
+//!   all other functions read prepared values instead, and contain no operation whose operands all
+//!   depend on parameters alone;
+//! * no two operations of a function are equal;
+//! * the order of operations is the order of rounding: running a program must not reorder
+//!   operations, and may contract a multiplication and an addition into one rounding only where
+//!   [`fused`] says so;
 //! * the same description gives the same program.
 
 use lagrangian_symbolic::{self as symbolic, Rational};
@@ -81,53 +81,52 @@ pub struct Program {
     pub parameters: Vec<Slot>,
     /// Generalized coordinates; [`Source::Coordinate`], `Velocity` and `Acceleration` count them.
     pub coordinates: Vec<Slot>,
-    /// The fours of coordinates by which frames are turned, by their indices: only their ratios mean anything, and their length comes
-    /// back to 1 by itself.
+    /// The quaternions that turn frames, by the indices of their coordinates: only the ratios of these matter, and their length
+    /// returns to 1 by itself.
     pub quaternions: Vec<[usize; 4]>,
     /// Values that the user sets while the machine runs; [`Source::Input`] counts them.
     pub inputs: Vec<Slot>,
-    /// Quantities to observe; [`Role::Output`] counts them.
+    /// Outputs; [`Role::Output`] counts them.
     pub outputs: Vec<Slot>,
-    /// Facts that a run checks; [`Role::Assumption`] counts them.
+    /// Assumptions that a run checks; [`Role::Assumption`] counts them.
     pub assumptions: Vec<Fact>,
-    /// The bilateral constraints; the functions about them are there if these are.
+    /// The bilateral constraints; functions about constraints exist only if there are any.
     pub constraints: Vec<Constraint>,
-    /// The names of the guided contacts with friction; the functions about them are there if these
-    /// are.
+    /// The names of the guided contacts with friction; functions about them exist only if there
+    /// are any.
     pub contacts: Vec<String>,
-    /// How many components their normal reactions have: one in the plane, along the normal; three in space, along the
-    /// axes of the ground.
+    /// The number of components of their normal reactions: one in the plane, along the normal; three in space, along
+    /// the ground axes.
     pub reaction_axes: usize,
-    /// Which of the guided contacts are the second tangents of surfaces: bit `k` says that contact `k` is at right angles to contact
-    /// `k − 1`, on the same surface.
+    /// The guided contacts that are second tangents of surfaces, as a bit set: if bit `k` is set, contact `k` is perpendicular to
+    /// contact `k − 1` on the same surface.
     pub second_tangents: usize,
-    /// The unilateral contacts; the functions about them are there if these are.
+    /// The unilateral contacts; functions about them exist only if there are any.
     pub unilateral: Vec<Unilateral>,
-    /// Which start values stay as they are where the start does not obey the constraints: `theta`,
-    /// `der(phi)`.
+    /// The start values, such as `theta` or `der(phi)`, that are kept when a start that violates
+    /// the constraints is corrected.
     pub kept: Vec<String>,
-    /// What [`Role::Derivatives`] differentiates by, in the order of its columns; empty where it is
-    /// not there.
+    /// The variables by which [`Role::Derivatives`] differentiates, in the order of its columns;
+    /// empty if there is no such function.
     pub derivatives: Vec<Variable>,
-    /// Which of [`Role::AtTime`] and [`Role::AtPosition`] are there; with either of them there is
-    /// [`Role::AccelerationsAt`].
+    /// Whether [`Role::AtTime`] and [`Role::AtPosition`] exist; with either of them
+    /// [`Role::AccelerationsAt`] exists too.
     pub stages: Stages,
-    /// Whatever is known once the parameters are: reads parameters, and its results are the
-    /// prepared values.
+    /// Computes the prepared values, which depend on parameters alone: reads parameters, and its
+    /// results are the prepared values.
     ///
-    /// Its guards are the pivots of the mass matrix that no coordinate changes. Where one fails,
-    /// the accelerations do not exist at any state; the other functions do not care.
+    /// Its guards are the pivots of the mass matrix that depend on parameters alone. If one fails,
+    /// the accelerations exist at no state; the other functions are not affected.
     pub prepare: Function,
-    /// For each prepared value its formula in terms of parameters, as a spec would write it; cut
-    /// short (`…`) where long.
+    /// For each prepared value its formula in terms of parameters, as a spec would write it;
+    /// truncated (`…`) if it is long.
     pub prepared: Vec<String>,
-    /// Where the coordinates start, and behind them their rates if any of these is not 0: reads
+    /// The coordinates at the start, followed by their rates if any of these is not 0; reads
     /// parameters only.
     pub start: Function,
-    /// Everything else, in the order of [`Role`].
+    /// All other functions, in the order of [`Role`].
     pub functions: Vec<Function>,
-    /// For each of these that could be made in several ways, which there were, in the order of
-    /// [`Role`].
+    /// For each function with several possible forms, the alternatives, in the order of [`Role`].
     pub choices: Vec<Choice>,
 }
 
@@ -142,12 +141,13 @@ pub struct Slot {
     pub unit: Unit,
     /// Its unit as the spec writes it.
     pub unit_text: String,
-    /// Its value where nobody sets it. Coordinates and outputs have none: see [`Program::start`].
+    /// Its value if the user does not set it. Coordinates and outputs have none:
+    /// see [`Program::start`].
     pub default: Option<Default>,
 }
 
 impl Slot {
-    /// The unit as a label beside its number: as the spec writes it where that is no SI unit.
+    /// The unit as a label beside its number: as the spec writes it if that is not an SI unit.
     pub fn label(&self) -> String {
         if self.unit.is_scaled() || state_of(&self.name.base).is_some() {
             self.unit_text.clone()
@@ -166,25 +166,25 @@ pub struct Default {
     pub text: String,
 }
 
-/// A fact that a run checks: the value of its function is positive, or at least not negative.
+/// A fact that a run checks: the value of its function is positive, or at least nonnegative.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fact {
     /// As the spec writes it: `s1 > 0`.
     pub text: String,
-    /// Whether 0 breaks it.
+    /// Whether the value 0 violates it.
     pub strict: bool,
 }
 
 /// A bilateral constraint.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Constraint {
-    /// Its name; the two of circles that roll are `wheel.gap` and `wheel.slip`.
+    /// Its name; the two constraints of rolling circles are `wheel.gap` and `wheel.slip`.
     pub name: String,
-    /// The unit of what is to be zero; of its rate, where that is all there is.
+    /// The unit of its residual; of the rate of the residual for a constraint of velocities alone.
     pub unit: String,
     /// The unit of its multiplier.
     pub multiplier_unit: String,
-    /// Whether it constrains positions, not velocities alone.
+    /// Whether it constrains positions, not only velocities.
     pub holonomic: bool,
 }
 
@@ -193,43 +193,43 @@ pub struct Constraint {
 pub struct Unilateral {
     /// Its name.
     pub name: String,
-    /// How it bounces, if it does.
+    /// The impact law, if the contact is rigid.
     pub law: ImpactLaw,
-    /// Whether with the others or one after the other.
+    /// Whether simultaneous impacts are solved together or one after the other.
     pub order: ImpactOrder,
-    /// What becomes of it where its friction leaves no motion.
+    /// What happens if friction leaves no consistent motion (Painlevé's paradox).
     pub painleve: Painleve,
-    /// By which law it presses, if it yields.
+    /// The force law, if the contact is compliant.
     pub compliance: Option<Compliance>,
     /// Whether there is friction.
     pub rubs: bool,
-    /// Whether it is the rolling of the contact before it, on which it leans: it has the gap and the normal force of that
-    /// contact, its slip is how fast one body turns relative to the other, in rad/s, its friction the torque that resists
-    /// this, in N m, and its coefficient of friction a length, in m.
+    /// Whether it is the rolling resistance of the preceding contact. It then has the gap and the normal force of that
+    /// contact; its slip is the relative angular velocity of the two bodies, in rad/s, its friction the torque that
+    /// resists this, in N m, and its coefficient of friction a length, in m.
     pub rolls: bool,
-    /// Whether it is the second tangent of the contact before it, in space: it has the gap, the normal and the coefficients of
-    /// that contact, and a slip and a friction of its own. Of both together friction is no more than `μ` times the normal force.
+    /// Whether it is the second tangent of the preceding contact, in space. It then has the gap, the normal and the coefficients
+    /// of that contact, but its own slip and friction. The resultant of both frictions is at most `μ` times the normal force.
     pub across: bool,
-    /// Whether it is a corner on a face of a polygon, which has ends: [`Role::ContactFaces`] says where.
+    /// Whether it is a corner on a face of a polygon, which has ends: see [`Role::ContactFaces`].
     pub faced: bool,
 }
 
 /// How the results of [`Role::Friction`] are arranged.
 ///
-/// Everything is linear in the friction forces `F`: `x = x₀ + Σ Fₖ xₖ`. First comes what there is without
-/// friction, then what one unit of each does. A part holds the accelerations, the multipliers of
-/// constraints, `dw/dt` of each contact and the components of the normal reaction `N` of each; behind all parts stand `μ`
-/// of each contact and `μ₀` of each. In space there follows for each contact the direction by which the part of `N` is told that
-/// presses: the tangent of a curve, along which nothing presses, or the normal of a surface, along which all does.
+/// Everything is linear in the friction forces `F`: `x = x₀ + Σ Fₖ xₖ`. The first part is `x₀`, the values without friction; one
+/// part for each friction force follows, the effect of a unit of it. A part holds the accelerations, the multipliers of
+/// constraints, `dw/dt` of each contact and the components of the normal reaction `N` of each. All parts are followed by `μ` of
+/// each contact and `μ₀` of each. In space a direction for each contact comes last, from which the pressing component of `N`
+/// follows: the tangent of a curve, along which nothing presses, or the normal of a surface, along which everything presses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FrictionLayout {
-    /// How many coordinates there are.
+    /// The number of coordinates.
     pub coordinates: usize,
-    /// How many constraints.
+    /// The number of constraints.
     pub constraints: usize,
-    /// How many contacts.
+    /// The number of contacts.
     pub contacts: usize,
-    /// How many components a normal reaction has.
+    /// The number of components of a normal reaction.
     pub axes: usize,
 }
 
@@ -239,7 +239,7 @@ impl FrictionLayout {
         self.coordinates + self.constraints + (1 + self.axes) * self.contacts
     }
 
-    /// How many results there are.
+    /// The number of results.
     pub fn len(self) -> usize {
         self.directions()
             + if self.axes == 1 {
@@ -249,12 +249,12 @@ impl FrictionLayout {
             }
     }
 
-    /// Where the directions stand, in space.
+    /// The index at which the directions begin, in space.
     pub fn directions(self) -> usize {
         (1 + self.contacts) * self.part() + 2 * self.contacts
     }
 
-    /// Whether there are none.
+    /// Whether there are no results.
     pub fn is_empty(self) -> bool {
         self.len() == 0
     }
@@ -265,12 +265,12 @@ impl FrictionLayout {
 pub enum Shape {
     /// One number.
     Scalar,
-    /// So many numbers.
+    /// This many numbers.
     Vector(usize),
-    /// A symmetric matrix of that order, its lower triangle row by row: entry (i, j), j ≤ i, is
+    /// A symmetric matrix of this order, its lower triangle row by row: entry (i, j), j ≤ i, is
     /// result i (i + 1)/2 + j.
     Symmetric(usize),
-    /// A matrix of so many rows and columns, row by row.
+    /// A matrix with this many rows and columns, row by row.
     Matrix(usize, usize),
 }
 
@@ -321,16 +321,18 @@ pub struct Function {
     pub code: Vec<Op>,
     /// How the results are arranged.
     pub shape: Shape,
-    /// The results, [`Shape::len`] many.
+    /// The results, [`Shape::len`] of them.
     pub results: Vec<Value>,
-    /// What must hold for the results to mean anything, in the order in which it is to be reported.
+    /// The conditions under which the results are meaningful, in the order in which they are to
+    /// be reported.
     pub guards: Vec<Guard>,
 }
 
 impl Function {
     /// Whether the results are linear in time, coordinates and velocities, and depend on nothing else that changes.
     fn is_linear(&self) -> bool {
-        // Of each operation the degree; 2 and above, or none, are 2.
+        // The degree of each operation; 2 stands for higher degrees and for functions that are
+        // no polynomials.
         let mut degrees: Vec<u8> = Vec::with_capacity(self.code.len());
         for op in &self.code {
             let most = op.operands().map(|x| degrees[x.index()]).max().unwrap_or(0);
@@ -380,11 +382,11 @@ pub enum Op {
     Div(Value, Value),
     /// −a.
     Neg(Value),
-    /// What rounding took from a·b: 0 but for rounding.
+    /// The rounding error of a·b; 0 in exact arithmetic.
     ProductError(Value, Value),
-    /// What rounding took from a + b: 0 but for rounding.
+    /// The rounding error of a + b; 0 in exact arithmetic.
     SumError(Value, Value),
-    /// sin a. Where `Cos` of the same value occurs too, both are to be computed together.
+    /// sin a. If `Cos` of the same value occurs too, both are to be computed together.
     Sin(Value),
     /// cos a.
     Cos(Value),
@@ -395,7 +397,7 @@ pub enum Op {
 }
 
 impl Op {
-    /// The operands, none to two.
+    /// The operands: none, one or two.
     pub fn operands(&self) -> impl Iterator<Item = Value> + use<> {
         let (a, b) = match *self {
             Op::Constant(_) | Op::Pi | Op::Read(_) => (None, None),
@@ -411,7 +413,7 @@ impl Op {
         a.into_iter().chain(b)
     }
 
-    /// This operation on other operands: each is what `moved` makes of it.
+    /// This operation with each operand replaced by `moved` of it.
     #[must_use]
     pub fn with_operands(&self, mut moved: impl FnMut(Value) -> Value) -> Op {
         match *self {
@@ -431,7 +433,7 @@ impl Op {
     }
 }
 
-/// Where an argument comes from.
+/// The source of an argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Source {
     /// A parameter.
@@ -456,30 +458,30 @@ pub enum Source {
 
 /// A pivot that must not vanish: the results are meaningless unless `pivot > tolerance·scale`.
 ///
-/// It is one of the mass matrix, or of G M⁻¹ Gᵀ where there are constraints.
+/// It is a pivot of the mass matrix or, with constraints, of G M⁻¹ Gᵀ.
 ///
-/// Written so that a pivot that is no number fails too.
+/// The condition is written so that a NaN pivot fails too.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Guard {
     /// The pivot dᵢ of M = L D Lᵀ.
     pub pivot: Value,
-    /// The diagonal entry Mᵢᵢ that it was left over from; the pivot itself where nothing was taken
-    /// off, or where Mᵢᵢ is not at hand: then it must be positive, no more.
+    /// The diagonal entry Mᵢᵢ from which it was reduced. It is the pivot itself if nothing was
+    /// subtracted, or if Mᵢᵢ is not available; then the pivot need only be positive.
     pub scale: Value,
-    /// The share of the entry that may be rounding error.
+    /// The fraction of the scale that may be round-off.
     pub tolerance: f64,
-    /// The index i of the coordinate; behind all coordinates that of a constraint.
+    /// The index i of the coordinate; indices beyond the coordinates are those of constraints.
     pub coordinate: usize,
 }
 
 /// The machine has no accelerations here: its mass matrix is singular to working precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Singular {
-    /// The index of the coordinate whose effective inertia vanishes; behind all coordinates that of
-    /// a constraint which says nothing that those before it do not say.
+    /// The index of the coordinate whose effective inertia vanishes; indices beyond the coordinates
+    /// are those of constraints that depend on the ones before them.
     pub coordinate: usize,
-    /// The share of its inertia that remains: pivot over diagonal entry; not
-    /// finite where either is not.
+    /// The fraction of its inertia that remains, the pivot over the diagonal entry; not finite if
+    /// either is not.
     pub ratio: f64,
 }
 
@@ -507,8 +509,8 @@ pub struct Reads {
 }
 
 impl Program {
-    /// The function of a role. There is one for every role but outputs and assumptions that the
-    /// machine does not have.
+    /// The function of a role. It exists for every role, except for outputs and assumptions that
+    /// the machine does not have.
     pub fn function(&self, role: Role) -> Option<&Function> {
         match role {
             Role::Prepare => Some(&self.prepare),
@@ -518,15 +520,15 @@ impl Program {
     }
 
     /// Whether the margins of all [`assumptions`](Self::assumptions) are linear in time, coordinates and velocities, and depend on
-    /// nothing else that changes.
+    /// no other variables.
     pub fn has_linear_assumptions(&self) -> bool {
         let margins =
             (0..self.assumptions.len()).map(|index| self.function(Role::Assumption(index)));
         margins.flatten().all(Function::is_linear)
     }
 
-    /// The role of the function that solves the equations of motion: the accelerations, or what they
-    /// are made of where contacts stick and slide.
+    /// The role of the function that solves the equations of motion: the accelerations or, for a
+    /// machine with guided contacts, their dependence on the friction forces.
     pub fn solving(&self) -> Role {
         if self.contacts.is_empty() {
             Role::Accelerations
@@ -543,7 +545,7 @@ impl Program {
     }
 
     /// The roles of the functions that compute the accelerations in stages, in their order; none if
-    /// nobody asks for it.
+    /// the spec does not ask for stages.
     pub fn staged_roles(&self) -> Vec<Role> {
         let Stages { time, coordinates } = self.stages;
         let roles = [
@@ -555,7 +557,8 @@ impl Program {
         there.map(|(_, role)| role).collect()
     }
 
-    /// Whether the derivatives by all coordinates and all rates are there, in this order and first.
+    /// Whether the derivatives by all coordinates and all rates exist, in this order and
+    /// before others.
     pub fn has_linearization(&self) -> bool {
         self.derivatives
             .starts_with(&Variable::of_state(self.dimension()))
@@ -593,12 +596,12 @@ impl Function {
         &self.code[value.index()]
     }
 
-    /// How much work a call is.
+    /// The operation counts of a call.
     pub fn counts(&self) -> Counts {
         Counts::of(self)
     }
 
-    /// How long a call takes.
+    /// The estimated time of a call.
     pub fn cost(&self) -> Cost {
         Cost::of(self)
     }

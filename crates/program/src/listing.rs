@@ -1,9 +1,9 @@
-//! The plain text of a program: `derive --as program`, and the file beside generated code that a
-//! reviewer reads.
+//! The plain-text listing of a program: `derive --as program`, and the file beside generated code
+//! for reviewers.
 //!
-//! Below the head of a function stands how it was made, where there was a choice. One operation a
-//! line, `_7 = _3 * prepared[2]`; sine and cosine of one angle on one line; what a
-//! line computes for the outside stands behind it.
+//! Below the head of a function its form is noted if there was a choice. Each line has one
+//! operation, `_7 = _3 * prepared[2]`, or the sine and cosine of one angle; a result that a line
+//! computes is noted at its end.
 
 use std::fmt::{self, Write as _};
 
@@ -57,7 +57,7 @@ impl Program {
         })
     }
 
-    /// The name of a function: that of its role, or of the output or the fact.
+    /// The title of a function: the name of its role, or of the output or assumption.
     pub fn title(&self, role: Role) -> String {
         match role {
             Role::Output(index) => match self.outputs.get(index) {
@@ -100,9 +100,9 @@ impl Program {
 struct Listing<'a> {
     program: &'a Program,
     function: &'a Function,
-    /// What the values are called: arguments and constants by what they are, the rest by numbers.
+    /// The names of the values: arguments and constants by their names, the others by numbers.
     names: Vec<String>,
-    /// For the sine of an angle its cosine, where both occur, and the other way round.
+    /// For the sine of an angle its cosine, if both occur, and vice versa.
     partners: FxHashMap<Value, Value>,
 }
 
@@ -167,7 +167,7 @@ impl<'a> Listing<'a> {
             let value = Value(index as u32);
             let partner = self.partners.get(&value);
             let (mut line, mut noted) = match (op, partner) {
-                // Said with its partner, above.
+                // Listed together with its partner above.
                 (Op::Sin(_) | Op::Cos(_), Some(partner)) if *partner < value => continue,
                 (Op::Sin(angle) | Op::Cos(angle), Some(&partner)) => {
                     let (sin, cos) = if matches!(op, Op::Sin(_)) {
@@ -230,8 +230,8 @@ impl<'a> Listing<'a> {
         text
     }
 
-    /// How the function is made, if there were several ways; of the accelerations, the other ways
-    /// too.
+    /// The form of the function, if there were several; for the accelerations, the rejected
+    /// forms too.
     fn choice(&self) -> String {
         let mut text = String::new();
         let Some(choice) = self.program.choice(self.function.role) else {

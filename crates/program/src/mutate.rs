@@ -1,20 +1,20 @@
-//! Programs that are wrong in one place: what a [proof](super::prove()) must find.
+//! Programs with one mistake each, which a [proof](super::prove()) must detect.
 
 use lagrangian_symbolic::Rational;
 
 use super::{Function, Op, Program, Role, Source, Value};
 
-/// A program with one mistake in it.
+/// A program with one mistake.
 #[derive(Clone, Debug)]
 pub struct Mutant {
-    /// What was changed: function, index, the operation as it was and as it is.
+    /// The change: function, index, and the operation before and after.
     pub change: String,
     /// The program with the change.
     pub program: Program,
 }
 
 /// Programs that differ from this one in the sign, the coefficient, the function or the operand of
-/// a single operation: every `stride`-th of those that there are.
+/// a single operation: every `stride`-th of all of them.
 ///
 /// # Panics
 /// If `stride` is 0.
@@ -43,7 +43,7 @@ pub fn mutants(program: &Program, stride: usize) -> impl Iterator<Item = Mutant>
         })
 }
 
-/// For each value whether it is 0 but for rounding: exact arithmetic sees no mistake in its use.
+/// For each value whether it is 0 in exact arithmetic, which then sees no mistake in its use.
 fn vanishing(function: &Function) -> Vec<bool> {
     let mut vanishes: Vec<bool> = Vec::with_capacity(function.code.len());
     for op in &function.code {
@@ -59,7 +59,7 @@ fn vanishing(function: &Function) -> Vec<bool> {
     vanishes
 }
 
-/// Every mistake in a function that exact arithmetic can see.
+/// Every mistake in a function that exact arithmetic can detect.
 fn changes<'a>(
     program: &'a Program,
     function: &'a Function,
@@ -70,7 +70,7 @@ fn changes<'a>(
         .iter()
         .enumerate()
         .flat_map(move |(index, op)| {
-            // A sign before what is 0, or another factor of it, changes nothing.
+            // A change of sign or of another factor of a zero value changes nothing.
             if vanishes[index] {
                 return Vec::new();
             }
@@ -109,7 +109,7 @@ fn changes<'a>(
         })
 }
 
-/// The argument beside an argument.
+/// The argument next to an argument.
 fn neighbour(program: &Program, source: Source) -> Option<Source> {
     let n = program.dimension();
     let results = |role| program.function(role).map_or(0, |f| f.results.len());

@@ -1,9 +1,9 @@
-//! The values of one function, products and sums still whole: where common parts are found.
+//! The values of one function, with products and sums still whole, for finding common parts.
 //!
-//! A function starts from the part of the [`Graph`] that its results need; what parameters alone
-//! decide is cut off and becomes an argument. Then every quotient gets its division, shared where a
-//! divisor occurs more than once, and [common pairs](super::pairs) of factors and of terms become
-//! items of their own.
+//! A function starts from the part of the [`Graph`] that its results need; what depends on
+//! parameters alone is cut off and becomes an argument. Then every quotient gets its division,
+//! which is shared if a divisor occurs more than once, and [common pairs](super::pairs) of factors
+//! and of terms become items of their own.
 
 use lagrangian_symbolic::Function;
 use rustc_hash::FxHashMap;
@@ -13,8 +13,8 @@ use super::{Op, Source};
 use lagrangian_units::Stages;
 
 /// Powers up to this are written out as repeated factors, so that x² in x²·y and in x²·z is found
-/// as a common pair; higher ones are squared and multiplied by themselves, since nobody shares
-/// parts of x¹⁷.
+/// as a common pair; higher powers are computed by repeated squaring, since parts of x¹⁷ are hardly
+/// ever shared.
 const WRITTEN_OUT_POWER: u32 = 8;
 
 /// An index into [`Net::items`].
@@ -23,7 +23,7 @@ pub type Index = u32;
 /// A term of a sum: an item, and whether it is subtracted.
 pub type Signed = (Index, bool);
 
-/// What is computed, or read.
+/// A value that is computed or read.
 #[derive(Clone, Debug)]
 pub enum Item {
     /// A constant or an argument.
@@ -41,40 +41,41 @@ pub enum Item {
     Function(Function, Vec<Index>),
 }
 
-/// What is computed elsewhere.
+/// A value that is computed elsewhere.
 #[derive(Clone, Debug)]
 pub enum Leaf {
     /// A constant or an argument.
     Op(Op),
-    /// What parameters alone decide.
+    /// A value that depends on parameters alone.
     Prepared(Id),
 }
 
-/// What is known when: constants and prepared values, time, coordinates, velocities, inputs,
-/// accelerations.
+/// When a value is known: with constants and prepared values, time, coordinates, velocities,
+/// inputs, or accelerations.
 pub type Stage = u8;
 
-/// The stage of what time decides, and nothing that comes after it.
+/// The stage of values that depend on time and on nothing later.
 pub const TIME: Stage = 1;
 
-/// The stage of what time and coordinates decide, and nothing that comes after them.
+/// The stage of values that depend on time and coordinates, and on nothing later.
 pub const POSITION: Stage = 2;
 
-/// What one function computes, sums and products merged as far as they may be.
+/// The values that one function computes, with sums and products merged as far as possible.
 #[derive(Clone)]
 pub struct Net {
-    /// The items, operands before what uses them.
+    /// The items, operands before their users.
     pub items: Vec<Item>,
-    /// For each of them when it is known.
+    /// The stage of each item.
     pub stages: Vec<Stage>,
-    /// What may stay while the rest changes: products and sums are not merged across.
+    /// The stages that are computed separately: products and sums are not merged across them.
     pub apart: Stages,
-    /// What is asked for, with its sign.
+    /// The requested values, with their signs.
     pub roots: Vec<Signed>,
 }
 
 impl Net {
-    /// What the roots need. With `cut`, what parameters alone decide is an argument.
+    /// The items that the roots need. With `cut`, values that depend on parameters alone
+    /// are arguments.
     pub fn new(graph: &Graph, roots: &[(Id, bool)], cut: bool) -> Net {
         let mut net = Net {
             items: Vec::new(),
@@ -95,7 +96,7 @@ impl Net {
         net
     }
 
-    /// What the values need, their signs prepared with what belongs to them.
+    /// The items that the values need; their signs are prepared together with their factors.
     pub fn of_values(graph: &mut Graph, values: &[Scaled], cut: bool) -> Net {
         let root = |x: &Scaled| {
             if cut && x.negative && x.factor != Id::ONE {
@@ -109,7 +110,7 @@ impl Net {
         Net::new(graph, &roots, cut)
     }
 
-    /// How many operands all items have together.
+    /// The total number of operands of all items.
     pub fn size(&self) -> usize {
         let mut size = 0;
         for item in &self.items {
@@ -169,7 +170,7 @@ impl Net {
     /// x^power by squaring.
     fn add_power(&mut self, x: Index, power: u32) -> Index {
         let mut value = x;
-        // From the second-highest bit down: square, and multiply by x where the bit is set.
+        // From the second-highest bit down: square, and multiply by x if the bit is set.
         for bit in (0..power.ilog2()).rev() {
             value = self.add(Item::Product {
                 up: vec![value, value],
@@ -199,10 +200,10 @@ impl Net {
         Index::try_from(self.items.len() - 1).expect("memory ends before 2^32 items")
     }
 
-    /// A divisor that several products have gets one reciprocal; a single division stays a
-    /// division.
+    /// Gives a divisor that several products share one reciprocal; a single division stays
+    /// a division.
     fn share_divisions(&mut self) {
-        // Divisors that always occur together are one divisor.
+        // Divisors that always occur together are treated as one divisor.
         let mut groups: FxHashMap<Vec<Index>, Vec<usize>> = FxHashMap::default();
         for (index, item) in self.items.iter_mut().enumerate() {
             if let Item::Product { down, .. } = item
@@ -255,7 +256,8 @@ impl Net {
     }
 }
 
-/// The nodes that the roots need, operands first; operands of what is cut off are not needed.
+/// The nodes that the roots need, operands first; operands of nodes that are cut off are
+/// not needed.
 fn needed(graph: &Graph, roots: &[(Id, bool)], cut: bool) -> Vec<Id> {
     let mut seen = vec![false; graph.size()];
     let mut found: Vec<Id> = Vec::new();
@@ -297,7 +299,7 @@ pub fn operands(item: &Item, mut visit: impl FnMut(Index)) {
     }
 }
 
-/// When an argument is known.
+/// The stage at which an argument is known.
 pub fn stage_of(source: Source) -> Stage {
     match source {
         Source::Parameter(_) | Source::Prepared(_) => 0,

@@ -1,16 +1,17 @@
-//! Operations in pairs: what two parts of a machine have in common, done at once.
+//! Packs operations in pairs, for machines with equal parts.
 //!
-//! A robot has a left arm and a right arm, a quadruped four equal legs: their operations are the same, on other values.
-//! Where a register holds two numbers, one instruction does both. Compilers look for such pairs from neighbours in memory
-//! (S. Larsen and S. Amarasinghe, *Exploiting superword level parallelism with multimedia instruction sets*, PLDI 2000,
-//! 145–156); limbs have none there, so this looks for operations that stand alike in the function.
+//! A robot has a left arm and a right arm, a quadruped four equal legs: their operations are the same on different
+//! values. If a register holds two numbers, one instruction computes both. Compilers find such pairs by adjacent memory
+//! accesses (S. Larsen and S. Amarasinghe, *Exploiting superword level parallelism with multimedia instruction sets*,
+//! PLDI 2000, 145–156); limbs have none here, so this looks for operations in equivalent positions of the function.
 //!
-//! Each operation gets a color of what it is computed from and of what is computed from it, up to some distance (the
-//! refinement of B. Weisfeiler and A. Leman, 1968). Two of one color are the seed of a pair of parts, and from each pair of
-//! operations the next ones follow: the operands of both, and what uses both in the same way. Only operations of the same
-//! depth become a pair, so that none waits for itself by way of another pair.
+//! Each operation gets a color from what it is computed from and from what is computed from it, up to some distance (the
+//! refinement of B. Weisfeiler and A. Leman, 1968). Two operations of one color are the seed of a pair of parts, and
+//! further pairs follow from each pair: the operands of both, and the operations that use both in the same way. Only
+//! operations of the same depth become a pair, so that no pair depends on itself through another pair.
 //!
-//! Pairing changes neither which operations there are nor their operands: the bits are those of the function.
+//! Pairing changes neither the set of operations nor their operands: the results have the same bits as those
+//! of the function.
 
 use std::hash::{Hash, Hasher};
 
@@ -19,40 +20,42 @@ use rustc_hash::{FxHashMap, FxHasher};
 use super::repeats::{Kind, early_angles};
 use super::{Contracted, Contractions, Function, Op, Source, Value};
 
-/// How far colors see.
+/// The distance that colors cover.
 const DISTANCE: usize = 8;
 
-/// The distances at which seeds are looked for: far ones first, since what looks alike from afar is alike more surely.
+/// The distances at which seeds are searched: large ones first, since agreement over a large distance is
+/// more reliable.
 const OF_SEEDS: [usize; 4] = [8, 6, 5, 4];
 
-/// The most operations of one color that are compared with each other, and the most users of one value that are. Beyond
-/// it nothing stands out, and each would be compared with each.
+/// The largest number of operations of one color, and of users of one value, that are compared with each other. Larger
+/// sets are skipped: they are not distinctive, and comparing all of their pairs would take too long.
 const MOST_ALIKE: usize = 64;
 
-/// Pairs have to save this share of the operations at least. What saves less are a few that look alike by chance.
+/// Pairs must save at least one in this many operations. Smaller savings come from operations that look alike
+/// by chance.
 const LEAST_SHARE: usize = 8;
 
-/// What is written as one statement.
+/// A statement of the emitted code.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Statement {
-    /// One operation; of a sine and a cosine of one angle, either.
+    /// One operation; for the sine and cosine of one angle, either of them.
     One(Value),
-    /// Two of one kind.
+    /// Two operations of one kind.
     Two(Pack),
 }
 
 /// Two operations of one kind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pack {
-    /// What they do.
+    /// The operation.
     pub what: What,
-    /// What they compute.
+    /// The values that they compute.
     pub values: [Value; 2],
     /// Their operands, slot by slot.
     pub operands: Vec<[Value; 2]>,
 }
 
-/// What operations of a pair do.
+/// The operation of a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum What {
     /// a + b
@@ -63,18 +66,18 @@ pub enum What {
     Mul,
     /// a/b
     Div,
-    /// A product and a sum in one.
+    /// A contracted product and sum.
     Contraction(Contracted),
 }
 
 impl What {
-    /// Whether the first two operands may change places.
+    /// Whether the first two operands may be exchanged.
     fn commutes(self) -> bool {
         !matches!(self, What::Sub | What::Div)
     }
 }
 
-/// The operations of a function in pairs where it pays, each after its operands; `None` where it does not. Products are
+/// The operations of a function in pairs, each after its operands; `None` if that does not pay. Products are
 /// contracted, and angles that are [early](early_angles) are known before.
 pub fn packs(function: &Function) -> Option<Vec<Statement>> {
     let mut finder = Finder::new(function);
@@ -86,27 +89,27 @@ pub fn packs(function: &Function) -> Option<Vec<Statement>> {
     (packs > 0 && packs * LEAST_SHARE >= operations.count()).then(|| finder.statements())
 }
 
-/// What a value is to its users.
+/// The kind of a value from the point of view of its users.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Sort {
     /// Computed here.
     Operation,
-    /// Known before; two such values can lie side by side in memory.
+    /// Known before; two such values can be adjacent in memory.
     Known,
     /// An argument of the state, by its kind.
     Argument(u8),
-    /// Part of another operation, or nothing that is needed.
+    /// Part of another operation, or not needed.
     Absent,
 }
 
 struct Node {
     sort: Sort,
-    /// What it does, where it may be one of a pair.
+    /// Its operation, if it may be one of a pair.
     what: Option<What>,
-    /// A hash of what it does.
+    /// A hash of its operation.
     kind: u64,
     operands: Vec<Value>,
-    /// How many operations there are on the longest way from arguments to here.
+    /// The number of operations on the longest path from the arguments to it.
     depth: u32,
     users: Vec<Value>,
 }
@@ -114,12 +117,12 @@ struct Node {
 struct Finder<'a> {
     function: &'a Function,
     nodes: Vec<Node>,
-    /// The colors of each value, from near to far.
+    /// The colors of each value, by increasing distance.
     colors: Vec<[u64; DISTANCE]>,
     partner: Vec<Option<Value>>,
-    /// The place in its pair.
+    /// Its index in its pair.
     lane: Vec<Option<u8>>,
-    /// Pairs whose neighbours are still to be looked at.
+    /// Pairs whose neighbours are still to be examined.
     open: Vec<[Value; 2]>,
 }
 
@@ -152,18 +155,19 @@ impl<'a> Finder<'a> {
         self.partner[value.index()].is_some()
     }
 
-    /// Whether these are a pair, in this order.
+    /// Whether these two are a pair, in this order.
     fn is_pair(&self, [a, b]: [Value; 2]) -> bool {
         self.partner[a.index()] == Some(b) && self.lane[a.index()] == Some(0)
     }
 
-    /// From how near to how far two values look alike.
+    /// The distance up to which two values look alike.
     fn likeness(&self, a: Value, b: Value) -> usize {
         let both = self.colors[a.index()].iter().zip(&self.colors[b.index()]);
         both.take_while(|(a, b)| a == b).count()
     }
 
-    /// How well two operands go together, 0 for not at all. `is_strict`: operations have to be a pair already.
+    /// How well two operands go together, 0 for not at all. With `is_strict`, operations must already be
+    /// a pair.
     fn fit(&self, a: Value, b: Value, is_strict: bool) -> u32 {
         if a == b {
             return 1;
@@ -225,7 +229,7 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// From seeds to pairs.
+    /// Grows pairs from seeds.
     fn find(&mut self) {
         for distance in OF_SEEDS {
             let mut classes: FxHashMap<u64, Vec<Value>> = FxHashMap::default();
@@ -254,7 +258,7 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// What follows from pairs.
+    /// Adds the pairs that follow from existing ones.
     fn close(&mut self) {
         while let Some([x, y]) = self.open.pop() {
             if let Some((_, columns)) = self.side_by_side(x, y, false) {
@@ -276,7 +280,7 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// Pairs of what uses both of a pair.
+    /// Pairs the operations that use both values of a pair.
     fn follow(&mut self, x: Value, y: Value) {
         let [first, second] = [x, y].map(|value| &self.node(value).users);
         if first.len().max(second.len()) > MOST_ALIKE {
@@ -299,8 +303,8 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// Undoes pairs that cost more than they save: two operands that come from different places have to be put into one
-    /// register, and the second result has to be taken out of it where somebody needs it by itself.
+    /// Removes pairs that cost more than they save: two operands from different places have to be combined in one
+    /// register, and the second result has to be extracted if it is used by itself.
     fn prune(&mut self) {
         loop {
             let is_bad = |&x: &Value| {
@@ -332,14 +336,14 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// How many pairs are of arguments, which save nothing.
+    /// The number of pairs of arguments, which save nothing.
     fn pairs_of_arguments(&self) -> usize {
         let all = self.nodes.iter().zip(&self.lane);
         all.filter(|(node, lane)| node.what.is_none() && **lane == Some(0))
             .count()
     }
 
-    /// The operations that results and guards need, depth first.
+    /// The operations that results and guards need, in depth-first order.
     fn statements(&self) -> Vec<Statement> {
         let mut statements = Vec::new();
         let mut is_entered = vec![false; self.nodes.len()];
@@ -374,7 +378,7 @@ impl<'a> Finder<'a> {
         statements
     }
 
-    /// The first of the pair that a value belongs to.
+    /// The first value of the pair that a value belongs to.
     fn first(&self, value: Value) -> Value {
         match (self.partner[value.index()], self.lane[value.index()]) {
             (Some(other), Some(1)) => other,
@@ -382,7 +386,7 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// The pair of which a value is the first.
+    /// The pair whose first value is given.
     fn pack(&self, x: Value) -> Option<Pack> {
         let y = self.partner[x.index()]?;
         let (_, operands) = self.side_by_side(x, y, false)?;
@@ -430,7 +434,7 @@ fn nodes(function: &Function) -> Vec<Node> {
             }),
             Op::Sin(angle) if is_early_angle[angle.index()] => Sort::Argument(5),
             Op::Cos(angle) if is_early_angle[angle.index()] => Sort::Argument(6),
-            // Computed before everything else, and there is little of it.
+            // Computed before everything else, and there are few of these.
             _ if is_early[index] => Sort::Argument(7),
             _ if contractions.is_part(value) => Sort::Absent,
             _ => {
@@ -479,7 +483,7 @@ fn nodes(function: &Function) -> Vec<Node> {
     nodes
 }
 
-/// Colors of what is below and above, nearest first.
+/// Colors of the operations below and above, nearest first.
 fn colors(nodes: &[Node]) -> Vec<[u64; DISTANCE]> {
     let mut below: Vec<u64> = nodes.iter().map(|node| node.kind).collect();
     let mut above = below.clone();
@@ -497,7 +501,8 @@ fn colors(nodes: &[Node]) -> Vec<[u64; DISTANCE]> {
             let mut users: Vec<(u64, u64)> = Vec::with_capacity(node.users.len());
             for user in &node.users {
                 let user = (&nodes[user.index()], above[user.index()]);
-                // In which slots the value stands; of those that commute, how often.
+                // The slots in which the value stands; for commuting slots only how often
+                // it occurs.
                 let commutes = user.0.what.is_some_and(What::commutes);
                 for (slot, operand) in user.0.operands.iter().enumerate() {
                     if operand.index() == index {
@@ -523,7 +528,8 @@ mod tests {
     use super::super::{Role, Shape};
     use super::*;
 
-    /// Two limbs on one body: of each its own values, one sum of both, and results that need it.
+    /// Two limbs on one body: each has values of its own, one sum uses both, and results depend
+    /// on it.
     fn limbs(last: fn(Value, Value) -> Op) -> Function {
         let mut code = Vec::new();
         let mut op = |op: Op| {
@@ -553,7 +559,7 @@ mod tests {
         }
     }
 
-    /// Each operation stands once, after its operands.
+    /// Checks that each operation occurs once, after its operands.
     fn check(function: &Function, statements: &[Statement]) {
         let contractions = Contractions::of(function);
         let is_read = |value: &Value| matches!(function.op(*value), Op::Read(_) | Op::Constant(_));

@@ -1,10 +1,10 @@
-//! Common pairs: what two factors have in several products is multiplied once; then the same for
-//! terms of sums.
+//! Shares common pairs: two factors that occur together in several products are multiplied once;
+//! then the same for terms of sums.
 //!
-//! Greedy: the pair that occurs most often becomes an item of its own and takes its place
-//! everywhere, until no pair occurs twice. Each step saves as many operations as the pair occurs,
-//! less one. Among pairs that occur equally often, the one known earliest is taken, so that what
-//! does not change while velocities do stays together; then the older one.
+//! The algorithm is greedy: the most frequent pair becomes an item of its own and replaces the pair
+//! everywhere, until no pair occurs twice. Each step saves one operation fewer than the number of
+//! occurrences of the pair. Among pairs that occur equally often, the one known earliest is taken,
+//! so that values that stay constant while velocities change stay together; then the older one.
 //!
 //! M. A. Breuer, *Generation of optimal code for expressions via factorization*, Comm. ACM 12
 //! (1969) 333–340.
@@ -16,14 +16,13 @@ use rustc_hash::FxHashMap;
 
 use super::net::{Index, Item, Net, Signed, Stage};
 
-/// The most changes to the table of pairs in one pass. A pass that needs more stops there: its code
-/// is right, only longer than it could be. A change takes some 50 ns; a spatial arm of six joints
-/// needs 20 000.
+/// The largest number of changes to the table of pairs in one pass. A pass that reaches it stops
+/// there: its code is correct, only longer than it could be. A change takes some 50 ns; a spatial
+/// arm of six joints needs 20 000.
 const BUDGET: usize = 1 << 18;
 
-/// The share of the budget that may go into counting the pairs that there are at the start. Bags of
-/// more pairs than that leaves room for are not looked at: the table of a bag of n members has
-/// n²/2 pairs.
+/// The part of the budget that may be spent on counting the initial pairs. Bags with more pairs
+/// than this leaves room for are skipped: the table of a bag of n members has n²/2 pairs.
 const COUNTING: usize = BUDGET / 2;
 
 impl Net {
@@ -51,15 +50,15 @@ struct Member {
     count: u32,
 }
 
-/// Two different members, the smaller index first, or one member twice; and whether their signs
-/// differ.
+/// Two different members, the smaller index first, or one member twice; and whether their
+/// signs differ.
 type Pair = (Index, Index, bool);
 
 /// A product or a sum, without the members that occur nowhere else.
 struct Bag {
     item: Index,
     members: Vec<Member>,
-    /// What occurs nowhere else, or must not be touched.
+    /// Members that occur nowhere else, or must not be changed.
     alone: Vec<Member>,
 }
 
@@ -80,11 +79,12 @@ impl Bag {
 #[derive(Default)]
 struct Uses {
     count: u32,
-    /// Bags that had the pair when it was counted; some may have lost it, some be there twice.
+    /// Bags that had the pair when it was counted; some may have lost it, some may be listed twice.
     bags: Vec<u32>,
 }
 
-/// How often a pair occurs, when it is known, and which it is: the order in which pairs are taken.
+/// The number of occurrences of a pair, its stage, and the pair itself: the order in which pairs
+/// are taken.
 type Rank = (u32, Reverse<Stage>, Reverse<Pair>);
 
 struct Bags {
@@ -112,8 +112,8 @@ impl Bags {
         let is_shared = |item: Index| uses[item as usize] > 1;
         let mut bags = Vec::new();
         for (index, item) in net.items.iter_mut().enumerate() {
-            // What shares less than two of its members has no pair in common with anything; those that are shared stand
-            // last in it, as in the others.
+            // An item with fewer than two shared members has no pair in common with any other; its shared member is
+            // placed last, as in the others.
             let members = match (item, kind) {
                 (Item::Product { up, .. }, Kind::Products) => {
                     if up.iter().filter(|&&factor| is_shared(factor)).count() < 2 {
@@ -161,7 +161,7 @@ impl Bags {
                 self.count_pairs(bag, net, Change::Enter);
             }
         }
-        // Until all are counted, ranks are of no use.
+        // Ranks are of no use until all pairs are counted.
         self.queue.clear();
         let counted = self.pairs.iter().filter(|(_, uses)| uses.count > 1);
         self.queue = counted
@@ -171,7 +171,7 @@ impl Bags {
             if self.changes > BUDGET {
                 return;
             }
-            // Ranks are not updated in the queue, only repeated.
+            // Ranks in the queue are not updated; a pair is queued again instead.
             if self
                 .pairs
                 .get(&pair)
@@ -182,7 +182,7 @@ impl Bags {
         }
     }
 
-    /// Puts the pair into an item of its own, everywhere.
+    /// Replaces the pair by an item of its own, everywhere.
     fn extract(&mut self, pair: Pair, net: &mut Net) {
         let Some(uses) = self.pairs.remove(&pair) else {
             return;
@@ -191,7 +191,8 @@ impl Bags {
         users.sort_unstable();
         users.dedup();
         users.retain(|&bag| occurrences(&self.bags[bag as usize], pair) > 0);
-        // A bag that is nothing but this pair is the item; the first one, if there are several.
+        // A bag that consists of this pair alone becomes the item; the first one, if there
+        // are several.
         let (first, second, opposite) = pair;
         let definition = users.iter().copied().find(|&bag| {
             let bag = &self.bags[bag as usize];
@@ -241,7 +242,7 @@ impl Bags {
         }
     }
 
-    /// Adds all pairs of a bag to the table, or takes them out.
+    /// Adds all pairs of a bag to the table, or removes them.
     fn count_pairs(&mut self, bag: usize, net: &Net, change: Change) {
         let members = &self.bags[bag].members;
         for (position, &a) in members.iter().enumerate() {
@@ -307,7 +308,7 @@ fn rank(pair: Pair, count: u32, net: &Net) -> Rank {
     (count, Reverse(stage), Reverse(pair))
 }
 
-/// How often the bag holds the pair.
+/// The number of occurrences of the pair in the bag.
 fn occurrences(bag: &Bag, (first, second, opposite): Pair) -> u32 {
     let find = |item| bag.find(item).map(|position| bag.members[position]);
     match (find(first), find(second)) {

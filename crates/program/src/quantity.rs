@@ -1,14 +1,14 @@
-//! The table of quantities: everything that a machine can be asked for, a row each.
+//! The table of quantities: one row for everything that a machine can compute.
 //!
-//! A row says how a quantity is called, in what symbol formulas have it, how its numbers are arranged and
-//! what it may depend on. Emitters, the interpreter, the listing, proofs and `docs/quantities.md` read
-//! these rows; so a new quantity is one row here, and in `lagrangian_mechanics::quantities` the expressions
-//! that it consists of.
+//! A row gives the name of a quantity, its symbol in formulas, the arrangement of its numbers
+//! and the arguments that it may depend on. Emitters, the interpreter, the listing, proofs
+//! and `docs/quantities.md` read these rows. A new quantity is one row here and its
+//! expressions in `lagrangian_mechanics::quantities`.
 
 use super::{FrictionLayout, Program, Shape};
 use lagrangian_units::Variable;
 
-/// Of what there is one number each.
+/// The kinds of items that a quantity can have one number for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// The generalized coordinates.
@@ -19,7 +19,7 @@ pub enum Kind {
     Contact,
     /// The unilateral contacts.
     Unilateral,
-    /// Numbers of those unilateral contacts that are with faces of polygons, three for each.
+    /// The unilateral contacts with faces of polygons, three numbers for each.
     Face,
     /// The directions of unilateral contacts: for each its normal, then its tangent.
     Direction,
@@ -28,28 +28,28 @@ pub enum Kind {
     Coefficient,
 }
 
-/// How the results of a function are arranged, whatever machine it is of.
+/// The arrangement of the results of a function, independent of the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
     /// One number.
     Number,
-    /// One number for each of a kind.
+    /// One number for each item of a kind.
     Each(Kind),
-    /// A symmetric matrix, a row for each of a kind.
+    /// A symmetric matrix with a row for each item of a kind.
     Symmetric(Kind),
-    /// A row for each of a kind, in it a number for each of another; row after row.
+    /// A matrix with a row for each of one kind and a column for each of another, row by row.
     Rows(Kind, Kind),
     /// For each coordinate its acceleration, then the derivatives of that by each variable.
     Differentials,
-    /// What follows from friction forces, see [`FrictionLayout`].
+    /// The response to friction forces, see [`FrictionLayout`].
     Responses,
-    /// Coordinates, and behind them their rates if any of these is not 0.
+    /// The coordinates, followed by their rates if any of these is not 0.
     State,
-    /// Numbers that the compiler chooses.
+    /// An arrangement that the compiler chooses.
     Chosen,
 }
 
-/// What a quantity may be a function of.
+/// An argument that a quantity may depend on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Argument {
     /// The time t.
@@ -65,7 +65,7 @@ pub enum Argument {
 }
 
 impl Argument {
-    /// The letter of equations and of code.
+    /// The letter in equations and in code.
     pub fn letter(self) -> &'static str {
         match self {
             Argument::Time => "t",
@@ -77,7 +77,7 @@ impl Argument {
     }
 }
 
-/// Which machines have a quantity.
+/// The machines that have a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Needs {
     /// All of them.
@@ -90,14 +90,14 @@ pub enum Needs {
     Unilateral,
     /// Those with unilateral contacts of polygons.
     Faces,
-    /// Those whose states of first order store energy.
+    /// Those whose first-order states store energy.
     Stores,
-    /// Those that are asked for it.
+    /// Those for which it is requested.
     Request,
 }
 
 impl Needs {
-    /// Whether a machine of these sizes has the quantity, or may be asked for it.
+    /// Whether a machine of these sizes has the quantity, or may request it.
     pub fn are_met(self, sizes: Sizes) -> bool {
         match self {
             Needs::Nothing | Needs::Request => true,
@@ -110,41 +110,42 @@ impl Needs {
     }
 }
 
-/// Where a function is called.
+/// How a function is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Use {
-    /// Now and then: of zeros there is no function.
+    /// Called now and then; if all its results are zero, the function does not exist.
     Seldom,
-    /// At every stage of a step: it runs with whatever instructions the processor has.
+    /// Called at every stage of a step: it uses all instructions that the processor has.
     Often,
-    /// As often, and it solves for accelerations: it has no value where the mass matrix is singular.
+    /// Called as often, and solves for accelerations: it has no value if the mass matrix
+    /// is singular.
     Solves,
 }
 
 /// A row of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Row {
-    /// What its function is called.
+    /// The name of its function.
     pub name: &'static str,
-    /// Its symbol in formulas, ASCII; empty where there is none.
+    /// Its symbol in formulas, ASCII; empty if it has none.
     pub symbol: &'static str,
-    /// What its numbers are called in code, with `*` for the name or the place of each.
+    /// The names of its numbers in code, with `*` for the name or the index of each.
     pub code: &'static str,
-    /// How its numbers are arranged.
+    /// The arrangement of its numbers.
     pub extent: Extent,
-    /// What it may depend on.
+    /// The arguments that it may depend on.
     pub of: &'static [Argument],
-    /// Which machines have it.
+    /// The machines that have it.
     pub needs: Needs,
-    /// Where it is called.
+    /// How it is used.
     pub called: Use,
-    /// Where `docs/equations.md` defines it; empty where the name is the definition.
+    /// Its equation in `docs/equations.md`; empty if the name is the definition.
     pub equation: &'static str,
-    /// What it is, with units: a sentence in ASCII, symbols between backticks.
+    /// Its description, with units: a sentence in ASCII, symbols between backticks.
     pub docs: &'static str,
 }
 
-/// How many there are of whatever a quantity has numbers for.
+/// The numbers of items of a machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sizes {
     /// Coordinates.
@@ -157,11 +158,11 @@ pub struct Sizes {
     pub reaction_axes: usize,
     /// Unilateral contacts.
     pub unilateral: usize,
-    /// Those of them that are with faces of polygons.
+    /// Unilateral contacts with faces of polygons.
     pub faced: usize,
     /// Variables that accelerations are differentiated by.
     pub derivatives: usize,
-    /// Whether states of first order store energy.
+    /// Whether first-order states store energy.
     pub stores: bool,
 }
 
@@ -350,18 +351,18 @@ impl Role {
         }
     }
 
-    /// Whether a function of this role inverts the mass matrix: it has no value where that is singular.
+    /// Whether a function of this role inverts the mass matrix: it has no value if that is singular.
     pub fn inverts(self) -> bool {
         self.row().called == Use::Solves
     }
 
-    /// Whether a function of this role is called so often that it is to run with whatever instructions the
+    /// Whether a function of this role is called so often that it should use all instructions that the
     /// processor has.
     pub fn is_fast(self) -> bool {
         self.row().called != Use::Seldom
     }
 
-    /// Whether there is a function even if it gives zeros.
+    /// Whether the function exists even if all its results are zero.
     pub fn is_kept(self) -> bool {
         self.is_fast()
             || matches!(
@@ -372,7 +373,7 @@ impl Role {
 }
 
 impl Sizes {
-    /// How many there are of a kind.
+    /// The number of items of a kind.
     pub fn of(self, kind: Kind) -> usize {
         match kind {
             Kind::Coordinate => self.coordinates,
@@ -387,7 +388,7 @@ impl Sizes {
 }
 
 impl Extent {
-    /// How results are arranged in a machine; `None` where that is up to the compiler.
+    /// The arrangement of the results for a machine; `None` if the compiler chooses it.
     pub fn shape(self, sizes: Sizes) -> Option<Shape> {
         Some(match self {
             Number => Shape::Scalar,
@@ -416,25 +417,25 @@ impl Extent {
     }
 }
 
-/// What a result of a function is about.
+/// What a result of a function refers to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Entry {
-    /// Everything: there is one result.
+    /// The whole machine: there is only one result.
     Whole,
-    /// One of a kind.
+    /// An item of a kind.
     Of(Kind, usize),
-    /// One of a kind, by one of another: an entry of a matrix.
+    /// An entry of a matrix, by an item of one kind and an item of another.
     At((Kind, usize), (Kind, usize)),
     /// The rate of a coordinate.
     Rate(usize),
-    /// The acceleration of a coordinate, by a variable.
+    /// The derivative of the acceleration of a coordinate by a variable.
     Derivative(usize, Variable),
     /// The result of this index.
     Index(usize),
 }
 
 impl Program {
-    /// How many there are of whatever a quantity has numbers for.
+    /// The numbers of items of this machine.
     pub fn sizes(&self) -> Sizes {
         Sizes {
             coordinates: self.coordinates.len(),
@@ -448,7 +449,7 @@ impl Program {
         }
     }
 
-    /// What a result of a function is about, by its index.
+    /// What a result of a function refers to, by its index.
     pub fn entry(&self, role: Role, index: usize) -> Entry {
         let n = self.dimension();
         match role.row().extent {
@@ -476,7 +477,7 @@ impl Program {
         }
     }
 
-    /// The name of one of a kind, as the spec writes it; its number where there is none.
+    /// The name of an item as the spec writes it, or its number if it has no name.
     pub fn member(&self, (kind, index): (Kind, usize)) -> String {
         let name = match kind {
             Coordinate => self
@@ -519,7 +520,7 @@ impl Program {
         name.unwrap_or_else(|| index.to_string())
     }
 
-    /// What a function computes, in a sentence or two: ASCII, symbols between backticks.
+    /// The description of a function, in a sentence or two: ASCII, symbols between backticks.
     pub fn docs(&self, role: Role) -> String {
         match role {
             Role::Accelerations => {

@@ -1,58 +1,59 @@
-//! Repeats: stretches of a function that do the same again and again, on other values.
+//! Finds repeats: stretches of a function that do the same again and again on different values.
 //!
-//! The links of a chain, equal arms of a tree, mechanisms in a row: their code is the same body,
-//! once for each of them. Nothing here knows of links. A function is a row of [`Step`]s; a *repeat*
-//! of period p is a stretch in which each step does what the step p before it does, and in which
-//! every operand is related to its counterpart p steps before in one way throughout:
+//! Links of a chain, equal arms of a tree, or mechanisms in a row give code with the same body
+//! once for each of them. Nothing here knows about links. A function is a sequence of
+//! [`Step`]s; a *repeat* of period p is a stretch in which each step has the same kind as the
+//! step p before it, and in which every operand is related to its counterpart p steps before in
+//! the same way throughout:
 //!
-//! * it is a value of the same iteration, or one of the iteration before (*carried*);
-//! * it was known before the stretch begins, the same in all iterations, or another in each (a
-//!   *column*).
+//! * it is a value of the same iteration, or of the preceding one (*carried*);
+//! * it was known before the stretch begins, and is the same in all iterations, or a different
+//!   value in each (a *column*).
 //!
-//! This is the converse of unrolling a loop (as in M. Stepp, R. Tate, S. Lerner, *Equality-based
-//! translation validator for LLVM*, and LLVM's own pass for rerolling), on code that never was one.
-//! Whether a product is contracted into a sum is part of what a step does, so a loop has the bits
-//! of the straight code.
+//! This is the converse of loop unrolling (as in M. Stepp, R. Tate, S. Lerner, *Equality-based
+//! translation validator for LLVM*, and LLVM's loop rerolling pass), applied to code that never was
+//! a loop. Contraction of a product into a sum is part of the kind of a step, so a loop gives the
+//! same bits as the straight-line code.
 
 use rustc_hash::FxHashMap;
 
 use super::{Contracted, Contractions, Function, Op, Value};
 
-/// The fewest iterations of a repeat: fewer are shorter written out.
+/// The smallest number of iterations of a repeat: fewer are shorter written out.
 const FEWEST: usize = 4;
 
-/// The longest body that is looked for, in steps. Looking takes time proportional to it.
+/// The longest body that is searched for, in steps. The search takes time proportional to it.
 const LONGEST_BODY: usize = 1500;
 
-/// The fewest steps that a repeat must save to be worth its head, its arrays and its last lines; and
-/// the least part of a function where values must be put into arrays for it. The links of a machine
-/// are most of it; what saves less are sums of products that look alike by chance, and to put their
-/// operands into arrays costs more than is won.
+/// The smallest number of steps that a repeat must save to be worth its loop header, its arrays and
+/// its final statements, and the smallest part of a function if values must be copied into arrays
+/// for it. The links of a machine are most of the function; smaller repeats are sums of products
+/// that look alike by chance, and copying their operands into arrays costs more than it saves.
 const LEAST_SAVING: i64 = 24;
 const LEAST_SHARE: i64 = 16;
 
-/// In how many places at most a body is tried to begin.
+/// The largest number of positions at which a body is tried to begin.
 const MOST_PHASES: usize = 64;
 
-/// What an emitter writes as one statement at most.
+/// The smallest unit that an emitter writes as a statement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
-    /// What it does.
+    /// Its kind.
     pub kind: Kind,
-    /// The values that it computes: one, or a sine and a cosine; of those that exist.
+    /// The values that it computes: one, or a sine and a cosine, as far as they exist.
     pub defines: [Option<Value>; 2],
-    /// What it does it to.
+    /// Its operands.
     pub operands: Vec<Value>,
-    /// Of a guard, its place in [`Function::guards`].
+    /// For a guard, its index in [`Function::guards`].
     pub guard: usize,
 }
 
-/// What a step does, whatever the operands are.
+/// The kind of a step, independent of its operands.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Kind {
-    /// An operation; its own operands mean nothing.
+    /// An operation; the operands stored in it are meaningless.
     Operation(Op),
-    /// A product and a sum in one: two factors and a term.
+    /// A contracted product and sum: two factors and a term.
     Contraction(Contracted),
     /// Sine, cosine or both of an angle.
     Circular,
@@ -71,18 +72,19 @@ pub struct Repeat {
     pub period: usize,
     /// The number of iterations.
     pub count: usize,
-    /// For each step of the first iteration what its operands are.
+    /// For each step of the first iteration the kinds of its operands.
     pub operands: Vec<Vec<Operand>>,
 }
 
-/// What an operand of a step in a repeat is.
+/// The kind of an operand of a step in a repeat.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Operand {
-    /// A value of the same iteration, by its name in the first.
+    /// A value of the same iteration, by its index in the first.
     Same(Value),
-    /// A value of the iteration before, by its name in the first; and what the first has instead.
+    /// A value of the preceding iteration, by its index in the first, and the value that the first
+    /// iteration uses instead.
     Carried(Value, Value),
-    /// One value in all iterations, known before.
+    /// The same value in all iterations, known before.
     Invariant(Value),
     /// For each iteration a value that is known before the first.
     Column(Vec<Value>),
@@ -105,8 +107,8 @@ pub struct Steps {
 }
 
 impl Steps {
-    /// The steps of a function. `is_for_speed`: products are contracted, and all angles that can be
-    /// are taken at once, as early as they are known.
+    /// The steps of a function. With `is_for_speed`, products are contracted, and all possible
+    /// angles are computed at once, as soon as they are known.
     pub fn of(function: &Function, is_for_speed: bool) -> Steps {
         let contractions = if is_for_speed {
             Contractions::of(function)
@@ -219,7 +221,7 @@ impl Steps {
         });
     }
 
-    /// The repeats, in order; they do not overlap. Steps change places where two repeats become one.
+    /// The repeats, in order and without overlap. Steps are reordered if two repeats are fused.
     pub fn repeats(&mut self, function: &Function) -> Vec<Repeat> {
         let mut repeats = Finder::new(self, function).repeats();
         let mut at = 0;
@@ -235,12 +237,11 @@ impl Steps {
         repeats
     }
 
-    /// Two repeats as one whose iterations do what an iteration of either does, where what lies
-    /// between them can be done before or after both.
+    /// Fuses two repeats into one, if the steps between them can be moved before or after both.
     ///
-    /// Two sweeps along a chain in the same direction wait for each other no longer, and what the
-    /// first leaves for the second need not be kept (loop fusion, K. Kennedy and J. R. Allen,
-    /// *Optimizing Compilers for Modern Architectures*, 2002, section 6.2).
+    /// Two sweeps along a chain in the same direction then no longer wait for each other, and
+    /// values that the first leaves for the second need not be stored (loop fusion, K. Kennedy and
+    /// J. R. Allen, *Optimizing Compilers for Modern Architectures*, 2002, section 6.2).
     fn fused(
         &self,
         function: &Function,
@@ -249,7 +250,7 @@ impl Steps {
     ) -> Option<(Vec<Step>, Repeat)> {
         let finder = Finder::new(self, function);
         let place = |value: Value| finder.places[value.index()].map(|(step, _)| step);
-        // How many iterations the first is ahead of the second.
+        // The number of iterations by which the first is ahead of the second.
         let of_first = |value: &Value| {
             let step = place(*value).filter(|step| (first.start..first.end()).contains(step))?;
             Some(((step - first.start) / first.period) as isize)
@@ -269,7 +270,8 @@ impl Steps {
         if count < FEWEST || count + FEWEST < first.count.max(second.count) {
             return None;
         }
-        // In the loop: these. Before it, what does not need the loop; after it, what does.
+        // In the loop: these bodies. Before it, the steps that do not depend on the loop; after it,
+        // those that do.
         let body = |repeat: &Repeat, skip: usize, i: usize| {
             let start = repeat.start + (skip + i) * repeat.period;
             start..start + repeat.period
@@ -294,7 +296,7 @@ impl Steps {
                 (_, false) => before.push(step),
             }
         }
-        // Guards stay in their order.
+        // Guards keep their order.
         let is_guard = |step: &usize| matches!(self.steps[*step].kind, Kind::Guard(_));
         let mut bodies_of_second = body(second, skip_second, 0);
         if self.steps[range.clone()]
@@ -336,10 +338,10 @@ impl Steps {
     }
 }
 
-/// The angles that need nothing but arguments and sums and products of them, if there are several.
+/// The angles that depend only on arguments and their sums and products, if there are several.
 pub fn early_angles(function: &Function) -> Vec<Value> {
     let code = &function.code;
-    // Whether a value is known before any function has been called.
+    // Whether a value is known before any function was called.
     let mut is_early = vec![false; code.len()];
     let mut is_angle = vec![false; code.len()];
     let mut angles: Vec<Value> = Vec::new();
@@ -364,7 +366,7 @@ pub fn early_angles(function: &Function) -> Vec<Value> {
     }
 }
 
-/// Where a value comes from: one of a kind of things that are counted.
+/// The origin of a value: a kind, and an index within it.
 type Origin = (u32, i64);
 
 struct Finder<'a> {
@@ -372,10 +374,10 @@ struct Finder<'a> {
     function: &'a Function,
     /// The kinds of the steps, by number.
     kinds: Vec<u32>,
-    /// For each value the step that computes it, and which of the two results it is there; nothing
-    /// for arguments, and for sines and cosines that are known before.
+    /// For each value the step that computes it, and which of its two results it is; nothing for
+    /// arguments, and for sines and cosines that are known before.
     places: Vec<Option<(usize, usize)>>,
-    /// For each value that no step computes by itself, which of what it is.
+    /// For each value that no step computes by itself, its origin.
     origins: Vec<Option<Origin>>,
 }
 
@@ -440,7 +442,7 @@ impl<'a> Finder<'a> {
 
     fn repeats(&self) -> Vec<Repeat> {
         let mut candidates = self.candidates();
-        // What saves most first; of equals the shortest body, then the first.
+        // The largest saving first; in case of a tie the shortest body, then the first.
         candidates.sort_by_key(|c| (-c.saving, c.period, c.start));
         let mut chosen: Vec<Candidate> = Vec::new();
         for candidate in candidates {
@@ -457,7 +459,7 @@ impl<'a> Finder<'a> {
             .iter()
             .filter_map(|c| self.repeat(c.start, c.period, c.count))
             .collect();
-        // What is no large part may read arrays that are there, and no others.
+        // A small repeat may read arrays that exist already, but needs no others.
         let least = self.steps.len() / LEAST_SHARE as usize;
         while let Some(worst) = repeats.iter().position(|repeat| {
             let is_small = repeat.period * (repeat.count - 1) < least;
@@ -473,7 +475,7 @@ impl<'a> Finder<'a> {
         repeats
     }
 
-    /// Whether a column is an array without its values being put into one.
+    /// Whether a column is already an array, without copying.
     fn is_array(&self, column: &[Value], repeats: &[Repeat]) -> bool {
         let origin = |value: &Value| {
             let Some((step, which)) = self.places[value.index()] else {
@@ -507,7 +509,7 @@ impl<'a> Finder<'a> {
                     first += 1;
                     continue;
                 }
-                // Steps `start..end` are of one kind with those a period before or after.
+                // Steps `start..end` have the same kind as those a period before or after.
                 let mut end = first;
                 while end < n && self.kinds[end] == self.kinds[end - period] {
                     end += 1;
@@ -543,8 +545,8 @@ impl<'a> Finder<'a> {
                 start = next.max(start + 1);
                 continue;
             }
-            // The stretch may carry less where it is cut into iterations elsewhere; an iteration later, all
-            // that it reads may be counted.
+            // The stretch may carry fewer values if it is divided into iterations elsewhere; one iteration
+            // later, everything that it reads may be counted.
             let best = (start..start + 2 * period)
                 .step_by(period.div_ceil(MOST_PHASES))
                 .filter_map(|start| {
@@ -564,7 +566,7 @@ impl<'a> Finder<'a> {
         self.places[value.index()].is_none_or(|(step, _)| step < start)
     }
 
-    /// How many iterations there are from a step on, and where to look next if there are too few.
+    /// The number of iterations from a step on, and where to search next if there are too few.
     fn follow(&self, start: usize, period: usize, limit: usize) -> (usize, usize) {
         let mut end = start + period;
         let mut next = start + 1;
@@ -578,8 +580,8 @@ impl<'a> Finder<'a> {
             let mut unlike =
                 operands.filter(|(a, b)| !self.is_like(**a, **b, start, period, iteration));
             if let Some((_, before)) = unlike.next() {
-                // As soon as the earlier one is known before, the later may be carried; one that is
-                // known before already has to be so in the first iteration.
+                // The later operand may be carried as soon as the earlier one is known before the
+                // stretch; if that is known before already, it must be so in the first iteration.
                 next = match self.places[before.index()] {
                     Some((step, _)) if step >= start => step + 1,
                     _ => (end + 1).saturating_sub(2 * period),
@@ -597,7 +599,7 @@ impl<'a> Finder<'a> {
         ((end - start) / period, next)
     }
 
-    /// Whether an operand is related to its counterpart in the iteration before as it must be.
+    /// Whether an operand is related to its counterpart in the preceding iteration as required.
     fn is_like(
         &self,
         this: Value,
@@ -615,7 +617,7 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// Whether the coordinates of guards are counted up or down.
+    /// Whether the coordinates of guards form an arithmetic progression over the iterations.
     fn counts_on(&self, step: usize, start: usize, period: usize) -> bool {
         let coordinate = |step: usize| match self.steps[step].kind {
             Kind::Guard(_) => self.function.guards[self.steps[step].guard].coordinate as i64,
@@ -626,7 +628,7 @@ impl<'a> Finder<'a> {
                 == coordinate(step - period) - coordinate(step - 2 * period)
     }
 
-    /// The repeat of so many iterations.
+    /// The repeat with `count` iterations.
     fn repeat(&self, start: usize, period: usize, count: usize) -> Option<Repeat> {
         if count < FEWEST {
             return None;
@@ -639,7 +641,7 @@ impl<'a> Finder<'a> {
             }
             if !self.is_before(second, start) {
                 let (place, of) = self.places[second.index()]?;
-                // In the first iteration, as `follow` has seen.
+                // In the first iteration, as `follow` has checked.
                 let carried = self.steps[place].defines[of]?;
                 return Some(Operand::Carried(carried, first)).filter(|_| place < start + period);
             }
@@ -654,7 +656,7 @@ impl<'a> Finder<'a> {
         for step in start..start + period {
             let of_step = (0..self.steps[step].operands.len()).map(|which| operand(step, which));
             let of_step: Vec<Operand> = of_step.collect::<Option<_>>()?;
-            // Where a pivot vanishes in one of several lanes, the guard makes it undefined there: it
+            // If a pivot vanishes in one of several lanes, the guard makes it undefined there, so it
             // must be a variable of the body.
             let is_argument = |value: &Value| matches!(self.function.op(*value), Op::Read(_));
             let can_be_guarded = match of_step.first() {
@@ -676,7 +678,7 @@ impl<'a> Finder<'a> {
         })
     }
 
-    /// What a repeat saves: steps that need not be written, less what must be written for it.
+    /// Rates a repeat by the steps that it saves, minus those that it adds.
     fn rate(&self, repeat: &Repeat) -> Candidate {
         let Repeat {
             start,
@@ -704,7 +706,7 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// Whether a column is counted up or down in one array, or can be put into one.
+    /// Whether a column is evenly spaced in one array, or can be stored in one.
     fn is_counted(&self, column: &[Value]) -> bool {
         let origin = |value: &Value| match self.places[value.index()] {
             Some((step, which)) => Some((16 + which as u32, step as i64)),
@@ -719,7 +721,7 @@ impl<'a> Finder<'a> {
 
 /// Whether these are members of one array at even distances, or can be.
 fn is_counted(origins: &[Origin]) -> bool {
-    // Prepared values can be put into any order.
+    // Prepared values can be stored in any order.
     let is_prepared = origins[0].0 == 1;
     origins.windows(2).all(|pair| pair[0].0 == pair[1].0)
         && (is_prepared

@@ -1,11 +1,11 @@
-//! A program without what nobody asks for.
+//! Restricts a program to some of its functions.
 
 use super::{Function, Op, Program, Role, Shape, Source, Value};
 use lagrangian_units::Stages;
 
 impl Program {
-    /// This machine with some functions, beside [`prepare`](Program::prepare) and
-    /// [`start`](Program::start), and with those prepared values that these read.
+    /// This machine with the given functions, in addition to [`prepare`](Program::prepare) and
+    /// [`start`](Program::start), and with only the prepared values that these read.
     ///
     /// A mass matrix of n coordinates has n² prepared values; accelerations that are eliminated
     /// along a chain read a few for each link.
@@ -48,8 +48,8 @@ impl Program {
 }
 
 impl Program {
-    /// This machine with some of the functions, beside [`prepare`](Program::prepare) and
-    /// [`start`](Program::start), and all prepared values.
+    /// This machine with some of the functions, in addition to [`prepare`](Program::prepare) and
+    /// [`start`](Program::start), and with all prepared values.
     pub fn with_functions(&self, is_kept: impl Fn(Role) -> bool) -> Program {
         let functions = self.functions.iter().filter(|f| is_kept(f.role));
         Program {
@@ -78,7 +78,7 @@ impl Program {
     }
 }
 
-/// A function with those operations only that a result or a guard needs.
+/// A function with only the operations that a result or a guard needs.
 fn without_the_unused(function: Function) -> Function {
     let Function {
         code,

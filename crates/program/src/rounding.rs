@@ -1,33 +1,35 @@
-//! What rounding does to the results of a program, for choosing between programs.
+//! Estimates the rounding errors of the results of a program, to choose between programs.
 //!
-//! A program is run at a few states of its machine, and every operation x that rounds is taken to
-//! be off by an error of its own, uniform between half a unit in the last place below and above.
-//! For 2ᵉ ≤ |x| < 2ᵉ⁺¹ that is a variance of (2ᵉu)²/3 with u = 2⁻⁵³; and since the leading digits of
-//! results of arithmetic are distributed as if log |x| were uniform (R. W. Hamming, *On the
+//! A program is run at a few states of its machine, and every operation x that rounds is assumed to
+//! have an independent error, uniformly distributed between half a unit in the last place below and
+//! above. For 2ᵉ ≤ |x| < 2ᵉ⁺¹ its variance is (2ᵉu)²/3 with u = 2⁻⁵³; and since the leading digits
+//! of results of arithmetic are distributed as if log |x| were uniform (R. W. Hamming, *On the
 //! distribution of numbers*, Bell Syst. Tech. J. 49 (1970) 1609–1625), 2²ᵉ is x²·3/(8 ln 2) in the
-//! mean. To first order the errors of the results are the sums of these, each times the derivative
-//! of the result by the operation; as the errors are independent, their squares add up:
+//! mean. To first order the errors of the results are the sums of these errors, each times the
+//! derivative of the result with respect to the operation; as the errors are independent, their
+//! squares add up:
 //!
 //! ```text
 //! E ‖Δr‖² = Σₖ ‖∂r/∂xₖ‖² (xₖu)²/(8 ln 2)
 //! ```
 //!
-//! That is the linear analysis of rounding of F. L. Bauer, *Computational graphs and rounding
-//! error*, SIAM J. Numer. Anal. 11 (1974) 87–96, with the sum of squares where a bound takes that of
-//! absolute values: errors that do not know of each other grow as the root of their number does
-//! (N. J. Higham and T. Mary, *A new approach to probabilistic rounding error analysis*, SIAM J.
-//! Sci. Comput. 41 (2019) A2815–A2835), and it is the usual error that tells two programs apart,
-//! not the worst.
+//! This is the linear rounding error analysis of F. L. Bauer, *Computational graphs and rounding
+//! error*, SIAM J. Numer. Anal. 11 (1974) 87–96, with the sum of squares instead of the sum of
+//! absolute values in a bound: independent errors grow like the square root of their number (N. J.
+//! Higham and T. Mary, *A new approach to probabilistic rounding error analysis*, SIAM J. Sci.
+//! Comput. 41 (2019) A2815–A2835), and two programs are distinguished by their typical error, not by
+//! the worst one.
 //!
-//! All derivatives of one number come from a single sweep backwards. Of many results, that number
-//! is Σ wᵢ rᵢ with signs wᵢ = ±1 drawn at random: (Σᵢ wᵢ ∂rᵢ/∂xₖ)² has the expectation ‖∂r/∂xₖ‖²
-//! (M. F. Hutchinson, *A stochastic estimator of the trace of the influence matrix*, Commun. Stat.
-//! Simul. Comput. 19 (1990) 433–450). Four sweeps at once, with orthogonal signs, give the mean of
-//! four: the expectation itself for up to four results. A state costs as much as a few evaluations.
+//! All derivatives of one number come from a single reverse sweep. For many results, that number
+//! is Σ wᵢ rᵢ with random signs wᵢ = ±1: (Σᵢ wᵢ ∂rᵢ/∂xₖ)² has the expectation ‖∂r/∂xₖ‖² (M. F.
+//! Hutchinson, *A stochastic estimator of the trace of the influence matrix*, Commun. Stat.
+//! Simul. Comput. 19 (1990) 433–450). Four simultaneous sweeps with orthogonal signs give the
+//! mean of four, which is the expectation itself for up to four results. A state costs as much as
+//! a few evaluations.
 //!
-//! The states are drawn as tests draw them, from generators of their own, and all arithmetic is
-//! that of `f64` and `libm`: the estimate is the same on every computer. Products that are
-//! [contracted](super::fused()) are not rounded, as where the processor has a fused multiply-add.
+//! The states come from a generator of their own, and all arithmetic is that of `f64` and `libm`,
+//! so the estimate is the same on every computer. Products that are [contracted](super::fused())
+//! are not rounded, as on a processor with a fused multiply-add.
 
 use std::fmt;
 
@@ -38,18 +40,18 @@ use rustc_hash::FxHashMap;
 use super::interpret::{binary, unary};
 use super::{Arguments, Contractions, Function, Op, Source, Value};
 
-/// The error that rounding leaves in the results of a function, as a share of them: ‖Δr‖/‖r‖ in
-/// the Euclidean norm, at the median of some states of the machine.
+/// The rounding error of the results of a function, relative to them: ‖Δr‖/‖r‖ in the Euclidean
+/// norm, at the median of some states of the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Rounding {
-    /// In thousandths of 2⁻⁵³, the most that rounding does to one number.
+    /// In thousandths of 2⁻⁵³, the largest relative error of one rounding.
     thousandths: u64,
 }
 
 impl Rounding {
     /// An error in units of 2⁻⁵³.
     pub fn of_units(units: f64) -> Rounding {
-        // Saturates; what is no number is none at all.
+        // The cast saturates, and maps NaN to 0.
         let thousandths = (1000.0 * units) as u64;
         Rounding { thousandths }
     }
@@ -59,7 +61,7 @@ impl Rounding {
         self.thousandths as f64 / 1000.0
     }
 
-    /// Whether it is at most so many times another.
+    /// Whether it is at most `factor` times another.
     pub fn is_within(self, factor: u64, of: Rounding) -> bool {
         self.thousandths <= of.thousandths.saturating_mul(factor)
     }
@@ -75,21 +77,21 @@ impl fmt::Display for Rounding {
 /// The variance of the rounding error of a number, over its square, in units of 2⁻¹⁰⁶: 1/(8 ln 2).
 const VARIANCE: f64 = std::f64::consts::LOG2_E / 8.0;
 
-/// How many states are looked at.
+/// The number of states that are examined.
 pub const STATES: usize = 31;
 
-/// How many weighted sums of the results are differentiated at once; a power of 2.
+/// The number of weighted sums of the results that are differentiated at once; a power of 2.
 const SWEEPS: usize = 4;
 
 /// Parameters of a machine and states that it may be in.
 pub struct States {
     /// The parameters, in their order.
     pub parameters: Vec<f64>,
-    /// The states, [`STATES`] of them if so many obey what the machine assumes.
+    /// The states, [`STATES`] of them if that many satisfy the assumptions of the machine.
     pub states: Vec<State>,
 }
 
-/// The arguments of a call, each list in the order of the program's.
+/// The arguments of a call, each list in the order of the program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State<N = f64> {
     /// The time, in s.
@@ -105,11 +107,10 @@ pub struct State<N = f64> {
 }
 
 impl States {
-    /// What rounding does to the results of each function; nothing where too few states are
-    /// regular to tell.
+    /// The rounding errors of the results of each function; nothing if too few states are regular.
     ///
-    /// What a function reads as its prepared value k is the result of `prepare` whose index is the
-    /// k-th of those that come with it.
+    /// The prepared value k that a function reads is the result of `prepare` whose index is the
+    /// k-th in the list that comes with the function.
     pub fn roundings(
         &self,
         prepare: &Function,
@@ -149,7 +150,7 @@ impl States {
                     function.error(&mut run, (&prepare, &mut before, places), random)
                 })
                 .collect();
-            // A state counts for all of them or for none: they are to be compared.
+            // A state counts for all of them or for none, since they are to be compared.
             for (errors, error) in errors.iter_mut().zip(all.into_iter().flatten()) {
                 errors.push(error);
             }
@@ -180,7 +181,7 @@ impl<N: Copy> State<N> {
 }
 
 impl State {
-    /// Its numbers as others, row by row.
+    /// The state with its numbers converted, list by list.
     pub fn mapped<N: Copy>(&self, mut map: impl FnMut(&[f64]) -> Vec<N>) -> State<N> {
         State {
             t: map(&[self.t])[0],
@@ -191,7 +192,7 @@ impl State {
         }
     }
 
-    /// The value of an argument; NaN for what is no part of a state.
+    /// The value of an argument; NaN if it is not part of a state.
     pub fn read(&self, source: Source) -> f64 {
         let (list, index) = match source {
             Source::Time => return self.t,
@@ -199,7 +200,7 @@ impl State {
             Source::Velocity(index) => (&self.v, index),
             Source::Input(index) => (&self.u, index),
             Source::Acceleration(index) => (&self.a, index),
-            // What the caller knows, or what is read in stages, never by the whole function.
+            // The caller supplies these, or only stages read them, never the whole function.
             Source::Parameter(_)
             | Source::Prepared(_)
             | Source::AtTime(_)
@@ -209,24 +210,25 @@ impl State {
     }
 }
 
-/// A function that can be differentiated.
+/// A function prepared for differentiation.
 struct Linear<'f> {
     function: &'f Function,
-    /// Whether the result of each operation is in general no number of 53 bits.
+    /// Whether the result of each operation generally has more than 53 bits.
     rounds: Vec<bool>,
-    /// The results, each once: which operations, and how often.
+    /// The results, each once: the index of the operation, and how often it is a result.
     results: Vec<(usize, f64)>,
-    /// The products and sums whose errors the function asks for: which, and where the error is.
+    /// The products and sums whose errors the function computes: their indices, and those of
+    /// the errors.
     corrected: Vec<(usize, usize)>,
 }
 
-/// The values of a function's operations, and what becomes of errors in them.
+/// The values of a function's operations, and the propagation of errors in them.
 #[derive(Default)]
 struct Run {
     values: Vec<f64>,
-    /// The derivatives of each by its operands.
+    /// The derivatives of each operation with respect to its operands.
     slopes: Vec<[f64; 2]>,
-    /// The derivatives of the weighted sums of results by each.
+    /// The derivatives of the weighted sums of results with respect to each operation.
     adjoints: Vec<[f64; SWEEPS]>,
 }
 
@@ -283,7 +285,7 @@ impl<'f> Linear<'f> {
                     (quotient, [1.0 / at(b), -quotient / at(b)])
                 }
                 Op::Neg(a) => (-at(a), [-1.0, 0.0]),
-                // 0, whatever the operands are, but for rounding.
+                // 0 in exact arithmetic, whatever the operands are.
                 Op::ProductError(a, b) => (at(a).product_error(at(b)), [0.0; 2]),
                 Op::SumError(a, b) => (at(a).sum_error(at(b)), [0.0; 2]),
                 Op::Sin(a) => {
@@ -311,10 +313,10 @@ impl<'f> Linear<'f> {
         }
     }
 
-    /// The error of the results as a share of them, in units of 2⁻⁵³; nothing where they have no
-    /// value, or are all 0.
+    /// The error of the results relative to them, in units of 2⁻⁵³; nothing if they have no value,
+    /// or are all 0.
     ///
-    /// `prepare` has run, and the function too.
+    /// `prepare` and the function must have been run.
     fn error(
         &self,
         run: &mut Run,
@@ -333,7 +335,7 @@ impl<'f> Linear<'f> {
         run.adjoints.resize(function.code.len(), [0.0; SWEEPS]);
         for (index, (result, times)) in self.results.iter().enumerate() {
             let weight = random.sign() * times.sqrt();
-            // Rows of Hadamard's matrix.
+            // Rows of a Hadamard matrix.
             run.adjoints[*result] =
                 std::array::from_fn(|sweep| match (index & sweep).count_ones() % 2 {
                     0 => weight,
@@ -356,8 +358,8 @@ impl<'f> Linear<'f> {
         (error.is_finite() && size > 0.0).then_some(error)
     }
 
-    /// Carries derivatives from the results to all operations, and returns the variance of a
-    /// weighted sum of the results, the mean of all of them, in units of 2⁻¹⁰⁶.
+    /// Propagates derivatives from the results to all operations, and returns the variance of a
+    /// weighted sum of the results, averaged over the sweeps, in units of 2⁻¹⁰⁶.
     fn sweep(&self, run: &mut Run) -> f64 {
         let Run {
             values,
@@ -370,7 +372,7 @@ impl<'f> Linear<'f> {
                 add(&mut adjoints[operand.index()], slope, &adjoint);
             }
         }
-        // An error that is known goes into the results on another way too, with the other sign.
+        // A known error also enters the results through its correction, with the opposite sign.
         for &(of, error) in &self.corrected {
             let adjoint = adjoints[error];
             add(&mut adjoints[of], -1.0, &adjoint);
@@ -391,11 +393,11 @@ fn add(to: &mut [f64; SWEEPS], slope: f64, from: &[f64; SWEEPS]) {
     }
 }
 
-/// Whether the result of an operation is in general no number of 53 bits.
+/// Whether the result of an operation generally has more than 53 bits.
 fn rounds(function: &Function, op: &Op) -> bool {
     use lagrangian_symbolic::Function::{Abs, Max, Min, Sign};
     let is_power_of_two = |value: &Value| match function.op(*value) {
-        // No bit of the significand but the one that is not written.
+        // All stored bits of the significand are 0.
         Op::Constant(value) => value.to_f64().to_bits() << 12 == 0,
         _ => false,
     };
@@ -410,8 +412,8 @@ fn rounds(function: &Function, op: &Op) -> bool {
     }
 }
 
-/// G. L. Steele, D. Lea and C. H. Flood, *Fast splittable pseudorandom number generators*, OOPSLA
-/// 2014: the same numbers everywhere.
+/// SplitMix, the same numbers on every computer: G. L. Steele, D. Lea and C. H. Flood, *Fast
+/// splittable pseudorandom number generators*, OOPSLA 2014.
 #[derive(Clone, Debug)]
 pub struct SplitMix(pub u64);
 
@@ -424,7 +426,7 @@ impl SplitMix {
         z ^ (z >> 31)
     }
 
-    /// A number between two others, evenly distributed.
+    /// A number uniformly distributed between two others.
     pub fn uniform(&mut self, from: f64, to: f64) -> f64 {
         // 53 bits of a fraction.
         let unit = (self.next() >> 11) as f64 * (f64::EPSILON / 2.0);

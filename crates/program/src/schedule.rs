@@ -1,12 +1,12 @@
-//! From products and sums to operations, in an order that lets few values wait and keeps few of
-//! them at hand.
+//! Schedules the products and sums of a [`Net`] as operations, in an order that keeps waiting times
+//! short and few values alive.
 //!
-//! A product of many factors, or a sum of many terms, is computed in the order in which they are
-//! known: the two that are known first become one, and so on, as D. A. Huffman's code merges the
-//! two rarest letters. So what takes long, a sine or a quotient, passes through one operation and
-//! not through several; of values known at once a balanced tree is made. No other order has its
-//! result known earlier (M. C. Golumbic, *Combinatorial merging*, IEEE Trans. Comput. C-25 (1976)
-//! 1164–1167).
+//! The operands of a product of many factors, or of a sum of many terms, are combined in the order
+//! in which they become known: the two that are known first are merged into one, and so on, as D.
+//! A. Huffman's code merges the two rarest letters. So the result of a slow operation, such as a
+//! sine or a quotient, passes through one operation and not through several; values known at the
+//! same time form a balanced tree. No other order makes the result known earlier (M. C. Golumbic,
+//! *Combinatorial merging*, IEEE Trans. Comput. C-25 (1976) 1164–1167).
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -21,21 +21,22 @@ use super::latency::latency;
 use super::net::{Index, Item, Leaf, Net, Signed, TIME, operands};
 use super::{Function, Op, Role, Shape, Source, Value, stages};
 
-/// A function's code, prepared values still called by their nodes.
+/// The code of a function, with prepared values still identified by their nodes.
 pub struct Code {
     /// The operations.
     pub code: Vec<Op>,
-    /// What is asked for, among them.
+    /// The requested values, among them.
     pub roots: Vec<Value>,
-    /// What `Read(Prepared(k))` stands for.
+    /// The nodes that `Read(Prepared(k))` refer to.
     pub prepared: Vec<Id>,
 }
 
-/// The most operands in a function for which a second way is tried: beyond it, each takes a second.
+/// The largest number of operands of a function for which a second form is tried: beyond it, each
+/// form takes a second.
 pub const LARGEST_FACTORED: usize = 200_000;
 
-/// What functions read of prepared values: the nodes, their formulas, and the functions with the places of these; `name` tells
-/// what an argument is called.
+/// Collects the prepared values that functions read: returns their nodes, their formulas, and the functions with the indices
+/// of these; `name` gives the name of an argument.
 pub fn prepared(
     graph: &mut Graph,
     functions: Vec<(Function, Vec<Id>)>,
@@ -67,8 +68,8 @@ pub fn prepared(
     (ids, formulas, functions)
 }
 
-/// Writes the items down as operations. With the graph that they come from, what turns out to be
-/// known once the parameters are becomes a prepared value.
+/// Writes the items as operations. If their graph is given, values that turn out to depend on
+/// parameters alone become prepared values.
 pub fn schedule(net: &Net, graph: Option<&mut Graph>) -> Code {
     let merged = merged(net);
     let mut builder = Builder {
@@ -99,7 +100,7 @@ pub fn schedule(net: &Net, graph: Option<&mut Graph>) -> Code {
     }
 }
 
-/// The items that the roots need, operands first, but for those that are merged into others.
+/// The items that the roots need, operands first, without those that are merged into others.
 fn in_order(net: &Net, merged: &[bool]) -> Vec<Index> {
     let mut order = Vec::with_capacity(net.items.len());
     let mut entered = vec![false; net.items.len()];
@@ -124,9 +125,9 @@ fn in_order(net: &Net, merged: &[bool]) -> Vec<Index> {
     order
 }
 
-/// Products that are only a factor of another product. What has a factor that is known before stays
-/// by itself: two such factors are not to meet. So does what is computed by itself in an earlier
-/// stage.
+/// Products that are only a factor of another product, and so are merged into it. A product with a
+/// factor that depends on parameters alone stays separate, so that two such factors never meet. So
+/// does one that is computed separately in an earlier stage.
 fn merged(net: &Net) -> Vec<bool> {
     let uses = net.uses();
     let mut merged = vec![false; net.items.len()];
@@ -149,10 +150,10 @@ fn merged(net: &Net) -> Vec<bool> {
 
 #[derive(Default)]
 struct Builder<'g> {
-    /// Where values are prepared, if they are.
+    /// The graph in which values are prepared, if they are.
     graph: Option<&'g mut Graph>,
     code: Vec<Op>,
-    /// How long after the arguments each value is known, in tenths of a cycle.
+    /// When each value is known, in tenths of a cycle after the arguments.
     ready: Vec<u64>,
     values: FxHashMap<Op, Value>,
     prepared: Vec<Id>,
@@ -162,7 +163,7 @@ struct Builder<'g> {
 impl Builder<'_> {
     fn op(&mut self, op: Op) -> Value {
         let op = self.prepared(&op).unwrap_or(op);
-        // Both round the same either way round.
+        // The rounding does not depend on the order of the operands.
         let op = match op {
             Op::Add(a, b) if b < a => Op::Add(b, a),
             Op::Mul(a, b) if b < a => Op::Mul(b, a),
@@ -180,10 +181,10 @@ impl Builder<'_> {
         value
     }
 
-    /// What stands in place of an operation whose operands are all known once the parameters are. The
-    /// graph has prepared what it saw to be so; but two products of it may turn out to be the same
-    /// operations, so that a sum becomes zero, or one of its terms, only here. Signs stay: they cost less
-    /// than one more prepared value.
+    /// The replacement of an operation whose operands all depend on parameters alone. The graph has
+    /// prepared the values that it recognized as such; but two of its products may turn out to be the
+    /// same operations, so that a sum becomes zero, or one of its terms, only here. Signs stay, since
+    /// they cost less than one more prepared value.
     fn prepared(&mut self, op: &Op) -> Option<Op> {
         use lagrangian_symbolic::Function::{Cos, Sin};
         let graph = self.graph.as_deref_mut()?;
@@ -296,20 +297,21 @@ impl Builder<'_> {
         }
     }
 
-    /// Sine and cosine; of what time alone decides, as exact as if the angle had not been rounded.
+    /// Sine and cosine. If the angle depends on time alone, they are as exact as if the angle had
+    /// not been rounded.
     ///
-    /// The phase ω t of a drive grows without end and its rounding error with it: after a minute at
-    /// 100 rad/s it is 1e-12, the largest error of the whole evaluation. With the error δ of the
-    /// rounded angle known, sin(x + δ) = sin x + δ cos x and cos(x + δ) = cos x − δ sin x to δ².
-    /// The angle of a coordinate needs no such thing: it is an argument, and exact.
+    /// The phase ω t of a drive grows without bound, and its rounding error with it: after a minute
+    /// at 100 rad/s it is 1e-12, the largest error of the whole evaluation. If the error δ of the
+    /// rounded angle is known, sin(x + δ) = sin x + δ cos x and cos(x + δ) = cos x − δ sin x to
+    /// order δ². The angle of a coordinate needs no such correction: it is an argument, and exact.
     fn circular(&mut self, net: &Net, angle: Index, value: Value) -> (Value, Value) {
         let (sin, cos) = (Op::Sin(value), Op::Cos(value));
         let error = match net.stages[angle as usize] {
             TIME => self.error(value),
             _ => None,
         };
-        // Neither is computed where the function needs only the other: what no result needs is
-        // dropped.
+        // An unused sine or cosine costs nothing, because operations that no result needs
+        // are dropped.
         let (sin, cos) = (self.op(sin), self.op(cos));
         let Some(error) = error else {
             return (sin, cos);
@@ -318,7 +320,7 @@ impl Builder<'_> {
         (self.op(Op::Add(sin, by_sin)), self.op(Op::Sub(cos, by_cos)))
     }
 
-    /// The rounding error of a value, where it is that of a product, a sum or both.
+    /// The rounding error of a value that is a product, a sum or both.
     fn error(&mut self, value: Value) -> Option<Value> {
         let of_product = |builder: &mut Self, value: Value| match builder.code[value.index()] {
             Op::Mul(a, b) => Some(builder.op(Op::ProductError(a, b))),
@@ -354,9 +356,9 @@ impl Builder<'_> {
         Some(error)
     }
 
-    /// The product, factors that are known first multiplied first; of none, 1.
+    /// The product; factors that are known first are multiplied first. The empty product is 1.
     fn product(&mut self, factors: Vec<Value>) -> Value {
-        // A sum whose terms have gone.
+        // A sum whose terms have cancelled.
         if let Some(&zero) = factors.iter().find(|factor| self.is_zero(**factor)) {
             return zero;
         }
@@ -370,7 +372,7 @@ impl Builder<'_> {
         }
     }
 
-    /// The sum of terms, those that are known first added first.
+    /// The sum of terms; those that are known first are added first.
     fn sum(&mut self, terms: Vec<(Value, bool)>) -> Value {
         let terms = self.without_opposites(terms);
         let sum = self.merge(terms, |builder, a, b| match (a, b) {
@@ -386,13 +388,13 @@ impl Builder<'_> {
         }
     }
 
-    /// The terms without those that take each other away.
+    /// The terms without pairs that cancel.
     ///
-    /// Two products of the graph may turn out to be the same operations, so that x − x is seen only
-    /// here.
+    /// Two products of the graph may turn out to be the same operations, so that x − x is
+    /// recognized only here.
     fn without_opposites(&self, terms: Vec<(Value, bool)>) -> Vec<(Value, bool)> {
         let mut left: Vec<Option<(Value, bool)>> = Vec::with_capacity(terms.len());
-        // Where terms stand: a long sum would be searched for too long.
+        // The positions of the terms, since searching a long sum would take too long.
         let mut places: FxHashMap<(Value, bool), Vec<usize>> = FxHashMap::default();
         let is_long = terms.len() > SEARCHED;
         if is_long {
@@ -426,8 +428,8 @@ impl Builder<'_> {
         matches!(&self.code[value.index()], Op::Constant(constant) if constant.is_zero())
     }
 
-    /// Makes one of all parts: each time of the two that are known first, the earlier in the list
-    /// if several are.
+    /// Merges all parts into one: repeatedly the two that are known first, or the earlier in the
+    /// list in case of a tie.
     fn merge(
         &mut self,
         parts: Vec<(Value, bool)>,
@@ -455,23 +457,23 @@ impl Builder<'_> {
                 let constant = -constant;
                 self.op(Op::Constant(constant))
             }
-            // −(a − b) = b − a exactly; if a − b is not needed otherwise, it will not be there.
+            // −(a − b) = b − a exactly; a − b is dropped if nothing else needs it.
             &Op::Sub(a, b) => self.op(Op::Sub(b, a)),
             _ => self.op(Op::Neg(value)),
         }
     }
 }
 
-/// Sums of up to so many terms are searched term by term for those that take each other away.
+/// Sums of up to this many terms are searched linearly for terms that cancel.
 const SEARCHED: usize = 32;
 
-/// Whether a value is known once the parameters are, and computed by then.
+/// Whether a value depends on parameters alone, and is computed with them.
 fn is_known(op: &Op) -> bool {
     matches!(op, Op::Constant(_) | Op::Pi | Op::Read(Source::Prepared(_)))
 }
 
-/// The operations that the roots need, each as late as its first use allows, the operand that needs
-/// more registers first.
+/// The operations that the roots need, each as late as its first use allows; the operand that needs
+/// more registers comes first.
 ///
 /// R. Sethi and J. D. Ullman, *The generation of optimal code for arithmetic expressions*, J. ACM
 /// 17 (1970) 715–728: exact for trees; shared values are counted at each use here.
@@ -515,7 +517,7 @@ fn reorder(code: &[Op], roots: &[Value]) -> (Vec<Op>, Vec<Value>) {
             ordered.push(op.with_operands(moved));
         };
         write(value, op);
-        // Sine and cosine of one angle next to each other.
+        // The sine and cosine of an angle are placed next to each other.
         let other = match *op {
             Op::Sin(angle) => partner.get(&(angle, false)),
             Op::Cos(angle) => partner.get(&(angle, true)),
@@ -536,16 +538,15 @@ fn reorder(code: &[Op], roots: &[Value]) -> (Vec<Op>, Vec<Value>) {
 
 /// The operations in the order in which a processor starts them.
 ///
-/// A processor looks ahead, but not far: what stands a few hundred operations behind what waits is
-/// not seen. So operations that wait for each other, as those from link to link of a chain do, must
-/// stand among those of another such row, or the two rows take their times one after the other. This
-/// simulates a processor with two units for arithmetic that starts, of the operations whose operands
-/// are known, the ones that the longest row of others waits for (list scheduling: T. C. Hu, *Parallel
-/// sequencing and assembly line problems*, Operations Research 9 (1961) 841–848).
+/// A processor looks ahead only a few hundred operations. So operations that wait for each other,
+/// like those from link to link of a chain, must be interleaved with those of another such chain, or
+/// the two chains take their times one after the other. This simulates a processor with two
+/// arithmetic units that starts, among the operations whose operands are known, the one with the
+/// longest chain of dependents (list scheduling: T. C. Hu, *Parallel sequencing and assembly line
+/// problems*, Operations Research 9 (1961) 841–848).
 ///
-/// Products that are contracted into sums, and what is only read, stay where they are used first.
-/// Where the work takes longer than the longest row, nothing needs to be looked for, and the order of
-/// the fewest values at hand stays.
+/// Products that are contracted into sums, and reads, stay at their first use. If the total work
+/// takes longer than the longest chain, the order with the fewest live values is kept.
 fn by_time((code, roots): (Vec<Op>, Vec<Value>)) -> (Vec<Op>, Vec<Value>) {
     let function = Function {
         role: Role::Output(0),
@@ -570,21 +571,22 @@ fn by_time((code, roots): (Vec<Op>, Vec<Value>)) -> (Vec<Op>, Vec<Value>) {
     (writer.code, roots)
 }
 
-/// What waits for what.
+/// The dependencies among operations.
 struct Rows {
-    /// How long an operation takes, in tenths of a cycle; `None` for what is no operation of its own.
+    /// The latency of each operation, in tenths of a cycle; `None` for values that are not
+    /// operations of their own.
     takes: Vec<Option<u64>>,
     /// The operations that wait for each.
     users: Vec<Vec<u32>>,
-    /// How many each waits for.
+    /// The number of operands that each waits for.
     waits: Vec<u32>,
 }
 
-/// The longest function in the order of time. Longer ones are cut into pieces or written as loops, for
-/// which what belongs together must stand together.
+/// The longest function that is ordered by time. Longer ones are cut into pieces or written as loops,
+/// for which related operations must stay together.
 pub const LONGEST_SCHEDULED: usize = 8000;
 
-/// Operations of arithmetic that are started in a cycle.
+/// The number of arithmetic operations that are started in a cycle.
 const UNITS: u32 = 2;
 const CYCLE: u64 = 10;
 
@@ -619,7 +621,8 @@ impl Rows {
         rows
     }
 
-    /// How long it is from the start of each to the end of all that wait for it.
+    /// The time from the start of each operation to the end of the longest chain that depends
+    /// on it.
     fn heights(&self) -> Vec<u64> {
         let mut heights = vec![0; self.takes.len()];
         for index in (0..heights.len()).rev() {
@@ -634,7 +637,8 @@ impl Rows {
     fn started(mut self) -> Vec<usize> {
         let heights = self.heights();
         let mut known: Vec<u64> = vec![0; heights.len()];
-        // By the time when their operands are known; and those of which they are, by height.
+        // Operations by the time at which their operands are known, and those whose operands are
+        // known, by height.
         let mut later: BinaryHeap<Reverse<(u64, u32)>> = BinaryHeap::new();
         let mut now: BinaryHeap<(u64, Reverse<u32>)> = BinaryHeap::new();
         for (index, takes) in self.takes.iter().enumerate() {
@@ -686,10 +690,11 @@ impl Rows {
     }
 }
 
-/// Writes operations in a given order, what is not written yet of their operands before them.
+/// Writes operations in a given order, each preceded by those of its operands that are not
+/// yet written.
 struct InOrder<'a> {
     function: &'a Function,
-    /// Sines by their angles, and cosines.
+    /// The sines and cosines, by angle.
     circular: FxHashMap<(Value, bool), usize>,
     place: Vec<Option<Value>>,
     code: Vec<Op>,
@@ -730,7 +735,7 @@ impl<'a> InOrder<'a> {
                 continue;
             }
             self.push(index);
-            // Sine and cosine of one angle next to each other.
+            // The sine and cosine of an angle are placed next to each other.
             let partner = match *op {
                 Op::Sin(angle) => self.circular.get(&(angle, false)),
                 Op::Cos(angle) => self.circular.get(&(angle, true)),

@@ -1,17 +1,17 @@
-//! Taylor series of the motion, as arithmetic on series.
+//! Taylor series of the motion, by recurrences on their coefficients.
 //!
-//! A [`Series`] is a list of [`Row`]s, each a quantity along the motion: a coordinate, a sine, a force. A row is known by
-//! its Taylor coefficients in time at the start of a step, and each operation has a recurrence that makes one
-//! coefficient from those before it. The last rows are residuals of the equations of motion,
+//! A [`Series`] is a list of [`Row`]s, each a quantity along the motion: a coordinate, a sine, a force. A row is
+//! represented by its Taylor coefficients in time at the start of a step, and each operation has a recurrence that
+//! computes one coefficient from those before it. The last rows are residuals of the equations of motion,
 //!
 //! ```text
 //! Rᵢ = Σ w ∂p/∂qᵢ p̈ − Qᵢ
 //! ```
 //!
-//! in which the coefficient of order k of the accelerations stands linearly and with the same matrix at every order: the
-//! mass matrix at the start of the step. So the accelerations follow order by order from one factored matrix, and
-//! velocity products, which come out of the series, are never written down. [`Expander`] computes the coefficients over any
-//! number; the rows come from a machine, and are proved to obey its equations, in `lagrangian-mechanics`.
+//! in which the coefficient of order k of the accelerations occurs linearly and with the same matrix at every order: the
+//! mass matrix at the start of the step. So the accelerations follow order by order from one factored matrix, and velocity
+//! products, which the recurrences produce, are never written out. [`Expander`] computes the coefficients over any type of
+//! number; the rows are derived from a machine, and proved to obey its equations, in `lagrangian-mechanics`.
 //!
 //! Sources of the recurrences: R. E. Moore, *Interval Analysis*, 1966, ch. 11; A. Griewank and A. Walther, *Evaluating
 //! Derivatives*, 2nd ed., 2008, ch. 13.
@@ -32,13 +32,14 @@ pub use recurrence::{Along, Arithmetic, Coefficient, Convolution, Order, Stream}
 pub struct RowId(pub u32);
 
 impl RowId {
-    /// Its place in the list.
+    /// Its index in the list.
     pub fn index(self) -> usize {
         self.0 as usize
     }
 }
 
-/// A quantity along the motion. Operands are earlier rows, but for the partner of a pair, which may follow.
+/// A quantity along the motion. Operands are earlier rows, except for the partner of a pair, which
+/// may follow.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Row {
     /// A rational number.
@@ -47,9 +48,9 @@ pub enum Row {
     Pi,
     /// A parameter.
     Parameter(u32),
-    /// A function of constants, computed once for a set of parameters.
+    /// A function of constants, computed once for given parameters.
     Constant(Call, RowId, RowId),
-    /// An input, which stays during a step.
+    /// An input, which is constant during a step.
     Input(u32),
     /// The time.
     Time,
@@ -57,13 +58,14 @@ pub enum Row {
     Coordinate(u32),
     /// The rate of a coordinate.
     Rate(u32),
-    /// What is solved for: the acceleration of a coordinate; behind all coordinates the multiplier of a constraint.
+    /// An unknown: the acceleration of a coordinate; indices beyond the coordinates are the multipliers
+    /// of constraints.
     Acceleration(u32),
     /// The derivative with respect to time of a row of positions.
     First(RowId),
     /// The second derivative.
     Second(RowId),
-    /// Σ coefficient·row, the coefficients constant, 1 where there is none.
+    /// Σ coefficient·row; the coefficients are constant, and 1 if absent.
     Sum(Vec<(Option<RowId>, RowId)>),
     /// a·b.
     Product(RowId, RowId),
@@ -95,7 +97,7 @@ pub enum Row {
     Atan2(RowId, RowId, RowId),
 }
 
-/// What a row depends on, the latest of all its operands.
+/// The variables that a row depends on, by the latest of all its operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Level {
     /// Parameters.
@@ -111,16 +113,17 @@ pub enum Level {
 /// The Taylor series of a machine's motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// The rows, operands before those that use them.
+    /// The rows, operands before their users.
     pub rows: Vec<Row>,
-    /// For each row what it depends on.
+    /// The level of each row.
     pub levels: Vec<Level>,
-    /// For each row the coordinates by which it changes at its own level: positions by coordinates, what depends on
-    /// accelerations by these.
+    /// For each row the unknowns that change it at its own level: coordinates for positions, accelerations for rows
+    /// that depend on these.
     pub depends: Vec<Vec<u32>>,
-    /// For each row whether it is the time or a sum that grows with it: what rounding takes from it is known.
+    /// For each row whether it is the time or a sum that grows with it, so that its rounding error
+    /// is tracked.
     pub exact: Vec<bool>,
-    /// The rows of the residuals, one for each coordinate and one for each constraint, in the order of what is solved for.
+    /// The rows of the residuals, one for each coordinate and one for each constraint, in the order of the unknowns.
     pub residuals: Vec<RowId>,
     /// The number of coordinates.
     pub coordinates: usize,
@@ -136,19 +139,19 @@ impl Series {
         self.coordinates
     }
 
-    /// How many numbers are solved for at each order: accelerations, and multipliers of constraints.
+    /// The number of unknowns at each order: accelerations, and multipliers of constraints.
     pub fn unknowns(&self) -> usize {
         self.residuals.len()
     }
 
-    /// Whether straight code for it is not longer than a compiler of such code takes in seconds.
+    /// Whether it is short enough for straight-line code that compiles in seconds.
     pub fn is_short(&self) -> bool {
         let gradients: usize = self.depends.iter().map(Vec::len).sum();
         gradients + 4 * self.rows.len() <= MOST_STRAIGHT
     }
 
-    /// The first row whose operation is interpreted and not written down: straight code has sums, products, sines and cosines of
-    /// positions, forces along them, and rates as they stand.
+    /// The first row whose operation can be interpreted but not emitted: straight-line code has sums, products, sines and
+    /// cosines of positions, forces along them, and rates by themselves.
     pub fn unwritten(&self) -> Option<&Row> {
         let rows = (0..self.rows.len() as u32).map(RowId);
         let mut varying = rows.filter(|row| self.varies(*row));
@@ -172,7 +175,8 @@ impl Series {
         found.map(|row| &self.rows[row.index()])
     }
 
-    /// How many products of series one order takes: a square counts half, a sine with its cosine two.
+    /// The number of products of series at one order: a square counts half, a sine with its
+    /// cosine two.
     pub fn products(&self) -> f64 {
         let of_row = |row: &Row| match row {
             Row::Product(a, b) | Row::Quotient(a, b) => {
@@ -195,17 +199,18 @@ impl Series {
 /// Why the motion of a machine has no Taylor series here.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NoSeries {
-    /// A function that has no recurrence, or none that holds on either side of its kink.
+    /// A function that has no recurrence, or whose recurrence does not hold on both sides of
+    /// a kink.
     Function(Call),
-    /// Coordinates that are not treated exactly.
+    /// Coordinates that are approximated.
     Approximations,
     /// Constraints of velocities.
     Constraints,
     /// Contacts with friction.
     Friction,
-    /// Accelerations that do not stand linearly in the forces.
+    /// Accelerations that do not occur linearly in the forces.
     NotLinear,
-    /// More rows than may be.
+    /// More rows than allowed.
     TooLarge,
     /// The series was not proved to obey the equations of motion.
     Unproved,
@@ -235,8 +240,8 @@ impl fmt::Display for NoSeries {
 
 impl std::error::Error for NoSeries {}
 
-/// The most operations of a series that is written down as straight code.
+/// The largest number of operations of a series that is written as straight-line code.
 const MOST_STRAIGHT: usize = 20_000;
 
-/// The most rows of a series.
+/// The largest number of rows of a series.
 pub const MOST_ROWS: usize = 100_000;

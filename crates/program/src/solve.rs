@@ -1,27 +1,27 @@
-//! The accelerations from `M a = f`, specialised to what is zero, constant or varying in M.
+//! Solves `M a = f` for the accelerations, specialised to the zero, constant and varying entries
+//! of M.
 //!
-//! M = L D Lᵀ without exchange of rows, in an order found here. M is symmetric and positive
+//! M = L D Lᵀ without row exchanges, in an order determined here. M is symmetric and positive
 //! definite wherever the coordinates describe the machine, and for such a matrix every order is
 //! backward stable: the computed factors are those of M + ΔM with |ΔM| ≤ γ |L| |D| |Lᵀ| ≤ γ' √(Mᵢᵢ
 //! Mⱼⱼ) (N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed. 2002, theorems
-//! 10.3 and 10.4). So the order may be the one that is cheapest to run.
+//! 10.3 and 10.4). So the cheapest order may be taken.
 //!
-//! The order is that of minimum degree with a weight for stages: operations whose operands only
-//! parameters decide are free, because they are done once. Zeros stay out of the code altogether;
-//! blocks that are not coupled fall apart by themselves.
+//! The order is that of minimum degree, weighted by stages: operations whose operands depend on
+//! parameters alone are free, because they are done once. Zeros never appear in the code, and
+//! uncoupled blocks separate by themselves.
 //!
 //! Bilateral constraints are further rows and columns, `M a − Gᵀ λ = f` and `G a = γ`, which is
-//! symmetric in `a` and `−λ`. The whole is not definite, so not every order will do; a constraint is
-//! eliminated once all its coordinates are, and then its pivot is `−G M⁻¹ Gᵀ` of what is
-//! eliminated already: of one sign wherever the constraints say different things. So a long chain
-//! that closes is eliminated from its ends, as a tree is.
+//! symmetric in `a` and `−λ`. The whole matrix is indefinite, so not every order is stable. A
+//! constraint is eliminated after all its coordinates; its pivot is then `−G M⁻¹ Gᵀ` over what is
+//! eliminated already, which has one sign wherever the constraints are independent. So a long chain
+//! that forms a loop is eliminated from its ends, like a tree.
 //!
-//! What may be divided by is decided at a random point of a prime field, where nothing is rounded and
-//! no zero is in disguise. Constraints that say what others have said already leave a pivot of 0: their
-//! multipliers are 0 here, and a guard that always fails tells whoever asks that these are not the
-//! only ones. Where M is singular and the constraints hold what has no inertia, `M + Gᵀ W G` takes its
-//! place, which has the same motion and the same multipliers since the constraints decide `G a`
-//! ([`System::held`]).
+//! Which pivots may be divided by is decided at a random point of a prime field, where nothing is
+//! rounded and every zero is recognized. Constraints that depend on others leave a pivot of 0: their
+//! multipliers are 0 here, and a guard that always fails reports that the multipliers are not unique.
+//! If M is singular and constraints hold the massless parts, `M + Gᵀ W G` takes its place, which has
+//! the same motion and the same multipliers since the constraints determine `G a` ([`System::held`]).
 //!
 //! W. F. Tinney and J. W. Walker, *Direct solutions of sparse network equations by optimally
 //! ordered triangular factorization*, Proc. IEEE 55 (1967) 1801–1809, scheme 2.
@@ -32,16 +32,15 @@ use lagrangian_symbolic::Rational;
 use super::graph::{Graph, Scaled};
 use super::{Shape, Source};
 
-/// How many times n·2⁻⁵² of its diagonal entry a pivot must exceed.
+/// A pivot must exceed this multiple of n·2⁻⁵² times its diagonal entry.
 ///
-/// The pivot dᵢ, from which the elimination has taken the rest of Mᵢᵢ, carries an error of at most (n + 1)·2⁻⁵³·Mᵢᵢ from the
-/// elimination (theorem 10.3), half of n·2⁻⁵²·Mᵢᵢ and a little; the rest allows for entries of M
-/// that are wrong by 7n·2⁻⁵³ of themselves, more than the roundings on the way from the ground to a
-/// body of any machine seen. A pivot below that may be nothing but error: there, accelerations
-/// would have no correct digit.
+/// The pivot dᵢ, which remains of Mᵢᵢ after elimination, has an error of at most (n + 1)·2⁻⁵³·Mᵢᵢ from the elimination
+/// (theorem 10.3), slightly more than half of n·2⁻⁵²·Mᵢᵢ. The rest allows for relative errors of 7n·2⁻⁵³ in the entries of
+/// M, more than the roundings on the way from the ground to a body of any machine seen. A smaller pivot may be nothing but
+/// error, and the accelerations would have no correct digit.
 const PIVOT_MARGIN: f64 = 4.0;
 
-/// The share of a diagonal entry that may be rounding error in a pivot of an n×n matrix.
+/// The fraction of a diagonal entry that may be rounding error in a pivot of an n×n matrix.
 pub fn pivot_tolerance(n: usize) -> f64 {
     PIVOT_MARGIN * n as f64 * f64::EPSILON
 }
@@ -50,34 +49,34 @@ pub fn pivot_tolerance(n: usize) -> f64 {
 pub struct Solution {
     /// `a`, in the order of the coordinates.
     pub accelerations: Vec<Scaled>,
-    /// Of the constraints.
+    /// The multipliers of the constraints.
     pub multipliers: Vec<Scaled>,
-    /// What must not vanish, in the order of elimination.
+    /// The pivots that must not vanish, in the order of elimination.
     pub pivots: Vec<Pivot>,
-    /// What was done with each pivot.
+    /// The elimination step of each pivot.
     pub columns: Vec<Column>,
 }
 
 /// A pivot of the elimination.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Pivot {
-    /// The coordinate that is eliminated; behind all coordinates a constraint.
+    /// The coordinate that is eliminated; indices beyond the coordinates are those of constraints.
     pub coordinate: usize,
     /// Its value.
     pub pivot: Scaled,
-    /// The diagonal entry that it was left over from.
+    /// The diagonal entry from which it was reduced.
     pub scale: Scaled,
 }
 
-/// What is solved: the lower triangle of M row by row and f; behind them the rows of G, each with
-/// zeros up to the diagonal, and γ.
+/// The system to solve: the lower triangle of M row by row and f, followed by the rows of G, each
+/// with zeros up to the diagonal, and γ.
 #[derive(Clone, PartialEq)]
 pub struct System {
     /// The triangle.
     pub matrix: Vec<Scaled>,
     /// The right-hand side.
     pub forces: Vec<Scaled>,
-    /// How many rows are of coordinates.
+    /// The number of rows of coordinates.
     pub coordinates: usize,
     /// Constraints whose squares are part of M and f, `M + Σ wₖ gₖ gₖᵀ` and `f + Σ wₖ γₖ gₖ`, with
     /// their weights.
@@ -87,7 +86,7 @@ pub struct System {
 impl System {
     /// The lower triangle at a random point where all of it has a value.
     fn at_random(&self, graph: &Graph) -> Option<Vec<Residue>> {
-        /// A square root exists at every second point.
+        /// A square root exists at half of all points.
         const TRIALS: u64 = 16;
         let at = |seed| graph.evaluate(&self.matrix, |source| random(seed, source));
         (0..TRIALS)
@@ -101,7 +100,7 @@ impl System {
         &self.matrix[start..start + self.coordinates]
     }
 
-    /// This system with a regular M, where constraints hold what has no inertia: each of these
+    /// This system with a regular M, if constraints hold massless parts: each of these constraints
     /// adds as much inertia along it as its coordinates have together.
     pub fn held_by_constraints(mut self, graph: &mut Graph) -> System {
         let n = self.coordinates;
@@ -166,7 +165,7 @@ impl System {
     }
 }
 
-/// A random value of what is read, one and the same for the same seed.
+/// A random value of an argument, the same for the same seed.
 fn random(seed: u64, source: Source) -> Residue {
     let (kind, index) = match source {
         Source::Time => (0, 0),
@@ -283,7 +282,7 @@ pub fn solve(graph: &mut Graph, system: &System, elimination: Elimination) -> So
 pub struct Column {
     k: usize,
     scaled: Scaled,
-    /// The rows below it, and what was taken off them.
+    /// The rows below it, and the multipliers with which it was subtracted from them.
     pub below: Vec<(usize, Scaled)>,
 }
 
@@ -293,7 +292,7 @@ fn total(graph: &mut Graph, terms: &[Scaled]) -> Scaled {
     graph.whole(sum)
 }
 
-/// The Schur complement of M while it is eliminated: for each entry of the lower triangle its terms.
+/// The Schur complement of M during elimination: for each entry of the lower triangle its terms.
 struct Entries {
     n: usize,
     terms: Vec<Vec<Scaled>>,
@@ -323,16 +322,16 @@ impl Entries {
     }
 }
 
-/// What kind of number an entry is.
+/// The kind of an entry.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Kind {
     Zero,
-    /// Decided by parameters: work on such entries is done once.
+    /// Dependent on parameters alone: operations on such entries are done once.
     Known,
     Varying,
 }
 
-/// The kinds of all entries, and which rows are left.
+/// The kinds of all entries, and the remaining rows.
 struct Pattern {
     kinds: Vec<Vec<Kind>>,
     left: Vec<usize>,
@@ -354,7 +353,7 @@ impl Pattern {
         }
     }
 
-    /// The rows that eliminating k changes: how many are known, how many vary.
+    /// The rows that eliminating k changes: the numbers of known and of varying ones.
     fn neighbours(&self, k: usize) -> (usize, usize) {
         let count = |kind| {
             self.left
@@ -398,7 +397,7 @@ impl Pattern {
     }
 }
 
-/// A system at a random point, while it is eliminated; without numbers where no point was found.
+/// A system at a random point during elimination; without numbers if no point was found.
 struct Numbers {
     lower: Option<Vec<Residue>>,
 }
@@ -410,7 +409,7 @@ impl Numbers {
         entry == Some(Residue::ZERO)
     }
 
-    /// Takes row k, whose pivot is not zero, out of the rows that are left.
+    /// Eliminates row k, whose pivot is not zero, from the remaining rows.
     fn eliminate(&mut self, k: usize, left: &[usize]) {
         let Some(lower) = &mut self.lower else {
             return;
@@ -429,13 +428,13 @@ impl Numbers {
     }
 }
 
-/// The order in which coordinates are eliminated: each time the cheapest one; the first one, if
-/// several are.
+/// The order in which coordinates are eliminated: the cheapest one at each step, or the first in
+/// case of a tie.
 pub struct Elimination {
     order: Vec<usize>,
-    /// Rows of which nothing is left beside those before them.
+    /// Rows that depend on those before them.
     dependent: Vec<usize>,
-    /// How many multiplications it will take at run time.
+    /// The number of multiplications at run time.
     pub multiplications: usize,
 }
 

@@ -1,5 +1,5 @@
-//! The accelerations in stages: what time decides, what coordinates decide, and what remains to be done
-//! where only rates change.
+//! Divides the accelerations into stages: what depends on time alone, what depends on coordinates too,
+//! and the rest, which is repeated when only rates change.
 //!
 //! ```text
 //! t ─▶ at_time ─▶ values ─┐
@@ -7,10 +7,10 @@
 //!                                           v, u ───┴▶ accelerations
 //! ```
 //!
-//! A program is cut where the stage of its values changes; what one part computes and a later one
-//! reads is handed on, and nothing else. Before that, every product and every sum is regrouped so
-//! that what is known first is put together first, divisors included: `v² m l cos θ` must not be
-//! begun at v², and `f/d` where only f changes is a multiplication by what `1/d` was before.
+//! A program is cut where the stage of its values changes; exactly the values that one part
+//! computes and a later one reads are handed on. Before that, every product and every sum is
+//! regrouped so that early operands, including divisors, are combined first: `v² m l cos θ` must
+//! not begin with v², and `f/d` with only f changing becomes a multiplication by an earlier `1/d`.
 
 use rustc_hash::FxHashMap;
 
@@ -18,7 +18,7 @@ use super::net::{Index, Item, Net, POSITION, Signed, Stage, TIME, stage_of};
 use super::{Function, Guard, Op, Role, Shape, Source, Value};
 use lagrangian_units::Stages;
 
-/// The part that computes what is known at a stage.
+/// The part that computes values of a stage.
 pub fn part(apart: Stages, stage: Stage) -> usize {
     usize::from(apart.time && stage > TIME) + usize::from(apart.coordinates && stage > POSITION)
 }
@@ -46,7 +46,7 @@ impl Net {
         part(self.apart, self.stages[index as usize])
     }
 
-    /// The factors and divisors of a product, those of earlier parts as a product of their own.
+    /// The factors and divisors of a product; those of earlier parts form a product of their own.
     fn product_by_parts(
         &mut self,
         product: Index,
@@ -62,7 +62,7 @@ impl Net {
                 .iter()
                 .copied()
                 .partition(|index| is_early(self, index));
-            // Parameters alone are prepared, and no work for a part.
+            // Values of parameters alone are prepared, and are no work for a part.
             let has_work = early_up.iter().chain(&early_down).any(|i| varies(self, i));
             if has_work && (early_up.len() > 1 || !early_down.is_empty()) {
                 let early = self.add(Item::Product {
@@ -77,7 +77,7 @@ impl Net {
         (up, down)
     }
 
-    /// The terms of a sum, those of earlier parts as a sum of their own.
+    /// The terms of a sum; those of earlier parts form a sum of their own.
     fn sum_by_parts(&mut self, sum: Index, mut terms: Vec<Signed>) -> Vec<Signed> {
         for limit in 0..self.part_of(sum) {
             let (mut early, late): (Vec<Signed>, Vec<Signed>) = terms
@@ -86,7 +86,7 @@ impl Net {
                 .partition(|(index, _)| self.part_of(*index) <= limit);
             let varies = early.iter().any(|(i, _)| self.stages[*i as usize] > 0);
             if varies && early.len() > 1 {
-                // A sum that begins with a minus would be turned round for nothing.
+                // A sum that begins with a negative term would need an extra change of sign.
                 let negative = early.iter().all(|(_, negative)| *negative);
                 if negative {
                     early.iter_mut().for_each(|term| term.1 = false);
@@ -108,7 +108,7 @@ pub fn split(whole: &Function, apart: Stages) -> Vec<Function> {
     roles.push(Role::AccelerationsAt);
     let parts = parts(&whole.code, apart);
     let last = roles.len() - 1;
-    // What time decides has no pivots to report.
+    // The stage of time alone reports no pivots; the next stage reports them.
     let first_guarded = usize::from(apart.time);
     let guarded_in = |guard: &Guard| {
         let part = |value: Value| parts[value.index()];
@@ -192,27 +192,28 @@ fn parts(code: &[Op], apart: Stages) -> Vec<usize> {
     stages.into_iter().map(|stage| part(apart, stage)).collect()
 }
 
-/// What every part has at hand.
+/// Values that are available to every part.
 fn is_known(op: &Op) -> bool {
     matches!(op, Op::Constant(_) | Op::Pi | Op::Read(Source::Prepared(_)))
 }
 
-/// The code of a part, as it grows.
+/// The code of a part under construction.
 struct Builder<'a> {
     whole: &'a Function,
     parts: &'a [usize],
     number: usize,
-    /// The role of the part before.
+    /// The role of the preceding part.
     before: Option<Role>,
-    /// What the part before has left, in the order of its results.
+    /// The values that the preceding part hands on, in the order of its results.
     handed: &'a [Value],
     code: Vec<Op>,
-    /// The values of the whole function in this part.
+    /// The values of the whole function that this part has.
     values: FxHashMap<Value, Value>,
 }
 
 impl Builder<'_> {
-    /// A value of the whole function in this part; operands that are computed here are there.
+    /// The value of the whole function in this part; operands that this part computes are
+    /// already there.
     fn value(&mut self, value: Value) -> Value {
         if let Some(&known) = self.values.get(&value) {
             return known;

@@ -1,14 +1,13 @@
-//! Derivatives of programs, as programs: the chain rule, operation by operation.
+//! Derivatives of programs, as programs: the chain rule, applied to each operation.
 //!
-//! A [tangent](Program::tangent) is a program of twice as many numbers: behind the parameters stand their changes, behind the
-//! coordinates theirs, and so on, and behind the accelerations stands what these change by. An [adjoint](Program::adjoint)
-//! goes through the same operations backwards and gives the derivatives of one number by everything at once, for about the
-//! work of a few evaluations, however many arguments there are. A. Griewank and A. Walther, *Evaluating Derivatives*, 2nd ed.,
-//! SIAM 2008, chapter 3.
+//! A [tangent](Program::tangent) is a program with twice as many arguments: the parameters are followed by their changes, the
+//! coordinates by theirs, and so on; in the results the accelerations are followed by their changes. An
+//! [adjoint](Program::adjoint) goes through the same operations in reverse and gives the derivatives of one number by all
+//! arguments at once, at the cost of a few evaluations, independently of the number of arguments. A. Griewank and A. Walther,
+//! *Evaluating Derivatives*, 2nd ed., SIAM 2008, chapter 3.
 //!
-//! Both are taken to a [`Graph`] again, so that what parameters alone decide is prepared, and common parts are found. What
-//! rounding took from a value ([`Op::ProductError`]) is a function of nothing and has no derivative; phases are written anew
-//! with errors of their own.
+//! Both are converted to a [`Graph`] again, so that values of parameters alone are prepared, and common parts are found. A
+//! rounding error ([`Op::ProductError`]) has no derivative; phases are written anew with errors of their own.
 
 use std::collections::BTreeMap;
 
@@ -21,9 +20,9 @@ use super::schedule::{Code, LARGEST_FACTORED, prepared, schedule};
 use super::{Function, Guard, Op, Program, Role, Shape, Slot, Source, Value};
 
 impl Program {
-    /// What accelerations, outputs and the start change by where parameters, coordinates, rates and inputs change.
+    /// The changes of accelerations, outputs and the start under changes of parameters, coordinates, rates and inputs.
     ///
-    /// Its parameters, coordinates, rates, accelerations and inputs are those of this program and, behind them, their changes.
+    /// Its parameters, coordinates, rates, accelerations and inputs are those of this program, each followed by their changes.
     /// [`Role::Accelerations`] and [`Role::Start`] give values and changes; [`Role::Output`] gives the change of that output,
     /// given the accelerations and their changes. Time does not change.
     pub fn tangent(&self) -> Program {
@@ -75,9 +74,9 @@ impl Program {
         lift.assemble(shape, start, parts, self.dimension())
     }
 
-    /// The derivatives of accelerations and outputs, backwards.
+    /// The derivatives of accelerations and outputs in reverse mode.
     ///
-    /// Its inputs are those of this program and, behind them, a weight for each acceleration. [`Role::Adjoint`] gives the
+    /// Its inputs are those of this program, followed by a weight for each acceleration. [`Role::Adjoint`] gives the
     /// derivatives of the weighted sum of the accelerations by all coordinates, rates, parameters and inputs;
     /// [`Role::Gradient`] those of an output by the same and by the accelerations.
     pub fn adjoint(&self) -> Program {
@@ -124,7 +123,7 @@ impl Program {
         lift.assemble(shape, self.start.clone(), parts, 0)
     }
 
-    /// The arguments of this machine, and nothing that is computed.
+    /// The arguments of this machine, without any functions.
     fn without_functions(&self) -> Program {
         Program {
             quaternions: Vec::new(),
@@ -146,7 +145,7 @@ pub fn is_differentiated(role: Role) -> bool {
     matches!(role, Role::Accelerations | Role::Output(_))
 }
 
-/// What a number changes by, as an argument or an output.
+/// The change of a number, as an argument or an output.
 fn change_of(slot: &Slot) -> Slot {
     Slot {
         name: with_prefix(&slot.name, "d_"),
@@ -189,19 +188,19 @@ struct Pivot {
     coordinate: usize,
 }
 
-/// What a value changes by where its operands do: `Σ slope·change / divisor`.
+/// The change of a value with its operands: `Σ slope·change / divisor`.
 struct Slopes {
     by: [Option<(Value, Scaled)>; 2],
     divisor: Option<Scaled>,
 }
 
-/// A program on its way to its derivatives.
+/// Converts a program to its derivatives.
 struct Lift<'p> {
     program: &'p Program,
     graph: Graph,
-    /// For each operation of `prepare` its value.
+    /// The value of each operation of `prepare`.
     preparing: Vec<Scaled>,
-    /// For each prepared value what it changes by.
+    /// The change of each prepared value.
     prepared_changes: Vec<Scaled>,
 }
 
@@ -222,7 +221,7 @@ impl<'p> Lift<'p> {
         lift
     }
 
-    /// The values of all operations of a function. What is used several times stays in one piece.
+    /// The values of all operations of a function. Values that are used several times stay whole.
     fn values(&mut self, function: &Function) -> Vec<Scaled> {
         let is_shared = shared(function);
         let mut values: Vec<Scaled> = Vec::with_capacity(function.code.len());
@@ -256,7 +255,7 @@ impl<'p> Lift<'p> {
         values
     }
 
-    /// What all operations of a function change by.
+    /// The changes of all operations of a function.
     fn changes(&mut self, function: &Function, values: &[Scaled]) -> Vec<Scaled> {
         let is_shared = shared(function);
         let mut changes: Vec<Scaled> = Vec::with_capacity(function.code.len());
@@ -290,7 +289,7 @@ impl<'p> Lift<'p> {
         changes
     }
 
-    /// Where the change of an argument is read; time has none.
+    /// The argument that holds the change of an argument; time has none.
     fn behind(&self, source: Source) -> Option<Source> {
         let n = self.program.dimension() as u32;
         Some(match source {
@@ -337,7 +336,7 @@ impl<'p> Lift<'p> {
         Some(self.graph.sum(&terms))
     }
 
-    /// Adds to `by` the derivatives, by what a function reads, of a sum of its values with the given weights.
+    /// Adds to `by` the derivatives of a weighted sum of a function's values with respect to its arguments.
     fn backwards(
         &mut self,
         function: &Function,
@@ -376,7 +375,7 @@ impl<'p> Lift<'p> {
         }
     }
 
-    /// How an operation changes with its operands.
+    /// The derivatives of an operation by its operands.
     fn slopes(&mut self, op: &Op, value: Value, values: &[Scaled]) -> Slopes {
         let x = |value: Value| values[value.index()];
         let graph = &mut self.graph;
@@ -409,7 +408,7 @@ impl<'p> Lift<'p> {
         Slopes { by, divisor }
     }
 
-    /// The derivatives of a function of two arguments, and what they are to be divided by.
+    /// The derivatives of a function of two arguments, and their common divisor.
     fn slopes_of_two(
         &mut self,
         call: Call,
@@ -423,7 +422,7 @@ impl<'p> Lift<'p> {
                 let squares = [graph.product(&[(a, 2)]), graph.product(&[(b, 2)])];
                 ([b, a.negated()], Some(graph.sum(&squares)))
             }
-            // The mean of both where they are equal, as of dual numbers.
+            // The mean of both if the arguments are equal, as for dual numbers.
             Call::Min | Call::Max => {
                 let difference = graph.sum(&[a, b.negated()]);
                 let sign = graph.function(Call::Sign, &[difference]);
@@ -448,7 +447,8 @@ impl<'p> Lift<'p> {
         }
     }
 
-    /// The guards of a function; those of constraints are counted behind so many further coordinates.
+    /// The guards of a function; the indices of constraints are moved by `further`
+    /// additional coordinates.
     fn guards(&self, function: &Function, values: &[Scaled], further: usize) -> Vec<Pivot> {
         let n = self.program.dimension();
         let guards = function.guards.iter().map(|guard| Pivot {
@@ -463,7 +463,7 @@ impl<'p> Lift<'p> {
         guards.collect()
     }
 
-    /// The program of the parts, in a shape that has its arguments.
+    /// The program of the parts, with the arguments of `shape`.
     fn assemble(
         mut self,
         shape: Program,
@@ -501,7 +501,7 @@ impl<'p> Lift<'p> {
         program
     }
 
-    /// The code of a part, the shorter of two ways; with `cut`, what parameters alone decide is an argument, and comes back.
+    /// The code of a part, the shorter of two forms; with `cut`, values of parameters alone are arguments, and are returned.
     fn function(&mut self, part: Part, cut: bool) -> (Function, Vec<Id>) {
         let guarded = part.guards.iter().flat_map(|pivot| pivot.values);
         let values: Vec<Scaled> = part.results.iter().copied().chain(guarded).collect();
@@ -550,7 +550,7 @@ fn shared(function: &Function) -> Vec<bool> {
     uses.into_iter().map(|count| count > 1).collect()
 }
 
-/// The derivative of a function at `x`, where it is `y`, and what it is to be divided by.
+/// The derivative of a function at `x`, given its value `y`, and its divisor.
 fn slope(graph: &mut Graph, call: Call, x: Scaled, y: Scaled) -> (Scaled, Option<Scaled>) {
     let one = graph.constant(&Rational::ONE);
     let square = |graph: &mut Graph, x: Scaled| graph.product(&[(x, 2)]);
@@ -577,7 +577,7 @@ fn slope(graph: &mut Graph, call: Call, x: Scaled, y: Scaled) -> (Scaled, Option
         }
         Call::Sinh => (graph.function(Call::Cosh, &[x]), None),
         Call::Cosh => (graph.function(Call::Sinh, &[x]), None),
-        // Does not cancel where tanh is close to 1.
+        // This form does not cancel if tanh is close to 1.
         Call::Tanh => {
             let cosh = graph.function(Call::Cosh, &[x]);
             (one, Some(square(graph, cosh)))

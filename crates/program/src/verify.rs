@@ -1,5 +1,5 @@
-//! Checks that a program is what its module says it is. A program that fails has met a bug of the
-//! compiler.
+//! Checks the invariants of a program that its module lists. A program that fails reveals a bug of
+//! the compiler.
 
 use rustc_hash::FxHashSet;
 
@@ -7,7 +7,7 @@ use super::quantity::Argument;
 use super::{Function, Op, Program, Role, Source, Value};
 
 impl Program {
-    /// What is wrong with the program, if anything; see the [module](super) for what is right.
+    /// Checks the invariants of the [module](super), and returns the first violation.
     pub fn verify(&self) -> Result<(), String> {
         if self.prepare.role != Role::Prepare || self.start.role != Role::Start {
             return Err("prepare and start are not where they belong".into());
@@ -98,7 +98,7 @@ impl Program {
         if argument.is_some_and(|argument| !role.row().of.contains(&argument)) {
             return Err(format!("{source:?} is nothing that it may depend on"));
         }
-        // What a stage has left is read by the next one only.
+        // The results of a stage are read by the next one only.
         let roles = self.staged_roles();
         let next = |before| {
             let mut pairs = roles.windows(2);
@@ -126,8 +126,8 @@ impl Program {
     }
 }
 
-/// No operation has operands that are all constants or prepared values, but for the sign that the
-/// error of a rounded difference needs: it costs less than one more prepared value.
+/// Checks that no operation has only constants and prepared values as operands. The sign for the
+/// error of a rounded difference is exempt: it costs less than one more prepared value.
 fn no_work_left_for_prepare(code: &[Op]) -> Result<(), String> {
     let known = |value: Value| {
         matches!(

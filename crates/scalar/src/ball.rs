@@ -1,29 +1,29 @@
-//! Numbers of double-double precision that know how wrong they may be.
+//! Numbers of double-double precision with a bound of their error.
 //!
-//! A [`Ball`] is a centre and a radius, and the true value is no farther from the centre than that:
-//! every operation adds what its own rounding can do, by the bounds of [`DoubleDouble`], to what
-//! the radii of its operands become by the operation's slope (J. van der Hoeven, *Ball arithmetic*,
-//! in A. Beckmann et al. (eds.), Logical approaches to barriers in computing and complexity,
-//! Greifswald 2010, 179–208). Two values whose balls do not meet are different, for certain; two
-//! whose balls meet are equal up to the radii, which after a thousand operations still are of the
-//! size 10⁻²⁷.
+//! A [`Ball`] is a centre and a radius that contain the true value: every operation adds the bound
+//! of its own rounding error, from [`DoubleDouble`], to the radii of its operands propagated by the
+//! derivative of the operation (J. van der Hoeven, *Ball arithmetic*, in A. Beckmann et al. (eds.),
+//! Logical approaches to barriers in computing and complexity, Greifswald 2010, 179–208). Two
+//! values with disjoint balls are certainly different; two with intersecting balls are equal up to
+//! the radii, which after a thousand operations are still of the size 10⁻²⁷.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::{DoubleDouble, Scalar};
 
-/// The error of an operation on [`DoubleDouble`] as a share of its result, functions included; what
-/// rounding does to the radius itself, some 2⁻⁵⁰ of it, is far below the difference to the true
-/// bounds.
+/// The bound of the relative error of an operation on [`DoubleDouble`], functions included. The
+/// rounding error of the radius itself, some 2⁻⁵⁰ of it, is far smaller than the margin between
+/// this bound and the true ones.
 const ROUNDING: f64 = 1.0 / (1u128 << 99) as f64;
 
-/// Radii are widened by this share wherever they are computed.
+/// The relative widening of radii wherever they are computed.
 const WIDER: f64 = 1.0 + 1.0 / (1u64 << 44) as f64;
 
-/// Nearer to 0 a double-double is less exact than it claims: 2⁻⁹⁰⁰, the error there.
+/// Below this magnitude a double-double is less accurate than its bounds: 2⁻⁹⁰⁰, which is used as
+/// the error there.
 const UNDERFLOW: f64 = 1.183_052_186_166_774_7e-271;
 
-/// All numbers within a radius of a double-double; nothing known at all where
+/// All numbers within a radius of a double-double; nothing is known if
 /// [`is_finite`](Scalar::is_finite) is false.
 ///
 /// ```
@@ -45,12 +45,12 @@ impl Ball {
         radius: f64::INFINITY,
     };
 
-    /// The middle of it.
+    /// The centre.
     pub fn centre(self) -> DoubleDouble {
         self.centre
     }
 
-    /// How far from the centre the value may be.
+    /// The largest possible distance of the value from the centre.
     pub fn radius(self) -> f64 {
         self.radius
     }
@@ -61,7 +61,7 @@ impl Ball {
         distance <= DoubleDouble::from(self.radius)
     }
 
-    /// The largest magnitude that the value may have.
+    /// The largest possible magnitude of the value.
     pub fn magnitude(self) -> f64 {
         (self.size() + self.radius) * WIDER
     }
@@ -71,7 +71,7 @@ impl Ball {
         self.centre.hi().abs()
     }
 
-    /// The least magnitude that the value can have; 0 or less where it may be 0.
+    /// The smallest possible magnitude of the value; 0 or less if it may be 0.
     fn least(self) -> f64 {
         self.size() / WIDER - self.radius
     }
@@ -80,7 +80,7 @@ impl Ball {
         self == Ball::ZERO
     }
 
-    /// A rounded result, off by `error` already before it was rounded.
+    /// A rounded result that already had the error `error` before rounding.
     fn rounded(centre: DoubleDouble, error: f64) -> Ball {
         let size = centre.hi().abs();
         let mut radius = (error + ROUNDING * size) * WIDER;
@@ -93,7 +93,7 @@ impl Ball {
         Ball { centre, radius }
     }
 
-    /// A result whose slope is nowhere in the ball above `slope`.
+    /// A result for which `slope` bounds the derivative on the whole ball.
     fn by_slope(self, centre: DoubleDouble, slope: f64) -> Ball {
         if self.is_finite() {
             Ball::rounded(centre, slope * self.radius)
@@ -195,7 +195,7 @@ impl Scalar for Ball {
         }
     }
 
-    /// Exact where `denominator` is 1.
+    /// Exact if `denominator` is 1.
     fn from_ratio(numerator: i64, denominator: i64) -> Self {
         let centre = DoubleDouble::from_ratio(numerator, denominator);
         match denominator {
@@ -211,12 +211,12 @@ impl Scalar for Ball {
         Ball::rounded(DoubleDouble::pi(), 0.0)
     }
 
-    /// 0: the radius knows.
+    /// 0: the radius contains the error.
     fn product_error(self, _: Self) -> Self {
         Ball::ZERO
     }
 
-    /// 0: the radius knows.
+    /// 0: the radius contains the error.
     fn sum_error(self, _: Self) -> Self {
         Ball::ZERO
     }
@@ -250,7 +250,7 @@ impl Scalar for Ball {
         }
         let error = y.radius + x.radius;
         let distance = libm::hypot(x.size(), y.size()) / WIDER - error;
-        // Across the negative x axis the angle jumps.
+        // The angle jumps across the negative x axis.
         let jumps = y.radius > 0.0 && y.least() <= 0.0 && x.centre.hi() - x.radius <= 0.0;
         if distance <= 0.0 || jumps {
             return Ball::UNKNOWN;
@@ -283,7 +283,7 @@ impl Scalar for Ball {
             return Ball::UNKNOWN;
         }
         let value = self.by_slope(self.centre.ln(), 1.0 / least);
-        // Near 1 the error of the logarithm is no share of it.
+        // Near 1 the error of the logarithm is not proportional to its value.
         Ball::rounded(value.centre, value.radius + ROUNDING)
     }
 
@@ -310,7 +310,7 @@ impl Scalar for Ball {
         if least.is_nan() || least <= 0.0 {
             return Ball::UNKNOWN;
         }
-        // The error of y ln |x|, to which that of the logarithm itself adds.
+        // The error of y ln |x|, plus that of the logarithm itself.
         let logarithm =
             libm::fmax(libm::log(self.magnitude()).abs(), libm::log(least).abs()) * WIDER;
         let share = exponent.radius * logarithm
@@ -326,7 +326,7 @@ impl Scalar for Ball {
         }
     }
 
-    /// Unknown where the value may be 0 and need not.
+    /// Unknown if the value may be 0 but need not be.
     fn sign(self) -> Self {
         if self.is_zero() {
             return Ball::ZERO;
@@ -400,10 +400,10 @@ mod tests {
             let found = (ball(a, d) + ball(b, 3 * d)) * ball(c, 7 * b) - ball(a, 5 * c);
             let numerator = (3 * a + b) * c * 5 * c - a * 21 * b * d;
             let denominator = 21 * b * d * 5 * c;
-            // Multiplied by the denominator it is an integer, and that has no error.
+            // Multiplied by the denominator it is an integer, which is exact.
             let whole = found * Ball::from_ratio(denominator, 1);
             assert!(whole.contains(numerator as f64), "{a} {b} {c} {d}");
-            // Some ten operations, each bounded by a few roundings of the greatest terms, and as much again.
+            // Some ten operations, each bounded by a few roundings of the largest terms, and as much again.
             let size = (15 * a.abs() + 5 * b.abs()) * c * c + 21 * (a * b * d).abs();
             let size = size as f64;
             assert!(
@@ -453,14 +453,14 @@ mod tests {
                     for share in [-1.0, -0.4, 0.0, 0.7, 1.0] {
                         let inside = DoubleDouble::from(x) + DoubleDouble::from(share * radius);
                         let distance = (whole.centre - exact(inside)).abs();
-                        // The image itself is known to 2⁻¹⁰⁰ of it.
+                        // The image itself is known to a relative accuracy of 2⁻¹⁰⁰.
                         let slack = 1e-29 * (1.0 + whole.size());
                         assert!(
                             distance.to_f64() <= whole.radius + slack,
                             "{index} at {x} with {radius}"
                         );
                     }
-                    // A bound that is far too wide proves nothing.
+                    // A bound that is far too wide would prove nothing.
                     assert!(whole.radius <= 400.0 * radius + 1e-25 * (1.0 + whole.size()));
                 }
             }

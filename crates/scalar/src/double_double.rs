@@ -4,10 +4,10 @@
 //! Muller and V. Popescu, *Tight and rigorous error bounds for basic building blocks of double-word
 //! arithmetic*, ACM TOMS 44 (2017) 15:1–15:27: sum 3u², product 5u², quotient 10u²; root 4u² (V.
 //! Lefèvre et al., *Accurate calculation of Euclidean norms using double-word arithmetic*, ACM TOMS
-//! 49 (2023)). Functions are series in these operations; their errors, added up beside each of
-//! them, stay below 64u² = 2⁻¹⁰⁰, relative to the result. (A power has the error of its logarithm,
-//! multiplied by the exponent: 2⁻¹⁰⁰ (1 + |y ln x|).) The bounds hold for results, and intermediate
-//! ones, between 2⁻⁹⁰⁰ and 2¹⁰²³; nearer to 0 the second word underflows.
+//! 49 (2023)). Functions are series in these operations; their errors, given at each of them, stay
+//! below 64u² = 2⁻¹⁰⁰, relative to the result. (A power has the error of its logarithm, multiplied
+//! by the exponent: 2⁻¹⁰⁰ (1 + |y ln x|).) The bounds hold for final and intermediate results
+//! between 2⁻⁹⁰⁰ and 2¹⁰²³; closer to 0 the second word underflows.
 
 use core::cmp::Ordering;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -40,7 +40,8 @@ const HALF_PI: [f64; 6] = [
     8.724931080676243e-84,
 ];
 
-/// ln 2; the first two parts have 40 bits, so that integers up to 2¹³ times these are exact.
+/// ln 2; the first two parts have 40 bits, so that their products with integers up to 2¹³
+/// are exact.
 const LN_2: (f64, f64, DoubleDouble) = (
     0.6931471805592082,
     7.371002565161996e-13,
@@ -50,7 +51,7 @@ const LN_2: (f64, f64, DoubleDouble) = (
     },
 );
 
-/// Beyond this many quarter turns the number of turns does not fit into an `f64`.
+/// Beyond this many quarter turns their number does not fit into an `f64`.
 const MOST_QUARTERS: f64 = (1u64 << 52) as f64;
 
 impl DoubleDouble {
@@ -69,7 +70,7 @@ impl DoubleDouble {
         self.lo
     }
 
-    /// hi + lo for |hi| ≥ |lo|. Infinite is undefined here, so that it stays visible.
+    /// hi + lo for |hi| ≥ |lo|. Infinity becomes undefined here, so that it is detected.
     #[inline]
     fn normalized(hi: f64, lo: f64) -> Self {
         let (hi, lo) = fast_two_sum(hi, lo);
@@ -149,7 +150,7 @@ impl DoubleDouble {
     }
 }
 
-/// e^r − 1 for |r| ≤ 0.35: s = r/32, then e^s − 1 = s(1 + s/2(1 + s/3(…))), 13 terms being enough
+/// e^r − 1 for |r| ≤ 0.35: s = r/32, then e^s − 1 = s(1 + s/2(1 + s/3(…))), where 13 terms suffice
 /// as s¹³/14! < 2⁻¹²⁰, and five times e^2s − 1 = 2(e^s − 1) + (e^s − 1)².
 fn small_exp_m1(r: DoubleDouble) -> DoubleDouble {
     let s = r.scaled(-5);
@@ -304,13 +305,13 @@ impl Scalar for DoubleDouble {
         self.atan2(Self::ONE)
     }
 
-    /// From an approximation a, by turning the point back by a and taking the angle δ that is left:
-    /// tan δ = (y cos a − x sin a)/(x cos a + y sin a), and δ = tan δ to order δ³ ≈ 2⁻¹⁵⁰. Error
-    /// 45u².
+    /// From an approximation a, by rotating the point back by a and finding the remaining angle
+    /// δ: tan δ = (y cos a − x sin a)/(x cos a + y sin a), and δ = tan δ to order δ³ ≈ 2⁻¹⁵⁰.
+    /// Error 45u².
     fn atan2(self, x: Self) -> Self {
         let y = self;
         let a = libm::atan2(y.hi, x.hi);
-        // At the origin there is no direction: like `f64`, 0 (or π).
+        // The origin has no direction: the result is 0 (or π), as for `f64`.
         let largest = libm::fmax(y.hi.abs(), x.hi.abs());
         if largest == 0.0 || !y.is_finite() || !x.is_finite() {
             return if largest == 0.0 {
@@ -319,7 +320,7 @@ impl Scalar for DoubleDouble {
                 Self::UNDEFINED
             };
         }
-        // The size of the point does not matter, but must not overflow.
+        // The distance of the point does not matter, but must not overflow.
         let scale = -libm::ilogb(largest);
         let (y, x) = (y.scaled(scale), x.scaled(scale));
         let a = DoubleDouble::from(a);
@@ -331,7 +332,7 @@ impl Scalar for DoubleDouble {
     fn sinh(self) -> Self {
         let x = self.abs();
         let result = if x.hi > 40.0 {
-            // e^−x is below 2⁻¹¹⁴ e^x. Half of x does not overflow too soon.
+            // e^−x is below 2⁻¹¹⁴ e^x. Using half of x avoids premature overflow.
             let root = x.scaled(-1).exp();
             root.scaled(-1) * root
         } else {
@@ -400,7 +401,7 @@ impl Scalar for DoubleDouble {
         ln_m + LN_2.2 * k.into() + (k * LN_2.1).into() + (k * LN_2.0).into()
     }
 
-    /// A root of `f64` and one step of Newton with the exact remainder.
+    /// The `f64` root and one Newton step with the exact remainder.
     fn sqrt(self) -> Self {
         if self == Self::ZERO {
             return Self::ZERO;

@@ -1,16 +1,16 @@
 //! Numbers that carry a derivative.
 //!
 //! The sum x + x′ε with ε² = 0 obeys f(x + x′ε) = f(x) + f′(x) x′ ε: evaluating an expression in
-//! such numbers evaluates its derivative too, by the chain rule and without any differences. W. K.
-//! Clifford, *Preliminary sketch of biquaternions*, Proc. London Math. Soc. 4 (1873) 381–395; A.
+//! such numbers also evaluates its derivative, by the chain rule and without finite differences. W.
+//! K. Clifford, *Preliminary sketch of biquaternions*, Proc. London Math. Soc. 4 (1873) 381–395; A.
 //! Griewank and A. Walther, *Evaluating Derivatives*, 2nd ed., SIAM 2008, chapter 3.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::Scalar;
 
-/// A value and its derivative with respect to one variable. Nests: `Dual<Dual<f64>>` has second
-/// derivatives.
+/// A value and its derivative with respect to one variable. It can be nested: `Dual<Dual<f64>>` has
+/// second derivatives.
 ///
 /// ```
 /// use lagrangian_scalar::{Dual, Scalar};
@@ -35,7 +35,7 @@ impl<S: Scalar> Dual<S> {
         }
     }
 
-    /// What does not depend on the variable: derivative 0.
+    /// A value that does not depend on the variable: derivative 0.
     pub fn constant(value: S) -> Self {
         Dual {
             value,
@@ -222,8 +222,8 @@ impl<S: Scalar> Scalar for Dual<S> {
         self.chain(root, S::ONE / twice(root))
     }
 
-    /// (x^y)′ = y x^(y−1) x′ + x^y ln x y′; the second term only where the exponent varies, so that
-    /// a negative base may have an integer exponent.
+    /// (x^y)′ = y x^(y−1) x′ + x^y ln x y′; the second term only if the exponent varies, so that a
+    /// negative base may have an integer exponent.
     fn powf(self, exponent: Self) -> Self {
         let (x, y) = (self.value, exponent.value);
         let power = x.powf(y);
@@ -249,7 +249,7 @@ impl<S: Scalar> Scalar for Dual<S> {
         self.chain(self.value.sign(), S::ZERO)
     }
 
-    /// The derivative of the smaller; the mean of both derivatives where the values are equal.
+    /// The derivative of the smaller one; the mean of both derivatives if the values are equal.
     fn min(self, other: Self) -> Self {
         let sign = (self.value - other.value).sign();
         Dual {
@@ -258,7 +258,7 @@ impl<S: Scalar> Scalar for Dual<S> {
         }
     }
 
-    /// The derivative of the larger; the mean of both derivatives where the values are equal.
+    /// The derivative of the larger one; the mean of both derivatives if the values are equal.
     fn max(self, other: Self) -> Self {
         let sign = (self.value - other.value).sign();
         Dual {
@@ -276,7 +276,7 @@ impl<S: Scalar> Scalar for Dual<S> {
             };
         }
         let n = S::from_ratio(exponent as i64, 1);
-        // No exponent is one less than the least.
+        // The smallest exponent cannot be decremented.
         let below = match exponent.checked_sub(1) {
             Some(below) => self.value.powi(below),
             None => self.value.powi(exponent) / self.value,

@@ -1,4 +1,4 @@
-//! Sums and products of two `f64` without any error: the rounded result and what rounding left out.
+//! Exact sums and products of two `f64`: the rounded result and its rounding error.
 
 /// (s, e) with s = fl(a + b) and s + e = a + b.
 ///
@@ -21,16 +21,15 @@ pub fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
     (s, b - (s - a))
 }
 
-/// (p, e) with p = fl(ab) and p + e = ab, provided that p is finite and |ab| ≥ 2⁻⁹⁶⁸ (below, bits
-/// of e underflow).
+/// (p, e) with p = fl(ab) and p + e = ab, provided that p is finite and |ab| ≥ 2⁻⁹⁶⁸ (below that,
+/// bits of e underflow).
 ///
 /// Dekker's product: each factor is split into halves of 26 bits, whose products are exact.
-/// (`f64::mul_add` would do it in one operation, but is a slow call where the processor is not
-/// known to have it.)
+/// (`f64::mul_add` would need only one operation, but is a slow call unless the processor is known
+/// to support it.)
 #[inline]
 pub fn two_product(a: f64, b: f64) -> (f64, f64) {
-    // Splitting multiplies by 2²⁷ + 1: move what would overflow out of the way. Powers of 2 are
-    // exact.
+    // Splitting multiplies by 2²⁷ + 1: scale numbers that would overflow. Powers of 2 are exact.
     const LARGE: f64 = 1e299;
     const DOWN: f64 = 1.0 / (1u64 << 32) as f64;
     const UP: f64 = (1u64 << 32) as f64;

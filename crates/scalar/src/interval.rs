@@ -1,8 +1,8 @@
 //! Intervals that enclose the true value: every operation rounds outward.
 //!
 //! R. E. Moore, R. B. Kearfott and M. J. Cloud, *Introduction to Interval Analysis*, SIAM 2009.
-//! Sums, products, quotients and roots are widened by one floating-point number where they were
-//! rounded, and only there: whether they were is known exactly. Functions are widened by more than
+//! Sums, products, quotients and roots are widened by one floating-point number if they were
+//! rounded, and only then: whether they were is known exactly. Functions are widened by more than
 //! the error of `libm`.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -10,8 +10,8 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use crate::Scalar;
 use crate::exact::{two_product, two_sum};
 
-/// All numbers from `lo` to `hi`, both finite; or nothing known at all, when
-/// [`is_finite`](Scalar::is_finite) is false.
+/// All numbers from `lo` to `hi`, both finite; nothing is known if [`is_finite`](Scalar::is_finite)
+/// is false.
 ///
 /// ```
 /// use lagrangian_scalar::{Interval, Scalar};
@@ -30,23 +30,23 @@ pub struct Interval {
 /// `libm` state errors below 1; a test measures them.
 const SIMPLE: u32 = 2;
 
-/// Widening of the functions that are put together from others: tan, atan2, sinh, cosh, tanh and
-/// powers. Errors below 2.
+/// Widening of the functions composed of others: tan, atan2, sinh, cosh, tanh and powers. Their
+/// errors are below 2.
 const COMPOSED: u32 = 4;
 
-/// Below this magnitude the rounding error of a product or quotient may itself not be a
+/// Below this magnitude the rounding error of a product or quotient may not be representable as a
 /// floating-point number.
 const SMALL: f64 = 1e-280;
 
 impl Interval {
-    /// Nothing known: the whole line, and possibly no number at all.
+    /// Nothing is known: the whole line, and possibly no number at all.
     pub const UNKNOWN: Interval = Interval {
         lo: f64::NEG_INFINITY,
         hi: f64::INFINITY,
     };
 
-    /// All numbers from `lo` to `hi`; [`UNKNOWN`](Self::UNKNOWN) unless `lo` ≤ `hi` and both are
-    /// finite.
+    /// All numbers from `lo` to `hi`; [`UNKNOWN`](Self::UNKNOWN) unless `lo` ≤ `hi` and both
+    /// are finite.
     pub fn new(lo: f64, hi: f64) -> Self {
         if lo.is_finite() && hi.is_finite() && lo <= hi {
             Interval { lo, hi }
@@ -70,17 +70,17 @@ impl Interval {
         rounded_up(two_sum(self.hi, -self.lo))
     }
 
-    /// Whether `x` lies in it.
+    /// Whether `x` is in it.
     pub fn contains(self, x: f64) -> bool {
         self.lo <= x && x <= self.hi
     }
 
-    /// What both enclose, and all between.
+    /// The smallest interval that contains both.
     fn hull(self, other: Self) -> Self {
         Interval::new(self.lo.min(other.lo), self.hi.max(other.hi))
     }
 
-    /// What lies in both: for a result of which bounds are known beforehand.
+    /// The intersection with known bounds of a result.
     fn within(self, lo: f64, hi: f64) -> Self {
         if self.is_finite() {
             Interval::new(self.lo.max(lo), self.hi.min(hi))
@@ -89,13 +89,13 @@ impl Interval {
         }
     }
 
-    /// `x` and `ulps` floating-point numbers to both sides.
+    /// `x`, widened by `ulps` floating-point numbers on both sides.
     fn around(x: f64, ulps: u32) -> Self {
         let (lo, hi) = (0..ulps).fold((x, x), |(lo, hi), _| (lo.next_down(), hi.next_up()));
         Interval::new(lo, hi)
     }
 
-    /// An increasing or decreasing function, known to `ulps`.
+    /// An increasing or decreasing function, accurate to `ulps`.
     fn monotone(self, function: fn(f64) -> f64, ulps: u32) -> Self {
         if !self.is_finite() {
             return self;
@@ -109,7 +109,7 @@ impl Interval {
         }
     }
 
-    /// The smallest and largest of what a function takes at the four corners of a box.
+    /// The smallest and largest values of a function at the four corners of a box.
     fn corners(self, other: Self, function: impl Fn(f64, f64) -> Interval) -> Self {
         if !self.is_finite() || !other.is_finite() {
             return Interval::UNKNOWN;
@@ -178,7 +178,7 @@ fn product(a: f64, b: f64) -> Interval {
     }
 }
 
-/// a/b for b ≠ 0. The remainder a − qb is a floating-point number and tells on which side the
+/// a/b for b ≠ 0. The remainder a − qb is a floating-point number and shows on which side the
 /// rounded quotient q lies.
 fn quotient(a: f64, b: f64) -> Interval {
     let q = a / b;
@@ -236,7 +236,7 @@ fn integer(n: i64) -> Interval {
     Interval::new(rounded_down((x, error)), rounded_up((x, error)))
 }
 
-/// Equal bounds. Nothing equals what is unknown.
+/// Equal bounds. An unknown interval equals nothing.
 impl PartialEq for Interval {
     fn eq(&self, other: &Self) -> bool {
         self.is_finite() && self.lo == other.lo && self.hi == other.hi
@@ -300,7 +300,7 @@ impl Scalar for Interval {
         self
     }
 
-    /// An enclosure lacks nothing.
+    /// 0: an enclosure contains the error.
     fn sum_error(self, _: Self) -> Self {
         Self::ZERO
     }
@@ -317,7 +317,7 @@ impl Scalar for Interval {
     }
 
     fn pi() -> Self {
-        // The nearest `f64` lies below π.
+        // The nearest `f64` is below π.
         let pi = core::f64::consts::PI;
         Interval {
             lo: pi,
@@ -369,8 +369,8 @@ impl Scalar for Interval {
         if self.lo < 0.0 && self.hi >= 0.0 && x.lo <= 0.0 {
             return Interval::new(-pi, pi);
         }
-        // Elsewhere it is monotone along each side of the box. (Adding 0 makes a positive zero of a
-        // negative one.)
+        // Elsewhere it is monotone along each side of the box. (Adding 0 turns a negative zero into
+        // a positive one.)
         self.corners(x, |y, x| {
             Interval::around(libm::atan2(y + 0.0, x + 0.0), COMPOSED)
         })

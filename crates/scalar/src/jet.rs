@@ -1,8 +1,8 @@
 //! Truncated power series in one variable.
 //!
-//! `x₀ + x₁ τ + … + x₍N−1₎ τᴺ⁻¹`, all higher powers of `τ` left out: evaluating an expression in such numbers evaluates its
-//! first Taylor coefficients along a curve. They are what series programs are held against, so functions are composed
-//! here by Taylor's formula at `x₀`, or by integrating their derivatives, and not by the recurrences of those programs.
+//! `x₀ + x₁ τ + … + x₍N−1₎ τᴺ⁻¹`, without higher powers of `τ`: evaluating an expression in such numbers gives its first
+//! Taylor coefficients along a curve. Series programs are compared with them, so functions are composed here by Taylor's
+//! formula at `x₀`, or by integrating their derivatives, and not by the recurrences of those programs.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -19,7 +19,7 @@ use crate::Scalar;
 pub struct Jet<S, const N: usize>(pub [S; N]);
 
 impl<S: Scalar, const N: usize> Jet<S, N> {
-    /// What does not change.
+    /// A constant.
     pub fn constant(value: S) -> Self {
         let mut jet = [S::ZERO; N];
         jet[0] = value;
@@ -43,8 +43,8 @@ impl<S: Scalar, const N: usize> Jet<S, N> {
         constants.fold(Self::ZERO, |sum, c| sum * delta + Self::constant(c))
     }
 
-    /// The function with value `value` at `x₀` whose derivatives there take turns: `f, f′, f″ …` are `value`,
-    /// `slope`, `sign·value`, `sign·slope`, `value` and so on.
+    /// The function with the value `value` at `x₀` whose derivatives there alternate: `f, f′, f″ …` are
+    /// `value`, `slope`, `sign·value`, `sign·slope`, `value` and so on.
     fn alternating(self, value: S, slope: S, sign: i64) -> Self {
         let mut next = [value, slope];
         let mut over_factorial = S::ONE;
@@ -59,7 +59,7 @@ impl<S: Scalar, const N: usize> Jet<S, N> {
         self.compose(coefficients)
     }
 
-    /// `x^r` for a constant `r`, given its value at `x₀`: binomial series.
+    /// `x^r` for a constant `r`, given its value at `x₀`, by the binomial series.
     fn power(self, value: S, r: S) -> Self {
         let mut coefficients = [value; N];
         for n in 1..N {
@@ -69,7 +69,7 @@ impl<S: Scalar, const N: usize> Jet<S, N> {
         self.compose(coefficients)
     }
 
-    /// `dx/dτ`; the last coefficient is not known and stands as 0.
+    /// `dx/dτ`; the last coefficient is unknown and set to 0.
     fn derivative(self) -> Self {
         let mut jet = [S::ZERO; N];
         for n in 1..N {
@@ -78,7 +78,7 @@ impl<S: Scalar, const N: usize> Jet<S, N> {
         Jet(jet)
     }
 
-    /// What has the value `value` at `τ = 0` and the derivative `self`, of which the last coefficient is not read.
+    /// The integral of `self` with the value `value` at `τ = 0`; the last coefficient of `self` is not read.
     fn integral(self, value: S) -> Self {
         let mut jet = Self::constant(value);
         for n in 1..N {
@@ -111,7 +111,7 @@ impl<S: Scalar, const N: usize> Neg for Jet<S, N> {
 
 impl<S: Scalar, const N: usize> Mul for Jet<S, N> {
     type Output = Self;
-    /// Cauchy's product.
+    /// The Cauchy product.
     fn mul(self, other: Self) -> Self {
         Jet(core::array::from_fn(|n| {
             (1..=n).fold(self.0[0] * other.0[n], |sum, j| {
@@ -229,7 +229,7 @@ impl<S: Scalar, const N: usize> Scalar for Jet<S, N> {
         self.power(self.0[0].sqrt(), S::from_ratio(1, 2))
     }
 
-    /// By the binomial series where the exponent is constant, else as `exp(y ln x)`.
+    /// By the binomial series if the exponent is constant, otherwise as `exp(y ln x)`.
     fn powf(self, exponent: Self) -> Self {
         if exponent == Jet::constant(exponent.0[0]) {
             self.power(self.0[0].powf(exponent.0[0]), exponent.0[0])
@@ -238,7 +238,7 @@ impl<S: Scalar, const N: usize> Scalar for Jet<S, N> {
         }
     }
 
-    /// `sign(x₀)·x`; 0 at the kink, but for the value.
+    /// `sign(x₀)·x`; 0 at the kink, except for the value.
     fn abs(self) -> Self {
         let sign = self.0[0].sign();
         let mut jet = self.0.map(|x| sign * x);
@@ -250,14 +250,14 @@ impl<S: Scalar, const N: usize> Scalar for Jet<S, N> {
         Jet::constant(self.0[0].sign())
     }
 
-    /// That of the smaller value; the mean of both where the values are equal.
+    /// The jet of the smaller value; the mean of both if the values are equal.
     fn min(self, other: Self) -> Self {
         let mut jet = mean(self, other, -(self.0[0] - other.0[0]).sign());
         jet.0[0] = self.0[0].min(other.0[0]);
         jet
     }
 
-    /// That of the larger value; the mean of both where the values are equal.
+    /// The jet of the larger value; the mean of both if the values are equal.
     fn max(self, other: Self) -> Self {
         let mut jet = mean(self, other, (self.0[0] - other.0[0]).sign());
         jet.0[0] = self.0[0].max(other.0[0]);

@@ -1,11 +1,12 @@
-//! Pieces of generated code as values, so that whoever knows the processor decides how they run.
+//! Pieces of generated code as values, so that the caller that knows the processor decides how
+//! they run.
 //!
-//! A Rust function uses instructions beyond the oldest processor's only if it says so, or is inlined into one that does. So
-//! generated arithmetic is always inlined, and handed as a value to a function that says so.
+//! A Rust function uses newer instructions only if it declares so, or if it is inlined into a function that does. So
+//! generated arithmetic is always inlined, and is passed as a value to a function that declares the instructions.
 
 use crate::Scalar;
 
-/// A computation on numbers that are kept as `T`, for any arithmetic on them.
+/// A computation on numbers that are stored as `T`, for any arithmetic on them.
 pub trait Kernel<T: Copy> {
     /// Its result.
     type Output;
@@ -14,7 +15,7 @@ pub trait Kernel<T: Copy> {
     fn run<N: Scalar<Stored = T>>(self) -> Self::Output;
 }
 
-/// A part of a long function, which runs by itself: see [`Scalar::call`].
+/// A part of a long function that runs as a function of its own: see [`Scalar::call`].
 pub trait Piece {
     /// Its result.
     type Output;

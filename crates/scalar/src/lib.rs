@@ -1,9 +1,9 @@
-//! The numbers that a machine can run over.
+//! The number types that a machine can be evaluated over.
 //!
-//! One trait, [`Scalar`], is all that generated code, the interpreter and the evaluator of expressions ask of a number.
-//! A number type decides by itself how exact it is: `f64` rounds, [`DoubleDouble`] rounds far later, [`Interval`] encloses,
-//! [`Ball`] bounds its error, [`Dual`] carries a derivative, [`Jet`] a
-//! truncated power series, [`Residue`] is exact in a prime field and so proves identities.
+//! One trait, [`Scalar`], is all that generated code, the interpreter and the evaluator of expressions require of a number.
+//! Each type decides how exact it is: `f64` rounds, [`DoubleDouble`] rounds with twice the digits, [`Interval`] encloses,
+//! [`Ball`] bounds its error, [`Dual`] carries a derivative, [`Jet`] a truncated power series, and [`Residue`] is exact in
+//! a prime field and so proves identities.
 #![no_std]
 
 pub mod ball;
@@ -31,13 +31,13 @@ pub use residue::Residue;
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A number that a machine can run over.
+/// A number type that a machine can be evaluated over.
 ///
-/// What is provided here is always inlined, as are implementations for numbers in registers: a function that is not would
-/// lack the instructions that its caller may use.
+/// Provided methods are always inlined, and so must be the implementations for numbers in registers: a function that is
+/// not inlined cannot use the instructions that its caller may use.
 ///
-/// Operations never panic; what has no value (0/0, the root of a negative number) is a value for which
-/// [`is_finite`](Scalar::is_finite) is false, and stays so under every further operation.
+/// Operations never panic. An undefined result (0/0, the root of a negative number) is a value for which
+/// [`is_finite`](Scalar::is_finite) is false, and every further operation keeps it so.
 pub trait Scalar:
     Copy
     + Debug
@@ -48,46 +48,47 @@ pub trait Scalar:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// What a number is kept as between calls: itself, but for numbers that live in registers only. Generated code reads
-    /// its arguments with [`load`](Scalar::load) and leaves results with [`store`](Scalar::store).
+    /// The form in which a number is stored between calls: the type itself, except for numbers that exist in
+    /// registers only. Generated code reads its arguments with [`load`](Scalar::load) and writes results
+    /// with [`store`](Scalar::store).
     type Stored: Copy;
 
-    /// A number as it was kept.
+    /// Loads a stored number.
     fn load(stored: Self::Stored) -> Self;
-    /// The number to be kept.
+    /// The number as it is stored.
     fn store(self) -> Self::Stored;
 
     /// 0.
     const ZERO: Self;
     /// 1.
     const ONE: Self;
-    /// How many pairs of lists are multiplied at once ([`series::sweep`]) where a list that is in several pairs is kept and read once: so
-    /// many that their sums stay in registers. 0 for numbers that are kept once for each pair, side by side, as a register of several reads them.
+    /// How many pairs of lists are multiplied at once ([`series::sweep`]) if a list that occurs in several pairs is stored and read once: as many
+    /// as keep their sums in registers. 0 for numbers that are stored once for each pair, side by side, as a register of several reads them.
     const PAIRS_AT_ONCE: usize = 0;
 
-    /// The number nearest to `x`; exact in every type that holds all of `f64`.
+    /// The number nearest to `x`; exact in every type that contains `f64`.
     fn from_f64(x: f64) -> Self;
     /// The number nearest to `numerator / denominator`, `denominator > 0`.
     fn from_ratio(numerator: i64, denominator: i64) -> Self;
     /// π.
     fn pi() -> Self;
 
-    /// `self·b + c`; rounded once in types that say so, as separate operations are in all others.
+    /// `self·b + c`; rounded once in types that say so, and like separate operations in all others.
     #[inline(always)]
     fn mul_add(self, b: Self, c: Self) -> Self {
         self * b + c
     }
-    /// `self·b − c`, rounded as [`mul_add`](Scalar::mul_add) is.
+    /// `self·b − c`, rounded like [`mul_add`](Scalar::mul_add).
     #[inline(always)]
     fn mul_sub(self, b: Self, c: Self) -> Self {
         self * b - c
     }
-    /// `c − self·b`, rounded as [`mul_add`](Scalar::mul_add) is.
+    /// `c − self·b`, rounded like [`mul_add`](Scalar::mul_add).
     #[inline(always)]
     fn neg_mul_add(self, b: Self, c: Self) -> Self {
         c - self * b
     }
-    /// Two sums; as `sub_each` and those below, in one instruction where two numbers fit a register.
+    /// Two sums. Like the functions below, one instruction if a register holds two numbers.
     #[inline(always)]
     fn add_each(a: [Self; 2], b: [Self; 2]) -> [Self; 2] {
         [a[0] + b[0], a[1] + b[1]]
@@ -107,23 +108,23 @@ pub trait Scalar:
     fn div_each(a: [Self; 2], b: [Self; 2]) -> [Self; 2] {
         [a[0] / b[0], a[1] / b[1]]
     }
-    /// Two times [`mul_add`](Scalar::mul_add).
+    /// [`mul_add`](Scalar::mul_add) twice.
     #[inline(always)]
     fn mul_add_each(a: [Self; 2], b: [Self; 2], c: [Self; 2]) -> [Self; 2] {
         [a[0].mul_add(b[0], c[0]), a[1].mul_add(b[1], c[1])]
     }
-    /// Two times [`mul_sub`](Scalar::mul_sub).
+    /// [`mul_sub`](Scalar::mul_sub) twice.
     #[inline(always)]
     fn mul_sub_each(a: [Self; 2], b: [Self; 2], c: [Self; 2]) -> [Self; 2] {
         [a[0].mul_sub(b[0], c[0]), a[1].mul_sub(b[1], c[1])]
     }
-    /// Two times [`neg_mul_add`](Scalar::neg_mul_add).
+    /// [`neg_mul_add`](Scalar::neg_mul_add) twice.
     #[inline(always)]
     fn neg_mul_add_each(a: [Self; 2], b: [Self; 2], c: [Self; 2]) -> [Self; 2] {
         [a[0].neg_mul_add(b[0], c[0]), a[1].neg_mul_add(b[1], c[1])]
     }
-    /// What rounding took from `self·b`: exactly `self·b − (self * b)`. 0 where a product is exact, or its error is not
-    /// worth knowing.
+    /// The rounding error of `self·b`: exactly `self·b − (self * b)`. 0 for types whose products are exact, or whose
+    /// error does not matter.
     ///
     /// The phase of a drive, ω·t, is rounded to 1e-14 after a minute at 100 rad/s, a hundred times worse than everything
     /// that follows; with its error known, sine and cosine can be corrected.
@@ -132,7 +133,7 @@ pub trait Scalar:
         Self::ZERO
     }
 
-    /// What rounding took from `self + b`: exactly `self + b − (self + b)`; near 0 where a sum is nearly exact.
+    /// The rounding error of `self + b`: exactly `self + b − (self + b)`; near 0 if a sum is nearly exact.
     ///
     /// O. Møller, *Quasi double-precision in floating point addition*, BIT 5 (1965) 37–50.
     #[inline(always)]
@@ -142,22 +143,23 @@ pub trait Scalar:
         (self - (sum - b_kept)) + (b - b_kept)
     }
 
-    /// Sine and cosine together: half the price of both.
+    /// Sine and cosine together, at half the cost of computing both separately.
     fn sin_cos(self) -> (Self, Self);
-    /// Sines and cosines of several angles: where a processor works on several numbers at once, little dearer than of one.
+    /// Sines and cosines of several angles; on a processor with vector instructions they cost little more than those
+    /// of one.
     #[inline(always)]
     fn sin_cos_all<const K: usize>(angles: [Self; K]) -> [(Self, Self); K] {
         angles.map(Self::sin_cos)
     }
-    /// Sines and cosines of several angles, and true; or anything and false, where one of several angles that lie side by side
-    /// is too large for the polynomials that the others take. A caller that then evaluates again, one number after another,
-    /// has one branch at the end of its arithmetic instead of one at each angle.
+    /// Sines and cosines of several angles, and true; or arbitrary numbers and false, if one of the angles in the lanes is too
+    /// large for the polynomials that the others take. A caller that then evaluates again, one number after another, has one
+    /// branch at the end of its arithmetic instead of one at each angle.
     #[inline(always)]
     fn sin_cos_all_near<const K: usize>(angles: [Self; K]) -> ([(Self, Self); K], bool) {
         (Self::sin_cos_all(angles), true)
     }
-    /// `Σⱼ aⱼ b₍n−1−j₎` of `P` pairs of lists side by side, of `n` numbers each, from the middle outwards
-    /// ([`series::convolve_all`]).
+    /// `Σⱼ aⱼ b₍n−1−j₎` for `P` pairs of lists of `n` numbers each, stored side by side; summed from the
+    /// middle outwards ([`series::convolve_all`]).
     #[inline(always)]
     fn convolve_all<const P: usize>(a: &[[Self::Stored; P]], b: &[[Self::Stored; P]]) -> [Self; P] {
         series::convolve_all(a, b)
@@ -231,10 +233,10 @@ pub trait Scalar:
         }
     }
 
-    /// Whether `self` is a number: not infinite, not undefined (every lane of it, where it has several).
+    /// Whether `self` is finite and defined (in every lane, if it has several).
     fn is_finite(self) -> bool;
-    /// Whether `self > bound` holds for certain (in every lane, for every number of an interval). False for what is
-    /// undefined. In a field without an order: whether the two differ.
+    /// Whether `self > bound` holds for certain (in every lane, for every number of an interval). False if either
+    /// is undefined. In a field without an order: whether the two differ.
     fn exceeds(self, bound: Self) -> bool;
     /// The nearest `f64`, for messages.
     fn to_f64(self) -> f64;

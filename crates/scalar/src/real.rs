@@ -43,7 +43,7 @@ macro_rules! scalar_by_libm {
                 };
                 let ((a1, a0), (b1, b0)) = (halves(self), halves(b));
                 let error = a0 * b0 - (((self * b - a1 * b1) - a0 * b1) - a1 * b0);
-                // Numbers near the largest have no halves.
+                // Numbers close to the largest cannot be split.
                 if error.is_finite() { error } else { 0.0 }
             }
             #[inline(always)]
@@ -104,7 +104,7 @@ macro_rules! scalar_by_libm {
             }
             #[inline(always)]
             fn sign(self) -> Self {
-                // `signum` is 1 at 0; mechanics wants 0 there. NaN stays NaN.
+                // `signum` is 1 at 0, but mechanics needs 0 there. NaN stays NaN.
                 if self == 0.0 { 0.0 } else { self.signum() }
             }
             #[inline(always)]

@@ -1,24 +1,23 @@
-//! Numbers that prove identities: residues modulo the prime p = 2⁶¹ − 1, with an exact sine and
-//! cosine.
+//! Residues modulo the prime p = 2⁶¹ − 1, with an exact sine and cosine, for proving identities.
 //!
 //! Give every symbol of two expressions a random value and evaluate both in a finite field. If the
-//! expressions are equal the results are equal, always: there is no rounding. If they differ, their
-//! difference is a polynomial of some degree d (after clearing denominators), and it vanishes at a
-//! random point with probability at most d/p (J. T. Schwartz, *Fast probabilistic algorithms for
-//! verification of polynomial identities*, J. ACM 27 (1980) 701–717; R. Zippel, EUROSAM 1979). So
-//! agreement at a few points is a proof up to a chance that can be made as small as one likes. G.
-//! H. Gonnet, *Determining equivalence of expressions in random polynomial time*, STOC 1984, did so
-//! for expressions with functions.
+//! expressions are equal the results are always equal, since there is no rounding. If they differ,
+//! their difference is a polynomial of some degree d (after clearing denominators), and it vanishes
+//! at a random point with probability at most d/p (J. T. Schwartz, *Fast probabilistic algorithms
+//! for verification of polynomial identities*, J. ACM 27 (1980) 701–717; R. Zippel, EUROSAM 1979).
+//! So agreement at a few points is a proof up to a probability that can be made arbitrarily small.
+//! G. H. Gonnet, *Determining equivalence of expressions in random polynomial time*, STOC 1984, did
+//! so for expressions with functions.
 //!
 //! # Sine and cosine
 //!
-//! The angle x and the point (cos x, sin x) are algebraically independent, but the point must turn
-//! with the angle: the map x ↦ e^{ix} = cos x + i sin x takes sums to products. So a [`Residue`]
-//! carries two images of a number, under two ring homomorphisms that agree on nothing but the
-//! rationals:
+//! The angle x and the point (cos x, sin x) are algebraically independent, but the point must
+//! rotate with the angle: the map x ↦ e^{ix} = cos x + i sin x takes sums to products. So a
+//! [`Residue`] carries two images of a number, under two ring homomorphisms that agree only on
+//! the rationals:
 //!
-//! * its image in GF(p), or GF(p²) = GF(p)\[i\] where roots need it: this is what is compared;
-//! * its image among the 2-adic numbers, as 128 bits: this is what angles are made from.
+//! * its image in GF(p), or GF(p²) = GF(p)\[i\] if roots need it: this is compared;
+//! * its image among the 2-adic numbers, as 128 bits: angles are made from this.
 //!
 //! The points of the unit circle over GF(p) form a cyclic group of order p + 1 = 2⁶¹ under
 //! multiplication in GF(p²), with a generator g. For a 2-adic number x let
@@ -35,42 +34,43 @@
 //!
 //! # π
 //!
-//! π is transcendental, and so is a random constant in both images. What is known of it, e^{iπ} =
-//! −1, is kept apart: each number carries the exact rational b of its part bπ while it has one
-//! (sums, and products with rationals), and e^{i(x + bπ)} = e^{ix} ζ(b) with ζ(b) a root of unity
-//! of the right order. Those of order 2^k lie on the circle; GF(p²) also has those of order 3, 9,
-//! 5, 25, 7, 11, 13, …, the divisors of p − 1, so that cos(2π/3) = −1/2. A 2-adic image of π with
-//! g^(2¹²π) = −1 would be simpler, but would make sin(2πft) vanish for all symbols f and t, and
-//! e^{iπ/3} equal −1: it would accept wrong equations.
+//! π is transcendental, and so is represented by a random constant in both images. Its known
+//! property, e^{iπ} = −1, is handled separately: each number carries the exact rational b of
+//! its part bπ as long as it has one (through sums, and products with rationals), and
+//! e^{i(x+bπ)} = e^{ix} ζ(b) with ζ(b) a root of unity of the right order. Those of order 2^k
+//! lie on the circle; GF(p²) also has those of order 3, 9, 5, 25, 7, 11, 13, …, the divisors of
+//! p − 1, so that cos(2π/3) = −1/2. A 2-adic image of π with g^(2¹²π) = −1 would be simpler,
+//! but would make sin(2πft) vanish for all symbols f and t, and e^{iπ/3} equal −1: it would
+//! accept wrong equations.
 //!
 //! # Roots and signs
 //!
-//! In half of all cases a ∈ GF(p) has a root; √a is then the root that is a square itself, so that
+//! With probability ½, a ∈ GF(p) has a root; √a is then the root that is a square itself, so that
 //! √(ab) = √a√b. Otherwise the value is undefined ([`is_finite`](Scalar::is_finite) is false): "a
-//! is a square" plays the part of "a > 0", and the test takes another point. Accordingly sign(x) is
-//! the Legendre symbol, |x| = x sign(x) = √(x²), min and max are (a + b ∓ |a − b|)/2. Constants
-//! cannot be drawn again; for them signs are the true signs where the value is a known rational, √
-//! of a rational is multiplicative over its prime factors and lies in GF(p²) if need be, and a
+//! is a square" takes the place of "a > 0", and the test chooses another point. Accordingly sign(x)
+//! is the Legendre symbol, |x| = x sign(x) = √(x²), min and max are (a + b ∓ |a − b|)/2. Constants
+//! cannot be drawn again. For them signs are the true signs if the value is a known rational, √ of
+//! a rational is multiplicative over its prime factors and lies in GF(p²) if necessary, and a
 //! constant without any root takes an opaque value.
 //!
 //! # The other functions
 //!
 //! * asin, acos, atan, atan2: the 2-adic image is a logarithm on the circle, so sin(asin x) = x,
-//!   tan(atan x) = x, cos(atan2(y, x)) = x/√(x² + y²), and the functions agree with each other.
-//!   Where the root in question does not exist the angle is good for everything except sin and cos,
+//!   tan(atan x) = x, cos(atan2(y, x)) = x/√(x² + y²), and the functions agree with each other. If
+//!   the root in question does not exist, the angle can be used for everything except sin and cos,
 //!   which are then undefined (opaque, for constants).
 //! * exp is opaque: a hash of its argument's image in the field, with e^{−x} = 1/e^x. sinh, cosh,
-//!   tanh come from it.
+//!   tanh are derived from it.
 //! * ln is opaque; so is a power, unless the exponent is n/2.
 //!
 //! # What is not recognised
 //!
-//! An equation that passes is true, up to chance. A true one may fail where it needs more than the
-//! above: an angle that itself contains sines or roots in two forms (their 2-adic images are hashes
-//! of the field's image, so sin²x + cos²x = 1 is not known inside an angle); an angle with more
-//! than 12 halvings, which is opaque (0.1 taken from an `f64` has 55, taken as the ratio 1/10 has
-//! 1); a positive constant other than a power of 2 pulled out of a root or an absolute value, as in
-//! √(9x) = 3√x; functional equations of exp, ln and powers.
+//! An equation that passes is true, up to the stated probability. A true one may fail if it needs
+//! more than the above: an angle that itself contains sines or roots in two forms (their 2-adic
+//! images are hashes of the field's image, so sin²x + cos²x = 1 is not known inside an angle); an
+//! angle with more than 12 halvings, which is opaque (0.1 taken from an `f64` has 55, taken as the
+//! ratio 1/10 has 1); a positive constant other than a power of 2 moved out of a root or an
+//! absolute value, as in √(9x) = 3√x; functional equations of exp, ln and powers.
 
 mod field;
 mod ratio;
@@ -83,7 +83,8 @@ use field::{Field, P};
 use ratio::Ratio;
 use two_adic::TwoAdic;
 
-/// Halvings of an angle before its sine becomes opaque: e^{ix} = g^(2^HALVINGS x).
+/// The number of halvings of an angle beyond which its sine becomes opaque: e^{ix} =
+/// g^(2^HALVINGS x).
 const HALVINGS: i32 = 12;
 
 /// log₂ of the order of the circle group.
@@ -96,35 +97,36 @@ const GENERATOR: Field = Field {
     im: 1_119_946_030_696_053_400,
 };
 
-/// An element of GF(p) of order (p − 1)/2 = 3²·5²·7·11·13·31·41·61·151·331·1321, 109², chosen such
-/// that the third root of unity made from it is (−1 + i√3)/2 and the fifth has the real part (√5 −
-/// 1)/4.
+/// An element of GF(p) of order (p − 1)/2 = 3²·5²·7·11·13·31·41·61·151·331·1321, 109², chosen
+/// such that the third root of unity made from it is (−1 + i√3)/2 and the fifth has the real part
+/// (√5 − 1)/4.
 const ODD_ROOT: Field = Field::real(11_881);
 
 /// The order of [`ODD_ROOT`].
 const ODD_ORDER: i64 = (P / 2) as i64;
 
-/// A number known by its images in GF(p²), p = 2⁶¹ − 1, and among the 2-adic numbers; see the
-/// [module](crate::residue) for what that is good for.
+/// A number represented by its images in GF(p²), p = 2⁶¹ − 1, and among the 2-adic numbers; see the
+/// [module](crate::residue) for its use.
 ///
 /// Two residues are equal if their images in the field are equal and both are defined.
 #[derive(Clone, Copy, Debug)]
 pub struct Residue {
     field: Field,
     two_adic: TwoAdic,
-    /// The value, while it is a rational number known exactly.
+    /// The value, as long as it is a rational number known exactly.
     rational: Option<Ratio>,
-    /// b of a value that is known to be something + bπ.
+    /// b of a value that is known to be x + bπ.
     turn: Ratio,
-    /// Made from constants only: another choice of the symbols would not change it.
+    /// Whether it is made from constants only, so that another choice of the symbols would not
+    /// change it.
     constant: bool,
-    /// False once something undefined went into it.
+    /// False if something undefined went into it.
     defined: bool,
 }
 
 impl Residue {
     /// The value of the symbol number `index` in the experiment number `seed`: the same for the
-    /// same numbers, and otherwise independent.
+    /// same numbers, and independent for different ones.
     ///
     /// ```
     /// use lagrangian_scalar::{Residue, Scalar};
@@ -168,9 +170,9 @@ impl Residue {
         }
     }
 
-    /// A value of which nothing is known but its image in the field; its 2-adic image is made from
-    /// that one, the images of x and −x being opposite. 0, ±1/2 and ±1 are recognised: cos(π/2) is
-    /// 0, not merely something equal to it.
+    /// A value of which only the image in the field is known; its 2-adic image is derived from
+    /// that, with opposite images for x and −x. 0, ±1/2 and ±1 are recognised: cos(π/2) is 0, not
+    /// merely something equal to it.
     fn opaque(field: Field, constant: bool) -> Self {
         for twice in -2..=2 {
             if field == Field::integer(twice).half()
@@ -195,7 +197,7 @@ impl Residue {
         }
     }
 
-    /// A function of two numbers without any property that is used.
+    /// A function of two numbers of which no property is used.
     fn opaque_function(self, other: Self, tag: Tag) -> Self {
         let (a, b) = (self.field, other.field);
         let value = Field::real(hash(tag, &[a.re, a.im, b.re, b.im]) % P);
@@ -209,7 +211,7 @@ impl Residue {
 
     /// e^{ix} and e^{−ix}, if x has a 2-adic image.
     fn unit(self) -> Option<(Field, Field)> {
-        // x = angle + bπ, as far as ζ(b) exists; otherwise bπ stays in the angle.
+        // x = angle + bπ, if ζ(b) exists; otherwise bπ stays in the angle.
         let (angle, root) = match self.turn {
             Ratio::ZERO => (self, None),
             turn => match root_of_unity(turn) {
@@ -231,7 +233,7 @@ impl Residue {
     }
 
     /// A power of the generator for an angle that is not known well enough: equal for equal values,
-    /// opposite for opposite.
+    /// opposite for opposite values.
     fn opaque_exponent(self) -> u64 {
         let (positive, negated) = self.field.canonical();
         let exponent = hash(Tag::Angle, &[positive.re, positive.im]) | 1;
@@ -242,8 +244,8 @@ impl Residue {
         }
     }
 
-    /// The angle of the direction (`cosine`, `sine`): 2-adic by the logarithm on the circle.
-    /// `on_circle` says whether cosine² + sine² = 1; if not, the two are only numbers that
+    /// The angle of the direction (`cosine`, `sine`): its 2-adic image is the logarithm on the
+    /// circle. `on_circle` says whether cosine² + sine² = 1; if not, the two are only numbers that
     /// determine the angle.
     fn angle(cosine: Field, sine: Field, on_circle: bool, constant: bool) -> Self {
         let (sine, negated) = sine.canonical();
@@ -256,12 +258,13 @@ impl Residue {
                 im: sine.re,
             });
             if let Some(turn) = simple_turn(log) {
-                // A fraction of π with a power of 2 below: π/4 for tan = 1. By chance, once in 2⁴⁰.
+                // A fraction of π with a power of 2 in the denominator: π/4 for tan = 1. By chance,
+                // once in 2⁴⁰.
                 let angle = Residue::pi_times(turn);
                 return if negated { -angle } else { angle };
             }
-            // Any 2-adic number with these 61 lowest bits will do; let the others be given by the
-            // direction too.
+            // Any 2-adic number with these 61 lowest bits will do; the direction determines the
+            // other bits too.
             let bits = (hash(Tag::Upper, &words) as u128) << CIRCLE_BITS | log as u128;
             angle.two_adic = TwoAdic::from_bits(bits, 0, 128).scaled(-HALVINGS);
         } else if !constant {
@@ -270,7 +273,7 @@ impl Residue {
         if negated { -angle } else { angle }
     }
 
-    /// Whether self < other, for rationals; for anything else there is no order.
+    /// Whether self < other, for rationals; other numbers have no order.
     fn known_less_than(self, other: Self) -> Option<bool> {
         Some(self.rational?.less_than(other.rational?))
     }
@@ -398,8 +401,8 @@ impl Scalar for Residue {
             return Residue::UNDEFINED;
         }
         let square = x.field * x.field + y.field * y.field;
-        // With √(−a) = i√a the same formula gives a direction that scales as it should, though not
-        // on the circle.
+        // With √(−a) = i√a the same formula gives a direction that scales correctly, though not on
+        // the circle.
         let scale = square.root().and_then(|root| {
             let on_circle = root.im == 0;
             Some((root.inverse()?, on_circle))
@@ -524,8 +527,8 @@ impl Scalar for Residue {
         self.defined && bound.defined && self.field != bound.field
     }
 
-    /// The rational number, where it is known; otherwise the residue, which says nothing but
-    /// whether two are equal.
+    /// The rational number, if it is known; otherwise the residue, which only shows whether two
+    /// values are equal.
     fn to_f64(self) -> f64 {
         match self.rational {
             _ if !self.defined => f64::NAN,
@@ -558,7 +561,7 @@ impl Add for Residue {
                 .rational
                 .zip(other.rational)
                 .and_then(|(a, b)| a.plus(b)),
-            // Losing count of π costs recognition, never truth.
+            // Losing track of π costs recognition, never correctness.
             turn: turn.unwrap_or(Ratio::ZERO),
             constant: self.constant && other.constant,
             defined: true,
@@ -698,10 +701,10 @@ fn root_of_rational(value: Ratio) -> Residue {
         / Residue::from_rational(Ratio::integer(value.denominator))
 }
 
-/// √n as a product over the prime factors of n, each prime's root by [`Field::root`]: so √12 = 2√3
-/// and √21 = √3√7.
+/// √n as a product over the prime factors of n, with each prime's root by [`Field::root`]: so √12 =
+/// 2√3 and √21 = √3√7.
 ///
-/// Factors above 2¹¹ are not looked for, except that n may be a square.
+/// Factors above 2¹¹ are not searched for, except that n may be a square.
 fn root_of_integer(mut n: u64) -> Residue {
     if n == 0 {
         return Residue::ZERO;
@@ -743,7 +746,7 @@ fn integer_and_exponent(x: f64) -> (i64, i32) {
     (if x < 0.0 { -magnitude } else { magnitude }, exponent)
 }
 
-/// What a hash is for: different tags give independent values.
+/// The purpose of a hash: different tags give independent values.
 #[derive(Clone, Copy)]
 enum Tag {
     Symbol,
@@ -762,7 +765,7 @@ fn wide(high: u64, low: u64) -> u128 {
     (high as u128) << 64 | low as u128
 }
 
-/// A hash of the words, each of them stirred in by a step of SplitMix64.
+/// A hash of the words, each mixed in by a step of SplitMix64.
 ///
 /// G. L. Steele, D. Lea and C. H. Flood, *Fast splittable pseudorandom number generators*, OOPSLA
 /// 2014.

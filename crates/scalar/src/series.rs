@@ -1,21 +1,21 @@
-//! Arithmetic that every Taylor series of a motion needs: sums of products over orders, and what is solved for at each.
+//! Arithmetic for every Taylor series of a motion: sums of products over orders, and the linear system at each order.
 //!
-//! The interpreter of series and compiled machines both call it, so that their numbers have the same bits. All of it runs in
-//! registers `N` and keeps numbers as `N::Stored`.
+//! The interpreter of series and compiled machines both call it, so that their numbers have the same bits. All of it
+//! computes in registers `N` and stores numbers as `N::Stored`.
 
 use crate::Scalar;
 
-/// Beyond so many unknowns the matrix is not inverted but substituted into: an inverse takes n³ operations a step, and waits
-/// for less at each order.
+/// With more unknowns the matrix is not inverted, but solved by substitution: an inverse takes n³ operations a step, and
+/// shortens the dependency chain at each order.
 const MOST_INVERTED: usize = 24;
 
-/// `L` pairs of lists of coefficients that are multiplied together.
+/// `L` pairs of lists of coefficients that are multiplied with each other.
 ///
-/// `Σ aⱼ b₍k+2−j₎` over `2 ≤ j ≤ k`. What has just been computed is not among these terms but added behind them, so that the sum runs
-/// while the last order is still being solved for.
+/// `Σ aⱼ b₍k+2−j₎` over `2 ≤ j ≤ k`. The newest coefficients are not among these terms but are added afterwards, so that the sum can run while the
+/// last order is still being solved for.
 ///
-/// A row of `a` and of `b` holds what [`keep`] wrote of an order: a number for each pair or, with [`PAIRS_AT_ONCE`](Scalar::PAIRS_AT_ONCE), one for
-/// each list, in the place that is given for the pair. Sums behind those of the pairs have no meaning.
+/// A row of `a` and of `b` holds what [`keep`] wrote for an order: a number for each pair or, with [`PAIRS_AT_ONCE`](Scalar::PAIRS_AT_ONCE), one
+/// for each list, at the given index of the pair. Sums beyond those of the pairs are meaningless.
 #[inline(always)]
 pub fn sweep<N: Scalar, const P: usize, const L: usize>(
     [a, b]: [&[[N::Stored; P]]; 2],
@@ -27,7 +27,7 @@ pub fn sweep<N: Scalar, const P: usize, const L: usize>(
         return [N::ZERO; P];
     };
     let mut sums = [N::ZERO; P];
-    // Where a group begins is written down and not counted: so the compiler knows all places, and loads each list once.
+    // The starts of groups are literals, so the compiler knows all indices, and loads each list once.
     macro_rules! groups {
         ($size:literal: $($start:literal)*) => {{$(
             if const { $start < L } {
@@ -43,7 +43,8 @@ pub fn sweep<N: Scalar, const P: usize, const L: usize>(
     sums
 }
 
-/// Keeps the coefficients of an order for [`sweep`]: `numbers` has one for each of `L` pairs, and where its list stands is its place.
+/// Stores the coefficients of an order for [`sweep`]: `numbers` has one for each of `L` pairs, which is stored at the index of
+/// its list.
 #[inline(always)]
 pub fn keep<N: Scalar, const P: usize, const L: usize>(
     rows: &mut [[N::Stored; P]],
@@ -63,10 +64,10 @@ pub fn keep<N: Scalar, const P: usize, const L: usize>(
     }
 }
 
-/// `Σⱼ aⱼ b₍n−1−j₎` of `P` pairs of lists side by side, of `n` numbers each.
+/// `Σⱼ aⱼ b₍n−1−j₎` for `P` pairs of lists of `n` numbers each, stored side by side.
 ///
-/// From the middle outwards, in two sums, one towards either end, that do not wait for each other: both ends of the lists are what
-/// was computed last, in one factor or the other, so the sums begin with what has been there longest.
+/// Summed from the middle outwards, in two independent sums, one towards either end: both ends of the lists were computed last, in
+/// one factor or the other, so the sums begin with the oldest numbers.
 #[inline(always)]
 pub fn convolve_all<N: Scalar, const P: usize>(
     a: &[[N::Stored; P]],
@@ -95,7 +96,7 @@ pub fn convolve_all<N: Scalar, const P: usize>(
     down
 }
 
-/// [`convolve_all`] of up to `G` pairs from `start` on, of lists that stand in these places: the same arithmetic.
+/// [`convolve_all`] for up to `G` pairs from `start` on, with lists at the given indices: the same arithmetic.
 #[inline(always)]
 fn convolve_some<N: Scalar, const G: usize, const P: usize, const L: usize>(
     [a, b]: [&[[N::Stored; P]]; 2],
@@ -128,19 +129,19 @@ fn convolve_some<N: Scalar, const G: usize, const P: usize, const L: usize>(
     }
 }
 
-/// A pivot that is zero up to rounding.
+/// A pivot that is zero up to round-off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vanished<N> {
     /// Its row.
     pub row: usize,
     /// The value of the pivot.
     pub pivot: N,
-    /// The size of the terms that it is the sum of.
+    /// The size of the terms whose sum it is.
     pub scale: N,
 }
 
-/// Factors a symmetric matrix of `n` rows, of which the lower triangle is given, for [`solve`]. Rows from `held` on are
-/// those of constraints, whose pivots are negative.
+/// Factors a symmetric matrix of `n` rows, given by its lower triangle, for [`solve`]. Rows from `held` on are those of
+/// constraints, whose pivots are negative.
 ///
 /// # Errors
 /// If a pivot vanishes.
@@ -157,7 +158,7 @@ pub fn factor<N: Scalar>(
         let is_constraint = i >= held;
         let (mut pivot, mut scale) = (diagonal, diagonal);
         for j in 0..i {
-            // Holds L D until the row is done.
+            // Holds L D until the row is complete.
             let mut entry = N::load(m[i * n + j]);
             for k in 0..j {
                 let other = N::load(m[j * n + k]);
@@ -190,7 +191,7 @@ pub fn factor<N: Scalar>(
     Ok(())
 }
 
-/// From L and the reciprocals of D to the whole of the inverse, `L⁻ᵀ D⁻¹ L⁻¹`, in place.
+/// Computes the whole inverse, `L⁻ᵀ D⁻¹ L⁻¹`, from L and the reciprocals of D, in place.
 #[inline(always)]
 fn invert<N: Scalar>(n: usize, m: &mut [N::Stored]) {
     // L⁻¹ row by row, below the diagonal.
@@ -200,7 +201,7 @@ fn invert<N: Scalar>(n: usize, m: &mut [N::Stored]) {
             for k in j + 1..i {
                 sum = N::load(m[i * n + k]).neg_mul_add(N::load(m[k * n + j]), sum);
             }
-            // Elements of this row to the right are read by those to the left no more.
+            // Elements of this row to the right are no longer read by those to the left.
             m[j * n + i] = sum.store();
         }
         for j in 0..i {
@@ -232,7 +233,8 @@ fn invert<N: Scalar>(n: usize, m: &mut [N::Stored]) {
     }
 }
 
-/// Solves for `x`, which holds the right-hand side, with what [`factor`] made; `scratch` holds as many numbers.
+/// Solves for `x`, which initially holds the right-hand side, with the result of [`factor`]; `scratch` has the
+/// same length.
 #[inline(always)]
 pub fn solve<N: Scalar>(
     n: usize,

@@ -1,4 +1,4 @@
-//! The text of modules of this crate, for libraries that are written as one file.
+//! The source text of modules of this crate, for libraries that are written as one file.
 
 /// The trait `Scalar`.
 pub const LIB: &str = include_str!("lib.rs");

@@ -1,4 +1,4 @@
-//! Storage: every node once, found by its content.
+//! Storage of nodes, each of them once, found by content.
 
 use core::hash::{Hash, Hasher};
 use std::rc::Rc;
@@ -11,18 +11,18 @@ use crate::rational::Rational;
 /// The nodes, and a table that finds a node by its content without building it first.
 pub(crate) struct Arena {
     entries: Vec<Entry>,
-    /// How many operands the nodes have, all together.
+    /// The total number of operands of the nodes.
     operands: usize,
-    /// The most nodes and operands that there may be; beyond it every new sum, product and function
-    /// has no value.
+    /// The largest number of nodes and operands; beyond it every new sum, product and function
+    /// is undefined.
     limit: usize,
-    /// Whether a node was asked for beyond the limit.
+    /// Whether a node was requested beyond the limit.
     pub(crate) exhausted: bool,
-    /// Open addressing with linear probing; a power of two of slots, at most half of them taken.
+    /// Open addressing with linear probing; a power of two of slots, at most half of them occupied.
     table: Vec<u32>,
     pub(crate) symbols: Vec<SymbolEntry>,
-    /// Room for the terms and the factors that are being worked on, kept because most nodes exist
-    /// already and their construction would allocate nothing else.
+    /// Buffers for terms and factors, reused because most nodes exist already, so that their
+    /// construction allocates nothing else.
     pub(crate) spare_terms: Vec<Term>,
     pub(crate) spare_factors: Vec<Factor>,
 }
@@ -33,19 +33,19 @@ pub(crate) struct SymbolEntry {
     pub(crate) id: Id,
 }
 
-/// A node and what is asked of it so often that it is kept.
+/// A node with frequently needed properties.
 struct Entry {
     node: Node,
     hash: u32,
     /// Hash of the factors that are not parameters: equal for `p₁·X` and `p₂·X`.
     rest: u32,
-    /// One bit for each symbol below, by its index modulo 64.
+    /// One bit for each symbol that occurs in it, by its index modulo 64.
     symbols: u64,
     stage: Stage,
     flags: u8,
 }
 
-/// The node is a product of parameters and of something that is none.
+/// The node is a product of parameters and of something else.
 pub(crate) const PARAMETER_FACTOR: u8 = 1;
 /// The node is a product with sin² or a higher power of a sine among its factors.
 pub(crate) const SQUARED_SINE: u8 = 2;
@@ -80,7 +80,8 @@ impl Arena {
         self.entries.len()
     }
 
-    /// Nodes and operands: what memory and work of one pass over the graph are proportional to.
+    /// The number of nodes and operands, to which memory and the work of one pass over the graph
+    /// are proportional.
     pub(crate) fn size(&self) -> usize {
         self.entries.len() + self.operands
     }
@@ -119,7 +120,7 @@ impl Arena {
         1 << (symbol.0 % 64)
     }
 
-    // Nodes that are already in normal form.
+    // Constructors of nodes that are already in normal form.
 
     pub(crate) fn constant(&mut self, value: Rational) -> Id {
         let hash = fingerprint(&(0u8, &value));
@@ -129,7 +130,7 @@ impl Arena {
 
     pub(crate) fn symbol(&mut self, name: &str, stage: Stage) -> Id {
         let symbol = Symbol(count(self.symbols.len()));
-        // Symbols are few, and whoever asks for one relies on it.
+        // There are few symbols, and callers rely on them, so they are exempt from the limit.
         let limit = std::mem::replace(&mut self.limit, usize::MAX);
         let id = self.intern(
             fingerprint(&(1u8, symbol)),
@@ -294,7 +295,7 @@ fn place(table: &mut [u32], hash: u32, index: u32) {
 }
 
 fn count(n: usize) -> u32 {
-    // At 48 bytes a node, memory ends first.
+    // At 48 bytes a node, memory is exhausted first.
     u32::try_from(n)
         .ok()
         .filter(|&n| n != EMPTY)
@@ -316,7 +317,7 @@ impl BitSet {
         BitSet(vec![0; len.div_ceil(64)])
     }
 
-    /// Puts an id in; whether it was not there yet.
+    /// Inserts an id; returns whether it was absent.
     pub(crate) fn insert(&mut self, id: Id) -> bool {
         let word = &mut self.0[id.index() / 64];
         let bit = 1 << (id.index() % 64);
@@ -325,15 +326,15 @@ impl BitSet {
         new
     }
 
-    /// Whether an id is in.
+    /// Whether the set contains an id.
     pub(crate) fn contains(&self, id: Id) -> bool {
         self.0[id.index() / 64] & (1 << (id.index() % 64)) != 0
     }
 }
 
 impl Arena {
-    /// What the roots are built from, in order of age, without what lies below a node that is not
-    /// to be entered.
+    /// The nodes that the roots are built from, in order of age; nodes that are not to be entered
+    /// and everything below them are left out.
     pub(crate) fn reachable(
         &self,
         roots: impl Iterator<Item = Id>,

@@ -1,7 +1,7 @@
-//! Derivatives and substitution: one pass over the graph, each node once.
+//! Derivatives and substitution, in one pass over the graph that visits each node once.
 //!
-//! No function here calls itself on a child: a chain of a hundred thousand nodes takes memory, not
-//! stack.
+//! No function here recurses into children: a chain of a hundred thousand nodes takes memory,
+//! not stack.
 
 use crate::arena::{Arena, BitSet};
 use crate::dag::{Dag, Expr};
@@ -10,7 +10,7 @@ use crate::rational::Rational;
 
 /// The derivative along one direction, by the forward sweep: `dE/dτ = Σ ∂E/∂s·ds/dτ`.
 ///
-/// What has been differentiated once is remembered, over calls too.
+/// Derivatives are remembered across calls.
 ///
 /// ```
 /// use lagrangian_symbolic::{Dag, Stage, Tangent};
@@ -22,7 +22,7 @@ use crate::rational::Rational;
 /// ```
 pub struct Tangent<'d> {
     dag: &'d Dag,
-    /// The symbols of the direction, as bits; what touches none of them is constant.
+    /// The symbols of the direction, as bits; nodes that touch none of them are constant.
     mask: u64,
     memo: Memo,
     /// Second derivatives.
@@ -31,7 +31,7 @@ pub struct Tangent<'d> {
 
 impl<'d> Tangent<'d> {
     /// The direction in which each listed symbol changes at the given rate, and every other symbol
-    /// not at all.
+    /// stays constant.
     pub fn new(dag: &'d Dag, rates: &[(Symbol, Expr<'d>)]) -> Tangent<'d> {
         let arena = dag.arena.borrow();
         let mut tangent = Tangent {
@@ -56,11 +56,11 @@ impl<'d> Tangent<'d> {
         self.dag.expr(derivative)
     }
 
-    /// The second derivative along the same direction, rates being differentiated like everything
-    /// else: `d²E/dτ²`.
+    /// The second derivative along the same direction, with the rates differentiated like
+    /// everything else: `d²E/dτ²`.
     ///
     /// It equals `of` applied twice, but is one flat sum for each node, in which the two halves of
-    /// a mixed term have met: `(x y)″ = x″ y + 2 x′ y′ + x y″`.
+    /// a mixed term are combined: `(x y)″ = x″ y + 2 x′ y′ + x y″`.
     pub fn twice(&mut self, expression: Expr<'d>) -> Expr<'d> {
         let arena = &mut *self.dag.arena.borrow_mut();
         let mask = self.mask;
@@ -78,13 +78,13 @@ impl<'d> Tangent<'d> {
 impl<'d> Expr<'d> {
     /// The partial derivative with respect to a symbol.
     ///
-    /// A [`Tangent`] is better where many expressions share their parts.
+    /// Use a [`Tangent`] for many expressions with common parts.
     pub fn diff(self, symbol: Symbol) -> Expr<'d> {
         Tangent::new(self.dag(), &[(symbol, self.dag().one())]).of(self)
     }
 }
 
-/// The derivative of a node, and on the way those of all nodes below.
+/// The derivative of a node, and those of all nodes below it.
 fn derivative(arena: &mut Arena, mask: u64, memo: &mut Memo, root: Id) -> Id {
     let unknown = |id: Id| arena.touches(id, mask) && memo.get(id).is_none();
     for id in arena.reachable([root].into_iter(), unknown) {
@@ -94,8 +94,8 @@ fn derivative(arena: &mut Arena, mask: u64, memo: &mut Memo, root: Id) -> Id {
     memo.get(root).unwrap_or(Arena::ZERO)
 }
 
-/// The second derivative of one node, the first ones being known, and those second ones of its
-/// children that are not 0.
+/// The second derivative of one node, given the first derivatives, and the nonzero second
+/// derivatives of its children.
 fn second_of_node(arena: &mut Arena, id: Id, mask: u64, first: &mut Memo, twice: &Memo) -> Id {
     let nonzero = |memo: &Memo, id: Id| memo.get(id).filter(|&found| found != Arena::ZERO);
     match arena.node(id).clone() {
@@ -151,7 +151,7 @@ fn second_of_node(arena: &mut Arena, id: Id, mask: u64, first: &mut Memo, twice:
     }
 }
 
-/// The derivative of one node, those of its children being known or 0.
+/// The derivative of one node, given those of its children, or 0.
 fn tangent_of_node(arena: &mut Arena, id: Id, known: &Memo) -> Id {
     let derivative_of = |child: Id| {
         known
@@ -194,7 +194,7 @@ fn tangent_of_node(arena: &mut Arena, id: Id, known: &Memo) -> Id {
 /// `Σ weight·∂node/∂symbol` over all seeds `(node, weight)`, for every symbol of `wrt`, by one
 /// reverse sweep.
 ///
-/// The weights are taken as they are: they are not differentiated.
+/// The weights are not differentiated.
 ///
 /// ```
 /// use lagrangian_symbolic::{Dag, Stage, reverse};
@@ -217,7 +217,7 @@ pub fn reverse<'d>(dag: &'d Dag, seeds: &[(Expr<'d>, Expr<'d>)], wrt: &[Symbol])
     for (node, weight) in seeds {
         adjoints.add(node.id(), (weight.id(), Rational::ONE));
     }
-    // Parents before children: when a node's turn comes, all its contributions are there.
+    // Parents before children: when a node is processed, all contributions to it are complete.
     for &id in needed.iter().rev() {
         let adjoint = arena.sum(&adjoints.take(id));
         adjoints.set_total(id, adjoint);
@@ -256,8 +256,8 @@ pub fn reverse<'d>(dag: &'d Dag, seeds: &[(Expr<'d>, Expr<'d>)], wrt: &[Symbol])
         .collect()
 }
 
-/// Keeps the nodes, given in order, in which some of the symbols stand. The bits of many symbols
-/// coincide, so that [`Arena::touches`] alone would keep far too many.
+/// Keeps the nodes, given in order, in which some of the symbols occur. The bits of many symbols
+/// coincide, so [`Arena::touches`] alone would keep far too many.
 fn keep_dependent(arena: &Arena, nodes: &mut Vec<Id>, symbols: &[Symbol]) {
     let mut dependent = BitSet::new(arena.len());
     for symbol in symbols {
@@ -290,8 +290,8 @@ fn partial_product(arena: &mut Arena, factors: &[Factor], position: usize, weigh
     }
 }
 
-/// The term of `xᵢ′ xⱼ′` in `(Π xⁿ)″`, if it is there, for the factors at two positions, equal or
-/// not.
+/// The term of `xᵢ′ xⱼ′` in `(Π xⁿ)″`, if it exists, for the factors at two positions, equal
+/// or not.
 fn mixed_product(
     arena: &mut Arena,
     factors: &[Factor],
@@ -391,12 +391,12 @@ fn partial_function(
             let slope = arena.product(&[(value, -1)]);
             arena.half(slope)
         }
-        // |x|′ = sign x, everywhere but at 0
+        // |x|′ = sign x, except at 0
         Function::Abs => arena.function(Function::Sign, &[x]),
-        // sign′ = 0, everywhere but at 0
+        // sign′ = 0, except at 0
         Function::Sign => Arena::ZERO,
-        // The slope of the smaller (larger) one is 1, of the other 0: (1 ± sign(y − x))/2. Where
-        // both are equal each gets one half, so that both together still give 1.
+        // The derivative by the smaller (larger) argument is 1, by the other 0: (1 ± sign(y −
+        // x))/2. If both are equal each gets one half, so that they still add up to 1.
         Function::Min | Function::Max => {
             let (other, this) = if position == 0 { (y, x) } else { (x, y) };
             let difference = arena.sum(&[(other, Rational::ONE), minus(this)]);
@@ -423,9 +423,10 @@ fn partial_function(
     }
 }
 
-/// The expressions with symbols replaced, all at once: what is put in is not looked through again.
+/// The expressions with all symbols replaced simultaneously: replacements are not substituted
+/// into again.
 ///
-/// The results are in normal form; nodes in which nothing is replaced stay what they are.
+/// The results are in normal form; nodes in which nothing is replaced stay the same.
 pub fn substitute<'d>(
     dag: &'d Dag,
     roots: &[Expr<'d>],
@@ -476,8 +477,7 @@ impl Arena {
     }
 }
 
-/// A map from nodes to nodes; 0 where there is none, so that untouched pages are never even
-/// cleared.
+/// A map from nodes to nodes; 0 means none, so that untouched pages are never even cleared.
 #[derive(Default)]
 struct Memo(Vec<u32>);
 
@@ -499,7 +499,7 @@ impl Memo {
 
 /// Contributions to the adjoints of the needed nodes: one linked list for each, all in one vector.
 struct Adjoints {
-    /// From a node to its place among the needed ones.
+    /// From a node to its index among the needed ones.
     place: Memo,
     heads: Vec<u32>,
     links: Vec<(Term, u32)>,
@@ -522,12 +522,12 @@ impl Adjoints {
         }
     }
 
-    /// Whether the adjoint of a node is asked for.
+    /// Whether the adjoint of a node is needed.
     fn are_for(&self, id: Id) -> bool {
         self.place.get(id).is_some()
     }
 
-    /// Adds to the adjoint of a node; what nobody asks for is dropped.
+    /// Adds to the adjoint of a node, if it is needed.
     fn add(&mut self, id: Id, term: Term) {
         if let Some(place) = self.place.get(id) {
             let head = &mut self.heads[place.index()];

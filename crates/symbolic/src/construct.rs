@@ -1,4 +1,4 @@
-//! The normal form: what is simplified as soon as it is built (see [`crate::dag`]).
+//! Constructors that build nodes in normal form (see [`crate::dag`]).
 
 use core::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
@@ -7,11 +7,11 @@ use crate::arena::{Arena, PARAMETER_FACTOR, SQUARED_SINE};
 use crate::node::{Factor, Function, Id, Node, Term};
 use crate::rational::Rational;
 
-/// Products of more factors than this are built as products of products, so that a row of n
-/// multiplications takes memory in proportion to n and not to n².
+/// Products of more factors than this are built as products of products, so that a sequence of n
+/// multiplications takes memory proportional to n and not to n².
 const LONGEST_PRODUCT: usize = 64;
 
-/// A step that has no value, or none within the limits on constants.
+/// A step without a value, or without one within the limits on constants.
 struct Undefined;
 
 impl Arena {
@@ -25,10 +25,10 @@ impl Arena {
         sum
     }
 
-    /// The sum; the vector is used up.
+    /// The sum; the vector is used as a workspace.
     fn try_sum(&mut self, terms: &mut Vec<Term>) -> Result<Id, Undefined> {
         for term in terms.iter_mut() {
-            // Taken out of its one-term sum, the multiple is a term like any other.
+            // Taken out of its one-term sum, the multiple becomes an ordinary term.
             match self.node(term.0) {
                 Node::Sum(inner) if inner.len() == 1 => {
                     let (id, coefficient) = &inner[0];
@@ -43,7 +43,7 @@ impl Arena {
         }
         merge_terms(terms)?;
         loop {
-            // What the rules below put together may bring a multiple of π with it.
+            // The results of the rules below may contain multiples of π.
             self.lift_turns(terms)?;
             let before = terms.len();
             if before > 1 {
@@ -62,9 +62,9 @@ impl Arena {
         })
     }
 
-    /// Multiples of π out of the sums among the terms: the angles of a chain that hangs down are
+    /// Moves multiples of π out of the sums among the terms: the angles of a hanging chain are
     /// `q₁ − π/2`, `q₂ + (q₁ − π/2)`, …, and their sines should be those of `q₁`, `q₂ + q₁`, …. The
-    /// terms are in order afterwards.
+    /// terms are sorted afterwards.
     fn lift_turns(&mut self, terms: &mut Vec<Term>) -> Result<(), Undefined> {
         if let [(_, coefficient)] = terms.as_slice()
             && coefficient.is_one()
@@ -72,7 +72,7 @@ impl Arena {
             return Ok(());
         }
         for position in 0..terms.len() {
-            // π is among the first two nodes of whatever sum it is in, the other one being 1.
+            // π is among the first two nodes of any sum that contains it; the other one is 1.
             let (id, coefficient) = &terms[position];
             let Node::Sum(inner) = self.node(*id) else {
                 continue;
@@ -93,15 +93,15 @@ impl Arena {
         merge_terms(terms)
     }
 
-    /// `A·sin²x + A·cos²x = A`, for terms in order; they are in order afterwards.
+    /// `A·sin²x + A·cos²x = A`, for sorted terms; they are sorted afterwards.
     ///
-    /// The pair with the first sine is joined, and then again, until there is none. A term is looked
-    /// at once, and again only when one comes that may be its partner: the work grows with the number
-    /// of terms times the logarithm of that.
+    /// The pair with the first sine is joined, repeatedly, until there is none. A term is examined
+    /// once, and again only when a new possible partner appears: the work grows like n log n with the
+    /// number n of terms.
     fn join_squares(&mut self, terms: &mut Vec<Term>) -> Result<(), Undefined> {
         let is_sine = |(id, _): &&Term| self.has_flag(*id, SQUARED_SINE);
         let mut open: BTreeSet<Id> = terms.iter().filter(is_sine).map(|term| term.0).collect();
-        // Mostly there is none to join, and nothing to be moved.
+        // Usually there is nothing to join, and nothing needs to be moved.
         let partner_is_there = |id: &Id| {
             let of = |id: &Id| terms.binary_search_by_key(id, |term| term.0);
             let own = of(id).map(|place| &terms[place].1);
@@ -117,7 +117,7 @@ impl Arena {
         joined
     }
 
-    /// Joins squares among terms by their nodes; those of `open` are to be looked at.
+    /// Joins squares among terms by their nodes; those of `open` are still to be examined.
     fn join_open_squares(
         &mut self,
         open: &mut BTreeSet<Id>,
@@ -158,7 +158,7 @@ impl Arena {
             if self.has_flag(result, SQUARED_SINE) {
                 open.insert(result);
             }
-            // It may be the square of the cosine that others have waited for.
+            // It may be the square of a cosine for which others wait.
             let sines = self.square_partners(result, [Function::Cos, Function::Sin]);
             open.extend(
                 sines
@@ -169,8 +169,8 @@ impl Arena {
         Ok(())
     }
 
-    /// For a product `A·sin²x`: the node `A·cos²x`, where it exists, and the factors of `A`; for
-    /// every x in it. Or with sine and cosine the other way round.
+    /// For a product `A·sin²x`, the node `A·cos²x`, if it exists, and the factors of `A`, for every
+    /// such x; or with sine and cosine exchanged.
     fn square_partners(
         &self,
         id: Id,
@@ -199,8 +199,7 @@ impl Arena {
             })
     }
 
-    /// `p₁·X + p₂·X = (p₁ + p₂)·X` for parameters p, for terms in order; they are in order
-    /// afterwards.
+    /// `p₁·X + p₂·X = (p₁ + p₂)·X` for parameters p, for sorted terms; they are sorted afterwards.
     fn collect_parameters(&mut self, terms: &mut Vec<Term>) -> Result<(), Undefined> {
         if !terms
             .iter()
@@ -208,7 +207,7 @@ impl Arena {
         {
             return Ok(());
         }
-        // Terms of the same X stand together after sorting by the hash of X.
+        // Sorting by the hash of X groups the terms of the same X.
         let mut keys: Vec<(u32, Id)> = terms
             .iter()
             .filter(|(id, _)| !self.is_parameter(*id))
@@ -218,7 +217,7 @@ impl Arena {
         let (mut collected, mut used) = (Vec::new(), Vec::new());
         for run in keys.chunk_by(|a, b| a.0 == b.0).filter(|run| run.len() > 1) {
             let mut left: Vec<Id> = run.iter().map(|key| key.1).collect();
-            // A second pass only if two different X share a hash.
+            // A second pass is needed only if two different X share a hash.
             while let [first, ..] = *left.as_slice() {
                 let (group, others) = left.iter().partition(|&&id| self.same_rest(first, id));
                 left = others;
@@ -238,8 +237,8 @@ impl Arena {
         Ok(())
     }
 
-    /// `(Σ cᵢ pᵢ)·X` for terms `cᵢ·pᵢ·X` of one X; what the cᵢ and the pᵢ have in common stays
-    /// outside.
+    /// `(Σ cᵢ pᵢ)·X` for terms `cᵢ·pᵢ·X` of one X; common factors of the cᵢ and of the pᵢ
+    /// stay outside.
     fn collect_group(&mut self, terms: &[Term], group: &[Id]) -> Result<Term, Undefined> {
         let mut parts: Vec<(Vec<Factor>, Rational)> = Vec::with_capacity(group.len());
         let mut factors = Vec::new();
@@ -277,7 +276,7 @@ impl Arena {
         Ok((id, scale.checked_mul(&content).ok_or(Undefined)?))
     }
 
-    /// Whether two nodes are products of parameters and of the same rest.
+    /// Whether two nodes are products of parameters and the same rest.
     fn same_rest(&self, a: Id, b: Id) -> bool {
         let (a, b) = (&[(a, 1)], &[(b, 1)]);
         let rest = |&&(factor, _): &&Factor| !self.is_parameter(factor);
@@ -287,8 +286,8 @@ impl Arena {
             .eq(self.factors(b).iter().filter(rest))
     }
 
-    /// The factors of a node that is a product; of any other, the node itself, which the caller
-    /// gives as `alone`.
+    /// The factors of a product; for any other node the node itself, which the caller passes
+    /// as `alone`.
     fn factors<'a>(&'a self, alone: &'a [Factor; 1]) -> &'a [Factor] {
         match self.node(alone[0].0) {
             Node::Product(factors) => factors,
@@ -312,7 +311,7 @@ impl Arena {
         product.unwrap_or((Rational::ONE, Arena::UNDEFINED))
     }
 
-    /// The product as a coefficient and a node; the vector is used up.
+    /// The product as a coefficient and a node; the vector is used as a workspace.
     fn try_product(&mut self, factors: &mut Vec<Factor>) -> Result<(Rational, Id), Undefined> {
         let mut coefficient = Rational::ONE;
         loop {
@@ -341,7 +340,7 @@ impl Arena {
         Ok((coefficient, id))
     }
 
-    /// Takes constants, multiples and products among the factors apart.
+    /// Splits constants, multiples and products among the factors.
     fn split_factors(
         &mut self,
         factors: &mut Vec<Factor>,
@@ -367,7 +366,7 @@ impl Arena {
                 }
                 Node::Sum(terms) if terms.len() == 1 => {
                     multiply(&terms[0].1)?;
-                    // What was multiplied may be a product: look at this place again.
+                    // The multiplied node may be a product, so this position is examined again.
                     factors[position] = (terms[0].0, power);
                 }
                 Node::Product(inner) if inner.len() < LONGEST_PRODUCT => {
@@ -382,7 +381,7 @@ impl Arena {
         Ok(())
     }
 
-    /// `sqrt(x)² = x` and `|x|² = x²` in higher powers too; whether anything changed.
+    /// `sqrt(x)² = x` and `|x|² = x²`, in higher powers too; returns whether anything changed.
     fn reduce_roots(&mut self, factors: &mut Vec<Factor>) -> bool {
         let mut changed = false;
         for position in 0..factors.len() {
@@ -407,10 +406,10 @@ impl Arena {
         changed
     }
 
-    /// `x/sqrt(x) = sqrt(x)` in higher powers of `x` too; whether anything changed.
+    /// `x/sqrt(x) = sqrt(x)`, in higher powers of `x` too; returns whether anything changed.
     ///
-    /// At `x = 0` the left side has no value and the right side has its limit: so the slope of
-    /// `x·sqrt(x)`, which is `sqrt(x) + x/(2 sqrt(x))` by the rules, has a value at rest.
+    /// At `x = 0` the left side has no value and the right side is its limit: so the derivative of
+    /// `x·sqrt(x)`, which the rules give as `sqrt(x) + x/(2 sqrt(x))`, exists at 0.
     fn cancel_roots(&self, factors: &mut Vec<Factor>, coefficient: &mut Rational) -> bool {
         for position in 0..factors.len() {
             let (root, -1) = factors[position] else {
@@ -530,8 +529,8 @@ impl Arena {
                 let (sign, x) = self.split_sign(x);
                 let (scale, x) = self.split_multiple(x);
                 let value = match self.as_constant(x) {
-                    // Only 0 and 1 are no multiples of something else; both are their own sign and
-                    // magnitude.
+                    // Only 0 and 1 are not multiples of something else; both equal their own sign
+                    // and magnitude.
                     Some(_) => x,
                     None if x == Arena::PI && function == Sign => Arena::ONE,
                     None if x == Arena::PI => Arena::PI,
@@ -592,8 +591,8 @@ impl Arena {
             Some(base) if base.is_one() => x,
             Some(base) if base.is_zero() && exponent.is_negative() => Arena::UNDEFINED,
             Some(base) if base.is_zero() => x,
-            // A negative number to a broken power; an integer power of this size has no place
-            // either.
+            // A negative number to a fractional power; an integer power this large is not
+            // representable either.
             Some(base) if base.is_negative() || exponent.is_integer() => Arena::UNDEFINED,
             _ => self.function_node(Function::Pow, &[x, y]),
         }
@@ -613,12 +612,12 @@ impl Arena {
         }
     }
 
-    /// sin x or cos x where it is simpler than a function of x.
+    /// sin x or cos x, if it is simpler than a function of x.
     fn circular_value(&mut self, function: Function, x: Id) -> Option<Id> {
         let (turns, others) = self.split_pi(x)?;
         let sixths = (&turns * &Rational::from(6)).as_integer();
         if others.is_empty() {
-            // cos x = sin(x + π/2), three sixths of π later.
+            // cos x = sin(x + π/2), that is three sixths of π later.
             let later = if function == Function::Sin { 0 } else { 3 };
             let (numerator, denominator) = match (sixths? + later).rem_euclid(12) {
                 0 | 6 => (0, 1),
@@ -683,7 +682,7 @@ impl Arena {
         }
     }
 
-    /// x = ±x′, one and the same x′ for x and −x.
+    /// x = ±x′, with the same x′ for x and −x.
     fn split_sign(&mut self, x: Id) -> (Rational, Id) {
         let terms = match self.node(x) {
             Node::Constant(value) if value.is_negative() => {
@@ -712,7 +711,7 @@ impl Arena {
         (Rational::MINUS_ONE, self.sum(&opposite))
     }
 
-    /// x = c·x′ with a constant c, where x is a multiple or a constant.
+    /// x = c·x′ with a constant c, if x is a multiple or a constant.
     fn split_multiple(&self, x: Id) -> (Rational, Id) {
         match self.node(x) {
             Node::Constant(value) if !value.is_zero() => (value.clone(), Arena::ONE),
@@ -737,7 +736,7 @@ impl Arena {
     }
 }
 
-/// The common factors of two products, by id: of powers of the same sign the smaller one.
+/// The common factors of two products, by id; for powers of the same sign the smaller one.
 fn common_factors(a: &[Factor], b: &[Factor]) -> Vec<Factor> {
     let smaller = |&(factor, n): &Factor| {
         let position = b.binary_search_by_key(&factor, |other| other.0).ok()?;
@@ -794,11 +793,12 @@ mod tests {
     use crate::{Dag, Expr, Stage};
 
     thread_local! {
-        /// How many terms were looked at for a square to join with.
+        /// The number of terms that were examined for a square to join with.
         pub(super) static LOOKED_AT: Cell<usize> = const { Cell::new(0) };
     }
 
-    /// `Σ aₖ sin²xₖ + aₖ cos²xₖ`, the terms in an order that is not that of their making.
+    /// `Σ aₖ sin²xₖ + aₖ cos²xₖ`, with the terms in an order that differs from that of
+    /// their construction.
     fn sum_of_squares(dag: &Dag, pairs: usize) -> (Expr<'_>, Expr<'_>) {
         let symbol = |name: &str, k: usize, stage| dag.symbol(&format!("{name}{k}"), stage);
         let mut terms = Vec::new();
@@ -823,7 +823,7 @@ mod tests {
             let dag = Dag::new();
             let (joined, expected) = sum_of_squares(&dag, pairs);
             assert_eq!(joined, expected);
-            // Each sum is gone through until nothing changes: twice.
+            // Each sum is processed until nothing changes: twice.
             assert!(
                 LOOKED_AT.get() <= 2 * pairs,
                 "{} of {pairs}",
@@ -852,7 +852,7 @@ mod tests {
         }
         LOOKED_AT.set(0);
         assert_eq!(dag.sum(terms.iter().copied()), m);
-        // 64 terms, of which each join leaves one less.
+        // 64 terms; each join removes one.
         assert!(LOOKED_AT.get() <= 4 * terms.len(), "{}", LOOKED_AT.get());
     }
 }

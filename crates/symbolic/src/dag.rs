@@ -1,35 +1,35 @@
-//! The graph of expressions, and what is simplified while it is built.
+//! The graph of expressions, and the simplifications during its construction.
 //!
-//! One arena holds every node once, however often it is used. A node's children are older than the
-//! node, so the order of [`Id`]s is a topological order and everything computed in that order is
-//! deterministic.
+//! One arena holds every node once, however often it is used. A node's children are older than
+//! the node, so the order of [`Id`]s is a topological order, and everything computed in that
+//! order is deterministic.
 //!
 //! # Normal form
 //!
-//! Done when a node is built, because it is cheap and always a gain:
+//! Simplifications that are made when a node is built, because they are cheap and always a gain:
 //!
 //! - exact arithmetic on constants; `0·x = 0`, `x^0 = 1`;
-//! - like terms among the *direct* terms of a sum, like factors of a product: `x/x = 1`, as
-//!   rational functions, that is away from `x = 0`;
-//! - `p₁·X + p₂·X = (p₁ + p₂)·X` where `p` is of parameter stage, so that composite masses appear
-//!   by themselves; what the `p` have in common stays outside: `(m₁ + m₂)·l·X`;
-//! - multiples of π out of the sums in a sum: `q₂ + (q₁ − π/2) = (q₂ + q₁) − π/2`;
-//! - `A·sin²x + A·cos²x = A`; signs out of odd and even functions: `sin(−x) = −sin x`, `cos(−x) =
-//!   cos x`; quarter turns out of angles: `sin(x + π/2) = cos x`; `tan x = sin x/cos x`;
-//! - exact values: `sin(π/6) = 1/2`, `sqrt(4/9) = 2/3`, `exp(0) = 1`; and `sqrt(x)² = x`, `|x|² =
-//!   x²`, where the left side is defined;
-//! - terms and factors in order of age.
+//! - like terms are merged among the *direct* terms of a sum, like factors in a product:
+//!   `x/x = 1`, as rational functions, that is except at `x = 0`;
+//! - `p₁·X + p₂·X = (p₁ + p₂)·X` if `p` is of parameter stage, so that composite masses form by
+//!   themselves; common factors of the `p` stay outside: `(m₁ + m₂)·l·X`;
+//! - multiples of π are moved out of sums in a sum: `q₂ + (q₁ − π/2) = (q₂ + q₁) − π/2`;
+//! - `A·sin²x + A·cos²x = A`; signs are moved out of odd and even functions: `sin(−x) = −sin x`,
+//!   `cos(−x) = cos x`; quarter turns out of angles: `sin(x + π/2) = cos x`; `tan x = sin x/cos x`;
+//! - exact values: `sin(π/6) = 1/2`, `sqrt(4/9) = 2/3`, `exp(0) = 1`; and `sqrt(x)² = x`,
+//!   `|x|² = x²`, where the left side is defined;
+//! - terms and factors are in order of age.
 //!
-//! Never done here: flattening a sum into a sum (only a one-term multiple is absorbed),
-//! distributing a product, expanding or joining angles, `sqrt(x²) = x`. A chain of links is short
-//! as long as the position of one link is *one* term in the position of the next; expanding would
-//! destroy that.
+//! Simplifications that are never made here: flattening a sum into a sum (only a one-term multiple
+//! is absorbed), distributing a product, expanding or joining angles, `sqrt(x²) = x`. A chain of
+//! links is short as long as the position of one link is *one* term in the position of the next;
+//! expanding would destroy that.
 //!
 //! # What has no value
 //!
 //! Constructors do not panic. `1/0`, `ln(0)`, `sqrt(−1)` and constants beyond
-//! [`MAX_BITS`](crate::MAX_BITS) give the one node [`Dag::undefined`]. Whatever is built from it is
-//! that node again, so that [`Expr::is_undefined`] on a result is all a caller has to ask.
+//! [`MAX_BITS`](crate::MAX_BITS) give the single node [`Dag::undefined`]. Everything built from it
+//! is that node again, so a caller only needs to check [`Expr::is_undefined`] on a result.
 
 use core::cell::RefCell;
 use core::fmt;
@@ -53,7 +53,7 @@ impl Dag {
         }
     }
 
-    /// A new symbol, different from all others, even of the same name.
+    /// A new symbol, different from all others, even from those with the same name.
     pub fn symbol(&self, name: &str, stage: Stage) -> Expr<'_> {
         self.expr(self.arena.borrow_mut().symbol(name, stage))
     }
@@ -83,12 +83,13 @@ impl Dag {
         self.expr(Arena::ONE)
     }
 
-    /// What has no value: `1/0`, and everything built from it.
+    /// The undefined value: `1/0`, and everything built from it.
     pub fn undefined(&self) -> Expr<'_> {
         self.expr(Arena::UNDEFINED)
     }
 
-    /// The sum; like terms merge among these terms. Prefer it to a row of `+`, which nests.
+    /// The sum; like terms are merged among these terms. Prefer it to a sequence of `+`,
+    /// which nests.
     pub fn sum<'d>(&'d self, terms: impl IntoIterator<Item = Expr<'d>>) -> Expr<'d> {
         let terms: Vec<_> = terms
             .into_iter()
@@ -97,7 +98,7 @@ impl Dag {
         self.expr(self.arena.borrow_mut().sum(&terms))
     }
 
-    /// The product; like factors merge. Prefer it to a row of `*` where there are many factors.
+    /// The product; like factors are merged. Prefer it to a sequence of `*` for many factors.
     pub fn product<'d>(&'d self, factors: impl IntoIterator<Item = Expr<'d>>) -> Expr<'d> {
         let factors: Vec<_> = factors.into_iter().map(|factor| (factor.id(), 1)).collect();
         self.expr(self.arena.borrow_mut().product(&factors))
@@ -130,15 +131,15 @@ impl Dag {
         self.arena.borrow().len()
     }
 
-    /// The number of nodes and of their operands: what memory, and the work of one pass over the
-    /// graph, are proportional to.
+    /// The number of nodes and of their operands, to which memory and the work of one pass over the
+    /// graph are proportional.
     pub fn size(&self) -> usize {
         self.arena.borrow().size()
     }
 
-    /// Bounds the [size](Dag::size): whatever new node is asked for beyond it is undefined, and
-    /// [`is_exhausted`](Dag::is_exhausted) says so from then on. What stands already stays as it is.
-    /// A later call replaces the bound; `usize::MAX` lifts it.
+    /// Bounds the [size](Dag::size): every new node beyond it is undefined, and
+    /// [`is_exhausted`](Dag::is_exhausted) is true from then on. Existing nodes stay. A later call
+    /// replaces the bound; `usize::MAX` lifts it.
     ///
     /// ```
     /// use lagrangian_symbolic::{Dag, Stage};
@@ -155,7 +156,7 @@ impl Dag {
         self.arena.borrow_mut().set_limit(limit);
     }
 
-    /// Whether a node was asked for beyond the [limit](Dag::set_limit).
+    /// Whether a node was requested beyond the [limit](Dag::set_limit).
     pub fn is_exhausted(&self) -> bool {
         self.arena.borrow().exhausted
     }
@@ -170,7 +171,7 @@ impl Dag {
         Expr::new(self, id)
     }
 
-    /// What a node is.
+    /// The content of a node.
     pub fn node(&self, id: Id) -> Node {
         self.arena.borrow().node(id).clone()
     }
@@ -188,9 +189,9 @@ impl fmt::Debug for Dag {
     }
 }
 
-/// An expression: a node of a [`Dag`]. Two of them are equal exactly if they are one node.
+/// An expression: a node of a [`Dag`]. Two expressions are equal exactly if they are the same node.
 ///
-/// An operation takes expressions of one graph only.
+/// An operation takes expressions of the same graph only.
 #[derive(Clone, Copy)]
 pub struct Expr<'d> {
     dag: &'d Dag,
@@ -212,17 +213,17 @@ impl<'d> Expr<'d> {
         self.dag
     }
 
-    /// What the node is.
+    /// The content of the node.
     pub fn node(self) -> Node {
         self.dag.node(self.id)
     }
 
-    /// When the value becomes known.
+    /// The stage at which the value becomes known.
     pub fn stage(self) -> Stage {
         self.dag.arena.borrow().stage(self.id)
     }
 
-    /// The symbol, if that is all.
+    /// The symbol, if the expression is one.
     pub fn as_symbol(self) -> Option<Symbol> {
         match self.dag.arena.borrow().node(self.id) {
             Node::Symbol(symbol) => Some(*symbol),
@@ -248,7 +249,7 @@ impl<'d> Expr<'d> {
         self.id == Arena::ONE
     }
 
-    /// Whether it has no value: something in it divides by 0, takes a root or a logarithm that does
+    /// Whether it is undefined: something in it divides by 0, takes a root or a logarithm that does
     /// not exist, or needs a constant of more than [`MAX_BITS`](crate::MAX_BITS) bits.
     pub fn is_undefined(self) -> bool {
         self.id == Arena::UNDEFINED
@@ -275,7 +276,7 @@ impl<'d> Expr<'d> {
         below.into_iter().filter_map(symbol).collect()
     }
 
-    /// The expression that `build` makes in the arena of the graph.
+    /// The expression that `build` creates in the arena of the graph.
     pub(crate) fn with(self, build: impl FnOnce(&mut Arena) -> Id) -> Expr<'d> {
         Expr {
             dag: self.dag,

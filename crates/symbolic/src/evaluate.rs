@@ -1,12 +1,12 @@
-//! Expressions as numbers.
+//! Evaluation of expressions in numbers.
 
 use lagrangian_scalar::{DoubleDouble, Scalar};
 
 use crate::dag::{Dag, Expr};
 use crate::node::{Function, Id, Node, Symbol};
 
-/// The values of expressions, over any type of number; `value` is asked once for each symbol that
-/// occurs.
+/// The values of expressions, over any type of number; `value` is called once for each symbol
+/// that occurs.
 ///
 /// ```
 /// use lagrangian_symbolic::{Dag, Stage, evaluate};
@@ -23,7 +23,8 @@ pub fn evaluate<S: Scalar>(
     Evaluation::new(dag, roots).values(value)
 }
 
-/// Expressions that are evaluated again and again: what they are built from is found once.
+/// Expressions that are evaluated repeatedly: the nodes that they are built from are found
+/// only once.
 ///
 /// ```
 /// use lagrangian_symbolic::{Dag, Evaluation, Stage};
@@ -36,18 +37,18 @@ pub fn evaluate<S: Scalar>(
 #[derive(Clone, Debug)]
 pub struct Evaluation<'d> {
     dag: &'d Dag,
-    /// What the expressions are built from, children first.
+    /// The nodes that the expressions are built from, children first.
     needed: Vec<Id>,
-    /// The symbols among it.
+    /// The symbols among these nodes.
     symbols: Vec<Symbol>,
-    /// Where among it each node is.
+    /// The index of each node among these.
     place: Vec<u32>,
-    /// Where among it the expressions are.
+    /// The indices of the expressions among these.
     roots: Vec<u32>,
 }
 
 impl<'d> Evaluation<'d> {
-    /// Of these expressions.
+    /// Prepares the evaluation of these expressions.
     pub fn new(dag: &'d Dag, roots: &[Expr<'_>]) -> Evaluation<'d> {
         let needed = crate::reachable(dag, roots);
         let mut place = vec![0u32; needed.last().map_or(0, |id| id.index() + 1)];
@@ -64,9 +65,9 @@ impl<'d> Evaluation<'d> {
         }
     }
 
-    /// Their values; `value` is asked once for each symbol that occurs.
+    /// The values of the expressions; `value` is called once for each symbol that occurs.
     pub fn values<S: Scalar>(&self, value: impl FnMut(Symbol) -> S) -> Vec<S> {
-        // First the symbols: `value` may well ask the graph for their names.
+        // The symbols come first, since `value` may ask the graph for their names.
         let symbols: Vec<S> = self.symbols.iter().copied().map(value).collect();
         let mut symbols = symbols.into_iter();
 
@@ -121,10 +122,10 @@ impl<'d> Evaluation<'d> {
     }
 }
 
-/// The work of [`evaluate`]: nodes, operands, and the digits of what does not fit into a machine
-/// word, in units of about one arithmetic operation.
+/// The work of [`evaluate`]: nodes, operands, and the digits of numbers that do not fit into a
+/// machine word, in units of about one arithmetic operation.
 pub fn evaluation_work(dag: &Dag, roots: &[Expr<'_>]) -> usize {
-    /// What a machine word of a large coefficient costs: it is brought to lowest terms.
+    /// The cost of a machine word of a large coefficient, which is reduced to lowest terms.
     const WORD: usize = 20;
     let needed = crate::reachable(dag, roots);
     let arena = dag.arena.borrow();
@@ -139,8 +140,8 @@ pub fn evaluation_work(dag: &Dag, roots: &[Expr<'_>]) -> usize {
     needed.iter().map(each).sum()
 }
 
-/// The `f64` nearest to a constant, computed with twice its digits: `50*pi`, `1 - cos(0.01)`. Not a
-/// number where a symbol occurs or the constant has no value.
+/// The `f64` nearest to a constant, computed in twice the precision: `50*pi`, `1 - cos(0.01)`. NaN
+/// if a symbol occurs or if the constant has no value.
 ///
 /// ```
 /// use lagrangian_symbolic::{Dag, nearest};
@@ -169,7 +170,7 @@ fn power<S: Scalar>(x: S, n: u32) -> S {
         (1, _) => x,
         (2, _) => x * x,
         (_, Ok(n)) => x.powi(n),
-        // 2³¹, the one that i32 lacks.
+        // 2³¹, which does not fit into an i32.
         (_, Err(_)) => x.powi(i32::MAX) * x,
     }
 }

@@ -104,7 +104,7 @@ impl<'d> Expr<'d> {
     }
 }
 
-/// The node and, unless it fills pages, what it stands for.
+/// The node and, unless it is very long, its text.
 impl fmt::Debug for Expr<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.size() {
@@ -158,7 +158,7 @@ impl<'d> Neg for Expr<'d> {
     }
 }
 
-// Constants on either side, by the operators above.
+// Operators with constants on either side, by the operators above.
 macro_rules! with_constants {
     ($($Operator:ident $operator:ident),*) => { $(
         impl<'d> $Operator<Rational> for Expr<'d> {

@@ -1,7 +1,7 @@
 //! Hash-consed expressions with exact coefficients.
 //!
-//! This crate is algebra only: it knows symbols, sums, products and functions, and has never heard
-//! of a body or of a token.
+//! This crate is algebra only: it knows symbols, sums, products and functions, but nothing of
+//! mechanics or of specs.
 //!
 //! ```
 //! use lagrangian_symbolic::{Dag, Stage};
@@ -16,10 +16,10 @@
 //!
 //! - [`Dag`] holds all expressions; [`Expr`] is a handle that has the usual operators. Equal
 //!   expressions are one node.
-//! - What is simplified as soon as it is built stands in [`dag`]; nothing is expanded that nobody
-//!   asked to expand.
-//! - [`Tangent`], [`reverse`] and [`substitute`] walk a graph once and remember every node: shared
-//!   parts stay shared.
+//! - [`dag`] describes what is simplified during construction; nothing is expanded unless the
+//!   caller asks for it.
+//! - [`Tangent`], [`reverse`] and [`substitute`] visit each node of a graph once, so shared parts
+//!   stay shared.
 //! - [`evaluate()`] gives numbers of any type, from `f64` to a prime field that proves identities.
 //! - [`text`], [`latex`] and [`mathml`] write expressions down, [`normal`] multiplies out, compares
 //!   and collects.

@@ -1,11 +1,11 @@
-//! Measures of expressions that are written out: what is shared counts each time it is used.
+//! Measures of expressions in written-out form: shared parts count every time they occur.
 
 use crate::arena::Arena;
 use crate::dag::Expr;
 use crate::node::{Id, Node};
 
 impl Expr<'_> {
-    /// How many symbols, numbers and operations the expression has when it is written out.
+    /// The number of symbols, numbers and operations of the expression in written-out form.
     pub fn size(self) -> u64 {
         measure(self, |node, size| match node {
             Node::Constant(_) | Node::Pi | Node::Symbol(_) => 1,
@@ -46,7 +46,7 @@ pub(crate) fn measure(
     measures.last().copied().unwrap_or(0)
 }
 
-/// The sum of measures; more than fits is as good as infinite.
+/// The sum of measures, saturating.
 pub(crate) fn total(measures: impl Iterator<Item = u64>) -> u64 {
     measures.fold(0, u64::saturating_add)
 }

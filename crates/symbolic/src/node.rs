@@ -1,10 +1,10 @@
-//! What expressions are made of: nodes, the symbols and functions in them, and when their values become known.
+//! Nodes of expressions, with their symbols, functions and stages.
 
 use std::rc::Rc;
 
 use crate::rational::Rational;
 
-/// A node of a [`Dag`](crate::Dag). Children have smaller ids than what is built from them.
+/// A node of a [`Dag`](crate::Dag). Children have smaller ids than their parents.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct Id(pub(crate) u32);
 
@@ -28,14 +28,15 @@ impl Symbol {
 
 /// When a value becomes known. The stage of an expression is the latest stage of its parts.
 ///
-/// The algebra gives meaning to two of them only; later ones belong to who uses it.
+/// The algebra gives meaning to two stages only; the meaning of later ones is up to the user of
+/// the crate.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct Stage(pub u8);
 
 impl Stage {
-    /// Known while deriving.
+    /// Known when the equations are derived.
     pub const CONSTANT: Stage = Stage(0);
-    /// Known before anything runs, and the same all the time.
+    /// Known before a run starts, and constant during it.
     pub const PARAMETER: Stage = Stage(1);
 }
 
@@ -76,7 +77,7 @@ pub enum Function {
     Min,
     /// The larger of two.
     Max,
-    /// `pow(x, y)` with an exponent that is no integer constant.
+    /// `pow(x, y)` with an exponent that is not an integer constant.
     Pow,
 }
 
@@ -127,7 +128,7 @@ impl Function {
         }
     }
 
-    /// How many arguments it takes.
+    /// The number of its arguments.
     pub fn arity(self) -> usize {
         match self {
             Function::Atan2 | Function::Min | Function::Max | Function::Pow => 2,
@@ -136,7 +137,7 @@ impl Function {
     }
 }
 
-/// What a node is. Cheap to clone.
+/// The content of a node. Cheap to clone.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Node {
     /// A rational number.
@@ -145,18 +146,20 @@ pub enum Node {
     Pi,
     /// A symbol.
     Symbol(Symbol),
-    /// `Σ coefficient·term`, by id, coefficients not 0; the constant term is a multiple of the node
-    /// `1`. A single term with a coefficient other than 1 is a rational multiple.
+    /// `Σ coefficient·term`, ordered by id, with nonzero coefficients; the constant term is
+    /// a multiple of the node `1`. A single term with a coefficient other than 1 is a
+    /// rational multiple.
     Sum(Rc<[(Id, Rational)]>),
-    /// `Π factor^power`, by id, powers not 0, no constants among the factors; quotients are
-    /// negative powers. The one product with a constant in it is `0^-1`, the undefined value.
+    /// `Π factor^power`, ordered by id, with nonzero powers and no constants among the factors;
+    /// quotients are negative powers. The only product with a constant in it is `0^-1`, the
+    /// undefined value.
     Product(Rc<[(Id, i32)]>),
     /// A function of its arguments.
     Function(Function, Rc<[Id]>),
 }
 
 impl Node {
-    /// What it holds: its children, and the machine words of numbers that do not fit into one.
+    /// The number of its children, and of the machine words of numbers that do not fit into one.
     pub(crate) fn operands(&self) -> usize {
         match self {
             Node::Constant(value) => value.words(),

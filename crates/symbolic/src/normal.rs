@@ -1,4 +1,4 @@
-//! Normal forms that are too large to keep: expanded polynomials, and what is read off from them.
+//! Normal forms that are too large to keep: expanded polynomials, and the operations based on them.
 //!
 //! [`expand`] multiplies everything out into `Σ coefficient·monomial` over atoms: symbols, π, sines
 //! and cosines of base angles, other functions, and denominators of several terms. Compound angles
@@ -9,13 +9,13 @@
 //! Angles: if `q₁` occurs in angles as `q₁`, `2q₁` and `q₁/2`, its base angle is the greatest
 //! common divisor `q₁/2`.
 //!
-//! Going back, [`Expanded::fold`] joins what belongs together: `cos a cos b + sin a sin b = cos(b −
-//! a)`, `1 − cos² a = sin² a`. [`readable`] chooses between what was written and what comes out of
-//! expanding and folding, whichever is shorter. [`difference`] tells what has to be added to one
-//! expression and dropped from it to get another.
+//! In the other direction, [`Expanded::fold`] joins matching terms:
+//! `cos a cos b + sin a sin b = cos(b − a)`, `1 − cos² a = sin² a`. [`readable`] returns the
+//! shorter of the original and the result of expanding and folding. [`difference`] finds the terms
+//! that must be added to one expression and dropped from it to get another.
 //!
-//! Expansion grows fast: everything here takes a budget, the most terms that a polynomial may have
-//! on the way, and gives up with `None` beyond it.
+//! Expansion grows fast: every function here takes a budget, the largest number of terms of an
+//! intermediate polynomial, and returns `None` beyond it.
 
 mod angles;
 mod expand;
@@ -30,20 +30,20 @@ use crate::rational::Rational;
 use expand::Expander;
 use polynomial::{Monomial, Polynomial};
 
-/// The budget of [`readable`] in [`latex`](crate::latex()): more terms than this nobody reads.
+/// The budget of [`readable`] in [`latex`](crate::latex()): nobody reads more terms than this.
 pub const READABLE_BUDGET: usize = 500;
 
-/// Expressions of a larger [`size`](Expr::size) than this are not made [`readable`]: nobody reads
+/// Expressions of a larger [`size`](Expr::size) are not made [`readable`], since nobody reads
 /// them either.
 const READABLE_SIZE: u64 = 5000;
 
-/// An expression multiplied out.
+/// An expanded expression.
 pub struct Expanded<'d> {
     dag: &'d Dag,
     polynomial: Polynomial,
 }
 
-/// Multiplies out.
+/// Expands an expression.
 ///
 /// `None` if it takes more terms than the budget, or has no value.
 ///
@@ -60,7 +60,7 @@ pub fn expand(expression: Expr<'_>, budget: usize) -> Option<Expanded<'_>> {
     Some(expanded)
 }
 
-/// Multiplies out several expressions over one and the same set of atoms.
+/// Expands several expressions over the same set of atoms.
 fn expand_all<const N: usize>(
     expressions: [Expr<'_>; N],
     budget: usize,
@@ -91,7 +91,7 @@ impl<'d> Expanded<'d> {
         self.polynomial.len()
     }
 
-    /// Whether there is no term: whether it is 0.
+    /// Whether it has no terms, that is, whether it is 0.
     pub fn is_empty(&self) -> bool {
         self.is_zero()
     }
@@ -107,21 +107,21 @@ impl<'d> Expanded<'d> {
         self.dag.expr(self.polynomial.rebuild(arena))
     }
 
-    /// The sum of all terms, angles joined and terms of parameters collected.
+    /// The sum of all terms, with angles joined and terms of parameters collected.
     pub fn fold(&self) -> Expr<'d> {
         let arena = &mut *self.dag.arena.borrow_mut();
         self.dag
             .expr(fold::fold(arena, self.polynomial.clone()).rebuild(arena))
     }
 
-    /// Grouped by the powers of some symbols: what the monomials in these symbols are, and what
-    /// stands before each.
+    /// The terms grouped by the powers of some symbols: the monomials in these symbols, with the
+    /// coefficient of each.
     ///
-    /// In the order of the symbols, higher powers first; the terms free of them come last, with the
-    /// monomial 1. A symbol inside of a function does not count.
+    /// They are in the order of the symbols, higher powers first; the terms free of them come last,
+    /// with the monomial 1. A symbol inside a function does not count.
     pub fn collect(&self, by: &[Symbol]) -> Vec<(Expr<'d>, Expr<'d>)> {
         let arena = &mut *self.dag.arena.borrow_mut();
-        // Negated powers in the order of the symbols: sorts higher powers of earlier symbols first.
+        // Negated powers in the order of the symbols sort higher powers of earlier symbols first.
         let mut groups: std::collections::BTreeMap<Vec<i32>, Polynomial> = Default::default();
         for (monomial, coefficient) in self.polynomial.iter() {
             let mut key = vec![0; by.len()];
@@ -152,8 +152,7 @@ impl<'d> Expanded<'d> {
     }
 }
 
-/// The expression multiplied out and grouped by the powers of some symbols; see
-/// [`Expanded::collect`].
+/// The expression expanded and grouped by the powers of some symbols; see [`Expanded::collect`].
 pub fn collect<'d>(
     expression: Expr<'d>,
     by: &[Symbol],
@@ -162,7 +161,7 @@ pub fn collect<'d>(
     Some(expand(expression, budget)?.collect(by))
 }
 
-/// What turns one expression into another.
+/// The terms that turn one expression into another.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Difference<'d> {
     /// Terms to add.
@@ -172,18 +171,18 @@ pub struct Difference<'d> {
 }
 
 impl Difference<'_> {
-    /// Whether there is nothing to change: the expressions are equal.
+    /// Whether the expressions are equal.
     pub fn is_empty(&self) -> bool {
         self.add.is_empty() && self.drop.is_empty()
     }
 }
 
-/// What to add to `printed`, and what to drop from it, to get `derived`: `printed + Σ add − Σ drop
-/// = derived`.
+/// The terms to add to `printed`, and those to drop from it, to get `derived`:
+/// `printed + Σ add − Σ drop = derived`.
 ///
 /// A term with another coefficient is dropped as printed and added as derived. `None` if expanding
 /// takes more terms than the budget, or if one of the expressions has no value. Empty means equal;
-/// equal quotients by sums may go unnoticed.
+/// equal quotients by sums may not be recognized.
 ///
 /// ```
 /// use lagrangian_symbolic::{Dag, Stage, normal};
@@ -207,8 +206,8 @@ pub fn difference<'d>(
     let arena = &mut *dag.arena.borrow_mut();
     let mut add = Vec::new();
     let mut drop = Vec::new();
-    // Terms that differ in nothing but sines and cosines are compared together: cos(a − b) printed
-    // for cos(a + b) shares half of its products, but nobody would call it half right.
+    // Terms that differ only in sines and cosines are compared together: cos(a − b) printed instead
+    // of cos(a + b) shares half of its products, but nobody would call it half right.
     let printed = printed.polynomial.grouped(|id| !is_circular(arena, id));
     let mut derived = derived.polynomial.grouped(|id| !is_circular(arena, id));
     let mut compare = |printed: &Polynomial, derived: &Polynomial| {
@@ -259,8 +258,8 @@ pub fn difference<'d>(
     })
 }
 
-/// The shorter of what was written and what comes out of expanding and folding, as a whole or for
-/// some of its terms.
+/// The shorter of the original and the result of expanding and folding, as a whole or for some of
+/// its terms.
 ///
 /// The value is the same. Beyond the budget the expression stays as it is.
 pub fn readable(expression: Expr<'_>, budget: usize) -> Expr<'_> {
@@ -270,12 +269,13 @@ pub fn readable(expression: Expr<'_>, budget: usize) -> Expr<'_> {
     let dag = expression.dag();
     let mut best = expression;
     let mut offer = |candidate: Expr<'_>| {
-        // In a tie what is expanded, which is the usual form.
+        // In a tie prefer the expanded form, which is the usual one.
         if length(candidate) <= length(best) {
             best = dag.expr(candidate.id());
         }
     };
-    // Terms that are shorter as they are, such as ½ k (x − y)², against the others.
+    // Terms that are shorter in their original form, such as ½ k (x − y)², are separated from
+    // the others.
     let terms = flat_terms(&dag.arena.borrow(), expression.id(), budget);
     let Some(terms) = terms else {
         return expression;
@@ -300,9 +300,10 @@ pub fn readable(expression: Expr<'_>, budget: usize) -> Expr<'_> {
     best
 }
 
-/// What all terms of a sum have in common, before the sum: `−m a − m b` becomes `−m (a + b)`.
+/// Moves the common factors of all terms of a sum out of it: `−m a − m b` becomes `−m (a + b)`.
 ///
-/// The value is the same. What is no sum, has nothing in common, or has more terms than the budget stays as it is.
+/// The value is the same. An expression that is not a sum, has no common factors, or has more terms than the
+/// budget stays as it is.
 ///
 /// ```
 /// use lagrangian_symbolic::{Dag, Stage, normal, text};
@@ -352,8 +353,8 @@ pub fn factored(expression: Expr<'_>, budget: usize) -> Expr<'_> {
     dag.sum(rest) * common * sign.clone()
 }
 
-/// How long an expression is on paper: symbols, functions and signs, parentheses around sums.
-/// Numbers weigh nothing: ½ a + ½ b is as good as ½ (a + b).
+/// The length of an expression in print: symbols, functions and signs, and parentheses around sums.
+/// Numbers count nothing: ½ a + ½ b is as good as ½ (a + b).
 fn length(expression: Expr<'_>) -> u64 {
     let arena = expression.dag().arena.borrow();
     let parentheses = |id: Id| matches!(arena.node(id), Node::Sum(terms) if terms.len() > 1) as u64;

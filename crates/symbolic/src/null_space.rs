@@ -1,10 +1,11 @@
-//! Linear algebra over the prime field, where nothing is rounded and rank is no question of tolerance.
+//! Linear algebra over the prime field, where nothing is rounded and rank does not depend on
+//! a tolerance.
 
 use lagrangian_scalar::{Residue, Scalar};
 
-/// A basis of the vectors of `width` numbers that all rows map to 0, each with a 1 where all others have a 0.
+/// A basis of the vectors of `width` numbers that all rows map to 0, each with a 1 where the others have a 0.
 pub fn null_space(mut rows: Vec<Vec<Residue>>, width: usize) -> Vec<Vec<Residue>> {
-    // By Gauß and Jordan: the rows that remain have 1 in a column of their own.
+    // Gauss–Jordan elimination: each remaining row has a 1 in a column of its own.
     let mut pivots: Vec<(usize, Vec<Residue>)> = Vec::new();
     while let Some(mut row) = rows.pop() {
         for (column, known) in &pivots {

@@ -1,16 +1,17 @@
-//! Expressions as a person would write them.
+//! Prints expressions as a person would write them.
 //!
 //! [`text`] is valid in the spec language, and reading it back gives the same node. [`math`] is for
-//! the page, and may rearrange: it gives `cos(φ₂ − φ₁)` where the graph holds the four products. What
-//! it gives is a [`Math`], which [`latex`] and [`mathml`] write down.
+//! the page, and may rearrange: it gives `cos(φ₂ − φ₁)` if the graph has the products. Its result is
+//! a [`Math`], which [`latex`] and [`mathml`] print.
 //!
 //! Order of factors: numbers, parameters, coordinates, functions, rates; on the page functions come
 //! last, since `sin φ ṡ` may be read as the sine of a product. Order of terms: by the latest symbols
 //! in them, higher powers first, in the order in which the symbols were declared; a positive term
-//! leads if there is one.
+//! comes first if there is one.
 //!
-//! What is shared in the graph is written out each time it is used, so a long chain makes a very
-//! long text; [`Expr::size`] tells beforehand. No function here calls itself on a child.
+//! Shared parts of the graph are written out every time they occur, so a long chain gives a
+//! very long text; [`Expr::size`] tells its length beforehand. No function here is recursive in
+//! the children.
 
 mod latex;
 mod layout;
@@ -33,7 +34,7 @@ pub use math::{Form, Mark, Math, Sign};
 pub use mathml::markup_words;
 pub use names::{latex_name, math_name, mathml_name};
 
-/// How symbols are called.
+/// The names of symbols.
 pub trait Names {
     /// The name in a text: an identifier, or `der(x)`.
     fn text(&self, symbol: Symbol) -> String;
@@ -52,7 +53,7 @@ impl Names for Dag {
     }
 }
 
-/// The expression in the spec language, exactly as it is built.
+/// The expression in the spec language, exactly as it was built.
 ///
 /// ```
 /// use lagrangian_symbolic::{Dag, Stage, text};
@@ -67,12 +68,12 @@ pub fn text(expression: Expr<'_>, names: &dyn Names) -> String {
     text::Writer::new(&arena, &symbols).write(expression.id())
 }
 
-/// The expression as a page shows it, angles joined and terms collected where that makes it shorter.
+/// The expression for a page, with angles joined and terms collected if that makes it shorter.
 pub fn math(expression: Expr<'_>, names: &dyn Names) -> Math {
     math_as_built(normal::readable(expression, normal::READABLE_BUDGET), names)
 }
 
-/// The expression as a page shows it, as it is built.
+/// The expression for a page, exactly as it was built.
 pub fn math_as_built(expression: Expr<'_>, names: &dyn Names) -> Math {
     let symbols = symbol_names(expression, |symbol| names.math(symbol));
     let arena = expression.dag().arena.borrow();
@@ -107,15 +108,15 @@ pub fn mathml(expression: Expr<'_>, names: &dyn Names) -> String {
     math(expression, names).mathml()
 }
 
-/// As [`text`] writes it, under the declared names.
+/// As by [`text`], with the declared names.
 impl fmt::Display for Expr<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&text(*self, self.dag()))
     }
 }
 
-/// The names of the symbols in an expression, by index; asked for before the graph is borrowed,
-/// since who names them may ask the graph.
+/// The names of the symbols in an expression, by index. They are collected before the graph is
+/// borrowed, since `name` may use the graph.
 fn symbol_names<T: Clone + Default>(expression: Expr<'_>, name: impl Fn(Symbol) -> T) -> Vec<T> {
     let mut names = Vec::new();
     for symbol in expression.symbols() {

@@ -1,4 +1,4 @@
-//! Exact rational numbers: 64-bit where they fit, big where they do not.
+//! Exact rational numbers: 64-bit if they fit, big integers otherwise.
 
 use core::cmp::Ordering;
 use core::fmt;
@@ -11,24 +11,26 @@ use num_bigint::{BigInt, BigUint, Sign};
 use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
-/// The most bits that a numerator or a denominator may take.
+/// The largest number of bits of a numerator or a denominator.
 ///
-/// `f64` reaches from 2⁻¹⁰⁷⁴ to 2¹⁰²⁴; what needs four times as many digits is a slip of the pen
+/// `f64` ranges from 2⁻¹⁰⁷⁴ to 2¹⁰²⁴; a number with four times as many digits is a typing error
 /// such as `2^10^9`, and computing it would only fill the memory.
 pub const MAX_BITS: u64 = 4096;
 
 /// An exact rational number, in lowest terms.
 ///
-/// Sixteen bytes: numerator and denominator while both fit 64 bits, else a pointer to big integers.
+/// Sixteen bytes: numerator and denominator if both fit 64 bits, otherwise a pointer to
+/// big integers.
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub struct Rational(Repr);
 
-// Canonical: `Small` whenever it fits, so that equality and hash may be derived.
+// Canonical: `Small` whenever it fits, so that equality and hash can be derived.
 #[derive(Clone, PartialEq, Eq, Hash)]
 enum Repr {
     /// Numerator (never `i64::MIN`, so that it can be negated) and denominator (positive).
     Small(i64, NonZeroI64),
-    /// `Arc` and not `Box`: big coefficients are as cheap to clone, and numbers may cross threads.
+    /// `Arc` instead of `Box`, so that big coefficients are cheap to clone, and numbers can be sent
+    /// across threads.
     Big(Arc<Big>),
 }
 
@@ -53,7 +55,7 @@ impl Rational {
         (denominator != 0).then(|| Rational::from_i128(numerator.into(), denominator.into()))
     }
 
-    /// Reads `12`, `-0.5`, `9.81e-3`, `1_000.5`, exactly.
+    /// Parses `12`, `-0.5`, `9.81e-3`, `1_000.5`, exactly.
     ///
     /// `None` if it is not a number, or one of more than [`MAX_BITS`] bits.
     ///
@@ -238,7 +240,7 @@ impl Rational {
         Rational::from_big(numerator.pow(exponent), denominator.pow(exponent)).within_limits()
     }
 
-    /// The greatest rational of which both are integer multiples, with the sign of `self`; 0 for 0
+    /// The largest rational of which both are integer multiples, with the sign of `self`; 0 for 0
     /// and 0.
     pub(crate) fn gcd(&self, other: &Rational) -> Rational {
         let sign = if self.is_negative() { -1 } else { 1 };
@@ -275,7 +277,7 @@ impl Rational {
         }
     }
 
-    /// What an `f64` is; nothing where it is not finite.
+    /// The exact value of an `f64`; nothing if it is not finite.
     pub fn exactly(x: f64) -> Option<Rational> {
         if !x.is_finite() {
             return None;
@@ -292,13 +294,13 @@ impl Rational {
         Some(if x < 0.0 { -magnitude } else { magnitude })
     }
 
-    /// The value as a number of type `S`, through exact operations of `S` wherever `S` has them; as
-    /// an `f64` it is the nearest one.
+    /// The value as a number of type `S`, by exact operations of `S` wherever possible; as an `f64`
+    /// it is the nearest one.
     pub fn evaluate<S: Scalar>(&self) -> S {
         match &self.0 {
             Repr::Small(numerator, denominator) => S::from_ratio(*numerator, denominator.get()),
             Repr::Big(_) => {
-                // The nearest `f64` and what that lacks, as emitted code has it.
+                // The nearest `f64` plus the remainder, as in emitted code.
                 let nearest = self.to_f64();
                 match Rational::exactly(nearest) {
                     Some(exact) if !exact.is_zero() => {
@@ -310,25 +312,26 @@ impl Rational {
         }
     }
 
-    /// How many machine words it takes on the heap; none where its digits fit into one each.
+    /// The number of machine words that it takes on the heap; none if numerator and denominator fit
+    /// one each.
     pub(crate) fn words(&self) -> usize {
         match &self.0 {
             Repr::Small(..) => 0,
             Repr::Big(big) => {
-                // Two allocations and what stands before them.
+                // Two allocations with their headers.
                 const OVERHEAD: u64 = 12;
                 (OVERHEAD + (big.numerator.bits() + big.denominator.bits()) / 64) as usize
             }
         }
     }
 
-    /// The value by its digits, which may round at each.
+    /// The value by its digits, with a possible rounding at each.
     fn in_digits<S: Scalar>(&self) -> S {
         match &self.0 {
             Repr::Small(numerator, denominator) => S::from_ratio(*numerator, denominator.get()),
             Repr::Big(big) => {
-                // 0.nnn…/0.ddd… in base 2³², then the power of the base: no part overflows on the
-                // way.
+                // 0.nnn…/0.ddd… in base 2³², times the power of the base, so that no
+                // part overflows.
                 let base = S::from_ratio(1 << 32, 1);
                 let (top, top_digits) = fraction::<S>(big.numerator.magnitude(), base);
                 let (bottom, bottom_digits) = fraction::<S>(big.denominator.magnitude(), base);
@@ -357,7 +360,7 @@ impl Rational {
         }
     }
 
-    /// `numerator / denominator`, reduced; the denominator is not 0.
+    /// `numerator / denominator` in lowest terms; the denominator is not 0.
     fn from_i128(numerator: i128, denominator: i128) -> Rational {
         let negative = (numerator < 0) != (denominator < 0);
         let (top, bottom) = (numerator.unsigned_abs(), denominator.unsigned_abs());
@@ -384,7 +387,7 @@ impl Rational {
         }
     }
 
-    /// `numerator / denominator`, reduced; the denominator is not 0.
+    /// `numerator / denominator` in lowest terms; the denominator is not 0.
     fn from_big(numerator: BigInt, denominator: BigInt) -> Rational {
         let divisor = if denominator.is_negative() {
             -numerator.gcd(&denominator)
@@ -424,11 +427,12 @@ fn parse_exponent(text: &str) -> Option<i64> {
     if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
         return None;
     }
-    // More digits than i64 has: as good as infinite, and refused unless the mantissa is 0.
+    // An exponent with more digits than i64 counts as infinite, and is refused unless the mantissa
+    // is 0.
     Some(sign * digits.parse::<i64>().unwrap_or(i64::MAX))
 }
 
-/// `digits` as a fraction below 1 in base 2³², and how many such digits it has.
+/// `digits` as a fraction below 1 in base 2³², and the number of these digits.
 fn fraction<S: Scalar>(digits: &BigUint, base: S) -> (S, usize) {
     let digits = digits.to_u32_digits();
     let value = digits.iter().fold(S::ZERO, |value, &digit| {
@@ -442,8 +446,8 @@ fn nearest_f64(top: &BigUint, bottom: &BigUint) -> f64 {
     if top.is_zero() {
         return 0.0;
     }
-    // quotient·2^−shift = top/bottom, the quotient with 66 or 67 bits; its lowest bit remembers
-    // whether anything is left below it, so that rounding the quotient rounds the exact value.
+    // quotient·2^−shift = top/bottom, with 66 or 67 bits in the quotient; its lowest bit records
+    // whether there is a remainder, so that rounding the quotient rounds the exact value.
     let bits = |x: &BigUint| i64::try_from(x.bits()).unwrap_or(i64::MAX);
     let shift = 67 - (bits(top) - bits(bottom));
     let (quotient, rest) = if shift >= 0 {
@@ -458,12 +462,12 @@ fn nearest_f64(top: &BigUint, bottom: &BigUint) -> f64 {
         return f64::INFINITY;
     }
     if exponent >= -1022 {
-        // The conversion rounds; both factors of the scale are normal, and their products exact but
-        // for overflow.
+        // The conversion rounds; both factors of the scale are normal, and their products are exact
+        // except for overflow.
         let half = shift / 2;
         return quotient as f64 * power_of_two(-half) * power_of_two(half - shift);
     }
-    // Below the normal numbers: count units of 2^−1074, whose count is the bit pattern.
+    // Below the normal numbers: count units of 2^−1074; the count is the bit pattern.
     let drop = shift - 1074;
     if drop > 100 {
         return 0.0;
@@ -542,7 +546,7 @@ impl Mul for &Rational {
     }
 }
 
-// Operators on values, by those on references.
+// Operators on values, implemented by those on references.
 macro_rules! by_value {
     ($($Operator:ident $operator:ident),*) => { $(
         impl $Operator for Rational {
@@ -588,7 +592,7 @@ impl Default for Rational {
     }
 }
 
-/// As the spec language writes it: `3`, `-1/2`.
+/// In the spec language: `3`, `-1/2`.
 impl fmt::Display for Rational {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.0 {
@@ -684,7 +688,7 @@ mod tests {
 
     #[test]
     fn conversion_to_f64_rounds_once() {
-        // rustc's own reading of decimals is correctly rounded.
+        // rustc parses decimals with correct rounding.
         for text in [
             "0.1",
             "9.81",

@@ -1,14 +1,15 @@
 //! Units: powers of kilogram, metre, second, ampere and kelvin, and of the cycle. The radian is 1.
 //!
-//! A radian must be 1 and no unit of its own: `x - yc*theta` subtracts a length times an angle from
-//! a length, and every mechanic writes it so. A unit only remembers that a radian was written, to
-//! say `rad/s` in a message instead of `1/s`; two units that differ in nothing else are equal.
+//! A radian must be 1 and not a unit of its own: `x - yc*theta` subtracts a length times an angle
+//! from a length, as is customary in mechanics. A unit only remembers that a radian was written, so
+//! that messages say `rad/s` instead of `1/s`; two units that differ in nothing else are equal.
 //!
-//! A cycle is no radian: Hz, which is cycle/s, and rad/s differ by 2π, and whoever takes one for the
-//! other is off by that. So the cycle counts like metre and second, and a factor `pi` takes it away:
-//! `2*pi*f` is in rad/s where `f` is in Hz, and `w/(2*pi)` is in Hz where `w` is in rad/s.
+//! A cycle is not a radian: Hz, which is cycle/s, and rad/s differ by 2π, and confusing them gives
+//! results that are wrong by that factor. So the cycle is a base unit like metre and second, and a
+//! factor `pi` cancels it: `2*pi*f` is in rad/s if `f` is in Hz, and `w/(2*pi)` is in Hz if `w` is
+//! in rad/s.
 //!
-//! A [`Measure`] is a unit as it is written, with how many SI units it is: `km/h`, `deg`.
+//! A [`Measure`] is a unit as it is written, with its size in SI units: `km/h`, `deg`.
 
 use std::cmp::Ordering;
 use std::fmt;
@@ -25,26 +26,26 @@ pub use names::{
     rate_unit, state_of,
 };
 
-/// What units are powers of.
+/// The base units.
 const BASES: [&str; 6] = ["kg", "m", "s", "A", "K", "cycle"];
 
-/// The place of the cycle among [`BASES`].
+/// The index of the cycle in [`BASES`].
 const CYCLE: usize = 5;
 
-/// A unit in SI, as powers of its base units.
+/// An SI unit, as powers of its base units.
 ///
-/// Powers are stored doubled, so that the root of a unit is a unit: √(N/m/kg) is 1/s, and √m, an
-/// intermediate of somebody's formula, is no error yet.
+/// Powers are stored doubled, so that the root of a unit is a unit: √(N/m/kg) is 1/s, and √m, which
+/// may be an intermediate value in a formula, is not an error.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Unit {
     /// Twice the powers of the base units.
     twice: [i16; BASES.len()],
-    /// The power of the radian, for display alone.
+    /// The power of the radian, only for display.
     radian: i8,
-    /// How many factors `pi` stand beside it that turned no cycle into radians.
+    /// The number of factors `pi` beside it that have not yet turned a cycle into radians.
     pi: i8,
-    /// Whether something in it was not given in SI units, so that its number is not what was
-    /// written.
+    /// Whether part of it was not given in SI units, so that its number is not the one that
+    /// was written.
     scaled: bool,
 }
 
@@ -107,7 +108,7 @@ impl Unit {
     pub const VOLT: Unit = Unit::electric(1, 2, -3, -1);
     /// Kelvin.
     pub const KELVIN: Unit = Unit::of_base(4);
-    /// A turn, counted: no angle until it is multiplied by 2π.
+    /// A counted turn: not an angle until it is multiplied by 2π.
     pub const TURN: Unit = Unit::of_base(CYCLE);
 
     /// kg^`kilogram` m^`metre` s^`second`.
@@ -125,7 +126,7 @@ impl Unit {
         }
     }
 
-    /// The base unit at a place.
+    /// The base unit at an index.
     const fn of_base(place: usize) -> Unit {
         let mut twice = [0; BASES.len()];
         twice[place] = 2;
@@ -156,7 +157,7 @@ impl Unit {
 
     /// The unit of a product with π to a power.
     pub fn times_pi(self, power: i32) -> Unit {
-        let power = i8::try_from(power).unwrap_or(0); // past all meaning
+        let power = i8::try_from(power).unwrap_or(0); // a power this large is meaningless
         Unit {
             pi: self.pi.saturating_add(power),
             ..self
@@ -164,7 +165,7 @@ impl Unit {
         .turned()
     }
 
-    /// Each factor π takes a cycle away, and leaves a radian.
+    /// Each factor π cancels a cycle, and leaves a radian.
     fn turned(mut self) -> Unit {
         let cycles = self.twice[CYCLE] / 2;
         let turns = match (cycles > 0, self.pi > 0) {
@@ -173,14 +174,14 @@ impl Unit {
             _ => 0,
         };
         self.twice[CYCLE] -= 2 * turns;
-        let turns = turns as i8; // no more than `pi`
+        let turns = turns as i8; // at most `pi`
         self.pi -= turns;
         self.radian = self.radian.saturating_add(turns);
         self
     }
 
-    /// The unit of a power, `self^(numerator/denominator)`; `None` where a base unit would get a
-    /// power that is no multiple of one half, or an absurd one.
+    /// The unit of a power, `self^(numerator/denominator)`; `None` if the power of a base unit
+    /// would not be a multiple of one half, or would be absurdly large.
     pub fn power(self, numerator: i64, denominator: i64) -> Option<Unit> {
         let mut twice = [0; BASES.len()];
         for (to, from) in twice.iter_mut().zip(self.twice) {
@@ -190,7 +191,7 @@ impl Unit {
             }
             *to = i16::try_from(scaled / denominator).ok()?;
         }
-        // What is past all meaning is not remembered.
+        // Counts this large are meaningless and are dropped.
         let remembered = |count: i8| {
             let count = i64::from(count).saturating_mul(numerator);
             let whole = count.checked_rem(denominator) == Some(0);
@@ -206,8 +207,8 @@ impl Unit {
         Some(unit.turned())
     }
 
-    /// Whether what is in this unit may stand where another is demanded: they are equal, or a
-    /// quotient by `pi` makes cycles of radians.
+    /// Whether a value in this unit may be used where another unit is required: they are equal, or
+    /// a quotient by `pi` turns radians into cycles.
     pub fn fits(self, other: Unit) -> bool {
         let cycles = |unit: Unit| i32::from(unit.twice[CYCLE]);
         let counted = |unit: Unit| cycles(unit) - 2 * i32::from(unit.pi);
@@ -217,7 +218,7 @@ impl Unit {
         alike && self.without_cycles() == other.without_cycles()
     }
 
-    /// How many cycles more this unit has than another that is the same otherwise.
+    /// How many more cycles this unit has than another one that is otherwise equal.
     pub fn cycles_beyond(self, other: Unit) -> Option<i16> {
         let more = (self.twice[CYCLE] - other.twice[CYCLE]) / 2;
         (more != 0 && self.without_cycles() == other.without_cycles()).then_some(more)
@@ -228,17 +229,17 @@ impl Unit {
         self
     }
 
-    /// Whether what was written is an angle: `rad`, and no other pure number.
+    /// Whether it was written as an angle: `rad`, and no other pure number.
     pub fn is_angle(self) -> bool {
         self.is_one() && self.radian == 1
     }
 
-    /// Whether something in it was not given in SI units.
+    /// Whether part of it was not given in SI units.
     pub fn is_scaled(self) -> bool {
         self.scaled
     }
 
-    /// This unit, for a quantity that was given in SI units or in others.
+    /// This unit with a record of whether the quantity was given in other than SI units.
     pub fn as_written(self, scaled: bool) -> Unit {
         Unit { scaled, ..self }
     }
@@ -266,7 +267,7 @@ fn zip(mut a: Powers, b: Powers, operation: fn(i16, i16) -> i16) -> Powers {
     a
 }
 
-/// As a mechanic writes it: `N/m`, `rad/s`, `kg*m^2`; `1` for a pure number.
+/// The unit in its customary form: `N/m`, `rad/s`, `kg*m^2`; `1` for a pure number.
 impl fmt::Display for Unit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         const OWN_NAMES: [(&str, Unit); 15] = [
@@ -274,7 +275,7 @@ impl fmt::Display for Unit {
             ("N*m", Unit::JOULE),
             ("W", Unit::WATT),
             ("Pa", Unit::PASCAL),
-            // A stiffness, and the coefficients of a damper and of a torsional one.
+            // Stiffness, linear damping and torsional damping.
             ("N/m", Unit::base(1, 0, -2)),
             ("N*s/m", Unit::base(1, 0, -1)),
             ("N*m*s", Unit::base(1, 2, -1)),
@@ -283,7 +284,8 @@ impl fmt::Display for Unit {
             ("ohm", Unit::electric(1, 2, -3, -2)),
             ("H", Unit::electric(1, 2, -2, -2)),
             ("F", Unit::electric(-1, -2, 4, 2)),
-            // Of a motor: its torque per current, and its voltage per rate. A weber too.
+            // The constants of a motor: torque per current, and voltage per angular velocity. Also
+            // the weber.
             ("N*m/A", Unit::electric(1, 2, -2, -1)),
             ("T", Unit::electric(1, 0, -2, -1)),
             ("C", Unit::electric(0, 0, 1, 1)),
@@ -302,7 +304,7 @@ impl fmt::Display for Unit {
             .map(|(name, twice)| factor(name, twice))
             .collect();
         let under = powers().filter(|(_, twice)| *twice < 0);
-        // Only of an angle and its rates it is worth saying that they are in radians.
+        // The radian is only worth showing in angles and their rates.
         if over.is_empty() {
             let only_time = (0..BASES.len()).all(|k| k == 2 || self.twice[k] == 0);
             let angle = self.radian == 1 && only_time;

@@ -1,22 +1,22 @@
-//! Units as they are written: `mm`, `km/h`, `deg`, each with how many SI units it is.
+//! Units as they are written, `mm`, `km/h`, `deg`, each with its size in SI units.
 
 use lagrangian_symbolic::{Dag, Expr};
 
 use super::{Rational, Unit};
 
-/// A unit as it is written: so many SI units, exactly.
+/// A unit as it is written, with its exact size in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measure {
-    /// Of what.
+    /// The SI unit.
     pub unit: Unit,
-    /// How many SI units it is, but for [`Self::pi`].
+    /// Its size in SI units, without the power of π in [`Self::pi`].
     pub factor: Rational,
     /// The power of π that multiplies the factor.
     pub pi: i32,
 }
 
-/// A name of a unit: what it is called, the SI unit, how many of it as a fraction, the power of π
-/// beside it, and which prefixes it takes.
+/// A named unit: its name, the SI unit, its size in that as a fraction, the power of π that
+/// multiplies the fraction, and the prefixes that it takes.
 type Named = (&'static str, Unit, (i64, i64), i32, &'static str);
 
 const ANGULAR_RATE: Unit = Unit {
@@ -47,7 +47,7 @@ const NAMES: &[Named] = &[
     ("T",     Unit::electric(1, 0, -2, -1),  (1, 1), 0, "mu"),
     ("Wb",    Unit::electric(1, 2, -2, -1),  (1, 1), 0, "m"),
     ("K",     Unit::KELVIN,   (1, 1), 0, "m"),
-    // Not of the SI, and exact.
+    // Exact units outside the SI.
     ("g",     Unit::KILOGRAM, (1, 1000), 0, "Mm"),
     ("min",   Unit::SECOND,   (60, 1), 0, ""),
     ("h",     Unit::SECOND,   (3600, 1), 0, ""),
@@ -57,7 +57,7 @@ const NAMES: &[Named] = &[
     ("bar",   Unit::PASCAL,   (100_000, 1), 0, "m"),
     ("Wh",    Unit::JOULE,    (3600, 1), 0, "kM"),
     ("Ah",    Unit::electric(0, 0, 1, 1), (3600, 1), 0, "m"),
-    // 75 kgf*m/s, and the kilogram's weight at g = 9.80665 m/s².
+    // 75 kgf*m/s, and the weight of a kilogram at g = 9.80665 m/s².
     ("PS",    Unit::WATT,     (73_549_875, 100_000), 0, ""),
     ("kgf",   Unit::NEWTON,   (980_665, 100_000), 0, ""),
     // The international yard and pound, of 1959.
@@ -67,8 +67,7 @@ const NAMES: &[Named] = &[
     ("lbf",   Unit::NEWTON,   (44_482_216_152_605, 10_000_000_000_000), 0, ""),
 ];
 
-/// The prefixes, and the powers of ten that they are. `µ` is there as a sign of its own and as the
-/// Greek letter.
+/// The prefixes with their powers of ten. `µ` occurs as a sign of its own and as the Greek letter.
 const PREFIXES: [(&str, char, i32); 11] = [
     ("G", 'G', 9),
     ("M", 'M', 6),
@@ -91,7 +90,7 @@ impl Measure {
         pi: 0,
     };
 
-    /// The unit that a spec calls `name`.
+    /// The unit with the name `name` in a spec.
     pub fn named(name: &str) -> Option<Measure> {
         let (&(_, unit, (above, below), pi, _), exponent) = find(name)?;
         let ten = Rational::from(10).pow(exponent)?;
@@ -101,12 +100,12 @@ impl Measure {
         Some(Measure { unit, factor, pi })
     }
 
-    /// The names of units, those without prefixes.
+    /// The names of units, without those with prefixes.
     pub fn names() -> impl Iterator<Item = &'static str> + Clone {
         NAMES.iter().map(|(name, ..)| *name)
     }
 
-    /// The unit of a product; none where it has no number.
+    /// The unit of a product; none if its size overflows.
     pub fn times(&self, other: &Measure) -> Option<Measure> {
         Some(Measure {
             unit: self.unit.times(other.unit),
@@ -115,7 +114,7 @@ impl Measure {
         })
     }
 
-    /// The unit of a power; none where it has no number.
+    /// The unit of a power; none if its size overflows.
     pub fn power(&self, power: i32) -> Option<Measure> {
         Some(Measure {
             unit: self.unit.power(power.into(), 1)?,
@@ -124,7 +123,8 @@ impl Measure {
         })
     }
 
-    /// The unit of the power `power/2`, of an SI unit; none of another, whose root is no fraction.
+    /// The unit of the power `power/2` of an SI unit; none for other units, the roots of whose
+    /// sizes are not rational.
     pub fn half_power(&self, power: i32) -> Option<Measure> {
         self.is_si().then_some(())?;
         Some(Measure {
@@ -138,24 +138,24 @@ impl Measure {
         self.factor.is_one() && self.pi == 0
     }
 
-    /// How many SI units it is, nearly.
+    /// Its size in SI units, rounded.
     pub fn to_f64(&self) -> f64 {
         self.factor.to_f64() * std::f64::consts::PI.powi(self.pi)
     }
 
-    /// How many SI units it is.
+    /// Its size in SI units.
     pub fn in_si<'d>(&self, dag: &'d Dag) -> Expr<'d> {
         dag.constant(self.factor.clone()) * dag.pi().powi(self.pi)
     }
 
-    /// How many of it an SI unit is.
+    /// The size of an SI unit in this unit.
     pub fn of_si<'d>(&self, dag: &'d Dag) -> Expr<'d> {
         let factor = self.factor.recip().unwrap_or(Rational::ONE); // no unit is zero
         dag.constant(factor) * dag.pi().powi(-self.pi)
     }
 }
 
-/// The row of a name, and the power of ten of its prefix.
+/// The table row of a name, and the power of ten of its prefix.
 fn find(name: &str) -> Option<(&'static Named, i32)> {
     let row = |word: &str| NAMES.iter().find(|(known, ..)| *known == word);
     if let Some(found) = row(name) {
@@ -244,7 +244,7 @@ mod tests {
         ] {
             assert_eq!(Measure::named(name), None, "{name}");
         }
-        // No name means two things.
+        // No name has two meanings.
         for name in Measure::names() {
             let rows = NAMES.iter().filter(|(other, ..)| *other == name).count();
             let prefixed = PREFIXES.iter().filter(|(written, prefix, _)| {

@@ -1,4 +1,5 @@
-//! What the parts of a machine are called, and what its equations are asked for by these names.
+//! Names of the parts of a machine, and the variables and options that its equations refer to
+//! by name.
 
 use std::fmt;
 
@@ -7,7 +8,7 @@ use std::fmt;
 pub struct Name {
     /// The name as declared.
     pub base: String,
-    /// The member of the family, where it is one.
+    /// The index of the member of the family, if it is one.
     pub index: Option<i64>,
 }
 
@@ -21,7 +22,7 @@ impl fmt::Display for Name {
 }
 
 impl Name {
-    /// The name of the integral of this over time: `integral(i)`, `integral(T)[3]`.
+    /// The name of the time integral of this: `integral(i)`, `integral(T)[3]`.
     pub fn integral(&self) -> Name {
         Name {
             base: format!("integral({})", self.base),
@@ -29,21 +30,21 @@ impl Name {
         }
     }
 
-    /// The base, or of an integral the base of what is integrated: a word that may name a field.
+    /// The base, or for an integral the base of the integrand: a word that may name a field.
     pub fn word(&self) -> &str {
         integrand(&self.base).map_or(&self.base, |(base, _)| base)
     }
 }
 
-/// What is integrated, and what stands behind the bracket: `integral(T)[3]` is (`T`, `[3]`).
+/// The integrand, and the text after the bracket: `integral(T)[3]` is (`T`, `[3]`).
 fn integrand(name: &str) -> Option<(&str, &str)> {
     let (base, index) = name.strip_prefix("integral(")?.split_once(')')?;
     let is_index = index.is_empty() || (index.starts_with('[') && index.ends_with(']'));
     is_index.then_some((base, index))
 }
 
-/// The state of first order of which a coordinate is the integral over time, if it is that: no spec can give a
-/// coordinate the name `integral(i)`.
+/// The first-order state whose time integral a coordinate is, if it is one: no spec can give a coordinate the
+/// name `integral(i)`.
 ///
 /// ```
 /// use lagrangian_units::state_of;
@@ -56,7 +57,7 @@ pub fn state_of(coordinate: &str) -> Option<String> {
     integrand(coordinate).map(|(base, index)| format!("{base}{index}"))
 }
 
-/// The name of the integral of a state over time: `integral(T)[3]` of `T[3]`.
+/// The name of the time integral of a state: `integral(T)[3]` for `T[3]`.
 pub fn integral_name(state: &str) -> String {
     match state.split_once('[') {
         Some((base, index)) => format!("integral({base})[{index}"),
@@ -64,8 +65,8 @@ pub fn integral_name(state: &str) -> String {
     }
 }
 
-/// The unit of the rate of a coordinate, as text: `m/s` of `m`; of the integral of a state the unit of the state, `A` of
-/// `A*s`.
+/// The unit of the rate of a coordinate, as text: `m/s` for `m`; for the time integral of a state the unit of the state,
+/// `A` for `A*s`.
 pub fn rate_unit(coordinate: &str, unit: &str) -> String {
     match (integrand(coordinate), unit) {
         (Some(_), "s") => "1".to_owned(),
@@ -75,35 +76,36 @@ pub fn rate_unit(coordinate: &str, unit: &str) -> String {
     }
 }
 
-/// The name of the rate of a coordinate, or of a member of a family of them: `der(theta)`, `der(q[3])`; of the
-/// integral of a state the state: `i` of `integral(i)`.
+/// The name of the rate of a coordinate, or of a member of a family: `der(theta)`, `der(q[3])`; for the time
+/// integral of a state the state: `i` for `integral(i)`.
 pub fn rate_name(coordinate: &str, index: impl fmt::Display) -> String {
     let whole = format!("{coordinate}{index}");
     state_of(&whole).unwrap_or_else(|| format!("der({whole})"))
 }
 
-/// What accelerations depend on, and can be differentiated by.
+/// A variable by which accelerations can be differentiated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Variable {
     /// A coordinate, by its index in the list of coordinates.
     Coordinate(usize),
     /// The rate of a coordinate.
     Rate(usize),
-    /// An input, by its index in that of inputs.
+    /// An input, by its index in the list of inputs.
     Input(usize),
-    /// A parameter, by its index in that of parameters.
+    /// A parameter, by its index in the list of parameters.
     Parameter(usize),
 }
 
 impl Variable {
-    /// Every coordinate, then every rate: what a linearization needs.
+    /// Every coordinate, then every rate, as needed for a linearization.
     pub fn of_state(coordinates: usize) -> Vec<Variable> {
         let q = (0..coordinates).map(Variable::Coordinate);
         q.chain((0..coordinates).map(Variable::Rate)).collect()
     }
 }
 
-/// What may stay while the rest changes, so that its work is not done again.
+/// The arguments that may stay constant while others change, so that their work need not
+/// be repeated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stages {
     /// Time.
@@ -113,13 +115,13 @@ pub struct Stages {
 }
 
 impl Stages {
-    /// Whether nothing is asked for.
+    /// Whether no stages are requested.
     pub fn is_empty(self) -> bool {
         self == Stages::default()
     }
 }
 
-/// The force in a contact that yields, of its depth `d` and how fast that grows.
+/// The force law of a compliant contact, as a function of its depth `d` and the rate of that.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Compliance {
     /// `k d + b ḋ`.
@@ -128,12 +130,13 @@ pub enum Compliance {
     Hertz,
     /// `K d^(3/2) (1 + c ḋ)`.
     HuntCrossley,
-    /// `k₁ d` where it is pressed for the first time, and `k₂` along what it yields before that and back.
+    /// `k₁ d` when it is pressed for the first time, and `k₂` for unloading and reloading below the
+    /// previous maximum.
     Layer,
 }
 
 impl Compliance {
-    /// All of them.
+    /// All force laws.
     pub const ALL: [Compliance; 4] = [
         Compliance::Linear,
         Compliance::Hertz,
@@ -141,7 +144,7 @@ impl Compliance {
         Compliance::Layer,
     ];
 
-    /// As a spec writes it.
+    /// The name in a spec.
     pub fn name(self) -> &'static str {
         match self {
             Compliance::Linear => "linear",
@@ -151,7 +154,7 @@ impl Compliance {
         }
     }
 
-    /// What its parameters are called in messages and in the names of what programs give, in their order.
+    /// The names of its parameters in messages and in the values of programs, in their order.
     pub fn parameters(self) -> &'static [&'static str] {
         match self {
             Compliance::Linear => &["stiffness", "damping"],
@@ -162,7 +165,7 @@ impl Compliance {
     }
 }
 
-/// Whether contacts that are closed take part in one impact.
+/// How closed contacts take part in an impact.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ImpactOrder {
     /// All at once.
@@ -173,10 +176,10 @@ pub enum ImpactOrder {
 }
 
 impl ImpactOrder {
-    /// Both of them.
+    /// Both orders.
     pub const ALL: [ImpactOrder; 2] = [ImpactOrder::AtOnce, ImpactOrder::Sequence];
 
-    /// As a spec writes it.
+    /// The name in a spec.
     pub fn name(self) -> &'static str {
         match self {
             ImpactOrder::AtOnce => "at_once",
@@ -185,21 +188,21 @@ impl ImpactOrder {
     }
 }
 
-/// What becomes of a contact whose friction leaves no motion: P. Painlevé's paradox.
+/// The treatment of a contact whose friction leaves no consistent motion (Painlevé's paradox).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Painleve {
     /// The run ends.
     #[default]
     Error,
-    /// An impact without a collision ends the slip.
+    /// An impact without collision ends the slip.
     Impact,
 }
 
 impl Painleve {
-    /// Both of them.
+    /// Both treatments.
     pub const ALL: [Painleve; 2] = [Painleve::Error, Painleve::Impact];
 
-    /// As a spec writes it.
+    /// The name in a spec.
     pub fn name(self) -> &'static str {
         match self {
             Painleve::Error => "error",
@@ -208,24 +211,24 @@ impl Painleve {
     }
 }
 
-/// How rates after an impact follow from those before it.
+/// The impact law: how rates after an impact follow from those before it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ImpactLaw {
     /// `0 ≤ Λₙ ⊥ γₙ⁺ + e γₙ⁻ ≥ 0`.
     #[default]
     Newton,
-    /// The impulse of expansion is `e` times that of compression, along Routh's path; one contact at a
-    /// time.
+    /// The impulse of expansion is `e` times that of compression, along Routh's path; one contact at
+    /// a time.
     Poisson,
     /// Poisson's hypothesis for several contacts at once, in two complementarity problems.
     PoissonGlocker,
-    /// The work of expansion is `−e²` times that of compression, along Routh's path; one contact at a
-    /// time.
+    /// The work of expansion is `−e²` times that of compression, along Routh's path; one contact at
+    /// a time.
     Stronge,
 }
 
 impl ImpactLaw {
-    /// All of them.
+    /// All impact laws.
     pub const ALL: [ImpactLaw; 4] = [
         ImpactLaw::Newton,
         ImpactLaw::Poisson,
@@ -233,7 +236,7 @@ impl ImpactLaw {
         ImpactLaw::Stronge,
     ];
 
-    /// As a spec writes it.
+    /// The name in a spec.
     pub fn name(self) -> &'static str {
         match self {
             ImpactLaw::Newton => "newton",

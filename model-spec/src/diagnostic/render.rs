@@ -1,14 +1,16 @@
-//! Messages as text: a short form for other programs, and a form that shows the words underlined.
+//! Renders messages as text: in a short form for other programs, and in a form with underlined
+//! source text.
 
 use std::fmt::Write as _; // writing to a String cannot fail
 
 use super::{Diagnostic, Report};
 use crate::source::{Sources, Span};
 
-/// The most characters of a line that are shown: a spec may stand on one line.
+/// The largest number of characters of a line that are shown, since a spec may be written on
+/// one line.
 const WIDTH: usize = 140;
 
-/// How far a tab moves.
+/// The width of a tab.
 const TAB: &str = "    ";
 
 impl Diagnostic {
@@ -28,7 +30,7 @@ impl Diagnostic {
         text
     }
 
-    /// With the words underlined:
+    /// With underlined source text:
     ///
     /// ```text
     /// error: a spring has no field `stifness` [unknown-field]
@@ -67,7 +69,8 @@ impl Report {
         self.lines(|diagnostic| diagnostic.render_short(sources))
     }
 
-    /// Every error and warning with its words underlined, by position, and an empty line after each.
+    /// Every error and warning with underlined source text, by position, each followed by an
+    /// empty line.
     pub fn render(&self, sources: &Sources) -> String {
         self.lines(|diagnostic| diagnostic.render(sources) + "\n")
     }
@@ -91,7 +94,7 @@ fn place(sources: &Sources, span: Span) -> String {
     format!("{}:{line}:{column}", sources.name(span.source))
 }
 
-/// The place and, in a file, its line with the words underlined by `mark`.
+/// The place and, for a file, its line with the words underlined by `mark`.
 fn snippet(sources: &Sources, span: Span, margin: usize, mark: char) -> String {
     let mut text = format!("\n{:margin$}--> {}", "", place(sources, span));
     if sources.is_tokens(span.source) {
@@ -119,11 +122,10 @@ fn snippet(sources: &Sources, span: Span, margin: usize, mark: char) -> String {
     text
 }
 
-/// The part of a line that is shown, how far the underlined words are from its beginning, and how
-/// long they are.
+/// The part of a line that is shown, the offset of the underlined words in it, and their length.
 fn window(line: &str, column: usize, length: usize) -> (String, usize, usize) {
     let long = line.chars().nth(WIDTH).is_some();
-    // A little of what stands before the words helps to find them.
+    // A little of the text before the words helps to find them.
     let skipped = if long {
         column.saturating_sub(WIDTH / 3)
     } else {

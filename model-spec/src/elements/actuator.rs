@@ -1,8 +1,8 @@
-//! Actuators: a force between two points along the line that joins them, or a torque between two frames.
+//! Actuators: a force between two points along the line through them, or a torque between two frames.
 //!
-//! A positive force drives the ends apart, a positive torque turns the second frame ahead of the first;
-//! what holds the actuator feels the opposite. So the work is `F δℓ` of the distance ℓ, or in the plane
-//! `M δ(φ′ − φ)`; in space, about an axis `n`, it is `M n·(ω′ − ω)` in a unit of time.
+//! A positive force pushes the ends apart; a positive torque turns the second frame forward relative to
+//! the first. The opposite load acts on the other end. So the work is `F δℓ` of the distance ℓ, or in
+//! the plane `M δ(φ′ − φ)`; in space, about an axis `n`, the power is `M n·(ω′ − ω)`.
 
 use lagrangian_symbolic::Expr;
 
@@ -134,8 +134,8 @@ fn between_frames<'a, 'd>(
     Some(Resolved::of(loads))
 }
 
-/// The axis of a torque in space, of length 1; in the plane there is but one. The outer option is nothing
-/// where an error has been reported.
+/// The axis of a torque in space, of length 1; none in the plane, which has only one axis. The outer
+/// option is nothing if an error was reported.
 fn axis<'a, 'd>(
     resolver: &mut Resolver<'a, 'd, '_>,
     member: MemberId,

@@ -1,15 +1,15 @@
-//! Bushings: elastic joints between two frames in the plane, of three stiffnesses, three dampings and a
-//! preload.
+//! Bushings: elastic joints between two frames in the plane, with three stiffnesses, three dampings and
+//! a preload.
 //!
-//! What is deformed is how the second frame stands as the first one sees it: the displacement (x, y) of
-//! its origin along the axes of the first, and the angle φ by which it is turned against it.
+//! The deformation is the pose of the second frame relative to the first: the displacement (x, y) of
+//! its origin in the axes of the first, and the relative angle φ.
 //!
 //! ```text
 //! V = ½ kx x² + ½ ky y² + ½ kφ φ² − Fx x − Fy y − M φ,    D = ½ bx ẋ² + ½ by ẏ² + ½ bφ φ̇²
 //! ```
 //!
-//! So where nothing is displaced, the preload (Fx, Fy, M) is what the second frame is pushed by, along
-//! the axes of the first. Both frames may move and turn together at no cost.
+//! So at zero displacement the preload (Fx, Fy, M) is the load on the second frame, in the axes of the
+//! first. A common motion of both frames stores and dissipates no energy.
 
 use lagrangian_symbolic::Expr;
 
@@ -46,10 +46,10 @@ static PRELOAD: Limit = limit(
     "what depends on coordinates or velocities stands under `forces` or `potentials`",
 );
 
-/// What stands in a field: two values along the axes, and one about them.
+/// The values of a field: two along the axes, and one about them.
 struct Values {
     field: &'static str,
-    /// The units along the axes, and about them.
+    /// The units of the values along the axes, and of the value about them.
     units: [Unit; 2],
     why: &'static str,
     limit: &'static Limit,
@@ -108,7 +108,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     let measures = measures(resolver, from, to);
     let deformations = |coefficients: [Expr<'d>; 3]| {
         let pairs = coefficients.into_iter().zip(measures).enumerate();
-        // What has no stiffness or damping costs nothing.
+        // A direction without stiffness or damping adds no term.
         let pairs = pairs.filter(|(_, (coefficient, _))| !coefficient.is_zero());
         pairs.map(|(k, (coefficient, measure))| {
             Energy::Quadratic(Deformation {
@@ -131,7 +131,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     }))
 }
 
-/// Three values that may be left out; then they are zero.
+/// Three optional values, zero if left out.
 fn optional<'a, 'd>(
     resolver: &mut Resolver<'a, 'd, '_>,
     member: MemberId,
@@ -144,7 +144,7 @@ fn optional<'a, 'd>(
     }
 }
 
-/// Two values along the axes, and one about them. They are no vector: their units are not the same.
+/// Two values along the axes, and one about them. They are not a vector, since their units differ.
 fn three<'a, 'd>(
     resolver: &mut Resolver<'a, 'd, '_>,
     member: MemberId,
@@ -181,15 +181,15 @@ fn three<'a, 'd>(
     Some([x, y, angle])
 }
 
-/// The most steps from frame to frame that are looked at. Frames that are farther from each other are
-/// seen from the ground, so that bushings on every link of a long chain do not make as many walks along
-/// it.
+/// The largest number of steps from frame to frame that are followed. Frames farther apart are
+/// measured from the ground, so that bushings on every link of a long chain do not take as many
+/// traversals of it.
 const FAR: usize = 64;
 
-/// How the frame `to` stands as `from` sees it: x, y and φ. What both are built on is left out.
+/// The pose of the frame `to` relative to `from`: x, y and φ. Their common base is left out.
 ///
-/// On the way from one to the other every shift was made along the axes of some frame of angle ψ, and so
-/// stands turned by ψ less the angle of `from`: nothing of it has to cancel, and a frame that is built on
+/// On the way from one to the other every shift was made in the axes of some frame of angle ψ, and so is
+/// turned by ψ minus the angle of `from`: nothing in it has to cancel, and a frame that is built on
 /// `from` by a shift alone is displaced by that shift.
 fn measures<'d>(resolver: &Resolver<'_, 'd, '_>, from: PoseId, to: PoseId) -> [Expr<'d>; 3] {
     let (dag, base) = (resolver.dag, resolver.pose(from).angle);
@@ -206,7 +206,7 @@ fn measures<'d>(resolver: &Resolver<'_, 'd, '_>, from: PoseId, to: PoseId) -> [E
     });
     let (mut x, mut y) = (Vec::new(), Vec::new());
     let mut left = &shifts[..];
-    // What was made along the same axes stands together.
+    // Shifts along the same axes are combined.
     while let Some(first) = left.first() {
         let count = left
             .iter()
@@ -224,11 +224,12 @@ fn measures<'d>(resolver: &Resolver<'_, 'd, '_>, from: PoseId, to: PoseId) -> [E
     [dag.sum(x), dag.sum(y), less_base(resolver.pose(to).angle)]
 }
 
-/// A shift on the way, along the axes of a frame that is turned by an angle.
+/// A shift on the way, in the axes of a frame that is turned by an angle.
 struct Shift<'d> {
     angle: Expr<'d>,
     by: Vec<Expr<'d>>,
-    /// Whether it is on the way from `from` to what both frames are built on, and counts backwards.
+    /// Whether it lies between `from` and the common base of both frames, and counts with the
+    /// opposite sign.
     is_back: bool,
 }
 
@@ -245,7 +246,7 @@ impl<'d> Shift<'d> {
     }
 }
 
-/// The shifts on the way from one frame to another, by their angles; nothing where the way is long.
+/// The shifts on the way from one frame to another, with their angles; nothing if the way is long.
 fn shifts_between<'d>(
     resolver: &Resolver<'_, 'd, '_>,
     from: PoseId,
@@ -258,7 +259,8 @@ fn shifts_between<'d>(
             shifts.sort_by_key(|shift: &Shift<'d>| shift.angle.id());
             return Some(shifts);
         }
-        // A frame is made after its parent, so the later of the two is no parent of the other.
+        // A frame is made after its parent, so the later of the two is not an ancestor of
+        // the other.
         if near.0 > far.0 {
             std::mem::swap(&mut near, &mut far);
         }

@@ -24,7 +24,7 @@ const SECTION: Section = Section {
            `name { damping: …, from: …, to: … }`",
 };
 
-/// What a damping coefficient may depend on.
+/// The limit of a damping coefficient.
 pub(super) static DAMPING: Limit = limit(
     stage::TIME,
     "a damping coefficient",

@@ -1,4 +1,4 @@
-//! Dissipations: Rayleigh's functions that the spec gives, of velocities, positions and time.
+//! Dissipations: Rayleigh functions given by the spec, of velocities, positions and time.
 
 use crate::model::element::{Contribution, Energy};
 use crate::model::stage;

@@ -1,6 +1,6 @@
-//! Drag: what a fluid does to a body that moves through it fast.
+//! Drag: the force of a fluid on a body that moves fast through it.
 //!
-//! With `w` the velocity of a point less that of the wind, the force on it is
+//! With `w` the velocity of a point relative to the wind, the force on it is
 //!
 //! ```text
 //! F = −½ ρ c A |w| w
@@ -37,14 +37,14 @@ const SECTION: Section = Section {
            `wind: vector`",
 };
 
-/// What coefficient, area and density may depend on.
+/// The limit of coefficient, area and density.
 static FACTOR: Limit = limit(
     stage::INPUT,
     "a drag",
     "only velocities, coordinates, inputs, parameters and `t` can stand here",
 );
 
-/// A factor of the force: its field, its unit, and what it is in.
+/// A factor of the force: its field, its unit, and the reason for messages.
 type Factor = (&'static str, Unit, &'static str);
 
 const FACTORS: [Factor; 3] = [
@@ -86,8 +86,8 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     })]))
 }
 
-/// The length of a velocity. Of what one rate alone moves it is the size of that rate times a length that
-/// does not vanish with it, so that the force has a derivative at rest too.
+/// The magnitude of a velocity. If a single rate produces it, it is written as the magnitude of that rate
+/// times a length that does not vanish with it, so that the force is differentiable at rest too.
 fn speed<'d>(resolver: &Resolver<'_, 'd, '_>, velocity: &[Expr<'d>]) -> Expr<'d> {
     let whole = || resolver.length(velocity);
     let is_rate = |&symbol: &Symbol| resolver.dag.stage_of(symbol) == stage::VELOCITY;

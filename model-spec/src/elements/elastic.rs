@@ -1,4 +1,4 @@
-//! What springs and dampers have in common: a coefficient, and what it stretches.
+//! The common parts of springs and dampers: a coefficient and a stretch.
 
 use lagrangian_symbolic::Expr;
 
@@ -14,10 +14,10 @@ use crate::source::Span;
 use crate::syntax::{Expression, Record};
 use crate::unit::Unit;
 
-/// What a stretch and a twist may depend on.
+/// The limit of a stretch and a twist.
 pub(super) static STRETCH: Limit = limit(stage::POSITION, "a stretch", POSITIONS);
 
-/// The share of an element in an energy: ½ c x² or ½ b ẋ².
+/// An element with a term ½ c x² or ½ b ẋ² in an energy.
 pub(super) struct Elastic {
     /// The field of the coefficient.
     pub coefficient: &'static str,
@@ -25,15 +25,15 @@ pub(super) struct Elastic {
     pub linear: Unit,
     /// The unit of coefficient times stretch squared.
     pub product: Unit,
-    /// What the coefficient may depend on.
+    /// The limit of the coefficient.
     pub limit: &'static Limit,
-    /// What it has to obey.
+    /// The bound that it must obey.
     pub bound: BoundKind<'static>,
-    /// What is drawn.
+    /// Its drawing.
     pub shape: Shape,
 }
 
-/// A stretch, where it was read.
+/// A stretch, with its place in the spec.
 struct Stretch<'d> {
     value: Scalar<'d>,
     span: Span,
@@ -41,7 +41,7 @@ struct Stretch<'d> {
 }
 
 impl Elastic {
-    /// What an item with a coefficient, and `stretch` or `from` and `to`, deforms.
+    /// The deformation of an item with a coefficient and either `stretch`, or `from` and `to`.
     pub fn resolve<'a, 'd>(
         &self,
         resolver: &mut Resolver<'a, 'd, '_>,
@@ -70,8 +70,8 @@ impl Elastic {
         Some((deformation, drawing))
     }
 
-    /// Coefficient times stretch squared is an energy, or a power over the rates. If it is not, the
-    /// one that is unlike any spring or damper is wrong.
+    /// Checks that the coefficient times the square of the stretch is an energy, or with rates a
+    /// power. If it is not, the unit that is unusual for a spring or damper is reported.
     fn check_units<'d>(
         &self,
         resolver: &mut Resolver<'_, 'd, '_>,
@@ -105,7 +105,7 @@ impl Elastic {
     }
 }
 
-/// `stretch`, or the distance of `from` and `to` less the free `length`.
+/// `stretch`, or the distance of `from` and `to` minus the free `length`.
 fn stretch<'a, 'd>(
     resolver: &mut Resolver<'a, 'd, '_>,
     member: MemberId,
@@ -179,17 +179,18 @@ fn free_length<'a, 'd>(
     Some(length.expr)
 }
 
-/// How far apart two points are, less a free length: √(u·u), or what is assumed not to be negative
-/// and has that square.
+/// The distance between two points minus a free length: √(u·u), or an expression with that square
+/// that is assumed to be nonnegative.
 ///
-/// So the ends of a spring in polar coordinates are `r` apart, and points of one line `b − a`: no
-/// root is left, and no quotient by it in the force. The run checks what is assumed.
+/// So the distance of the ends of a spring in polar coordinates is `r`, and that of two
+/// points on a line `b − a`: no root remains, and no division by it in the force. The run
+/// checks the assumption.
 fn distance_less<'d>(
     resolver: &Resolver<'_, 'd, '_>,
     line: &[Expr<'d>],
     free: Expr<'d>,
 ) -> Expr<'d> {
     let length = resolver.distance(line);
-    // Added up as one sum, so that a free length in it cancels.
+    // Added as one sum, so that a free length in it cancels.
     resolver.dag.sum(terms(length).into_iter().chain([-free]))
 }

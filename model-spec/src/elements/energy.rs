@@ -1,6 +1,6 @@
-//! Energies of states of first order: what a winding, a reservoir or a body that is warm stores.
+//! Energies stored in first-order states: of a winding, a reservoir or a warm body.
 //!
-//! They are for the balance of energy alone, and no force follows from them.
+//! They enter only the energy balance, and no force follows from them.
 
 use crate::model::element::Contribution;
 use crate::model::stage;

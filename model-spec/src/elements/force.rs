@@ -22,7 +22,7 @@ const SECTION: Section = Section {
            `name { on: coordinate, value: … }`",
 };
 
-/// What a force and a torque may depend on.
+/// The limit of a force and a torque.
 pub(super) static FORCE: Limit = limit(
     stage::INPUT,
     "a force",

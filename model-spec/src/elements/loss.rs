@@ -1,6 +1,7 @@
-//! Losses: power that leaves the machine in another way than by dampers, as heat of a resistance.
+//! Losses: power that leaves the machine by other means than dampers, such as the heat of
+//! a resistor.
 //!
-//! They are for the balance of energy alone, and no force follows from them.
+//! They enter only the energy balance, and no force follows from them.
 
 use crate::model::element::Contribution;
 use crate::model::stage;

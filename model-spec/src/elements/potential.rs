@@ -1,4 +1,4 @@
-//! Potentials: energies that the spec gives as functions of positions and time.
+//! Potentials: energies given by the spec as functions of positions and time.
 
 use crate::model::element::{Contribution, Energy};
 use crate::model::stage;

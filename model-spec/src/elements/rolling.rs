@@ -1,4 +1,4 @@
-//! Circles that touch another, or a line, and roll on it.
+//! Circles that touch another circle, or a line, and roll on it.
 
 use crate::model::element::{Contribution, Rolling};
 use crate::model::stage;

@@ -1,36 +1,37 @@
-//! Ropes: of a given length, from point to point and over pulleys.
+//! Ropes of a given length, from point to point and over pulleys.
 //!
 //! ```text
 //! |p₂ − p₁| + |p₃ − p₂| + … = length
 //! ```
 //!
-//! The length may change, as on a winch. The rope pulls with the multiplier, reversed; it is taken to be
-//! tight throughout.
+//! The length may vary, as on a winch. The rope pulls with the negative multiplier; it is assumed to be
+//! tight at all times.
 //!
-//! Pulleys of the plane may have radii: s, positive where the rope turns left around the pulley and negative where it
-//! turns right. The part from one to the next, with D from centre to centre and h = s' − s, is straight along e,
+//! Pulleys in the plane may have radii: s, positive where the rope turns left around the pulley and negative where
+//! it turns right. The part from one pulley to the next, with D from centre to centre and h = s' − s, is straight
+//! along e,
 //!
 //! ```text
 //! ℓ = √(D² − h²),    e = (ℓ D − h D⊥)/D²,    D⊥ = (−D_y, D_x),
 //! ```
 //!
-//! since the centres are at s n and s' n from the rope, n being e turned left: D = ℓ e + h n. On a pulley lies the arc
-//! |s| w, w being the turn from the part before to the part behind,
+//! since the centres are at distances s n and s' n from the rope, where n is e turned left: D = ℓ e + h n. The arc on
+//! a pulley is |s| w, where w is the turn from the preceding part to the following one,
 //!
 //! ```text
 //! |s| w = |s| π + s atan2(−e × e', −e · e'),    0 < w < 2π.
 //! ```
 //!
-//! As D·n = h stays, n·Ḋ = ℓ ψ̇ with ψ the direction of e, and the rate of ℓ is e·Ḋ + h ψ̇. In the sum with the rates of the
-//! arcs, s (ψ̇' − ψ̇), all ψ̇ cancel: the rope grows by Σ e·Ḋ. Where it does not slip on a pulley that is turned by θ, what comes
-//! to it goes around with it:
+//! As D·n = h is constant, n·Ḋ = ℓ ψ̇ with ψ the direction of e, and the rate of ℓ is e·Ḋ + h ψ̇. In the sum with the rates of
+//! the arcs, s (ψ̇' − ψ̇), all ψ̇ cancel: the rope grows by Σ e·Ḋ. If it does not slip on a pulley that is turned by θ, the rope
+//! that arrives goes around with the pulley:
 //!
 //! ```text
 //! Σ e·Ḋ of the parts before + s θ̇ = 0,
 //! ```
 //!
-//! and an end that is wound on a drum gives −s θ̇ of the first point, +s θ̇ of the last to both. So what does not slip is an equation
-//! between rates, and where an end is wound up the rope is one, too: how much of it is on the drum is as it is at the start.
+//! and an end that is wound on a drum adds −s θ̇ at the first point, +s θ̇ at the last to both sums. So the condition of no slip
+//! is an equation between rates, and so is the rope if an end is wound up: the length on the drum is determined by the start.
 
 use lagrangian_symbolic::Expr;
 
@@ -74,21 +75,21 @@ static RADIUS: Limit = limit(
 
 static TURN: Limit = limit(stage::POSITION, "the turn of a pulley", POSITIONS);
 
-/// A point of the path: its place, and of a pulley its radius and its turn.
+/// A point of the path: its position and, for a pulley, its radius and its angle.
 struct Stop<'d> {
     at: Vec<Expr<'d>>,
-    /// With its sign; 0 of what has no size.
+    /// Signed; 0 for a point.
     radius: Expr<'d>,
     turn: Option<Expr<'d>>,
 }
 
-/// A straight part.
+/// A straight part of the rope.
 struct Part<'d> {
     length: Expr<'d>,
     /// Its direction, times `norm`.
     along: Vec<Expr<'d>>,
     norm: Expr<'d>,
-    /// From centre to centre.
+    /// The vector from centre to centre.
     line: Vec<Expr<'d>>,
 }
 
@@ -191,7 +192,7 @@ impl Stop<'_> {
     }
 }
 
-/// Whether an end of the path is said to have a radius, as far as can be seen before anything is resolved.
+/// Whether an end of the path has a radius, as far as the syntax shows.
 fn is_wound(record: &Record) -> bool {
     let Some(ExpressionKind::Tuple(radii)) = record.get("radii").map(|radii| &radii.kind) else {
         return false;
@@ -203,7 +204,7 @@ fn is_wound(record: &Record) -> bool {
         .any(|end| !is_zero(end))
 }
 
-/// The points of the path with their radii and turns.
+/// The points of the path with their radii and angles.
 fn stops<'a, 'd>(
     resolver: &mut Resolver<'a, 'd, '_>,
     member: MemberId,
@@ -284,7 +285,7 @@ fn stops<'a, 'd>(
     Some(stops)
 }
 
-/// As many expressions in brackets as the path has points.
+/// A tuple of as many expressions as the path has points.
 fn list<'a>(
     resolver: &mut Resolver<'a, '_, '_>,
     said: &'a Expression,
@@ -330,7 +331,8 @@ fn part<'d>(resolver: &Resolver<'_, 'd, '_>, from: &Stop<'d>, to: &Stop<'d>) -> 
     }
 }
 
-/// What lies on the pulley at a point of the path, and the fact that it does; nothing where there is no pulley.
+/// The arc on the pulley at a point of the path, and the fact that the rope lies on it; nothing if there is
+/// no pulley.
 fn arc<'d>(
     resolver: &mut Resolver<'_, 'd, '_>,
     member: MemberId,
@@ -344,7 +346,8 @@ fn arc<'d>(
     let (before, behind) = (&parts[k - 1], &parts[k]);
     let [u, v] = [&before.along, &behind.along];
     let (across, along) = (u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]);
-    // 1 − cos w ± sin w, times what is positive: 0 where w is 0 and three quarters of a turn, positive between.
+    // 1 − cos w ± sin w, times a positive factor: 0 at w = 0 and at three quarters of a turn, positive
+    // in between.
     let excess = radius.abs() * (before.norm * behind.norm - along) + radius * across;
     let text = format!(
         "the rope `{}` lies on pulley {k}, by less than 3/4 of a turn",
@@ -359,7 +362,7 @@ fn arc<'d>(
     Some(radius.abs() * resolver.dag.pi() + radius * (-across).atan2(-along))
 }
 
-/// The rate by which the rope up to a pulley or the last point grows, wound parts counted.
+/// The rate at which the rope up to a pulley or the last point grows, including wound parts.
 fn growth<'d>(
     resolver: &mut Resolver<'_, 'd, '_>,
     (stops, parts): (&[Stop<'d>], &[Part<'d>]),

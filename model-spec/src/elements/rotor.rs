@@ -1,10 +1,11 @@
-//! Rotors: inertia that turns with an angle, wherever it is: of a motor behind its gear, of a flywheel.
+//! Rotors: inertia that turns with an angle at any position, such as a motor behind its gear, or
+//! a flywheel.
 //!
 //! ```text
 //! T = ½ J φ̇²
 //! ```
 //!
-//! A rotor is a body without mass that turns by an angle; where it is makes no difference.
+//! A rotor is a body without mass that turns by an angle; its position does not matter.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::bounds::BoundKind;
@@ -35,7 +36,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     let angle = angle.and_then(|angle| Some((resolver.scalar(angle, scope)?, angle.span)));
     let inertia = resolver.field(member, record, "inertia");
     let (angle, span) = angle?;
-    // ½ J q̇² is an energy whatever the coordinate is measured in.
+    // ½ J q̇² is an energy, whatever the unit of the coordinate.
     let rate = angle.unit.unwrap_or(Unit::RADIAN).rate();
     let unit = Unit::JOULE.over(rate.times(rate));
     let inertia = inertia.and_then(|said| {

@@ -1,7 +1,7 @@
-//! Guided contacts: a body slides along a direction, or in space on a surface, and the normal reaction of the guide makes
-//! Coulomb friction.
+//! Guided contacts: a body slides along a direction, or in space on a surface, with Coulomb friction from the normal
+//! reaction of the guide.
 //!
-//! A surface is said by its normal alone. What slides on it contributes two contacts, along two tangents.
+//! A surface is given by its normal alone. Sliding on it contributes two contacts, along two tangents.
 
 use lagrangian_symbolic::Expr;
 
@@ -42,7 +42,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     let record = resolver.record(member)?;
     let body = resolver.field(member, record, "body");
     let on = resolver.field(member, record, "on");
-    // On a surface its tangents say what a direction says along a curve.
+    // On a surface its tangents take the place of the direction along a curve.
     let is_surface = resolver.space == Space::Space
         && record.get("direction").is_none()
         && record.get("normal").is_some();
@@ -67,7 +67,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         }
         sticking
     });
-    // What is said and wrong has been reported.
+    // A normal that is present but wrong has been reported.
     let normal = match normal {
         Some(normal) => Some(normal?.components),
         None => None,
@@ -114,7 +114,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     Some(Resolved::of(directions.into_iter().map(contact)))
 }
 
-/// A vector as long as 1.
+/// A vector normalized to length 1.
 fn unit<'d>(vector: &[Expr<'d>]) -> Vec<Expr<'d>> {
     let dag = vector[0].dag();
     let square = dag.sum(vector.iter().map(|x| x.square()));

@@ -24,7 +24,7 @@ const SECTION: Section = Section {
            `name { stiffness: …, from: …, to: …, length: … }`",
 };
 
-/// What a stiffness may depend on.
+/// The limit of a stiffness.
 pub(super) static STIFFNESS: Limit = limit(
     stage::TIME,
     "a stiffness",

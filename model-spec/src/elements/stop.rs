@@ -1,7 +1,7 @@
-//! Stops: what ends the travel of a joint, softly.
+//! Stops: soft limits of the travel of a joint.
 //!
-//! Beyond a bound, by the depth δ, a stop is a spring, and if it has damping it takes energy the more the
-//! deeper it is, so that the force begins at zero however fast it is met:
+//! Beyond a bound, at the depth δ, a stop is a spring. Its damping, if any, grows with the depth, so that
+//! the force begins at zero at any impact velocity:
 //!
 //! ```text
 //! V = ½ k δ²,    D = ½ c δ δ̇²,    δ = max(0, x − above)  or  max(0, below − x)

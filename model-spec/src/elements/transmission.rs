@@ -1,13 +1,12 @@
-//! Transmissions: gears and belts, by which one turn is another times a ratio.
+//! Transmissions: gears and belts, which make one angle a multiple of another.
 //!
 //! ```text
 //! φ₁ − φ_c = i (φ₂ − φ_c) + φ₀
 //! ```
 //!
-//! with φ_c the turn of what carries the wheels, where it moves. Of gears with z₁ and z₂ teeth `i` is
-//! −z₂/z₁, and a ring with its teeth inside has a negative number of them (DIN 3960); of a belt over
-//! pulleys of radii r₁ and r₂ it is r₂/r₁, negative where the belt is crossed. The multiplier is the torque on
-//! the first wheel.
+//! where φ_c is the angle of the carrier of the wheels, if that moves. For gears with z₁ and z₂ teeth `i` is
+//! −z₂/z₁, and an internal gear has a negative number of teeth (DIN 3960); for a belt over pulleys of radii r₁
+//! and r₂ it is r₂/r₁, negative if the belt is crossed. The multiplier is the torque on the first wheel.
 
 use lagrangian_symbolic::Expr;
 
@@ -47,7 +46,7 @@ static RATIO: Limit = limit(
     "a ratio that changes is an equation between rates under `constraints`",
 );
 
-/// How many teeth, or which radius.
+/// The sizes of the wheels: numbers of teeth, or radii.
 const SIZES: [(&str, Unit, &str); 2] = [
     ("teeth", Unit::ONE, "a number of teeth has no unit"),
     ("belt", Unit::METRE, "the radius of a pulley is in m"),
@@ -111,7 +110,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     })]))
 }
 
-/// What is joined moves, and rates stand in it linearly.
+/// Checks that the joined parts move, and that rates occur linearly.
 fn check<'d>(resolver: &mut Resolver<'_, 'd, '_>, joined: Expr<'d>, span: Span) -> Option<()> {
     if joined.stage() < stage::POSITION {
         resolver.error(Code::NoCoordinates, span, "this constrains no coordinate");
@@ -131,7 +130,7 @@ fn check<'d>(resolver: &mut Resolver<'_, 'd, '_>, joined: Expr<'d>, span: Span) 
     Some(())
 }
 
-/// Two expressions in brackets.
+/// A pair of expressions in brackets.
 fn pair<'a>(
     resolver: &mut Resolver<'a, '_, '_>,
     said: &'a Expression,
@@ -148,7 +147,7 @@ fn pair<'a>(
     }
 }
 
-/// How far a wheel is turned: the angle of a frame or a body in the plane, or any expression.
+/// The angle of a wheel: that of a frame or a body in the plane, or any expression.
 pub(super) fn turn_of<'a, 'd>(
     resolver: &mut Resolver<'a, 'd, '_>,
     member: MemberId,
@@ -185,7 +184,7 @@ pub(super) fn turn_of<'a, 'd>(
     }
 }
 
-/// The ratio, as it is said: by itself, by teeth or by radii.
+/// The ratio, given directly, by teeth or by radii.
 fn ratio<'a, 'd>(
     resolver: &mut Resolver<'a, 'd, '_>,
     member: MemberId,

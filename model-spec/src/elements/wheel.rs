@@ -1,17 +1,17 @@
 //! Wheels, discs and balls that roll on a plane in space.
 //!
 //! With `c` the centre, `o` and `n` origin and normal of the plane, `a` the axis of a thin disc of radius
-//! `r`, the point that touches is at `c + ρ`:
+//! `r`, the touching point is `c + ρ`:
 //!
 //! ```text
 //! ball    h = n·(c − o) = r,      ρ = −r n
 //! disc    h = r |s|,  ρ = −r s/|s|,   s = n − (n·a) a
 //! ```
 //!
-//! and what touches there does not slip: `ċ + ω × ρ` is the velocity of the plane at that place, along both
-//! axes of the plane. E. J. Routh, *Advanced Rigid Dynamics*, 1905, ch. V.
+//! and it does not slip: `ċ + ω × ρ` is the velocity of the plane at that point, along both axes of the
+//! plane. E. J. Routh, *Advanced Rigid Dynamics*, 1905, ch. V.
 //!
-//! Where the coordinates see to it that the wheel touches, the first equation says nothing and is left out.
+//! If the coordinates ensure that the wheel touches, the first equation is an identity and is left out.
 
 use lagrangian_symbolic::Expr;
 
@@ -70,7 +70,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         Some(said) => resolver.axis(said).map(Some),
     };
     let (Place::Frame(wheel), (on, span)) = (wheel?, on?) else {
-        return None; // in space what turns has a frame
+        return None; // in space whatever turns has a frame
     };
     let (radius, axis) = (radius?, axis?);
     if wheel == on {
@@ -126,8 +126,8 @@ fn dot<'d>(u: &[Expr<'d>], v: &[Expr<'d>]) -> Expr<'d> {
     u[0].dag().sum(products)
 }
 
-/// How far the wheel is from the plane, unless it touches wherever it is; and where it touches, from its
-/// centre.
+/// The distance of the wheel from the plane, unless it always touches, and the touching point relative
+/// to its centre.
 fn touching<'d>(
     resolver: &Resolver<'_, 'd, '_>,
     wheel: PoseId,
@@ -151,7 +151,7 @@ fn touching<'d>(
         .map(|(&n, &a)| n - along * a)
         .collect();
     let square = resolver.dag.sum(across.iter().map(|c| c.square()));
-    // Where it always touches, |s| is h/r: no root, and no question of its sign.
+    // If it always touches, |s| is h/r, without a root and a question of its sign.
     let touches = identity::equal(height.square(), radius.square() * square) == Some(true);
     let (gap, length) = if touches {
         (None, height / radius)
@@ -163,7 +163,7 @@ fn touching<'d>(
     (gap, lever)
 }
 
-/// The velocity of the point of the wheel that touches, less that of the plane there.
+/// The velocity of the touching point of the wheel relative to the plane there.
 fn slip<'d>(
     resolver: &mut Resolver<'_, 'd, '_>,
     [wheel, on]: [PoseId; 2],

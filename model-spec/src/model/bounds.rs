@@ -1,7 +1,7 @@
-//! What the numbers of a machine must obey: masses are positive, friction does not drive.
+//! Bounds on the numbers of a machine: masses are positive, friction does not drive.
 //!
-//! A spec is held against this where it is read, with the defaults of its parameters; a command,
-//! with the values that it is given. Both say the same words.
+//! A spec is checked against them when it is read, with the defaults of its parameters; a command
+//! checks the values that it is given. Both give the same messages.
 
 use lagrangian_symbolic::{Dag, Expr, Symbol, evaluate};
 
@@ -9,29 +9,29 @@ use super::{Model, stage};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 
-/// A number of the machine, and what mechanics demands of it.
+/// A number of the machine with the bound that it must obey.
 #[derive(Clone, Debug)]
 pub struct Bound<'d> {
-    /// What it is.
+    /// The kind of the number.
     pub kind: BoundKind<'d>,
     /// Its value, of parameters alone.
     pub value: Expr<'d>,
-    /// Where the spec says it.
+    /// Its place in the spec.
     pub said: Span,
 }
 
-/// What a number is.
+/// The kind of a bounded number.
 #[derive(Clone, Copy, Debug)]
 pub enum BoundKind<'d> {
-    /// A mass, which is positive; one that parameters decide may vanish, as that of a part which a
+    /// A mass, which is positive; one that depends on parameters may vanish, for a part that a
     /// variant lacks.
     Mass,
     /// A moment of inertia, which is not negative.
     Moment,
     /// A radius, which is positive.
     Radius,
-    /// How far a corner of a polygon lies to the left of a face that it is not on, times the length of that: positive where the
-    /// polygon is convex and its corners go round it to the left.
+    /// The distance of a corner of a polygon to the left of a face that it is not on, times the length of that face: positive
+    /// if the polygon is convex and its corners are in counterclockwise order.
     Convex,
     /// A coefficient of friction, which is not negative.
     Friction,
@@ -41,29 +41,29 @@ pub enum BoundKind<'d> {
     StaticFriction(Expr<'d>),
     /// A coefficient of restitution, which is between 0 and 1.
     Restitution,
-    /// The stiffness of a contact that yields, which is positive.
+    /// The stiffness of a compliant contact, which is positive.
     ContactStiffness,
-    /// The damping of a contact that yields, which is not negative.
+    /// The damping of a compliant contact, which is not negative.
     ContactDamping,
-    /// The stiffness of a layer that is unloaded, which is not below that of its loading.
+    /// The unloading stiffness of a layer, which is not below its loading stiffness.
     Unloading(Expr<'d>),
-    /// A stiffness, which may be negative where that is meant.
+    /// A stiffness, which may be negative if the spec allows it.
     Stiffness,
-    /// A damping coefficient, which may be negative where that is meant.
+    /// A damping coefficient, which may be negative if the spec allows it.
     Damping,
     /// A factor of a drag, which is not negative.
     Drag,
-    /// A parameter that follows from others, which is a finite number where these are known.
+    /// A parameter that follows from others, which is finite if these are known.
     Derived,
 }
 
 impl BoundKind<'_> {
-    /// Whether a machine may break it, if its spec says so.
+    /// Whether a machine may violate it, if its spec says so.
     pub(crate) fn may_be_meant(self) -> bool {
         matches!(self, BoundKind::Stiffness | BoundKind::Damping)
     }
 
-    /// What is wrong with a value; nothing can be said of one that is not known, which is NaN.
+    /// The error in a value; none if the value is unknown, which is NaN.
     fn complaint(self, value: f64, other: f64) -> Option<(Code, String)> {
         let (is_wrong, code, words) = match self {
             BoundKind::Mass => (value <= 0.0, Code::NotPositive, "a mass is positive"),
@@ -137,7 +137,7 @@ impl BoundKind<'_> {
     }
 }
 
-/// The bounds that are broken, by their places, with what to say of each.
+/// The violated bounds, by index, with a message for each.
 pub(crate) fn broken(
     dag: &Dag,
     bounds: &[Bound<'_>],
@@ -173,9 +173,9 @@ pub(crate) fn broken(
 }
 
 impl<'d> Model<'d> {
-    /// What is to be said of parameters that somebody gives: errors as a spec has them with these
-    /// values as defaults, and warnings. Values in the order of [`Model::parameters`], in the units
-    /// declared there; NaN for one that is not known.
+    /// The errors and warnings for given parameters: errors as for a spec with these values as
+    /// defaults. The values are in the order of [`Model::parameters`], in the units declared there;
+    /// NaN if unknown.
     pub fn refused_values(&self, parameters: &[f64]) -> Vec<Diagnostic> {
         let value = |symbol| {
             let mut known = self.parameters.iter().zip(parameters);
@@ -196,11 +196,11 @@ impl<'d> Model<'d> {
     }
 }
 
-/// How to say that a negative coefficient is meant.
+/// The help text for a negative coefficient that is intended.
 pub(crate) const MEANT: &str = "if it is meant, say so: `assume { c < 0 }`, with a name for it";
 
 impl Bound<'_> {
-    /// Whether it can be told from parameters alone.
+    /// Whether it depends on parameters alone.
     pub(crate) fn is_of_parameters(&self) -> bool {
         let other = match self.kind {
             BoundKind::StaticFriction(friction) => friction.stage(),

@@ -1,4 +1,4 @@
-//! Circles in the plane: where they are, and how two of them touch.
+//! Circles in the plane: their positions, and the contact of two of them.
 
 use std::collections::BTreeSet;
 
@@ -7,12 +7,12 @@ use lagrangian_symbolic::{Expr, Id, Node, Rational, Symbol, Tangent};
 use crate::identity;
 use crate::model::{Body, Circle, Model, Place, PoseId, Rotation, Surface, Touching};
 
-/// How two circles stand to each other.
+/// The relative position and motion of two circles.
 pub struct Contact<'d> {
-    /// How far they are apart, in m: 0 where they touch.
+    /// The distance between them, in m: 0 if they touch.
     pub gap: Expr<'d>,
-    /// The velocity of the point of the first circle that is nearest to the other, less that of the
-    /// other's, along the tangent.
+    /// The velocity of the point of the first circle that is nearest to the other, relative to the
+    /// nearest point of the other, along the tangent.
     pub slip: Expr<'d>,
 }
 
@@ -33,7 +33,7 @@ pub fn outline<'d>(model: &Model<'d>, body: usize) -> Vec<Vec<Expr<'d>>> {
         .collect()
 }
 
-/// A point that is fixed to a frame or a body, given along its axes, and these axes; both in ground axes.
+/// A point that is fixed to a frame or a body, given in its axes, and these axes; both in ground axes.
 pub(super) fn fixed<'d>(
     model: &Model<'d>,
     on: Place,
@@ -56,7 +56,7 @@ pub(super) fn fixed<'d>(
     ((0..origin.len()).map(along).collect(), axes)
 }
 
-/// The axes of a body, in ground axes; none where the spec does not say how it is turned.
+/// The axes of a body, in ground axes; none if the spec gives no orientation.
 pub fn body_axes<'d>(model: &Model<'d>, body: &Body<'d>) -> Option<Vec<Vec<Expr<'d>>>> {
     match body.rotation {
         Rotation::Frame(pose) => Some(model.poses[pose.index()].axes.clone()),
@@ -75,7 +75,7 @@ pub fn planar_angle<'d>(model: &Model<'d>, body: &Body<'d>) -> Option<Expr<'d>> 
     planar_turn(model, body.rotation)
 }
 
-/// The angle of whatever is turned so, in the plane.
+/// The angle of a rotation in the plane.
 pub fn planar_turn<'d>(model: &Model<'d>, rotation: Rotation<'d>) -> Option<Expr<'d>> {
     match rotation {
         Rotation::Unspecified => None,
@@ -84,7 +84,7 @@ pub fn planar_turn<'d>(model: &Model<'d>, rotation: Rotation<'d>) -> Option<Expr
     }
 }
 
-/// How fast what a circle is fixed to turns.
+/// The angular velocity of what a circle is fixed to.
 fn turning<'d>(model: &Model<'d>, circle: &Circle<'d>, rate: &mut Tangent<'d>) -> Expr<'d> {
     let angle = match circle.on {
         Place::Frame(pose) => Some(model.poses[pose.index()].angle),
@@ -93,7 +93,7 @@ fn turning<'d>(model: &Model<'d>, circle: &Circle<'d>, rate: &mut Tangent<'d>) -
     angle.map_or(model.dag.zero(), |angle| rate.of(angle))
 }
 
-/// How a circle touches what it is to touch.
+/// The contact of a circle with the surface that it touches.
 pub fn contact<'d>(model: &Model<'d>, touching: &Touching, rate: &mut Tangent<'d>) -> Contact<'d> {
     touch(
         model,
@@ -103,7 +103,7 @@ pub fn contact<'d>(model: &Model<'d>, touching: &Touching, rate: &mut Tangent<'d
     )
 }
 
-/// How fast a circle turns relative to what it touches, in rad/s.
+/// The angular velocity of a circle relative to what it touches, in rad/s.
 pub fn rolling<'d>(model: &Model<'d>, touching: &Touching, rate: &mut Tangent<'d>) -> Expr<'d> {
     let own = turning(model, &model.circles[touching.circle], rate);
     let other = match touching.surface {
@@ -115,7 +115,7 @@ pub fn rolling<'d>(model: &Model<'d>, touching: &Touching, rate: &mut Tangent<'d
     difference(own, other)
 }
 
-/// How a circle, which need not be one of the machine's, touches a surface.
+/// The contact of a circle, which need not be one of the machine's, with a surface.
 pub fn touch<'d>(
     model: &Model<'d>,
     circle: &Circle<'d>,
@@ -129,15 +129,16 @@ pub fn touch<'d>(
     }
 }
 
-/// How a circle touches the first axis `e` of a frame from the side of the second, `n`. With `c` from
-/// the frame's origin to the centre, radius `r`, and the circle turning at the rate `ω`:
+/// The contact of a circle with the first axis `e` of a frame, from the side of the second axis,
+/// `n`. With `c` from the frame's origin to the centre, radius `r`, and the angular velocity `ω` of
+/// the circle:
 ///
 /// ```text
 /// gap = c·n − r,    slip = ċ·e + r ω
 /// ```
 ///
-/// A point of the line moves across it, whatever the rate at which the frame turns; `c·n` counts as
-/// `r` there.
+/// A point of the line moves perpendicular to it, whatever the angular velocity of the frame; `c·n`
+/// is taken as `r` for this.
 fn with_line<'d>(
     model: &Model<'d>,
     circle: &Circle<'d>,
@@ -161,8 +162,9 @@ fn with_line<'d>(
     }
 }
 
-/// How two circles touch. With `c` from the centre of the other circle to that of the first, `d`
-/// its length, `e = c/d`, `τ` that turned left, radii `r` and `R`, rates of turning `ω` and `Ω`:
+/// The contact of two circles. With `c` from the centre of the other circle to that of the first,
+/// `d` its length, `e = c/d`, `τ` that vector turned left, radii `r` and `R`, angular velocities
+/// `ω` and `Ω`:
 ///
 /// ```text
 /// inside    gap = R − r − d,    slip = ċ·τ + r ω − R Ω
@@ -196,15 +198,15 @@ fn with_circle<'d>(
     }
 }
 
-/// `a − b` with what both have in common left out.
+/// `a − b` with common terms cancelled.
 pub(super) fn difference<'d>(a: Expr<'d>, b: Expr<'d>) -> Expr<'d> {
     let dag = a.dag();
     let (a, b) = (terms(a), terms(b));
     dag.sum(a.into_iter().chain(b.into_iter().map(|term| -term)))
 }
 
-/// The terms of a sum, or the whole of what is none: added up as one sum, what they have in common
-/// cancels.
+/// The terms of a sum; an expression that is not a sum is its only term. Added up again as one sum,
+/// common terms cancel.
 pub fn terms<'d>(sum: Expr<'d>) -> Vec<Expr<'d>> {
     match sum.node() {
         Node::Sum(terms) => {
@@ -215,8 +217,8 @@ pub fn terms<'d>(sum: Expr<'d>) -> Vec<Expr<'d>> {
     }
 }
 
-/// The length of a line, √(u·u), or what is assumed not to be negative and has that square: `facts`
-/// with their symbols.
+/// The length of a line, √(u·u), or an expression with that square that `facts` assume to be
+/// nonnegative; facts come with their symbols.
 pub fn distance<'d>(line: &[Expr<'d>], facts: &[(Expr<'d>, BTreeSet<Symbol>)]) -> Expr<'d> {
     let squares = line.iter().map(|c| c.square());
     let square = line[0].dag().sum(squares);

@@ -1,9 +1,10 @@
-//! Elements: whatever a machine has beside its bodies, and what it contributes to the equations.
+//! Elements: everything a machine has besides its bodies, and its contributions to the equations.
 //!
-//! A section of the language says what an element is in the words of an engineer. Here it has become
-//! what mechanics knows, a small closed set: energies, dissipation, loads, gravity, constraints, rolling
-//! and sliding. Equations, their proof, the printed chapter and the report are made from these, and
-//! none of them knows sections. So a new section that is made of these needs nothing outside its file.
+//! A section of the language describes an element in the terms of an engineer. Here it has been reduced
+//! to a small closed set of mechanical contributions: energies, dissipation, loads, gravity,
+//! constraints, rolling and sliding. Equations, their proof, the printed chapter and the report are made
+//! from these, and none of them knows sections. So a new section that consists of these contributions
+//! needs no change outside its own file.
 
 use lagrangian_symbolic::Expr;
 
@@ -15,7 +16,7 @@ use crate::unit::Unit;
 /// One item of a section that contributes to the equations: a spring, a force, a constraint.
 #[derive(Clone, Debug)]
 pub struct Element<'d> {
-    /// The section that it stands in, and what one is called.
+    /// The section that it belongs to, with the word for one of its items.
     pub section: &'static Section,
     /// Its name.
     pub name: Name,
@@ -23,13 +24,13 @@ pub struct Element<'d> {
     pub docs: String,
     /// What it contributes to the equations.
     pub contributions: Vec<Contribution<'d>>,
-    /// How a report draws it; none where there is nothing to be seen.
+    /// How a report draws it; none if there is nothing to draw.
     pub drawing: Option<Drawing<'d>>,
     /// Its name in the spec.
     pub span: Span,
 }
 
-/// What an element contributes: the closed set of what mechanics knows.
+/// The contribution of an element to the equations, one of a closed set.
 #[derive(Clone, Debug)]
 pub enum Contribution<'d> {
     /// Potential energy, eq. (E2), in J.
@@ -40,29 +41,29 @@ pub enum Contribution<'d> {
     Load(Load<'d>),
     /// The acceleration of gravity, which acts on all bodies: a vector in ground axes, in m/s².
     Gravity(Vec<Expr<'d>>),
-    /// An equation that holds throughout.
+    /// An equation that always holds.
     Constraint(Constraint<'d>),
     /// Circles that touch and roll.
     Rolling(Rolling<'d>),
     /// A guided contact with Coulomb friction.
     Sliding(Sliding<'d>),
-    /// Energy that states of first order store, in J, of these, coordinates, parameters and time: a share of E, for the
-    /// balance of energy alone.
+    /// Energy stored in first-order states, in J, as a function of these, coordinates, parameters and time: a part of E
+    /// that enters only the energy balance.
     OfStates(Expr<'d>),
-    /// Power that is lost in another way than by dissipation, in W, for the balance of energy alone.
+    /// Power lost by other means than dissipation, in W, which enters only the energy balance.
     Lost(Expr<'d>),
 }
 
-/// A share of the potential energy, or of the dissipation function.
+/// A term of the potential energy, or of the dissipation function.
 #[derive(Clone, Debug)]
 pub enum Energy<'d> {
     /// `½ c x²` of a deformation `x`; as a dissipation `½ c ẋ²` of its rate.
     Quadratic(Deformation<'d>),
-    /// A function that the spec gives: of positions and time, or, as a dissipation, of velocities too.
+    /// A given function of positions and time or, as a dissipation, of velocities too.
     Given(Expr<'d>),
 }
 
-/// What is deformed, and by which coefficient it resists.
+/// A deformation with its coefficient.
 #[derive(Clone, Copy, Debug)]
 pub struct Deformation<'d> {
     /// Stiffness or damping coefficient; no later than a parameter or time.
@@ -73,7 +74,7 @@ pub struct Deformation<'d> {
     pub torsional: bool,
 }
 
-/// What acts, and where.
+/// An applied force or torque.
 #[derive(Clone, Debug)]
 pub enum Load<'d> {
     /// A force at a point of the machine.
@@ -90,10 +91,11 @@ pub enum Load<'d> {
         /// The generalized force.
         value: Expr<'d>,
     },
-    /// A force along a length, or a torque about an angle: its work is the force times the change of what
-    /// it acts along.
+    /// A force along a length, or a torque about an angle: its work is the force times the change of
+    /// that measure.
     Along {
-        /// What grows where the force is positive, of positions and time.
+        /// The length or angle that grows if the force is positive, a function of positions
+        /// and time.
         measure: Expr<'d>,
         /// The force.
         force: Expr<'d>,
@@ -102,7 +104,7 @@ pub enum Load<'d> {
     },
     /// A torque on a body or a frame.
     Torque {
-        /// What it acts on; a body has an angle or a frame.
+        /// Where it acts; a body has an angle or a frame.
         on: Place,
         /// One component in the plane, three in ground axes in space.
         torque: Vec<Expr<'d>>,
@@ -114,7 +116,7 @@ pub enum Load<'d> {
 pub struct Constraint<'d> {
     /// The name of its multiplier.
     pub name: Name,
-    /// Left side less right side; with velocities it is nonholonomic.
+    /// Left side minus right side; nonholonomic if it contains velocities.
     pub expression: Expr<'d>,
     /// The unit of both sides.
     pub unit: Unit,
@@ -125,12 +127,12 @@ pub struct Constraint<'d> {
 /// A circle that touches something and rolls on it.
 #[derive(Clone, Debug)]
 pub struct Rolling<'d> {
-    /// What its two constraints are named after.
+    /// The name from which those of its two constraints are derived.
     pub name: Name,
-    /// Which circle, and on what.
+    /// The circle, and the surface on which it rolls.
     pub circles: Touching,
-    /// The coefficient of friction that there is, of parameters. The motion does not depend on it: it
-    /// says how far rolling may be believed.
+    /// The available coefficient of friction, a function of parameters. The motion does not depend on
+    /// it: it only shows whether the rolling assumption is valid.
     pub friction: Option<Expr<'d>>,
     /// Its name in the spec.
     pub span: Span,
@@ -143,41 +145,42 @@ pub struct Sliding<'d> {
     pub name: Name,
     /// The body that slides, by its index.
     pub body: usize,
-    /// What it slides on.
+    /// The frame or body on which it slides.
     pub on: Place,
     /// The direction of sliding, as given; on a surface one of two tangents.
     pub direction: Vec<Expr<'d>>,
-    /// The side on which the body is, as given; the direction turned left where nothing is said. On a surface its normal, as given.
+    /// The side on which the body is, as given; the direction turned left if none is given. For a surface its normal, as given.
     pub normal: Option<Vec<Expr<'d>>>,
-    /// Which of the two tangents of a surface the direction is, in space; none of a line or a curve.
+    /// Which of the two tangents of a surface the direction is, in space; none for a line or
+    /// a curve.
     pub tangent: Option<Tangent>,
     /// The coefficient of friction.
     pub friction: Expr<'d>,
-    /// The coefficient of friction of what sticks, where it is another.
+    /// The coefficient of static friction, if it differs.
     pub static_friction: Option<Expr<'d>>,
     /// Its name in the spec.
     pub span: Span,
 }
 
-/// The tangents of a surface: what slides on it stands as two contacts, one behind the other, which obey one law of friction.
+/// The tangents of a surface. Sliding on a surface is two contacts, one after the other, which obey one friction law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tangent {
-    /// The one that has the name of the element.
+    /// The tangent with the name of the element.
     First,
-    /// At right angles to that, with `.across` behind its name. What holds the body is said with the first.
+    /// The tangent perpendicular to it, with `.across` after its name. The reaction belongs to the first.
     Second,
 }
 
 /// How a report draws an element.
 #[derive(Clone, Debug)]
 pub struct Drawing<'d> {
-    /// What is drawn.
+    /// The shape.
     pub shape: Shape,
-    /// Where.
+    /// Its place.
     pub site: Site<'d>,
 }
 
-/// What is drawn.
+/// The shape of a drawn element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// The zigzag of a spring.
@@ -186,12 +189,12 @@ pub enum Shape {
     Dashpot,
 }
 
-/// Where an element is drawn.
+/// The place where an element is drawn.
 #[derive(Clone, Debug)]
 pub enum Site<'d> {
     /// From one point to the other, in ground axes.
     Between([Vec<Expr<'d>>; 2]),
-    /// Wherever this stretch is found to be: between two points, or along the line of action on a body.
+    /// Where this stretch is recognized: between two points, or along the line of action on a body.
     Stretch(Expr<'d>),
     /// About the hinge that turns by this angle.
     Twist(Expr<'d>),
@@ -207,19 +210,18 @@ impl<'d> Deformation<'d> {
 }
 
 impl<'d> Model<'d> {
-    /// Everything that elements contribute, with whose it is: element by element, each in the order of
-    /// its own list.
+    /// Every contribution with its element: element by element, each in the order of its own list.
     pub fn contributions(&self) -> impl Iterator<Item = (&Element<'d>, &Contribution<'d>)> {
         let all = self.elements.iter();
         all.flat_map(|element| element.contributions.iter().map(move |one| (element, one)))
     }
 
-    /// What stores energy, gravity apart.
+    /// Everything that stores energy, except gravity.
     pub fn stored(&self) -> impl Iterator<Item = &Energy<'d>> {
         self.contributions().filter_map(|(_, one)| one.stored())
     }
 
-    /// What dissipates energy, friction apart.
+    /// Everything that dissipates energy, except friction.
     pub fn dissipated(&self) -> impl Iterator<Item = &Energy<'d>> {
         self.contributions().filter_map(|(_, one)| one.dissipated())
     }
@@ -246,7 +248,7 @@ impl<'d> Model<'d> {
         all.collect()
     }
 
-    /// Energies that states of first order store.
+    /// Energies stored in first-order states.
     pub fn energies_of_states(&self) -> impl Iterator<Item = Expr<'d>> {
         self.contributions().filter_map(|(_, one)| match one {
             Contribution::OfStates(energy) => Some(*energy),
@@ -254,7 +256,7 @@ impl<'d> Model<'d> {
         })
     }
 
-    /// Powers that are lost in another way than by dissipation.
+    /// Powers lost by other means than dissipation.
     pub fn losses(&self) -> impl Iterator<Item = Expr<'d>> {
         self.contributions().filter_map(|(_, one)| match one {
             Contribution::Lost(power) => Some(*power),
@@ -298,11 +300,11 @@ impl Sliding<'_> {
     }
 }
 
-/// What stands behind the name of a second tangent.
+/// The suffix of the name of a second tangent.
 pub const ACROSS: &str = ".across";
 
 impl<'d> Element<'d> {
-    /// Every expression in what it contributes and in its drawing, in one order.
+    /// Every expression in its contributions and its drawing, in a fixed order.
     pub fn expressions_mut(&mut self) -> Vec<&mut Expr<'d>> {
         let contributions = self.contributions.iter_mut();
         let mut all: Vec<_> = contributions
@@ -319,7 +321,7 @@ impl<'d> Element<'d> {
 }
 
 impl<'d> Contribution<'d> {
-    /// What it stores, if it is that.
+    /// The stored energy, if it is one.
     pub fn stored(&self) -> Option<&Energy<'d>> {
         match self {
             Contribution::Stored(energy) => Some(energy),
@@ -327,7 +329,7 @@ impl<'d> Contribution<'d> {
         }
     }
 
-    /// What it dissipates, if it is that.
+    /// The dissipation, if it is one.
     pub fn dissipated(&self) -> Option<&Energy<'d>> {
         match self {
             Contribution::Dissipated(energy) => Some(energy),
@@ -335,7 +337,7 @@ impl<'d> Contribution<'d> {
         }
     }
 
-    /// What it applies, if it is that.
+    /// The load, if it is one.
     pub fn load(&self) -> Option<&Load<'d>> {
         match self {
             Contribution::Load(load) => Some(load),

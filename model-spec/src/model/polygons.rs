@@ -1,22 +1,22 @@
-//! Convex polygons in the plane: how the corners of one touch the faces of another.
+//! Convex polygons in the plane: contact of the corners of one with the faces of another.
 //!
-//! Two convex polygons are apart if, and only if, one of their faces separates them: all corners of the other polygon are outside of
-//! its line. (S. Gottschalk, M. C. Lin, D. Manocha, *OBBTree*, Proc. SIGGRAPH 1996, 171–180.) Where they touch, a corner of one of
-//! them lies on the other; so what touches is said corner by corner, and of a face on a face two corners touch, the ends of
-//! what both have in common.
+//! Two convex polygons are disjoint if and only if one of their faces separates them: all corners of the other polygon are outside
+//! its line. (S. Gottschalk, M. C. Lin, D. Manocha, *OBBTree*, Proc. SIGGRAPH 1996, 171–180.) If they touch, a corner of one of
+//! them lies on the other. So contact is described corner by corner; if a face lies on a face, two corners touch, the ends of the
+//! common part.
 //!
-//! A corner `p` is as far from the line of the face `k` of the other polygon as `dₖ(p)`, positive outside. It is outside of the
-//! polygon if it is outside of any face, and its gap is `maxₖ dₖ(p)`: whichever feature is nearest, that is negative inside and
-//! nowhere else, so nothing slips in between two features. The face that it touches is the one that separates best,
+//! The distance of a corner `p` from the line of face `k` of the other polygon is `dₖ(p)`, positive outside. The corner is
+//! outside the polygon if it is outside any face, and its gap is `maxₖ dₖ(p)`: whichever feature is nearest, the gap is
+//! negative inside and only there, so nothing slips in between two features. The corner touches the face that separates best,
 //!
 //! ```text
 //! k* = argmaxₖ min_c dₖ(c)        over all corners c of the polygon that p is a corner of
 //! ```
 //!
-//! as corners that pass the end of a face are on it and on the next one, and neither way of being there is to be taken for a
-//! collision. `p` is on the face as long as it is outside of no other one: as far as it is beyond its ends, `max dⱼ(p)` over the
-//! other faces `j`, is negative there. (Faces and corners as features: M. C. Lin, J. F. Canny, *A fast algorithm for incremental
-//! distance calculation*, Proc. IEEE ICRA 1991, 1008–1014.)
+//! since a corner that passes the end of a face is near that face and the next one, and neither must be taken for a collision.
+//! `p` is on the face while it is outside no other one: its distance beyond the ends, `max dⱼ(p)` over the other faces `j`, is
+//! negative there. (Faces and corners as features: M. C. Lin, J. F. Canny, *A fast algorithm for incremental distance
+//! calculation*, Proc. IEEE ICRA 1991, 1008–1014.)
 
 use std::rc::Rc;
 
@@ -25,7 +25,8 @@ use lagrangian_symbolic::{Expr, Tangent};
 use super::circles::{difference, fixed};
 use crate::model::{Model, Place};
 
-/// The most corners of a polygon that touches another: each is held against every face, and choices among them are written out.
+/// The largest number of corners of a polygon that touches another: each is compared with every face, and the choices among
+/// faces are written out.
 pub const MOST_CORNERS: usize = 24;
 
 /// A convex polygon.
@@ -33,14 +34,14 @@ pub const MOST_CORNERS: usize = 24;
 pub struct Polygon<'d> {
     /// What it is fixed to.
     pub on: Place,
-    /// Its corners, along the axes of that: in their order it lies to the left.
+    /// Its corners, in the axes of `on`, in counterclockwise order.
     pub corners: Vec<Vec<Expr<'d>>>,
 }
 
 /// A corner of a polygon that may touch another polygon.
 #[derive(Clone)]
 pub struct Corner<'d> {
-    /// Which of the corners of the first.
+    /// The index of the corner in its polygon.
     pub corner: usize,
     /// The polygon that it is a corner of.
     pub own: Rc<Polygon<'d>>,
@@ -48,29 +49,31 @@ pub struct Corner<'d> {
     pub other: Rc<Polygon<'d>>,
 }
 
-/// How a corner stands to a polygon.
+/// The position and motion of a corner relative to a polygon.
 pub struct Contact<'d> {
-    /// How far it is outside of the polygon, in m.
+    /// The distance of the corner outside the polygon, in m.
     pub gap: Expr<'d>,
-    /// How far it is outside of the face that it touches, in m: the gap, where it touches.
+    /// The distance of the corner outside the face that it touches, in m; equal to the gap if
+    /// it touches.
     pub height: Expr<'d>,
-    /// How fast that grows.
+    /// The rate of that distance.
     pub rate: Expr<'d>,
-    /// How far it is beyond the ends of that face, in m; negative between them.
+    /// The distance of the corner beyond the ends of that face, in m; negative between them.
     pub beyond: Expr<'d>,
-    /// The velocity of the corner less that of the polygon's point that it touches, along the face: turned left this
-    /// points outwards.
+    /// The velocity of the corner relative to the polygon's point that it touches, along the face, in the direction
+    /// that points outwards if turned left.
     pub slip: Expr<'d>,
 }
 
-/// The faces of a polygon: outward normals of length 1 along its axes, and how far along them the faces are.
+/// The faces of a polygon: outward unit normals in its axes, and the offsets of the faces along them.
 struct Faces<'d> {
     normals: Vec<[Expr<'d>; 2]>,
     offsets: Vec<Expr<'d>>,
 }
 
 impl<'d> Polygon<'d> {
-    /// How far each corner is to the left of each face that it is not on, times the length of that.
+    /// The distance of each corner to the left of each face that it is not on, times the length of
+    /// that face.
     pub fn turns(&self) -> Vec<Expr<'d>> {
         let count = self.corners.len();
         let mut turns = Vec::new();
@@ -85,7 +88,7 @@ impl<'d> Polygon<'d> {
         turns
     }
 
-    /// From a corner to the next one.
+    /// The vector from a corner to the next one.
     fn edge(&self, k: usize) -> [Expr<'d>; 2] {
         let next = (k + 1) % self.corners.len();
         [0, 1].map(|i| self.corners[next][i] - self.corners[k][i])
@@ -105,15 +108,15 @@ impl<'d> Polygon<'d> {
     }
 }
 
-/// Where a corner is, and the directions of the face that it touches, all in ground axes.
+/// The position of a corner, and the directions of the face that it touches, all in ground axes.
 pub struct Site<'d> {
     /// The corner.
     pub point: Vec<Expr<'d>>,
-    /// Unit vectors: out of the face, and along it, as the slip is counted.
+    /// Unit vectors: out of the face, and along it in the direction of positive slip.
     pub directions: [Vec<Expr<'d>>; 2],
 }
 
-/// Where a corner touches the polygon that it may touch.
+/// The site of the contact of a corner with the polygon that it may touch.
 pub fn site<'d>(model: &Model<'d>, corner: &Corner<'d>) -> Site<'d> {
     let dag = model.dag;
     let (_, axes) = fixed(model, corner.other.on, &[dag.zero(); 2]);
@@ -128,21 +131,21 @@ pub fn site<'d>(model: &Model<'d>, corner: &Corner<'d>) -> Site<'d> {
     }
 }
 
-/// The face that a corner touches, along the axes of the polygon whose face it is.
+/// The face that a corner touches, in the axes of the polygon that the face belongs to.
 struct Face<'d> {
-    /// Outwards, of length 1.
+    /// The outward unit normal.
     normal: [Expr<'d>; 2],
-    /// How far along that the face is.
+    /// The offset of the face along it.
     offset: Expr<'d>,
     /// The corner.
     place: [Expr<'d>; 2],
-    /// How far the corner is outside of the polygon.
+    /// The distance of the corner outside the polygon.
     gap: Expr<'d>,
-    /// How far it is beyond the ends of the face.
+    /// The distance of the corner beyond the ends of the face.
     beyond: Expr<'d>,
 }
 
-/// How a corner touches the polygon that it may touch.
+/// The contact of a corner with the polygon that it may touch.
 pub fn touch<'d>(model: &Model<'d>, corner: &Corner<'d>, rate: &mut Tangent<'d>) -> Contact<'d> {
     let Face {
         normal,
@@ -151,7 +154,7 @@ pub fn touch<'d>(model: &Model<'d>, corner: &Corner<'d>, rate: &mut Tangent<'d>)
         gap,
         beyond,
     } = Face::of(model, corner);
-    // As seen by the polygon, which may turn: so these are velocities relative to its own points.
+    // The polygon may turn, so these are velocities relative to its own points.
     let velocity = place.map(|x| rate.of(x));
     Contact {
         gap,
@@ -166,7 +169,7 @@ impl<'d> Face<'d> {
     fn of(model: &Model<'d>, corner: &Corner<'d>) -> Self {
         let dag = model.dag;
         let Corner { corner, own, other } = corner;
-        // All corners along the axes of the other polygon, from the origin of these.
+        // All corners in the axes of the other polygon, from their origin.
         let zeros = vec![dag.zero(); 2];
         let (origin, axes) = fixed(model, other.on, &zeros);
         let along = |point: &[Expr<'d>]| {

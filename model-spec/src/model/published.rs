@@ -1,64 +1,64 @@
-//! Equations that somebody printed, as a spec quotes them.
+//! Published equations, as a spec quotes them.
 
 use lagrangian_symbolic::Expr;
 
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 
-/// Equations that somebody printed, to be held against the derived ones.
+/// A block of published equations, to be compared with the derived ones.
 #[derive(Clone)]
 pub struct Published<'d> {
     /// The title of the block.
     pub title: String,
-    /// What was printed.
+    /// The printed formulas.
     pub items: Vec<PublishedItem<'d>>,
-    /// Where the block stands.
+    /// The place of the block.
     pub span: Span,
 }
 
 /// One printed formula.
 #[derive(Clone)]
 pub struct PublishedItem<'d> {
-    /// What the formula is for.
+    /// The quantity that the formula gives.
     pub quantity: PublishedQuantity,
-    /// What was printed: one value, or the components of a vector. An equation is its left side
-    /// less its right side.
+    /// The printed value, or the components of a vector. An equation is its left side minus its
+    /// right side.
     pub printed: Vec<Expr<'d>>,
-    /// The terms of each, as printed; none of a vector that is not printed by its components.
+    /// The terms of each, as printed; none for a vector that is not printed by its components.
     pub terms: Vec<Vec<PrintedTerm<'d>>>,
     /// The item, as the spec writes its head: `kinetic_energy mortar`.
     pub text: String,
-    /// Where the printed formula adds what cannot be added. The formula is compared all the same:
-    /// whoever prints a wrong unit has lost a factor, and the comparison says which.
+    /// Additions of different units in the printed formula. The formula is compared nevertheless: a
+    /// wrong unit means that a factor was lost in print, and the comparison shows which.
     pub remarks: Vec<Diagnostic>,
-    /// Where the spec says it.
+    /// Its place in the spec.
     pub span: Span,
 }
 
-/// A term of a printed formula, as it stands there.
+/// A term of a printed formula, as printed.
 #[derive(Clone, Debug)]
 pub struct PrintedTerm<'d> {
-    /// Whether it is subtracted, with everything brought to the left of an equals sign.
+    /// Whether it is subtracted, after everything is brought to the left of an equals sign.
     pub negative: bool,
-    /// Whether it stands right of an equals sign.
+    /// Whether it stands to the right of an equals sign.
     pub on_the_right: bool,
-    /// Its factors, in the order of the print.
+    /// Its factors, in printed order.
     pub factors: Vec<PrintedFactor<'d>>,
 }
 
 /// A factor of a printed term.
 #[derive(Clone, Debug)]
 pub struct PrintedFactor<'d> {
-    /// As the spec writes it, a sum in brackets.
+    /// Its text in the spec; a sum is in brackets.
     pub text: String,
-    /// Whether it stands behind a slash.
+    /// Whether it stands after a slash.
     pub divides: bool,
-    /// What it is.
+    /// Its value.
     pub value: Expr<'d>,
 }
 
 impl<'d> PrintedTerm<'d> {
-    /// As the spec writes it.
+    /// Its text in the spec.
     pub fn text(&self) -> String {
         let factors = self.factors.iter();
         let factors = factors.map(|factor| (factor.text.as_str(), factor.divides));
@@ -73,7 +73,7 @@ impl<'d> PrintedTerm<'d> {
         }
     }
 
-    /// What it is; none for a term without factors.
+    /// Its value; none for a term without factors.
     pub fn value(&self) -> Option<Expr<'d>> {
         let dag = self.factors.first()?.value.dag();
         let factors = self.factors.iter();
@@ -83,7 +83,7 @@ impl<'d> PrintedTerm<'d> {
     }
 }
 
-/// What a printed formula is for; bodies and coordinates by their indices.
+/// The quantity that a printed formula gives; bodies and coordinates are given by their indices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PublishedQuantity {
     /// The kinetic energy of one body, or of the machine.
@@ -94,8 +94,8 @@ pub enum PublishedQuantity {
     Dissipation,
     /// The applied generalized force on a coordinate.
     Force(usize),
-    /// The generalized friction on a coordinate, of contacts that slide along their directions and
-    /// press to their sides.
+    /// The generalized friction on a coordinate, from contacts that slide along their directions
+    /// and press on the sides of their normals.
     Friction(usize),
     /// The position of a body's mass centre.
     Position(usize),

@@ -1,46 +1,47 @@
-//! Turns by four numbers: a quaternion of any length.
+//! Rotations by four coordinates, a quaternion of any length.
 //!
-//! Three angles cannot name all turns without a place where they stop: there two of them turn about the same axis, and the mass
+//! Three angles cannot describe all rotations without a singularity, where two of them turn about the same axis and the mass
 //! matrix is singular. Four numbers `e = (e₀, e₁, e₂, e₃)` can. With `s = e·e` they turn a frame by
 //!
 //! ```text
 //! R = 1 + 2/s (e₀ [ε]× + [ε]×²),   ε = (e₁, e₂, e₃)
 //! ```
 //!
-//! which is the turn by φ about the axis n where `e = √s (cos φ/2, n sin φ/2)`: a proper rotation for every e but 0, the same for
-//! every multiple of e. (J. B. Kuipers, *Quaternions and Rotation Sequences*, 1999, ch. 5.)
+//! which is the rotation by φ about the axis n for `e = √s (cos φ/2, n sin φ/2)`: a proper rotation for every e except 0, and the
+//! same for every multiple of e. (J. B. Kuipers, *Quaternions and Rotation Sequences*, 1999, ch. 5.)
 //!
-//! How long e is means nothing then, no body moves with it, and it would have no equation of motion. It is given one of its own, in
-//! which nothing else stands: with `u = ½ ln s`, `u̇ = e·ė/s` and two constants, an inertia κ and a rate ρ,
+//! The length of e therefore has no meaning, no body moves with it, and it would have no equation of motion. It is given one of its
+//! own, which contains nothing else: with `u = ½ ln s`, `u̇ = e·ė/s` and two constants, an inertia κ and a rate ρ,
 //!
 //! ```text
 //! κ ü = −κ (2 ρ u̇ + (ρ² + ė·ė/s) (s − 1)/(s + 1))
 //! ```
 //!
-//! so that the length comes back to 1 wherever it starts and whatever errors of steps do to it: at rest as critically damped with
-//! ρ, and while the frame turns by a spring that is as fast as e itself, which is stiff to no method. Any κ gives the same motion.
+//! so that the length returns to 1 from any start and after any integration error: critically damped with the rate ρ at rest,
+//! and by a spring as fast as e itself while the frame turns, so that it adds no stiffness to the system. Every κ gives the
+//! same motion.
 
 use lagrangian_symbolic::Expr;
 
 use super::{Inertia, Model, PoseId, Rotation, Step, stage};
 use crate::source::Span;
 
-/// How fast the length of four numbers comes back to 1 where nothing turns, in 1/s.
+/// The rate at which the length of a quaternion returns to 1 if nothing turns, in 1/s.
 pub const RATE: i64 = 1;
 
-/// Four coordinates by which a frame is turned.
+/// A quaternion of coordinates that turns a frame.
 #[derive(Clone, Copy)]
 pub struct Quaternion<'d> {
     /// Their symbols, `e₀` first.
     pub e: [Expr<'d>; 4],
-    /// κ, the inertia of their length, in kg·m²; of parameters.
+    /// κ, the inertia of its length, in kg·m²; a function of parameters.
     pub inertia: Expr<'d>,
-    /// Where the spec turns a frame by them.
+    /// Where the spec turns a frame by it.
     pub span: Span,
 }
 
 impl<'d> Quaternion<'d> {
-    /// The indices of the coordinates in a model that has them.
+    /// The indices of its coordinates in a model that has them.
     pub fn coordinates(&self, model: &Model<'d>) -> [usize; 4] {
         self.e.map(|e| {
             let place = model.coordinates.iter().position(|c| c.q == e);
@@ -53,7 +54,7 @@ impl<'d> Quaternion<'d> {
         square(&self.e).ln() / 2
     }
 
-    /// The load on `u`, where the four numbers change at these rates.
+    /// The load on `u` for the given rates of the components.
     pub fn load(&self, rates: &[Expr<'d>; 4]) -> Expr<'d> {
         let dag = self.inertia.dag();
         let s = square(&self.e);
@@ -86,7 +87,7 @@ pub fn vector<'d>(e: &[Expr<'d>; 4], rates: &[Expr<'d>; 4]) -> [Expr<'d>; 3] {
     ]
 }
 
-/// The axes that a turn by four numbers leads to, along those that it starts from: the columns of R.
+/// The axes after a rotation by a quaternion, in the axes before it: the columns of R.
 pub fn axes<'d>(e: &[Expr<'d>; 4]) -> [[Expr<'d>; 3]; 3] {
     let [w, x, y, z] = *e;
     let p = 2 / square(e);
@@ -110,8 +111,8 @@ pub fn axes<'d>(e: &[Expr<'d>; 4]) -> [[Expr<'d>; 3]; 3] {
     ]
 }
 
-/// The angular velocity of such a turn, along the axes that it leads to: `2/s` times the vector of `ē∘ė`. Of second derivatives in
-/// the place of rates it is the part of its derivative that they make.
+/// The angular velocity of such a rotation, in the rotated axes: `2/s` times the vector of `ē∘ė`. If second derivatives are passed
+/// instead of rates, it is their part of the angular acceleration.
 pub fn turning<'d>(e: &[Expr<'d>; 4], rates: &[Expr<'d>; 4]) -> [Expr<'d>; 3] {
     let p = 2 / square(e);
     vector(e, rates).map(|part| p * part)
@@ -123,15 +124,15 @@ pub fn turning_faster<'d>(
     rates: &[Expr<'d>; 4],
     second: &[Expr<'d>; 4],
 ) -> [Expr<'d>; 3] {
-    // d/dt (ē∘ė) has the vector of ē∘ë, and 1/s changes with −2 u̇/s.
+    // The derivative of ē∘ė has the vector of ē∘ë, and 1/s changes at the rate −2 u̇/s.
     let growing = along(e, rates) / square(e);
     let (faster, now) = (turning(e, second), turning(e, rates));
     [0, 1, 2].map(|k| faster[k] - 2 * growing * now[k])
 }
 
 impl<'d> Step<'d> {
-    /// The parts of the angular velocity that this step adds, each about an axis of the frame that it leads to; `rate` says how
-    /// what it is given changes. `None` where that is not known of something.
+    /// The parts of the angular velocity that this step adds, each about an axis of the resulting frame; `rate` differentiates
+    /// the quantities of the step. `None` if the rate of one is unknown.
     pub fn turning(
         &self,
         mut rate: impl FnMut(Expr<'d>) -> Option<Expr<'d>>,
@@ -148,12 +149,13 @@ impl<'d> Step<'d> {
     }
 }
 
-/// An inertia for the length of four numbers that is about as large as those of the turn itself, so that the mass matrix is as well
-/// conditioned as the machine: four thirds of the traces of all bodies that the frames turned by them carry. Where that is 0 the
-/// machine has no equations of motion, or offsets of mass centres hold it, which are lengths that parameters know.
+/// An inertia for the length of a quaternion that is about as large as those of the rotation itself, so that the mass matrix is
+/// as well conditioned as the machine: four thirds of the traces of the inertias of all bodies carried by the frames that the
+/// quaternion turns, including the offsets of their mass centres as far as parameters determine them.
 pub(crate) fn inertia<'d>(model: &Model<'d>, e: &[Expr<'d>; 4]) -> Expr<'d> {
     let dag = model.dag;
-    // Whether each pose is built on one that is turned so, and how far constant shifts lead from there.
+    // For each pose that is built on a frame turned by this quaternion, the sum of the squares of the
+    // constant shifts from there.
     let mut carried: Vec<Option<Expr<'d>>> = Vec::with_capacity(model.poses.len());
     let length = |shift: &[Expr<'d>]| {
         let known = shift.iter().filter(|x| x.stage() <= stage::PARAMETER);
@@ -184,7 +186,8 @@ pub(crate) fn inertia<'d>(model: &Model<'d>, e: &[Expr<'d>; 4]) -> Expr<'d> {
     }
     let known = dag.sum(terms) * 4 / 3;
     if known.is_zero() {
-        // Of particles whose places nobody says along frames: one that they have in a metre.
+        // Particles whose positions are not given in frames: the inertia that they would have at a
+        // distance of a metre.
         dag.sum(model.bodies.iter().map(|body| body.mass)) * dag.int(1)
     } else {
         known

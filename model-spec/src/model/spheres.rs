@@ -1,21 +1,22 @@
-//! Spheres in space: how one touches another, or a plane.
+//! Contact of spheres in space with other spheres and with planes.
 //!
-//! A point is a sphere of no radius. The slip has two components, along two directions at right angles to the normal.
+//! A point is a sphere of radius 0. The slip has two components, along two directions perpendicular to the normal.
 
 use lagrangian_symbolic::{Expr, Tangent};
 
 use super::circles::{difference, distance, placed};
 use super::{Circle, Model, Place, PoseId, Rotation, Surface};
 
-/// How a sphere stands to what it touches.
+/// The position and motion of a sphere relative to what it touches.
 pub struct Contact<'d> {
-    /// How far they are apart, in m: 0 where they touch.
+    /// The distance between them, in m: 0 if they touch.
     pub gap: Expr<'d>,
-    /// The velocity of the point of the sphere that is nearest, less that of the other's, along both tangents.
+    /// The velocity of the nearest point of the sphere relative to the nearest point of the other body, along
+    /// both tangents.
     pub slip: [Expr<'d>; 2],
 }
 
-/// How a sphere, which need not be one of the machine's, touches a surface.
+/// The contact of a sphere, which need not be one of the machine's, with a surface.
 pub fn touch<'d>(
     model: &Model<'d>,
     sphere: &Circle<'d>,
@@ -29,15 +30,15 @@ pub fn touch<'d>(
     }
 }
 
-/// The angular velocity of what a sphere is fixed to, along the ground's axes: each turn of a frame about one of its own
-/// axes, which it leaves where that is, adds its rate along that axis.
+/// The angular velocity of what a sphere is fixed to, in ground axes: each turn of a frame about one of its own axes,
+/// which it leaves unchanged, adds its rate along that axis.
 fn turning<'d>(model: &Model<'d>, place: Place, rate: &mut Tangent<'d>) -> Vec<Expr<'d>> {
     let mut terms = vec![Vec::new(); 3];
     let mut at = match place {
         Place::Frame(pose) => pose,
         Place::Body(body) => match model.bodies[body].rotation {
             Rotation::Frame(pose) => pose,
-            // Nothing says how it turns; where that matters it is refused.
+            // The orientation is unknown; machines for which it matters are refused.
             Rotation::Unspecified | Rotation::Angle(_) => PoseId::GROUND,
         },
     };
@@ -56,8 +57,8 @@ fn turning<'d>(model: &Model<'d>, place: Place, rate: &mut Tangent<'d>) -> Vec<E
         .collect()
 }
 
-/// How a sphere touches the plane of the first two axes `e₁`, `e₂` of a frame, from the side of the third, `n`. With `c` from
-/// the frame's origin to the centre, radius `r`, and angular velocities `ω` of the sphere and `Ω` of the frame:
+/// The contact of a sphere with the plane of the first two axes `e₁`, `e₂` of a frame, from the side of the third, `n`. With
+/// `c` from the frame's origin to the centre, radius `r`, and angular velocities `ω` of the sphere and `Ω` of the frame:
 ///
 /// ```text
 /// gap = c·n − r,    slip = ċ − r ω × n − Ω × (c − r n),  along e₁ and e₂
@@ -87,15 +88,15 @@ fn with_plane<'d>(
     }
 }
 
-/// How two spheres touch. With `c` from the centre of the other sphere to that of the first, `d` its length, `e = c/d`, radii
-/// `r` and `R`, and angular velocities `ω` and `Ω`:
+/// The contact of two spheres. With `c` from the centre of the other sphere to that of the first, `d` its length, `e = c/d`,
+/// radii `r` and `R`, and angular velocities `ω` and `Ω`:
 ///
 /// ```text
 /// inside    gap = R − r − d,    slip = ċ + (r ω − R Ω) × e
 /// outside   gap = d − r − R,    slip = ċ − (r ω + R Ω) × e
 /// ```
 ///
-/// along both of the [`tangents`] of the direction into which the gap opens.
+/// along both [`tangents`] of the direction in which the gap opens.
 fn with_sphere<'d>(
     model: &Model<'d>,
     [first, other]: [&Circle<'d>; 2],
@@ -131,20 +132,20 @@ fn with_sphere<'d>(
     }
 }
 
-/// Two directions at right angles to a unit vector `n` and to each other, with `n` right-handed. With `s` 1 where
+/// Two unit vectors perpendicular to a unit vector `n` and to each other, right-handed with `n`. With `s = 1` if
 /// `n₃ ≥ −0.3125`, and −1 below, and `a = −1/(s + n₃)`:
 ///
 /// ```text
 /// t₁ = (1 + s a n₁², s a n₁ n₂, −s n₁),    t₂ = (a n₁ n₂, s + a n₂², −n₂)
 /// ```
 ///
-/// No field of tangents is steady on the whole sphere; this one jumps far from the places where things touch: from below, from
-/// above and from the side. (T. Duff et al., *Building an orthonormal basis, revisited*, J. Comput. Graph. Tech. 6 (2017) 1–8,
-/// with another place for the jump.)
+/// No field of tangents is continuous on the whole sphere. This one jumps far from the typical directions of contact: from
+/// below, from above and from the side. (T. Duff et al., *Building an orthonormal basis, revisited*, J. Comput. Graph. Tech. 6
+/// (2017) 1–8, with another place for the jump.)
 pub fn tangents<'d>(n: &[Expr<'d>]) -> [[Expr<'d>; 3]; 2] {
     let dag = n[0].dag();
     let side = (n[2] + dag.int(5) / 16).sign();
-    // The sign of 0 is 0, and there is to be a side even there.
+    // The sign of 0 is 0, but a side is needed even there.
     let s = side + 1 - side.abs();
     let a = -dag.one() / (s + n[2]);
     let product = a * n[0] * n[1];

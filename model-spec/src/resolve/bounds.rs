@@ -1,4 +1,4 @@
-//! Numbers that no machine has, at the defaults of its parameters.
+//! Checks bounds of numbers at the defaults of the parameters.
 
 use lagrangian_symbolic::Expr;
 use rustc_hash::FxHashMap;
@@ -11,7 +11,7 @@ use crate::model::{Assumption, Parameter, stage};
 use crate::source::Span;
 
 impl<'d> Resolver<'_, 'd, '_> {
-    /// Remembers a number that is bounded, if it depends on nothing but parameters.
+    /// Records a bounded number, if it depends on parameters alone.
     pub fn bound(&mut self, kind: BoundKind<'d>, value: Expr<'d>, said: Span) {
         let bound = Bound { kind, value, said };
         if bound.is_of_parameters() {
@@ -19,15 +19,15 @@ impl<'d> Resolver<'_, 'd, '_> {
         }
     }
 
-    /// Reports numbers beyond their bounds at the defaults of the parameters, and returns all
-    /// bounds.
+    /// Reports numbers beyond their bounds at the defaults of the parameters, and returns
+    /// all bounds.
     pub fn check_bounds(
         &mut self,
         assumptions: &[Assumption<'d>],
         parameters: &[(MemberId, Parameter<'d>)],
     ) -> Vec<Bound<'d>> {
         let mut bounds = std::mem::take(&mut self.bounds);
-        // Who assumes that a stiffness is negative means it.
+        // A negative stiffness is allowed if the spec assumes it.
         let is_meant = |value: Expr<'d>| assumptions.iter().any(|fact| fact.excess == -value);
         bounds.retain(|bound| !bound.kind.may_be_meant() || !is_meant(bound.value));
         let mut values = FxHashMap::default();
@@ -39,7 +39,8 @@ impl<'d> Resolver<'_, 'd, '_> {
         let value = |symbol| values.get(&symbol).copied().unwrap_or(f64::NAN);
         for (place, code, message) in broken(self.dag, &bounds, value) {
             let Bound { kind, value, said } = bounds[place];
-            // The default is wrong where it is that number itself, and no formula of several.
+            // Blame the default if the number is that parameter alone, and not a formula
+            // of several.
             let mut parameters = parameters.iter();
             let alone = parameters.find(|(_, parameter)| parameter.symbol == value);
             let default =

@@ -1,4 +1,4 @@
-//! Where the fastest motion ends: `brachistochrone { x = 8, y = h/2 }`.
+//! The end of the fastest motion: `brachistochrone { x = 8, y = h/2 }`.
 
 use lagrangian_symbolic::Expr;
 
@@ -9,11 +9,11 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::model::Coordinate;
 use crate::syntax::{SectionKind, Spec};
 
-/// The most coordinates without an end that a message lists.
+/// The largest number of coordinates without an end that a message lists.
 const LISTED: usize = 6;
 
 impl<'a, 'd> Resolver<'a, 'd, '_> {
-    /// The end of every coordinate; nothing where the machine and its bases say nothing.
+    /// The end of every coordinate; nothing if neither the machine nor its bases have the section.
     pub fn destination(
         &mut self,
         layers: &'a [Spec],
@@ -24,7 +24,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         if members.is_empty() {
             return Vec::new();
         }
-        // Who cannot be understood was reported, and is not missed.
+        // Ends that could not be resolved were reported, and are not reported as missing.
         let mut failed = coordinates.len() != self.members_of(SectionKind::Coordinates).len();
         for member in members {
             if self.is_left_over(member) {
@@ -61,7 +61,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         ends.into_iter().collect::<Option<_>>().unwrap_or_default()
     }
 
-    /// Whether a variant took away the coordinate of which its base gives the end.
+    /// Whether a variant removed the coordinate whose end its base gives.
     fn is_left_over(&self, member: MemberId) -> bool {
         let declaration = self.declaration(member);
         let base = declaration.name.base.text.as_str();
@@ -82,7 +82,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         is_inherited && was_declared && !remains
     }
 
-    /// The coordinates that an item is about, each with its end.
+    /// The coordinates of an item, each with its end.
     fn end(&mut self, member: MemberId) -> Option<Vec<(usize, Expr<'d>)>> {
         let Content::Expression(written) = self.declaration(member).content else {
             return None;

@@ -1,4 +1,4 @@
-//! Unilateral contacts: what touches what, how it bounces and how it rubs.
+//! Unilateral contacts: their geometry, their response and their friction.
 
 use std::rc::Rc;
 
@@ -17,12 +17,12 @@ use lagrangian_symbolic::Expr;
 
 const VELOCITY: Unit = Unit::base(0, 1, -1);
 
-/// The fields that say what touches what.
+/// The fields that give the geometry.
 const GEOMETRY: [&str; 7] = [
     "circle", "sphere", "point", "on", "inside", "outside", "along",
 ];
 
-/// The fields that say how a contact bounces, which one that yields does not have.
+/// The fields that describe the impact, which a compliant contact does not have.
 const BOUNCING: [&str; 5] = [
     "restitution",
     "tangential_restitution",
@@ -31,7 +31,7 @@ const BOUNCING: [&str; 5] = [
     "painleve",
 ];
 
-/// A law of force as it is written.
+/// A force law as it is written in a spec.
 fn form(law: Compliance) -> &'static str {
     match law {
         Compliance::Linear => "linear(k, b)",
@@ -41,7 +41,7 @@ fn form(law: Compliance) -> &'static str {
     }
 }
 
-/// The units of its parameters, and why they are these.
+/// The units of its parameters, with the reasons for messages.
 fn units(law: Compliance) -> Vec<(Unit, &'static str)> {
     let stiffness = (Unit::base(1, 0, -2), "a stiffness is in N/m");
     let of_hertz = Unit::base(2, -1, -4).power(1, 2).unwrap_or(Unit::ONE);
@@ -64,7 +64,7 @@ fn units(law: Compliance) -> Vec<(Unit, &'static str)> {
 }
 
 impl<'a, 'd> Resolver<'a, 'd, '_> {
-    /// What an item says: one contact, or those of all circles of a family, or of all corners of a body.
+    /// The contacts of an item: one, or those of all circles of a family, or of all corners of a body.
     pub fn contacts(&mut self, member: MemberId) -> Option<Vec<Contact<'d>>> {
         let record = self.record(member)?;
         let name = self.name(member);
@@ -171,7 +171,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             self.bound(BoundKind::RollingResistance, scalar.expr, said.span);
             Some(scalar.expr)
         });
-        // What is said and wrong has been reported.
+        // A field that is present but wrong has been reported.
         let good = |said: Option<Option<Expr<'d>>>| match said {
             Some(value) => value.map(Some),
             None => Some(None),
@@ -191,7 +191,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(geometries?.into_iter().map(contact).collect())
     }
 
-    /// `circles` or `spheres`, of which each may touch each other from outside.
+    /// The contacts of `circles` or `spheres`, each of which may touch each other from outside.
     fn pairs(
         &mut self,
         member: MemberId,
@@ -250,7 +250,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(pairs)
     }
 
-    /// `corners` of a convex polygon, each a point; or `outline`, those of the body that `on` names.
+    /// The contacts of `corners` of a convex polygon, each a point; or of `outline`, the corners of
+    /// the body that `on` names.
     fn corners(
         &mut self,
         member: MemberId,
@@ -285,8 +286,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(named.collect())
     }
 
-    /// `corners` of a convex polygon that is fixed to what is named by `on`, `against` those of another, on what is named by `of`:
-    /// each corner of either is a contact with the other polygon.
+    /// The contacts of `corners` of a convex polygon fixed to the place named by `on` with those of another, `against`, on the
+    /// place named by `of`: each corner of either polygon is a contact with the other polygon.
     fn polygons(
         &mut self,
         member: MemberId,
@@ -386,7 +387,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(Rc::new(polygon))
     }
 
-    /// `point`, fixed to what is named by `on`, with `inside`, `outside` or `along`.
+    /// The contact of `point`, fixed to the place named by `on`, with `inside`, `outside`
+    /// or `along`.
     fn touching_point(
         &mut self,
         member: MemberId,
@@ -417,7 +419,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// Points that are fixed to what is named by `on`, with `inside`, `outside` or `along`.
+    /// Contacts of points fixed to the place named by `on`, with `inside`, `outside` or `along`.
     fn points_on(
         &mut self,
         member: MemberId,
@@ -473,7 +475,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         })
     }
 
-    /// How fast something slips, in one direction.
+    /// A slip velocity in one direction.
     fn slip(&mut self, member: MemberId, said: &'a Expression) -> Option<Expr<'d>> {
         let scope = self.scope(member, &limits::SLIP);
         let why = "a slip is a velocity, in m/s";
@@ -490,7 +492,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(slip)
     }
 
-    /// How a contact bounces that does not yield.
+    /// The response of a rigid contact.
     fn rigid(&mut self, member: MemberId, record: &'a Record) -> Option<Response<'d>> {
         let normal = self.field(member, record, "restitution");
         let normal = normal.and_then(|value| self.restitution(member, value));
@@ -523,7 +525,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         })
     }
 
-    /// `linear(k, b)`: a law of force and its parameters.
+    /// `linear(k, b)`: a force law with its parameters.
     fn compliance(&mut self, member: MemberId, said: &'a Expression) -> Option<Response<'d>> {
         let call = match &said.kind {
             ExpressionKind::Error => return None,
@@ -603,7 +605,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(scalar.expr)
     }
 
-    /// One of the words that a field may say.
+    /// One of the words that a field allows.
     fn one_of<T: Copy>(
         &mut self,
         said: &'a Expression,

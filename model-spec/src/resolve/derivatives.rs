@@ -1,4 +1,4 @@
-//! What accelerations are to be differentiated by.
+//! The variables by which accelerations are to be differentiated.
 
 use super::Resolver;
 use super::names::{Namespace, suggestion, with_help};
@@ -7,7 +7,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::model::Variable;
 use crate::syntax::{Index, SectionKind};
 
-/// The words that stand for all variables of a kind, with the section that declares these.
+/// The words for all variables of a kind, with the sections that declare these.
 const WORDS: [(&str, SectionKind); 4] = [
     ("coordinates", SectionKind::Coordinates),
     ("rates", SectionKind::Coordinates),
@@ -16,8 +16,8 @@ const WORDS: [(&str, SectionKind); 4] = [
 ];
 
 impl Resolver<'_, '_, '_> {
-    /// The variables that an item of `derivatives` means: all of a kind, one parameter, or those of
-    /// a family.
+    /// The variables that an item of `derivatives` refers to: all of a kind, one parameter, or
+    /// those of a family.
     pub fn differentiated_by(&mut self, member: MemberId) -> Vec<Variable> {
         let name = self.declaration(member).name;
         let word = name.base.text.as_str();

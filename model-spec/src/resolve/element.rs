@@ -1,4 +1,4 @@
-//! What the items of a section of elements mean, by a list that knows them.
+//! Resolves the items of sections of elements, by a table of these sections.
 
 use super::Resolver;
 use super::value::MemberId;
@@ -6,34 +6,34 @@ use crate::model::Name;
 use crate::model::element::{Contribution, Drawing, Element};
 use crate::syntax::{Expression, Section, SectionKind, Spec};
 
-/// A section of elements: how it is written, and what its items mean.
+/// A section of elements: its syntax, and the resolution of its items.
 #[derive(Clone, Copy)]
 pub(crate) struct Row {
-    /// How it is written, and what its items are called.
+    /// Its syntax, and the words for its items.
     pub section: &'static Section,
-    /// What it means.
+    /// Its resolution.
     pub meaning: Meaning,
 }
 
-/// How the meaning of a section is found; none where an error has been reported.
+/// How a section is resolved; the functions return none if an error was reported.
 #[derive(Clone, Copy)]
 pub(crate) enum Meaning {
     /// Item by item.
     Items(for<'a, 'd, 'r> fn(&mut Resolver<'a, 'd, 'r>, MemberId) -> Option<Resolved<'d>>),
-    /// Of the expression of its statement.
+    /// As the expression of a single statement.
     Statement(
         for<'a, 'd, 'r> fn(&mut Resolver<'a, 'd, 'r>, &'a Expression) -> Option<Resolved<'d>>,
     ),
 }
 
-/// What an element was found to contribute, and how it is drawn.
+/// The contributions of an element, and its drawing.
 pub(crate) struct Resolved<'d> {
     contributions: Vec<Contribution<'d>>,
     drawing: Option<Drawing<'d>>,
 }
 
 impl<'d> Resolved<'d> {
-    /// An element that nobody sees.
+    /// An element without a drawing.
     pub fn of(contributions: impl IntoIterator<Item = Contribution<'d>>) -> Resolved<'d> {
         Resolved {
             contributions: contributions.into_iter().collect(),
@@ -81,7 +81,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         elements
     }
 
-    /// The element of a section that is a single statement, as the last variant says it.
+    /// The element of a section that is a single statement, as given by the last variant.
     fn statement(
         &mut self,
         layers: &'a [Spec],

@@ -1,8 +1,8 @@
-//! Expressions: from the tree to values, with every unit checked.
+//! Evaluates expressions from the syntax tree to values, and checks every unit.
 //!
-//! A mistake is reported at the smallest part that is wrong. What is wrong in its unit alone keeps
-//! its value, so that whatever else is wrong is found too; anything else is [`Value::Unknown`] from
-//! there on, and nothing more is said about it.
+//! An error is reported at the smallest part that is wrong. An expression with a wrong unit only
+//! keeps its value, so that further errors are found too; after any other error the value is
+//! [`Value::Unknown`], and nothing more is reported about it.
 
 use lagrangian_symbolic::{Expr, Function, Node, Rational, Symbol, Tangent};
 
@@ -18,15 +18,15 @@ use crate::syntax::{
 };
 use crate::unit::{Measure, Unit};
 
-/// The largest exponent of what is no constant: nothing in mechanics grows with a higher power, and
-/// code would be a page long for it.
+/// The largest exponent of a non-constant: nothing in mechanics grows with a higher power, and its
+/// code would be a page long.
 const LARGEST_EXPONENT: i64 = 64;
 
-/// Functions of vectors, and those that the language knows besides [`Function`].
+/// Functions of vectors, and others that the language has besides [`Function`].
 const VECTOR_FUNCTIONS: [&str; 7] = ["dot", "cross", "norm", "direction", "polar", "der", "table"];
 
 impl<'a, 'd> Resolver<'a, 'd, '_> {
-    /// What an expression is worth.
+    /// The value of an expression.
     pub fn value(&mut self, expression: &'a Expression, scope: Scope<'a>) -> Value<'d> {
         if !self.step(expression.span) {
             return Value::Unknown;
@@ -53,7 +53,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// A number, or an error that says what stands there instead.
+    /// A number, or an error that says what was found instead.
     pub fn scalar(&mut self, expression: &'a Expression, scope: Scope<'a>) -> Option<Scalar<'d>> {
         match self.value(expression, scope) {
             Value::Scalar(scalar) => Some(scalar),
@@ -65,7 +65,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// A vector or a point, or an error that says what stands there instead.
+    /// A vector or a point, or an error that says what was found instead.
     pub fn vector(
         &mut self,
         expression: &'a Expression,
@@ -112,7 +112,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(vector)
     }
 
-    /// Reports a kind of value that cannot stand where it does.
+    /// Reports a kind of value that is not allowed in this place.
     pub fn wrong_kind(&mut self, expected: &str, found: &Value<'d>, at: &'a Expression) {
         let message = format!("{expected} is expected here, found {}", found.kind());
         let name = match &at.kind {
@@ -142,7 +142,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         ));
     }
 
-    /// Reports a unit other than the one demanded; a bare number takes any.
+    /// Reports a unit other than the one required; a bare number takes any unit.
     pub fn demand(&mut self, found: Option<Unit>, expected: Unit, span: Span, why: &str) {
         if let Some(found) = found.filter(|found| !found.fits(expected)) {
             let message = format!(
@@ -155,7 +155,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// A finished number, or the error that it has none.
+    /// A finished number, or an error if it has no value.
     pub(super) fn finish(
         &mut self,
         expr: Expr<'d>,
@@ -174,7 +174,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Value::Scalar(Scalar { expr, unit, number })
     }
 
-    /// A finished vector, or the error that a component has no value.
+    /// A finished vector, or an error if a component has no value.
     fn finish_vector(
         &mut self,
         components: Vec<Expr<'d>>,
@@ -189,7 +189,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Value::Vector(Vector::new(components, unit))
     }
 
-    /// The value, if the place where it stands admits what it depends on.
+    /// The value, if its place admits its dependencies.
     pub fn admit(&mut self, value: Value<'d>, span: Span, scope: Scope<'a>) -> Value<'d> {
         let (found, limit) = (value.stage(), scope.limit);
         if found <= limit.stage {
@@ -204,7 +204,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     fn number(&mut self, text: &str, span: Span) -> Value<'d> {
         match Rational::parse_decimal(text) {
             Some(value) => self.finish(self.dag.constant(value), None, None, span),
-            None => Value::Unknown, // the lexer has said that it is no number
+            None => Value::Unknown, // the lexer has reported the malformed number
         }
     }
 
@@ -340,8 +340,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         self.finish(expr, unit, number, span)
     }
 
-    /// Whether a sum is one of vectors, as the first term says that is known; nothing where a term is not
-    /// known, or of another kind, which is reported.
+    /// Whether a sum is one of vectors, according to the first term that is known; nothing if a term is
+    /// unknown, or of another kind, which is reported.
     fn kind_of_sum(&mut self, values: &[(Value<'d>, &'a Term)]) -> Option<bool> {
         let mut complete = true;
         let mut vectors = None;
@@ -365,8 +365,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         vectors.filter(|_| complete)
     }
 
-    /// The unit that several parts have in common, reporting each part that has another: the unit
-    /// that the place demands if a part has it, else the one that most parts have.
+    /// The common unit of several parts, reporting each part with another unit: the unit that the
+    /// place requires if a part has it, else the most frequent one.
     pub fn common_unit(
         &mut self,
         parts: impl Iterator<Item = (Option<Unit>, Span)>,
@@ -384,7 +384,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
         }
         let hinted = counts.iter().find(|(unit, ..)| Some(*unit) == hint);
-        // Of equally frequent ones the first: `max_by_key` would take the last.
+        // In case of a tie the first; `max_by_key` would take the last.
         let most = || counts.iter().rev().max_by_key(|(_, count, _)| *count);
         let &(unit, _, example) = hinted.or_else(most)?;
         for &(other, span) in &parts {
@@ -399,8 +399,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(unit.as_written(scaled))
     }
 
-    /// Refuses bare numbers beside what is not given in SI units: nobody can tell what they are
-    /// measured in. Zero is zero in any unit.
+    /// Refuses bare numbers beside quantities that are not given in SI units, since their unit is
+    /// ambiguous. Zero is zero in any unit.
     pub fn no_bare_number(
         &mut self,
         parts: impl Iterator<Item = (bool, Span)>,
@@ -421,7 +421,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// A number of degrees where one of radians stands, and the other way round.
+    /// Warns about a number that looks like degrees where radians are expected, or vice versa.
     pub fn notice_angle(&mut self, bare: &Scalar<'d>, unit: Unit, span: Span) {
         if !unit.is_angle() || self.remarks.is_some() {
             return;
@@ -441,7 +441,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// A unit behind a number, `30*deg`, where nothing declared bears its name.
+    /// A unit after a number, `30*deg`, if no declaration has its name.
     fn unit_factor(&mut self, factor: &'a Expression, scope: Scope<'a>) -> Option<Measure> {
         match &factor.kind {
             ExpressionKind::Name(reference) if reference.index.is_none() => {
@@ -484,7 +484,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// Reports a unit that stands behind a declared name instead of a number: the second of `9.81*m/s^2` where `m` is a mass.
+    /// Reports a unit that stands after a declared name instead of a number: the second one in `9.81*m/s^2` if `m` is a mass.
     fn unit_behind_name(&mut self, name: &'a Ident, declared: &str) {
         let message = format!("nothing is named `{}`", name.text);
         let diagnostic = Diagnostic::new(Code::UnknownName, name.span, message);
@@ -500,9 +500,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             ..Product::default()
         };
         let mut complete = true;
-        // Whether there are only numbers so far, and units: then a unit may follow.
+        // Whether there are only numbers and units so far, so that a unit may follow.
         let mut measured = true;
-        // The name that ended them, where a unit is called so too.
+        // The name that ended them, if a unit has the same name.
         let mut hides = None;
         for (place, factor) in factors.iter().enumerate() {
             let measure = if measured && place > 0 {
@@ -556,7 +556,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// Multiplies a product by the value of a factor, or divides it; false where that has been reported.
+    /// Multiplies or divides a product by the value of a factor; returns false if an error was reported.
     fn multiply(
         &mut self,
         product: &mut Product<'d>,
@@ -588,7 +588,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// Whether one can divide by it.
+    /// Checks that the value may be a divisor.
     fn check_divisor(&mut self, divisor: &Scalar<'d>, span: Span) -> bool {
         let zero = divisor.expr.is_zero() || divisor.number == Some(0.0);
         if zero {
@@ -656,7 +656,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         power_span: Span,
     ) -> Option<Unit> {
         let Some(unit) = base.unit else {
-            // Bare to a power that is a quantity of the machine is a pure number, not a bare one.
+            // A bare number to a power that is a quantity of the machine is a pure number, not a
+            // bare one.
             return power.unit;
         };
         if unit.is_one() {
@@ -723,7 +724,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         if word == "table" {
             return self.table(arguments, span, scope);
         }
-        // `pow` is what the algebra calls the operator `^`.
+        // The algebra calls the operator `^` `pow`.
         let scalar_function = Function::ALL
             .into_iter()
             .find(|function| *function != Function::Pow && function.name() == word);
@@ -887,8 +888,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
 
     /// The total time derivative of a number or a vector.
     fn derivative(&mut self, argument: &'a Expression, span: Span, scope: Scope<'a>) -> Value<'d> {
-        // What cannot stand here itself can stand below the `der`, and the other way round: what is
-        // allowed is decided by the derivative.
+        // An argument that is not allowed here by itself may be allowed inside `der`, and vice
+        // versa: the derivative decides.
         let value = self.value(argument, scope.within(&super::value::limits::DEFINITION));
         let found = value.stage();
         if found >= stage::INPUT {
@@ -937,7 +938,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         self.step(span).then_some(rate)
     }
 
-    /// How every symbol changes, once it is known what coordinates there are.
+    /// The rates of all symbols, once the coordinates are known.
     fn rates(&mut self, span: Span) -> Option<Vec<(Symbol, Expr<'d>)>> {
         let is_coordinate = |&group: &usize| {
             let declarations = &self.groups[group].declarations;
@@ -1052,7 +1053,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
             Some(None) => Value::Unknown,
             Some(Some(r)) => {
-                // A bare radius takes any unit, as a length in a sum does.
+                // A bare radius takes any unit, like a length in a sum.
                 let unit = r.unit;
                 let components = direction.iter().map(|&c| r.expr * c).collect();
                 self.finish_vector(components, unit, span)
@@ -1062,7 +1063,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
 }
 
 impl Value<'_> {
-    /// Its unit, where it has one that is known.
+    /// Its unit, if it has one that is known.
     fn unit(&self) -> Option<Unit> {
         match self {
             Value::Scalar(scalar) => scalar.unit,
@@ -1072,7 +1073,7 @@ impl Value<'_> {
     }
 }
 
-/// The first name of what may be a unit: `s` of `s^2`.
+/// The first name of a possible unit: `s` of `s^2`.
 fn first_name(factor: &Expression) -> Option<&Ident> {
     match &factor.kind {
         ExpressionKind::Name(reference) if reference.index.is_none() => Some(&reference.base),
@@ -1082,12 +1083,12 @@ fn first_name(factor: &Expression) -> Option<&Ident> {
     }
 }
 
-/// A product, as far as it has been read.
+/// A product, as far as it has been evaluated.
 #[derive(Default)]
 struct Product<'d> {
-    /// None as long as all factors are bare numbers.
+    /// None while all factors are bare numbers.
     unit: Option<Unit>,
-    /// How often π is a factor that stands for an angle.
+    /// The number of factors π that belong to an angle.
     pi: i32,
     number: Option<f64>,
     /// Factors with their powers.
@@ -1152,7 +1153,7 @@ impl Value<'_> {
     }
 }
 
-/// With which power π multiplies a constant.
+/// The power of π in a constant.
 fn power_of_pi(constant: Expr<'_>) -> i32 {
     let dag = constant.dag();
     let product = match constant.node() {
@@ -1171,7 +1172,7 @@ fn power_of_pi(constant: Expr<'_>) -> i32 {
     }
 }
 
-/// What to do about cycles where radians belong, and the other way round.
+/// The help for cycles where radians are expected, or vice versa.
 fn about_turns(found: Unit, expected: Unit) -> Option<String> {
     let help = match found.cycles_beyond(expected)? {
         1.. => {
@@ -1183,7 +1184,7 @@ fn about_turns(found: Unit, expected: Unit) -> Option<String> {
     Some(help.to_owned())
 }
 
-/// A help line, with a word about what is most often behind a missing unit.
+/// A help line, with a hint about the most common cause of a missing unit.
 fn with_factors(why: &str, found: Unit, expected: Unit) -> String {
     if let Some(help) = about_turns(found, expected) {
         return help;
@@ -1195,7 +1196,7 @@ fn with_factors(why: &str, found: Unit, expected: Unit) -> String {
     }
 }
 
-/// A unit as a message calls it.
+/// A unit in the words of a message.
 pub(crate) fn unit_text(unit: Unit) -> String {
     match unit.to_string() {
         one if one == "1" => "a pure number".to_owned(),
@@ -1203,7 +1204,7 @@ pub(crate) fn unit_text(unit: Unit) -> String {
     }
 }
 
-/// `x` or `q[…]`, as a message calls a reference.
+/// A reference in a message: `x` or `q[…]`.
 fn shown_reference(reference: &Reference) -> String {
     match reference.index {
         Some(_) => format!("{}[…]", reference.base.text),
@@ -1211,7 +1212,7 @@ fn shown_reference(reference: &Reference) -> String {
     }
 }
 
-/// About how much a function is; only for checks.
+/// An approximate value of a function; only for checks.
 fn value_of_one(function: Function, x: f64) -> f64 {
     match function {
         Function::Sin => x.sin(),

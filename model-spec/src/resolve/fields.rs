@@ -1,4 +1,4 @@
-//! Fields of records, and the names of things in them.
+//! Fields of records, and the objects that they refer to.
 
 use lagrangian_symbolic::Expr;
 
@@ -20,7 +20,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         self.declaration(member).docs.to_owned()
     }
 
-    /// The name of an item, where it is declared.
+    /// The place where the name of an item is declared.
     pub fn span(&self, member: MemberId) -> Span {
         self.declaration(member).name.span
     }
@@ -30,12 +30,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         &self.declaration(member).name.base.text
     }
 
-    /// An item as a message calls it: `a spring`.
+    /// The phrase for an item in messages: `a spring`.
     pub fn item(&self, member: MemberId) -> &'static str {
         self.declaration(member).section.item()
     }
 
-    /// The fields of an item, where it has any.
+    /// The fields of an item, if it has any.
     pub fn record(&self, member: MemberId) -> Option<&'a Record> {
         match self.declaration(member).content {
             Content::Record(record) => Some(record),
@@ -43,7 +43,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// The expression that an item is, where it is one.
+    /// The expression of an item, if it is one.
     pub fn expression(&self, member: MemberId) -> Option<&'a Expression> {
         match self.declaration(member).content {
             Content::Expression(expression) => Some(expression),
@@ -51,7 +51,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// The equation that an item is, where it is one.
+    /// The equation of an item, if it is one.
     pub fn equation(&self, member: MemberId) -> Option<&'a Equation> {
         match self.declaration(member).content {
             Content::Equation(equation) => Some(equation),
@@ -59,7 +59,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// The unit and value of an item, where it is a quantity.
+    /// The unit and value of an item, if it is a quantity.
     pub fn quantity(&self, member: MemberId) -> Option<&'a Quantity> {
         match self.declaration(member).content {
             Content::Quantity(quantity) => Some(quantity),
@@ -67,7 +67,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// A field that must be there.
+    /// A required field.
     pub fn field(
         &mut self,
         member: MemberId,
@@ -102,7 +102,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         self.push(diagnostic.help(help));
     }
 
-    /// Reports a field that does not go with another.
+    /// Reports a field that conflicts with another.
     pub fn conflict(&mut self, record: &'a Record, field: &str, with: &str) {
         if let Some(field) = record.field(field) {
             let message = format!("`{}` does not go with `{with}`", field.name.text);
@@ -171,7 +171,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         None
     }
 
-    /// Reports a name that is that of no coordinate.
+    /// Reports a name that is not that of a coordinate.
     pub fn unknown_coordinate(&mut self, name: &syntax::Ident) {
         if self.incomplete || name.text.is_empty() {
             return;
@@ -208,7 +208,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// The body that an expression names, which must be known to turn.
+    /// The body that an expression names, which must have an orientation.
     pub fn turning_body(&mut self, member: MemberId, on: &'a Expression) -> Option<MemberId> {
         let body = self.body_at(member, on)?;
         let turns = self.record(body).is_some_and(|record| {
@@ -223,7 +223,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(body)
     }
 
-    /// A frame or a body that is known to turn.
+    /// A frame, or a body with an orientation.
     pub fn turning_place(&mut self, member: MemberId, on: &'a Expression) -> Option<Place> {
         let place = self.place(member, on)?;
         let Place::Body(_) = place else {
@@ -238,8 +238,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// The angle by which one place is turned against another, in the plane, with what both have in common left
-    /// out.
+    /// The angle between two places, in the plane, with common terms cancelled.
     pub fn angle_between(&mut self, from: Place, to: Place) -> Option<Expr<'d>> {
         let [from, to] = [from, to].map(|place| self.angle_of_place(place));
         to_point(&[from?], &[to?]).pop()
@@ -261,7 +260,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// A vector of length 1 along another.
+    /// A unit vector along another vector.
     pub fn direction(&mut self, along: &[Expr<'d>], span: Span) -> Option<Vec<Expr<'d>>> {
         let square = self.dag.sum(along.iter().map(|c| c.square()));
         if identity::is_zero(square) == Some(true) {
@@ -276,7 +275,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(along.iter().map(|&c| c / length).collect())
     }
 
-    /// A frame or a body: what something slides on, or a circle is fixed to.
+    /// A frame or a body: the base of a sliding body, or what a circle is fixed to.
     pub fn place(&mut self, member: MemberId, on: &'a Expression) -> Option<Place> {
         let scope = self.scope(member, &limits::POINT);
         let value = match &on.kind {
@@ -296,12 +295,13 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// How far apart two points are: √(u·u), or what is assumed not to be negative and has that square.
+    /// The distance between two points: √(u·u), or an expression with that square that is assumed to
+    /// be nonnegative.
     pub fn distance(&self, line: &[Expr<'d>]) -> Expr<'d> {
         circles::distance(line, &self.facts)
     }
 
-    /// Adds a fact that a run checks and the spec does not say itself, unless it is known or holds everywhere.
+    /// Adds a fact that a run checks and that the spec does not state, unless it is known or always true.
     pub fn add_fact(&mut self, fact: Assumption<'d>) {
         let mut known = self.further_facts.iter();
         let is_known = known.any(|known| known.excess == fact.excess);
@@ -310,7 +310,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// Left side less right side, of one unit.
+    /// Left side minus right side, in one unit.
     pub fn difference(
         &mut self,
         left: &'a Expression,
@@ -321,7 +321,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(left - right)
     }
 
-    /// Both sides of a relation, and their unit; of bare numbers it is 1.
+    /// Both sides of a relation, and their unit; 1 for bare numbers.
     pub fn sides(
         &mut self,
         left: &'a Expression,
@@ -348,7 +348,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         self.coefficient_of_friction(member, friction, &limits::FRICTION)
     }
 
-    /// A coefficient of friction that may depend on what its place allows.
+    /// A coefficient of friction that may depend on whatever its place allows.
     pub fn coefficient_of_friction(
         &mut self,
         member: MemberId,
@@ -362,7 +362,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(scalar.expr)
     }
 
-    /// What is round here: circles, and spheres in space.
+    /// The word for a round object: `circle`, or `sphere` in space.
     pub fn round_word(&self) -> &'static str {
         match self.space {
             Space::Plane => "circle",
@@ -370,7 +370,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// `circle` or `sphere` with `inside`, `outside` or `along`: what touches what.
+    /// `circle` or `sphere` with `inside`, `outside` or `along`: the objects in contact.
     pub fn touching(&mut self, member: MemberId, record: &'a Record) -> Option<Touching> {
         let circle = self.field(member, record, self.round_word());
         let circle = circle.map(|circle| self.circle_at(member, circle));
@@ -381,7 +381,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         })
     }
 
-    /// `inside`, `outside` or `along`: what is touched, by a circle, a sphere or something else.
+    /// `inside`, `outside` or `along`: the surface touched by a circle, a sphere or another object.
     pub fn surface(
         &mut self,
         member: MemberId,
@@ -437,7 +437,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// Where circles or spheres have their names, and how a message begins that says that there is none.
+    /// The namespace of circles or spheres, and the beginning of the message for an unknown one.
     pub(super) fn round_names(&self) -> (Namespace, &'static str) {
         match self.space {
             Space::Plane => (Namespace::CIRCLES, "no circle is"),

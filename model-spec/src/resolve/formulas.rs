@@ -1,20 +1,21 @@
-//! Formulas that somebody gives from outside to be observed: `max(abs(x))` of a sweep.
+//! Output formulas supplied by the caller: `max(abs(x))` for a sweep.
 
 use crate::diagnostic::Report;
 use crate::source::Sources;
 use crate::syntax::{Declared, Ident, Index, Item, Quantity, Spec};
 use crate::token::{lex, normalized};
 
-/// A formula that is to be computed beside what a spec says: one more output.
+/// A formula that is computed in addition to the outputs of a spec.
 #[derive(Clone, Copy, Debug)]
 pub struct Formula<'a> {
-    /// The name of the output; nothing that a spec can say, so that it is another one than all of these.
+    /// The name of the output; not a valid name in a spec, so that it cannot clash with other outputs.
     pub name: &'a str,
-    /// What messages call the text.
+    /// The name of the text in messages.
     pub said: &'a str,
-    /// An expression in whatever an output may depend on, and in the outputs of the spec, which count in SI units.
+    /// An expression in anything that an output may depend on, and in the outputs of the spec, which are in
+    /// SI units.
     pub text: &'a str,
-    /// The unit that it is to have; where none is given, its own in SI.
+    /// The required unit; if none is given, the formula's own unit in SI.
     pub unit: Option<&'a str>,
 }
 
@@ -54,7 +55,7 @@ pub(crate) fn items(
     formulas.iter().map(item).collect()
 }
 
-/// Puts formulas behind the outputs of the last layer, and lets them use the outputs that they name.
+/// Appends formulas to the outputs of the last layer, and lets them use the outputs that they name.
 pub(super) fn add(formulas: Vec<Item<Quantity>>, layers: &mut [Spec], sources: &Sources) {
     let text = |item: &Item<Quantity>| {
         let span = item.content.value.as_ref().map(|value| value.span);

@@ -1,7 +1,7 @@
-//! Frames of reference: how each is made from its parent, and the points that they give.
+//! Frames of reference: how each is made from its parent, and the points that it provides.
 //!
-//! A pose is built on the expressions of its parent and never on their expansion: in a chain of
-//! links each origin is one term in the next, and each angle one term in the next angle.
+//! A pose is built on the expressions of its parent, never on their expansion: in a chain of links
+//! each origin is one term in the next, and each angle one term in the next angle.
 
 use lagrangian_symbolic::{Expr, Id};
 
@@ -17,7 +17,7 @@ use crate::source::Span;
 use crate::syntax::{Chain, Expression, ExpressionKind, Link, Reference, SectionKind};
 use crate::unit::Unit;
 
-/// What frames can do, and what points they have.
+/// The operations and points of a frame.
 const FRAME_MEMBERS: [&str; 8] = [
     "origin",
     "point",
@@ -29,16 +29,16 @@ const FRAME_MEMBERS: [&str; 8] = [
     "velocity",
 ];
 
-/// What can be asked of a body that is turned by an angle and has no frame.
+/// The members of a body that is turned by an angle and has no frame.
 const BODY_MEMBERS: [&str; 3] = ["at", "spin", "velocity"];
 
-/// The most points that a help line lists.
+/// The largest number of points that a help line lists.
 const LISTED: usize = 8;
 
-/// The most names that are looked through for points.
+/// The largest number of names that are searched for points.
 const COMPARED: usize = 1000;
 
-/// A pose by what it is made of, so that the same is made once.
+/// The parent, step and arguments of a pose, so that equal poses are made only once.
 pub(super) type PoseKey = (PoseId, Option<usize>, Vec<Id>);
 
 impl<'a, 'd> Resolver<'a, 'd, '_> {
@@ -63,7 +63,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// A pose that was made.
+    /// An existing pose.
     pub fn pose(&self, id: PoseId) -> &Pose<'d> {
         &self.poses[id.0 as usize]
     }
@@ -90,7 +90,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// The frame whose origin is moved along the axes of its parent.
+    /// The frame whose origin is shifted in the axes of its parent.
     fn shifted(&mut self, parent: PoseId, by: Vec<Expr<'d>>) -> PoseId {
         let key = (parent, None, by.iter().map(|c| c.id()).collect());
         self.add_pose(key, |resolver| Pose {
@@ -115,7 +115,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                     (vec![vec![c, s], vec![-s, c]], total)
                 }
                 Space::Space => {
-                    // The two axes that follow the one of the turn: y, z after x, and so on round.
+                    // The two axes after that of the turn, in cyclic order: y, z after x.
                     let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
                     let (c, s) = (angle.cos(), angle.sin());
                     let mut axes = from.axes.clone();
@@ -135,9 +135,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         })
     }
 
-    /// The frame that is turned by four numbers.
+    /// The frame that is turned by a quaternion.
     fn turned_by_four(&mut self, parent: PoseId, e: [Expr<'d>; 4]) -> PoseId {
-        // Behind the three axes.
+        // A number beyond those of the three axes.
         let key = (parent, Some(3), e.map(|e| e.id()).to_vec());
         self.add_pose(key, |resolver| {
             let from = resolver.pose(parent);
@@ -152,7 +152,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         })
     }
 
-    /// The vector with these components along the axes of a frame, in ground axes.
+    /// The vector with these components in the axes of a frame, in ground axes.
     pub(super) fn vector_of(&self, frame: PoseId, components: &[Expr<'d>]) -> Vec<Expr<'d>> {
         let axes = &self.pose(frame).axes;
         let along = |i: usize| {
@@ -174,7 +174,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         (0..self.space.dimension()).map(along).collect()
     }
 
-    /// A frame, or an error that says what stands there instead.
+    /// A frame, or an error that says what was found instead.
     pub fn frame(&mut self, expression: &'a Expression, scope: Scope<'a>) -> Option<PoseId> {
         let value = match &expression.kind {
             ExpressionKind::Name(reference) => {
@@ -193,8 +193,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// What a name before a dot means: a frame, or a body; where both have the name, whichever has
-    /// the `member`.
+    /// The meaning of a name before a dot: a frame or a body; if both have the name, the one that
+    /// has the `member`.
     pub fn frame_or_body(
         &mut self,
         reference: &'a Reference,
@@ -266,7 +266,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                     });
                     Value::Unknown
                 }
-                // Arguments may be wrong all the same.
+                // Errors in arguments are still reported.
                 Value::Unknown => {
                     for argument in link.arguments.iter().flatten() {
                         if !is_axis(argument) {
@@ -314,7 +314,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         record.is_some_and(|record| record.field("frame").is_some())
     }
 
-    /// The frame of a body that has one.
+    /// The frame of a body, or an error if it has none.
     pub fn frame_of_body(&mut self, body: MemberId, span: Span) -> Option<PoseId> {
         if !self.has_frame(body) {
             let name = self.name(body);
@@ -399,8 +399,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// The place of the arguments that make a frame: whatever may stand around it, a frame is
-    /// placed by positions.
+    /// The scope of the arguments that make a frame: in any context, a frame is placed
+    /// by positions.
     fn placing(scope: Scope<'a>) -> Scope<'a> {
         if scope.limit.stage > stage::POSITION {
             scope.within(&limits::FRAME)
@@ -409,7 +409,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// The arguments of `point`, `vector` and `shift`: components along the frame's axes.
+    /// The arguments of `point`, `vector` and `shift`: components in the frame's axes.
     fn components(
         &mut self,
         link: &'a Link,
@@ -501,8 +501,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
 
     /// The four arguments of a `turn` by a quaternion: coordinates of their own.
     ///
-    /// Formulas of coordinates are refused. The length of the four has an equation of motion of its own, and what else the
-    /// machine makes of them would not be told from it.
+    /// Formulas of coordinates are refused, because the length of the quaternion has an equation of motion of its own,
+    /// which could not be separated from other effects of these coordinates.
     fn four_numbers(
         &mut self,
         link: &'a Link,
@@ -559,7 +559,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(e)
     }
 
-    /// The fours of coordinates that turn frames. The numbers that they start with are not all 0, for these turn nothing.
+    /// The quaternions that turn frames. Their start values must not all be 0, since these describe no rotation.
     pub(super) fn all_quaternions(
         &mut self,
         coordinates: &[Coordinate<'d>],
@@ -587,7 +587,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         all.into_iter().map(four).collect()
     }
 
-    /// `x`, `y` or `z`: an axis of a frame, by its number.
+    /// `x`, `y` or `z`: an axis of a frame, by its index.
     pub fn axis(&mut self, expression: &'a Expression) -> Option<usize> {
         if let ExpressionKind::Name(Reference { base, index: None }) = &expression.kind
             && let Some(axis) = ["x", "y", "z"].iter().position(|name| *name == base.text)
@@ -599,7 +599,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         None
     }
 
-    /// Reports what a frame or a body does not have.
+    /// Reports a member that a frame or a body does not have.
     fn unknown_member(&mut self, link: &'a Link, chain: &'a Chain, has: &[&str], body: bool) {
         let word = &link.name.text;
         if word.is_empty() {
@@ -645,7 +645,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     /// The points that can be named: bodies and origins, those of `root` first.
     fn declared_points(&self, root: &str) -> Option<String> {
         if self.report.omitted() > 0 {
-            return None; // nobody will see it
+            return None; // the message will be omitted anyway
         }
         let member_of = |namespace| match namespace {
             Namespace::BODIES => Some("at"),
@@ -671,7 +671,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         (!list.is_empty()).then(|| format!("points declared here: {}", list.join(", ")))
     }
 
-    /// What is worked out of a member when something needs it.
+    /// Resolves the value of a member when something needs it.
     pub fn member_value(&mut self, member: MemberId) -> Value<'d> {
         let declaration = self.declaration(member);
         match (declaration.section, declaration.content) {
@@ -709,7 +709,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 }
 
-/// Whether an argument is an axis, which is no expression.
+/// Whether an argument is an axis, which is not an expression.
 fn is_axis(expression: &Expression) -> bool {
     match &expression.kind {
         ExpressionKind::Name(Reference { base, index: None }) => {

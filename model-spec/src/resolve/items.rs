@@ -1,4 +1,4 @@
-//! Items: what a machine is made of, each field in its unit and of its kind.
+//! Items, the parts of a machine: resolves each field and checks its unit and kind.
 
 use lagrangian_symbolic::{Expr, nearest};
 
@@ -21,7 +21,7 @@ const INERTIA: Unit = Unit::base(1, 2, 0);
 impl<'a, 'd> Resolver<'a, 'd, '_> {
     // Values.
 
-    /// The value of a constant: what the caller sets, or what the spec says.
+    /// The value of a constant: the one that the caller sets, or the one in the spec.
     pub fn constant_value(&mut self, member: MemberId, quantity: &'a Quantity) -> Value<'d> {
         let measure = declared_measure(quantity);
         let name = self.name(member).to_string();
@@ -35,13 +35,13 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 };
                 scalar
             }
-            (None, None) => return Value::Unknown, // the parser has said that it is missing
+            (None, None) => return Value::Unknown, // the parser has reported that it is missing
         };
         self.measured_in_si(&mut scalar, measure);
         Value::Scalar(scalar)
     }
 
-    /// Turns a value that is measured in a declared unit into SI units, as formulas are.
+    /// Converts a value in a declared unit to SI units, which formulas use.
     pub(super) fn measured_in_si(&self, scalar: &mut Scalar<'d>, measure: Option<Measure>) {
         let unit = measure.as_ref().map(|measure| measure.unit);
         if let Some(measure) = measure.filter(|measure| !measure.is_si()) {
@@ -51,8 +51,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         scalar.unit = unit.or(scalar.unit);
     }
 
-    /// A value, measured in the unit that is declared for it: what is made of bare numbers is, and
-    /// anything else is converted.
+    /// A value in the unit declared for it: bare numbers are in that unit already, anything else
+    /// is converted.
     pub fn quantity_value(
         &mut self,
         value: &'a Expression,
@@ -74,8 +74,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(scalar)
     }
 
-    /// Refuses a name that is that of a unit too, where no unit would tell the two apart: with an
-    /// `h: s = 5`, `2*h` could be two hours.
+    /// Refuses a name that is also the name of a unit of the same kind, because no unit could tell
+    /// the two apart: with `h: s = 5`, `2*h` could be two hours.
     fn check_unit_name(&mut self, member: MemberId, value: &Scalar<'d>) {
         let name = &self.declaration(member).name.base;
         let measure = Measure::named(&name.text);
@@ -83,7 +83,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             return;
         };
         let alike = value.unit.unwrap_or(Unit::ONE) == measure.unit;
-        // Who has written `deg = pi/180` means what the language means.
+        // A declaration `deg = pi/180` agrees with the meaning of the unit.
         let is_same = value.expr.stage() == stage::CONSTANT
             && (nearest(value.expr) - measure.to_f64()).abs() <= 1e-15 * measure.to_f64();
         if alike && !is_same {
@@ -132,7 +132,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
         self.check_symbol_name(member);
         let default = match &quantity.value {
-            // What is derived is checked even where somebody gives it a value.
+            // A formula is checked even if the caller gives the parameter a value.
             Some(_) if self.has_formula(member) => {
                 self.derived_value(member, quantity);
                 self.given_value(member)
@@ -213,7 +213,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let unit = measure.as_ref().map(|measure| measure.unit);
         let scope = self.scope(member, &limits::OUTPUT);
         let value = self.quantity_value(quantity.value.as_ref()?, measure.as_ref(), scope)?;
-        // Only a formula from outside has none, and then its own.
+        // Only a formula from the caller has no declared unit, and takes its own.
         let unit = match quantity.unit {
             Some(_) => unit?,
             None => value.unit.unwrap_or(Unit::ONE),
@@ -228,7 +228,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         })
     }
 
-    /// A definition is worked out even if nothing uses it: what is wrong in it is wrong.
+    /// Resolves a definition even if nothing uses it, so that errors in it are reported.
     pub fn definition(&mut self, member: MemberId) {
         if let Value::Scalar(scalar) = self.value_of(member, self.span(member)) {
             self.check_unit_name(member, &scalar);
@@ -242,10 +242,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// Whether a coordinate, or its rate, is declared in an SI unit. The state of a run is in SI
-    /// units: tolerances, matrices and modes of it are.
+    /// units, and so are its tolerances, matrices and modes.
     pub fn is_unit_of_state(&mut self, quantity: &'a Quantity, unit: Option<Unit>) -> bool {
         let (Some(written), Some(unit)) = (&quantity.unit, unit) else {
-            return true; // which has been reported
+            return true; // an unknown unit has been reported
         };
         if !unit.is_scaled() {
             return true;
@@ -279,7 +279,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         })
     }
 
-    /// The mass centre of a body: where the spec says, or at the origin of its frame.
+    /// The mass centre of a body: as given, or at the origin of its frame.
     pub fn mass_centre(&mut self, member: MemberId, record: &'a Record) -> Value<'d> {
         if let Some(at) = record.get("at") {
             let scope = self.scope(member, &limits::POSITION);
@@ -353,7 +353,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             local: if self.guides.is_empty() {
                 at.local.map(|(pose, point)| Local { pose, point })
             } else {
-                // A guide that is relaxed moves origins of frames, and no step from frame to frame says so.
+                // A relaxed guide moves origins of frames, which no step from frame to frame accounts for.
                 None
             },
             rotation: rotation?,
@@ -391,7 +391,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
             (Space::Space, ExpressionKind::Tuple(parts)) => self.tensor(inertia.span, parts, scope),
             (Space::Space, _) => {
-                // A number here is the planar habit, and worth more than «found a number».
+                // A single number is a habit from the plane, and deserves a better message than
+                // "found a number".
                 match self.value(inertia, scope.hinting(INERTIA)) {
                     Value::Vector(moments) => {
                         self.demand(
@@ -436,7 +437,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         scope: Scope<'a>,
     ) -> Option<Expr<'d>> {
         let scalar = self.scalar_in(part, INERTIA, "an inertia is in kg*m^2", scope)?;
-        // A thin rod has none about its axis; so zero is fine.
+        // A thin rod has no inertia about its axis, so zero is allowed.
         if diagonal {
             self.bound(BoundKind::Moment, scalar.expr, part.span);
         }
@@ -552,9 +553,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         })
     }
 
-    // The rest.
+    // Other items.
 
-    /// The coordinates that an approximation is about: one, or all of a family.
+    /// The coordinates of an approximation: one, or all of a family.
     pub fn approximation(&mut self, member: MemberId) -> Vec<Approximation> {
         let declaration = self.declaration(member);
         let Content::Approximation(content) = declaration.content else {
@@ -580,7 +581,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         found
     }
 
-    /// The coordinates that bear the name of an item: one, or all of a family.
+    /// The coordinates with the name of an item: one, or all of a family.
     pub fn coordinates_named(&mut self, member: MemberId) -> Vec<MemberId> {
         let name = self.declaration(member).name;
         let Some(group) = self.find_group(Namespace::Values, &name.base.text) else {

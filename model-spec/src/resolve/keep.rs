@@ -1,4 +1,4 @@
-//! Which start values stay as they are where the start does not obey the constraints.
+//! The start values that are kept when a start that violates the constraints is corrected.
 
 use super::Resolver;
 use super::names::Namespace;
@@ -8,9 +8,10 @@ use crate::model::Variable;
 use crate::syntax::{Ident, SectionKind, coordinate_of_rate};
 
 impl Resolver<'_, '_, '_> {
-    /// The coordinates or rates that an item of `keep` means: one, or those of a family.
+    /// The coordinates or rates that an item of `keep` refers to: one, or those of a family.
     ///
-    /// What a base keeps of a coordinate goes with the coordinate, where a variant removes that.
+    /// If a variant removes a coordinate, the `keep` of its base for that coordinate is
+    /// dropped too.
     pub fn kept(&mut self, member: MemberId) -> Vec<Variable> {
         let declaration = self.declaration(member);
         let (name, is_inherited) = (declaration.name, declaration.layer + 1 < self.layer_count);

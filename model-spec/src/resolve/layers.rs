@@ -1,23 +1,23 @@
-//! Variants: a machine and what it extends, base first.
+//! Variants: a machine and the specs that it extends, base first.
 
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::source::{Files, Sources, Span};
 use crate::syntax::{SectionKind, Spec};
 use crate::token;
 
-/// The longest chain of `extends`: a family of machines is a few variants deep.
+/// The longest chain of `extends`: real families of machines are a few variants deep.
 const DEEPEST: usize = 32;
 
 /// A machine and its bases.
 pub(super) struct Layers {
     /// The specs, base first; the machine itself is the last.
     pub specs: Vec<Spec>,
-    /// Whether a base is missing, so that unknown names are no news.
+    /// Whether a base is missing, so that unknown names need not be reported.
     pub incomplete: bool,
 }
 
 impl Layers {
-    /// Reads what a spec extends, and what that extends, and so on.
+    /// Reads the spec that a spec extends, and so on.
     pub fn load(
         spec: Spec,
         sections: &[SectionKind],

@@ -1,4 +1,4 @@
-//! The methods of integration that emitted code is to have more for than its accelerations.
+//! The integration methods for which emitted code needs more than accelerations.
 
 use super::Resolver;
 use super::names::{suggestion, with_help};
@@ -7,11 +7,11 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::Index;
 
-/// Methods that ask for more than accelerations.
+/// Methods that need more than accelerations.
 const WORDS: [&str; 1] = ["taylor"];
 
 impl Resolver<'_, '_, '_> {
-    /// Where an item of `methods` asks for the Taylor series of the motion.
+    /// The place where an item of `methods` requests the Taylor series of the motion.
     pub fn method(&mut self, member: MemberId) -> Option<Span> {
         let name = self.declaration(member).name;
         let word = name.base.text.as_str();

@@ -1,5 +1,4 @@
-//! How frames and bodies move: their angular velocities, and the velocities of points that are fixed to
-//! them.
+//! Motion of frames and bodies: their angular velocities, and the velocities of points fixed to them.
 
 use lagrangian_symbolic::Expr;
 
@@ -82,7 +81,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         self.velocity_at(&at.components, &spin, &lever, span)
     }
 
-    /// The angular velocity of a frame: one number in the plane, three along the ground's axes in space.
+    /// The angular velocity of a frame: one number in the plane, three in ground axes in space.
     pub fn spin(&mut self, frame: PoseId, span: Span) -> Option<Vec<Expr<'d>>> {
         if self.space == Space::Plane {
             let angle = self.pose(frame).angle;
@@ -93,7 +92,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         while at != PoseId::GROUND {
             let pose = self.pose(at);
             let (parent, step, axes) = (pose.parent, pose.step.clone(), pose.axes.clone());
-            // A turn leaves its own axis where it is.
+            // A turn leaves its own axis unchanged.
             for (axis, rate) in step.turning(|x| self.rate(x, span))? {
                 for (terms, &along) in turning.iter_mut().zip(&axes[axis]) {
                     terms.push(rate * along);
@@ -122,7 +121,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// The velocity of what turns about a point that moves, at the end of a lever from it.
+    /// The velocity at the end of a lever that turns about a moving point.
     fn velocity_at(
         &mut self,
         origin: &[Expr<'d>],
@@ -140,7 +139,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Value::Vector(Vector::new(components, Some(Unit::METRE.rate())))
     }
 
-    /// The point that a link has as its one argument.
+    /// The point that is the only argument of a link.
     pub(super) fn point_of_link(&mut self, link: &'a Link, scope: Scope<'a>) -> Option<Vector<'d>> {
         let arguments = link.arguments.as_deref().unwrap_or(&[]);
         let [point] = arguments else {
@@ -156,7 +155,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         self.vector_in(point, "a point", Unit::METRE, "a point is in m", scope)
     }
 
-    /// A point as a frame sees it: its place along the axes of the frame, from its origin.
+    /// A point in a frame: its coordinates in the axes of the frame, from its origin.
     pub(super) fn seen_from(&self, frame: PoseId, point: &Vector<'d>) -> Vec<Expr<'d>> {
         match &point.local {
             Some((local, along)) if *local == frame => along.clone(),
@@ -182,7 +181,7 @@ pub(crate) fn swept<'d>(spin: &[Expr<'d>], lever: &[Expr<'d>]) -> Vec<Expr<'d>> 
     }
 }
 
-/// From one point to another, with what both have in common left out.
+/// The vector from one point to another, with common terms cancelled.
 pub(crate) fn to_point<'d>(from: &[Expr<'d>], to: &[Expr<'d>]) -> Vec<Expr<'d>> {
     let less = |(&to, &from): (&Expr<'d>, &Expr<'d>)| {
         let from = terms(from).into_iter().map(|term| -term);

@@ -1,4 +1,4 @@
-//! What is declared: items, families and their members, over all layers of a variant.
+//! Declarations: items, families and their members, over all layers of a variant.
 
 use std::collections::BTreeMap;
 
@@ -17,30 +17,30 @@ use crate::syntax::{
 };
 use crate::unit::{Measure, Unit, rate_name};
 
-/// The most members that all families of a machine may have together.
+/// The largest total number of members of all families of a machine.
 ///
-/// A chain of ten thousand links has fifty thousand: what is larger is a slip of the pen in a size,
+/// A chain of ten thousand links has fifty thousand. A larger number is a typing error in a size,
 /// and would only fill the memory.
 pub const MEMBER_LIMIT: usize = 100_000;
 
 const MEMBERS: &str = "a machine has at most 100000 members, all families together";
 
-/// The most names that a help line lists.
+/// The largest number of names that a help line lists.
 const LISTED: usize = 12;
 
-/// The most names that are compared with an unknown one.
+/// The largest number of names that are compared with an unknown one.
 const COMPARED: usize = 1000;
 
-/// Names that stand for something everywhere in an expression.
+/// Names with a fixed meaning in every expression.
 const RESERVED_VALUES: [(&str, &str); 2] = [("t", "the time"), ("pi", "the number π")];
 
-/// What to write instead of a branch.
+/// The advice for a branch.
 pub(super) const NO_BRANCHES: &str = crate::syntax::NO_BRANCHES;
 
-/// Words that are no identifiers in Rust, raw or not.
+/// Words that are not identifiers in Rust, raw or not.
 const NO_RUST_NAMES: [&str; 5] = ["self", "Self", "super", "crate", "_"];
 
-/// Within one namespace a name means one thing.
+/// A namespace; within it a name has one meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Namespace {
     /// Parameters, constants, coordinates, inputs and definitions.
@@ -68,10 +68,10 @@ impl Namespace {
     }
 }
 
-/// One item as written: it declares one thing, or members of a family.
+/// One item as written: a single declaration, or members of a family.
 #[derive(Clone, Copy)]
 pub(super) struct Declaration<'a> {
-    /// The variant that says it; 0 is the base of all.
+    /// The layer that it belongs to; 0 is the base of all.
     pub layer: usize,
     pub section: SectionKind,
     pub name: &'a Declared,
@@ -79,7 +79,7 @@ pub(super) struct Declaration<'a> {
     pub content: Content<'a>,
 }
 
-/// What an item says.
+/// The content of an item.
 #[derive(Clone, Copy)]
 pub(super) enum Content<'a> {
     Quantity(&'a Quantity),
@@ -91,7 +91,7 @@ pub(super) enum Content<'a> {
     Nothing,
 }
 
-/// Everything that is declared under one name.
+/// All declarations of one name.
 pub(super) struct Group<'a> {
     pub namespace: Namespace,
     pub base: &'a str,
@@ -99,30 +99,30 @@ pub(super) struct Group<'a> {
     pub declarations: Vec<usize>,
     pub removals: Vec<(usize, &'a Remove)>,
     pub state: State,
-    /// Whether its members could not be told, so that a missing one is no news.
+    /// Whether its members could not be determined, so that a missing one need not be reported.
     pub broken: bool,
     pub members: BTreeMap<Option<i64>, MemberId>,
 }
 
-/// One thing, or one member of a family.
+/// A single thing, or one member of a family.
 pub(super) struct Member<'d> {
     pub group: usize,
     pub declaration: usize,
     pub index: Option<i64>,
-    /// Where it stands among the members of its section: where it was declared first.
+    /// Its position among the members of its section, given by its first declaration.
     pub place: (usize, i64),
     pub state: State,
-    /// A value, a frame; of a body its mass centre.
+    /// Its value or its frame; for a body its mass centre.
     pub value: Value<'d>,
-    /// Of a body: its frame.
+    /// For a body: its frame.
     pub frame_state: State,
     pub frame: Value<'d>,
-    /// Of a coordinate: position, velocity, acceleration; of a state: its integral over time, itself, its
-    /// rate; of a parameter or input: itself, thrice.
+    /// For a coordinate: position, velocity, acceleration; for a state: its time integral, itself, its
+    /// rate; for a parameter or input: itself, three times.
     pub symbols: Option<[Expr<'d>; 3]>,
 }
 
-/// A member before it gets its number.
+/// A member before it is numbered.
 #[derive(Clone, Copy)]
 struct Found {
     declaration: usize,
@@ -130,7 +130,7 @@ struct Found {
 }
 
 impl<'a, 'd> Resolver<'a, 'd, '_> {
-    /// Lists what every layer declares and removes.
+    /// Collects the declarations and removals of every layer.
     pub fn declare_all(&mut self, layers: &'a [Spec]) {
         for (layer, spec) in layers.iter().enumerate() {
             self.declare_layer(layer, spec);
@@ -202,11 +202,11 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         for item in items {
             let base = &item.name.base;
             if base.text.is_empty() {
-                continue; // the parser has said that the name is missing
+                continue; // the parser has reported the missing name
             }
             self.check_declared(section, &item.name);
             if Namespace::of(section) == Namespace::FRAMES && base.text == "ground" {
-                continue; // what refers to it means the ground all the same
+                continue; // references to it still mean the ground
             }
             let declaration = self.declarations.len();
             self.declarations.push(Declaration {
@@ -268,7 +268,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         ));
     }
 
-    /// Refuses names that mean something else, or that no field in Rust can have.
+    /// Refuses names that have another meaning, or that are not allowed as Rust fields.
     fn check_declared(&mut self, section: SectionKind, name: &'a Declared) {
         let base = &name.base;
         if NO_RUST_NAMES.contains(&base.text.as_str()) {
@@ -289,7 +289,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// Refuses an index that hides what every expression needs.
+    /// Refuses an index that hides a reserved name.
     pub fn check_index_variable(&mut self, range: &'a Range) {
         if let Some(variable) = &range.variable {
             self.check_reserved(variable);
@@ -318,12 +318,13 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         })
     }
 
-    /// What is declared under a name.
+    /// The group of a name.
     pub(super) fn find_group(&self, namespace: Namespace, base: &str) -> Option<usize> {
         self.group_of.get(&(namespace, base)).copied()
     }
 
-    /// The members that a name with this index means: one, or all of a family where there is no index.
+    /// The members that a name with this index refers to: one, or all of a family if there is
+    /// no index.
     pub fn members_under(&self, group: usize, index: Option<i64>) -> Vec<MemberId> {
         let members = self.groups[group].members.iter();
         members
@@ -332,7 +333,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             .collect()
     }
 
-    /// Refuses a name that means none of the members that there are.
+    /// Refuses a name that refers to none of the existing members.
     pub fn check_members(
         &mut self,
         members: &[MemberId],
@@ -346,7 +347,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// Tells which members a name has, later layers replacing what earlier ones say.
+    /// Determines the members of a name; later layers replace the declarations of earlier ones.
     pub fn expand(&mut self, group: usize) {
         let declarations = self.groups[group].declarations.clone();
         let removals = self.groups[group].removals.clone();
@@ -354,7 +355,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             self.indices(&self.declarations[declaration].name.index);
         }
         if !self.needs.is_empty() {
-            return; // a size that depends on what is still to be worked out
+            return; // a size that depends on something not yet resolved
         }
         let mut found: BTreeMap<Option<i64>, Found> = BTreeMap::new();
         let mut broken = false;
@@ -369,7 +370,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
         }
         if !self.needs.is_empty() {
-            return; // what is removed depends on it
+            return; // a removal depends on something not yet resolved
         }
         let members = found
             .into_iter()
@@ -379,7 +380,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         self.groups[group].broken = broken;
     }
 
-    /// The indices that a declaration means; `None` where an error has been reported.
+    /// The indices of a declaration; `None` if an error was reported.
     fn indices(&mut self, index: &'a Index) -> Option<Vec<Option<i64>>> {
         match index {
             Index::None => Some(vec![None]),
@@ -422,7 +423,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         } = self.declarations[declaration];
         let indices = self.indices(&name.index)?;
         let alone = indices == [None];
-        // A single thing takes the place of a family of the same name, and the other way round.
+        // A single thing replaces a family of the same name, and vice versa.
         let other_kind = found.iter().find(|(index, _)| index.is_none() != alone);
         if let Some((_, &other)) = other_kind {
             if self.declarations[other.declaration].layer == layer {
@@ -512,8 +513,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         member
     }
 
-    /// Parameters, coordinates and inputs are symbols, known as soon as they are declared; a parameter that follows from others
-    /// is none.
+    /// Makes the symbols of parameters, coordinates and inputs, which are known as soon as they are declared; a parameter that
+    /// follows from others has none.
     fn make_symbols(&mut self, member: MemberId) {
         if self.is_derived(member) {
             return;
@@ -548,8 +549,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         member.symbols = Some(symbols);
         member.state = State::Done;
         if let Some(measure) = measure {
-            // The symbol is measured as declared, and so is whatever the user gives and sees;
-            // formulas are in SI units.
+            // The symbol is in the declared unit, and so are all values that the user gives and
+            // sees; formulas are in SI units.
             let is_si = measure.is_si() || is_state || section == SectionKind::Coordinates;
             member.value = Value::Scalar(Scalar {
                 expr: if is_si {
@@ -577,7 +578,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// Where the expressions of a member stand.
+    /// The scope of the expressions of a member.
     pub fn scope(&self, member: MemberId, limit: &'static super::value::Limit) -> Scope<'a> {
         let index = match &self.declaration(member).name.index {
             Index::Range(Range {
@@ -608,7 +609,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         members
     }
 
-    /// The member that a reference means, if the family is expanded and has it.
+    /// The member that a reference refers to, if the family is expanded and has it.
     pub fn member(
         &mut self,
         group: usize,
@@ -618,7 +619,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     ) -> Option<MemberId> {
         if self.groups[group].state != State::Done {
             self.need(Need::Group(group), name.span);
-            // An index that is wrong is wrong whatever the family turns out to be.
+            // A wrong index is reported, whatever the members of the family turn out to be.
             if let Some(index) = index {
                 self.whole(index, Some(scope));
             }
@@ -674,7 +675,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         self.push(diagnostic);
     }
 
-    /// An index behind what is none.
+    /// Reports an index on a name that is not a family.
     pub fn not_a_family(&mut self, name: &Ident, index: Span) {
         let message = format!("`{}` is not a family and takes no index", name.text);
         self.error(Code::NotAFamily, index, message);
@@ -704,7 +705,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         self.push(Diagnostic::new(Code::IndexOutOfRange, span, message).help(help));
     }
 
-    /// A whole number that is known when the machine is derived: an index, or the end of a range.
+    /// An integer that is known when the machine is derived: an index, or the end of a range.
     pub fn whole(&mut self, expression: &'a Expression, scope: Option<Scope<'a>>) -> Option<i64> {
         let scope = Scope {
             index: scope.and_then(|scope| scope.index),
@@ -759,7 +760,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             None
         };
         let help = match elsewhere {
-            _ if self.report.omitted() > 0 => None, // nobody will see it
+            _ if self.report.omitted() > 0 => None, // the message will be omitted anyway
             _ if habit.is_some() => habit,
             Some(section) if namespaces.contains(&Namespace::Values) => Some(format!(
                 "`{}` is {}, which formulas cannot use: put what they share under `define`",
@@ -791,7 +792,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         ));
     }
 
-    /// What to write for a word that other languages have.
+    /// The help for a word that is common in other languages.
     fn habit(&self, word: &str) -> Option<String> {
         let is_coordinate = |base: &str| {
             let mut declarations = self.declarations.iter();
@@ -819,7 +820,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// The group that a reference names, reporting what is unknown.
+    /// The group that a reference names; an unknown name is reported.
     pub(super) fn known_group(
         &mut self,
         namespace: Namespace,
@@ -833,7 +834,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         group
     }
 
-    /// The member that a plain name, `x` or `q[i]`, means in a namespace.
+    /// The member that a plain name, `x` or `q[i]`, refers to in a namespace.
     pub(super) fn named_member(
         &mut self,
         namespace: Namespace,
@@ -846,7 +847,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 }
 
-/// The help line for an unknown word: what was probably meant, or all there is if that is little.
+/// The help line for an unknown word: the most similar word, or all possible ones if there are few.
 pub(super) fn suggestion<'n>(
     word: &str,
     candidates: impl IntoIterator<Item = &'n str>,
@@ -864,10 +865,10 @@ pub(super) fn suggestion<'n>(
     }
 }
 
-/// The help for an unknown word that may have been meant for a unit as well: `degs` is near `deg`.
+/// The help for an unknown word that may also have been a unit: `degs` is near `deg`.
 fn with_unit(word: &str, help: Option<String>) -> Option<String> {
     let unit = match word.chars().count() {
-        // One letter in two is no likeness.
+        // One different letter out of two is no similarity.
         0..=2 => None,
         _ => nearest(word, Measure::names()),
     };
@@ -891,12 +892,12 @@ pub(super) fn with_help(diagnostic: Diagnostic, help: Option<String>) -> Diagnos
     }
 }
 
-/// The unit of a declaration; `None` where it is missing or unknown, which has been reported.
+/// The unit of a declaration; `None` if it is missing or unknown, which was reported.
 pub(super) fn declared_unit(quantity: &Quantity) -> Option<Unit> {
     Some(declared_measure(quantity)?.unit)
 }
 
-/// The unit of a declaration, with how many SI units it is.
+/// The unit of a declaration, with its size in SI units.
 pub(super) fn declared_measure(quantity: &Quantity) -> Option<Measure> {
     let mut measure = Measure::ONE;
     for factor in &quantity.unit.as_ref()?.factors {
@@ -908,7 +909,7 @@ pub(super) fn declared_measure(quantity: &Quantity) -> Option<Measure> {
         };
         measure = measure.times(&power)?;
     }
-    // `km/m` is no SI unit, and `mm*km/m` is one again.
+    // `km/m` is not an SI unit, but `mm*km/m` is one.
     measure.unit = measure.unit.as_written(!measure.is_si());
     Some(measure)
 }

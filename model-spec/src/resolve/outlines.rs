@@ -1,4 +1,4 @@
-//! The outlines of bodies: polygons that are drawn, and whose corners may touch.
+//! The outlines of bodies: polygons that are drawn, and whose corners may take part in contacts.
 
 use super::Resolver;
 use super::value::{MemberId, limits};
@@ -9,7 +9,7 @@ use crate::syntax::{ExpressionKind, Record};
 use crate::unit::Unit;
 use lagrangian_symbolic::Expr;
 
-/// The corners of a body, along the axes of its frame, or from its mass centre along its own.
+/// The corners of a body, in the axes of its frame, or in its own axes from its mass centre.
 pub struct Outline<'d> {
     body: usize,
     rotation: Rotation<'d>,
@@ -17,7 +17,7 @@ pub struct Outline<'d> {
 }
 
 impl<'d> Outline<'d> {
-    /// Of the body with this index; `None` where nothing is said of its shape.
+    /// The outline of the body with this index; `None` if it has none.
     pub fn of((index, body): (usize, &Body<'d>)) -> Option<Outline<'d>> {
         (!body.outline.is_empty()).then(|| Outline {
             body: index,
@@ -26,7 +26,7 @@ impl<'d> Outline<'d> {
         })
     }
 
-    /// Whether it is that of the body which stands at this place.
+    /// Whether it is the outline of the body at this place.
     fn is_of(&self, place: Place) -> bool {
         match (place, &self.rotation) {
             (Place::Frame(pose), Rotation::Frame(own)) => pose == *own,
@@ -67,7 +67,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             .collect()
     }
 
-    /// The corners of the outline of the body that is named by `on`, with `inside`, `outside` or `along`.
+    /// The contacts of the corners of the outline of the body named by `on`, with `inside`, `outside`
+    /// or `along`.
     pub fn outline_on(
         &mut self,
         member: MemberId,
@@ -83,7 +84,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(points.collect())
     }
 
-    /// The corners of the outline of the body that stands at a place.
+    /// The corners of the outline of the body at a place.
     pub fn outline_at(&mut self, on: Place, field: &str, span: Span) -> Option<Vec<Vec<Expr<'d>>>> {
         let outlines = self.outlines.iter();
         let mut own = outlines.filter(|outline| outline.is_of(on));

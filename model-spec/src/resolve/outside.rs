@@ -1,4 +1,4 @@
-//! Values that somebody gives from outside: `--set w=1500*rpm`.
+//! Values supplied by the caller: `--set w=1500*rpm`.
 
 use lagrangian_symbolic::{Dag, nearest};
 
@@ -11,11 +11,11 @@ use crate::source::Sources;
 use crate::syntax::Quantity;
 use crate::token::lex;
 
-/// The value that a text gives to a parameter, a coordinate or an input of a unit, as its default in a spec
-/// would: made of numbers and units, checked against the unit and measured in it. What is made of bare
-/// numbers is measured in it already.
+/// The value that a text gives to a parameter, a coordinate or an input of a unit, read like its default in
+/// a spec: it consists of numbers and units, is checked against the unit and returned in it. Bare numbers
+/// are in that unit already.
 ///
-/// What is wrong goes into the report, in the words of a spec, and there is no value then.
+/// Errors are reported as for a spec, and no value is returned.
 ///
 /// ```
 /// # use lagrangian_spec::{diagnostic::Report, resolve::value_in, source::Sources};

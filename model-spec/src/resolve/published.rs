@@ -1,4 +1,4 @@
-//! Assumptions, and equations that somebody printed.
+//! Assumptions, and published equations.
 
 use lagrangian_symbolic::{Expr, nearest};
 
@@ -21,7 +21,7 @@ use crate::unit::Unit;
 const VELOCITY: Unit = Unit::base(0, 1, -1);
 
 impl<'a, 'd> Resolver<'a, 'd, '_> {
-    /// The facts of all layers.
+    /// The assumptions of all layers.
     pub fn assumptions(&mut self, layers: &'a [Spec]) -> Vec<Assumption<'d>> {
         let mut assumptions = Vec::new();
         for relation in layers.iter().flat_map(|spec| &spec.assume) {
@@ -37,7 +37,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         assumptions
     }
 
-    /// The indices of a range; one «no index» where there is no range.
+    /// The indices of a range; a single "no index" if there is no range.
     pub fn unrolled(&mut self, range: Option<&'a Range>) -> Vec<Option<i64>> {
         let Some(range) = range else {
             return vec![None];
@@ -78,7 +78,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         })
     }
 
-    /// The published blocks of all layers; one with the title of an earlier one replaces it.
+    /// The published blocks of all layers; a block replaces an earlier one with the same title.
     pub fn published(&mut self, layers: &'a [Spec]) -> Vec<Published<'d>> {
         let mut blocks: Vec<&'a syntax::Published> = Vec::new();
         for spec in layers {
@@ -166,7 +166,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 vec![self.difference(&equation.left, &equation.right, scope)?]
             }
         };
-        // Every factor once more: what is to be said of its units has been said.
+        // Every factor is evaluated once more; its units were already reported.
         let remarks = self.remarks.take();
         self.remarks = Some(Vec::new());
         let terms = self.printed_terms(&item.statement, printed.len(), scope);
@@ -181,7 +181,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         })
     }
 
-    /// The terms of each component of a printed formula, as they stand there.
+    /// The terms of each component of a printed formula, as printed.
     fn printed_terms(
         &mut self,
         statement: &'a Statement,
@@ -275,7 +275,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(components)
     }
 
-    /// What a printed formula is about, and its unit.
+    /// The quantity of a printed formula, and its unit.
     fn quantity_of(
         &mut self,
         kind: PublishedKind,
@@ -306,7 +306,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 let found = group.and_then(|group| self.groups[group].members.get(&index).copied());
                 let coordinate = match found {
                     Some(member) => member,
-                    // Not there: found once more, to say why.
+                    // Not found: look it up once more, to report why.
                     None => self.coordinate_named(&name.base, index_of(name), scope)?,
                 };
                 let section = self.declaration(coordinate).section;
@@ -365,13 +365,13 @@ fn sign(comparison: Comparison) -> &'static str {
     }
 }
 
-/// The index of a family as an expression sees it.
+/// The index variable of a family with its value.
 pub(super) fn variable(range: Option<&Range>, index: Option<i64>) -> Option<(&str, i64)> {
     let variable = range?.variable.as_ref()?;
     Some((variable.text.as_str(), index?))
 }
 
-/// The index behind a name, where it is one.
+/// The index after a name, if there is one.
 fn index_of(name: &Declared) -> Option<&Expression> {
     match &name.index {
         Index::One(index) => Some(index),

@@ -12,7 +12,7 @@ use crate::model::Coordinate;
 use crate::source::Span;
 use crate::syntax::{Index, Item, Quantity, SectionKind, Spec};
 
-/// What is said about a rate is said about its coordinate.
+/// Appends the documentation of a rate to that of its coordinate.
 fn document(docs: &mut String, more: &str) {
     if !docs.is_empty() && !more.is_empty() {
         docs.push('\n');
@@ -21,8 +21,8 @@ fn document(docs: &mut String, more: &str) {
 }
 
 impl<'a, 'd> Resolver<'a, 'd, '_> {
-    /// Gives the coordinates their rates. Those of a variant replace its base's, and a rate of the
-    /// base goes with its coordinate where a variant removes that.
+    /// Gives the coordinates their rates. Those of a variant replace those of its base; if a
+    /// variant removes a coordinate, its rate in the base is dropped too.
     pub fn start_rates(&mut self, layers: &'a [Spec], coordinates: &mut [Coordinate<'d>]) {
         for (layer, spec) in layers.iter().enumerate() {
             let is_inherited = layer + 1 < layers.len();
@@ -54,8 +54,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// The coordinates of an item, and their rate. Without an index it is about every member of a
-    /// family.
+    /// The coordinates of an item, and their rate. Without an index the item applies to every
+    /// member of a family.
     fn start_rate(
         &mut self,
         item: &'a Item<Quantity>,

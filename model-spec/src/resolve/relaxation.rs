@@ -1,9 +1,9 @@
-//! A machine with its guides relaxed.
+//! Relaxes the guides of a machine.
 //!
-//! A guide holds a body on a line, and what it takes to hold it is found by letting go: the frame of
-//! the body, and all that is built on it, may move off by a displacement that is a coordinate of its
-//! own. The spec is read once more with these displacements in it, so that springs, points and
-//! outputs that hang on the body know of them. Where they are zero it is the machine again.
+//! A guide holds a body on a line, and its reaction is found by releasing the body: the frame of the
+//! body, with everything built on it, may move off by a displacement that is a coordinate of its
+//! own. The spec is resolved once more with these displacements, so that springs, points and outputs
+//! attached to the body depend on them. If they are zero, it is the original machine.
 
 use lagrangian_symbolic::{Expr, Stage};
 use rustc_hash::FxHashMap;
@@ -15,23 +15,24 @@ use crate::model::{Coordinate, Model, Name, Pose, PoseId, Rotation, stage};
 use crate::source::Span;
 use crate::unit::{Unit, rate_name};
 
-/// A guide that is relaxed.
+/// A relaxed guide.
 pub(super) struct Guide<'d> {
     name: String,
     span: Span,
-    /// The frame that moves off, with all that is built on it.
+    /// The frame that moves off, with everything built on it.
     frame: Option<PoseId>,
-    /// The body whose mass centre moves off by itself, by its index.
+    /// The index of the body whose mass centre moves off by itself, because it is not built on
+    /// that frame.
     body: Option<usize>,
-    /// The displacement in ground axes: symbols of each component, of its rate, and of its
-    /// acceleration.
+    /// The displacement in ground axes: symbols of each component, of its rate, and of
+    /// its acceleration.
     pub by: Vec<[Expr<'d>; 3]>,
 }
 
-/// The guides of a machine, in the order of its contacts; a surface is one, of two contacts.
+/// The guides of a machine, in the order of its contacts; a surface is one guide with two contacts.
 pub(super) fn guides<'d>(model: &Model<'d>) -> Vec<Guide<'d>> {
     let sliding = model.sliding().into_iter();
-    // Both tangents of a surface are of one guide.
+    // Both tangents of a surface belong to one guide.
     let sliding = sliding.filter(|one| !one.is_second());
     sliding.map(|one| guide(model, one)).collect()
 }
@@ -70,7 +71,7 @@ fn guide<'d>(model: &Model<'d>, sliding: &Sliding<'d>) -> Guide<'d> {
     }
 }
 
-/// The symbols of a machine by name: those of the relaxed one are the same.
+/// The symbols of a machine by name; the relaxed machine uses the same ones.
 pub(super) fn symbols<'d>(model: &Model<'d>) -> FxHashMap<String, Expr<'d>> {
     let parameters = model
         .parameters
@@ -87,14 +88,14 @@ pub(super) fn symbols<'d>(model: &Model<'d>) -> FxHashMap<String, Expr<'d>> {
 }
 
 impl<'d> Resolver<'_, 'd, '_> {
-    /// A symbol of the machine: a new one, or that of the machine that is read again.
+    /// A symbol of the machine: a new one, or that of the machine that is being relaxed.
     pub(super) fn symbol(&self, name: &str, stage: Stage) -> Expr<'d> {
         let known = self.symbols.get(name).copied();
         known.unwrap_or_else(|| self.dag.symbol(name, stage))
     }
 
-    /// Moves a new pose off by the guides of what it is the frame of. Poses are numbered as they are
-    /// made, and they are made in the same order again.
+    /// Displaces a new pose by the guides of its frame. Poses are numbered in the order in which
+    /// they are made, which is the same the second time.
     pub(super) fn relax_pose(&self, id: PoseId, pose: &mut Pose<'d>) {
         for by in self.relaxed_by(id) {
             for (x, by) in pose.origin.iter_mut().zip(by) {
@@ -103,7 +104,7 @@ impl<'d> Resolver<'_, 'd, '_> {
         }
     }
 
-    /// By how much the guides of what a pose is the frame of move it off its parent, in ground axes.
+    /// The displacements of a pose from its parent by guides, in ground axes.
     pub fn relaxed_by(&self, id: PoseId) -> impl Iterator<Item = Vec<Expr<'d>>> {
         let own = self
             .guides
@@ -112,7 +113,7 @@ impl<'d> Resolver<'_, 'd, '_> {
         own.map(|guide| guide.by.iter().map(|&[by, ..]| by).collect())
     }
 
-    /// The mass centre of a body, moved off by the guides of a body that has no frame.
+    /// The mass centre of a body, displaced by the guides of the body unless its frame carries it.
     pub(super) fn relaxed_centre(&self, member: MemberId, mut centre: Vector<'d>) -> Vector<'d> {
         let body = self.ordinal(member);
         for guide in &self.guides {

@@ -1,4 +1,4 @@
-//! Which stages of the accelerations are to be computed by themselves.
+//! The stages of the accelerations that are to be computed separately.
 
 use super::Resolver;
 use super::names::{suggestion, with_help};
@@ -7,11 +7,11 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::model::Stages;
 use crate::syntax::Index;
 
-/// What may stay while the rest changes.
+/// The arguments that may stay constant while others change.
 const WORDS: [&str; 2] = ["time", "coordinates"];
 
 impl Resolver<'_, '_, '_> {
-    /// What an item of `stages` asks for.
+    /// The stages that an item of `stages` requests.
     pub fn stage(&mut self, member: MemberId) -> Stages {
         let name = self.declaration(member).name;
         let word = name.base.text.as_str();

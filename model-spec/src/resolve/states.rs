@@ -1,7 +1,8 @@
-//! States of first order: `i: A = 0`, with `der(i) = (U - R*i)/L`.
+//! First-order states: `i: A = 0`, with `der(i) = (U - R*i)/L`.
 //!
-//! A state is the rate of a coordinate that nothing depends on, its integral over time. So it is to the
-//! equations, to their proof and to every method what a rate is: it has a start, an error, derivatives.
+//! A state is treated as the rate of a coordinate on which nothing depends, its time integral.
+//! So the equations, their proof and every method treat it like any rate, with a start, an error
+//! and derivatives.
 
 use lagrangian_symbolic::Expr;
 use rustc_hash::FxHashMap;
@@ -16,7 +17,7 @@ use crate::source::Span;
 use crate::syntax::{Index, Item, Quantity, SectionKind, Spec};
 use crate::unit::Unit;
 
-/// What the rate of a state may depend on.
+/// The limit of the expression for the rate of a state.
 static RATE: Limit = limit(
     stage::INPUT,
     "the rate of a state",
@@ -26,8 +27,8 @@ static RATE: Limit = limit(
 const SECOND: Unit = Unit::base(0, 0, 1);
 
 impl<'a, 'd> Resolver<'a, 'd, '_> {
-    /// The states, in their order, each with its rate. A rate of a variant replaces its base's, and a rate of the
-    /// base goes with its state where a variant removes that.
+    /// The states, in their order, each with its rate. A rate of a variant replaces that of its base; if a
+    /// variant removes a state, its rate in the base is dropped too.
     pub fn states(&mut self, layers: &'a [Spec]) -> Vec<Coordinate<'d>> {
         let members = self.members_of(SectionKind::States);
         let mut states = self.each(SectionKind::States, |resolver, member| {
@@ -108,8 +109,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         })
     }
 
-    /// The states of an item `der(i) = …`, and their rate. Without an index it is about every member of a
-    /// family.
+    /// The states of an item `der(i) = …`, and their rate. Without an index the item applies to every
+    /// member of a family.
     fn state_rate(
         &mut self,
         item: &'a Item<Quantity>,
@@ -189,7 +190,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         self.push(diagnostic.note(first, "it is said here"));
     }
 
-    /// Refuses an expression in which the rate of a coordinate occurs, where states may; true if one does.
+    /// Refuses an expression that contains the rate of a coordinate where states are allowed; returns true
+    /// if it does.
     pub fn refuse_rates(
         &mut self,
         expression: Expr<'d>,
@@ -214,7 +216,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         true
     }
 
-    /// Refuses an expression in which a state occurs, where none may; true if it does.
+    /// Refuses an expression that contains a state where none is allowed; returns true if it does.
     pub fn refuse_states(
         &mut self,
         expression: Expr<'d>,

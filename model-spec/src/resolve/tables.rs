@@ -1,12 +1,12 @@
-//! Tables: functions of one number that a file gives, `table("torque.csv", der(phi))`.
+//! Tables: functions of one variable given by a file, `table("torque.csv", der(phi))`.
 //!
-//! Between its rows a table is the monotone cubic of F. N. Fritsch and J. Butland, *A method for constructing
-//! local monotone piecewise cubic interpolants*, SIAM J. Sci. Stat. Comput. 5 (1984) 300–304, with slopes at
-//! its ends by three points (the `pchip` of MATLAB and SciPy): it has no hill or valley that the rows do not have,
+//! Between its rows a table is the monotone cubic interpolant of F. N. Fritsch and J. Butland, *A method for
+//! constructing local monotone piecewise cubic interpolants*, SIAM J. Sci. Stat. Comput. 5 (1984) 300–304, with
+//! three-point slopes at its ends (the `pchip` of MATLAB and SciPy): it has no extrema besides those of the rows,
 //! and a derivative everywhere.
 //!
-//! It is written as what it adds from row to row, so that it is an expression like any other, exact in
-//! rational numbers:
+//! It is written as a sum of the increments from row to row, so that it is an expression like any
+//! other, exact in rational numbers:
 //!
 //! ```text
 //! f(x) = y₀ + Σ u (d + u (c + u b)),     u = min(max(x − xᵢ, 0), xᵢ₊₁ − xᵢ)
@@ -26,27 +26,27 @@ use crate::syntax::{Expression, ExpressionKind, Quantity, Spec};
 use crate::token::lex;
 use crate::unit::Measure;
 
-/// The most rows of a table: each costs ten operations wherever it is read.
+/// The largest number of rows of a table: each costs ten operations at every evaluation.
 pub const ROW_LIMIT: usize = 500;
 
 /// The longest number in a cell, in bytes.
 const LONGEST_NUMBER: usize = 40;
 
-/// How a table is called.
+/// The syntax of tables, for messages.
 const HELP: &str = "a table is `table(\"torque.csv\", x)`, or with its column `table(\"motor.csv:torque\", x)`, and \
                     with `hold` behind it keeps its first and last value beyond its ends";
 
-/// The tables of a spec and its bases, by where their files are said.
+/// The tables of a spec and its bases, by the source and path that name their files.
 pub(super) struct Tables(FxHashMap<(SourceId, String), Result<Table, String>>);
 
-/// A table as it stands in its file.
+/// The contents of a table file.
 struct Table {
     columns: Vec<Column>,
 }
 
 struct Column {
     name: String,
-    /// Its unit, and that as the file writes it.
+    /// Its unit, with its text in the file.
     unit: Option<(Measure, String)>,
     values: Vec<Rational>,
 }
@@ -63,7 +63,8 @@ impl Tables {
                 match files.read(file, Some(&from)) {
                     Err(reason) => Err(format!("cannot read `{file}`: {reason}")),
                     Ok((name, text)) => {
-                        // What a command writes may not be what its spec reads.
+                        // Registered as a source, so that a command does not overwrite a file that
+                        // its spec reads.
                         sources.add(name, text.as_str());
                         Table::parse(&text).map_err(|wrong| format!("`{file}`: {wrong}"))
                     }
@@ -74,7 +75,7 @@ impl Tables {
     }
 }
 
-/// `motor.csv:torque`, apart.
+/// Splits `motor.csv:torque`.
 fn file_and_column(said: &str) -> (&str, Option<&str>) {
     match said.rsplit_once(':') {
         // A single letter before the colon is the drive of a path.
@@ -86,8 +87,8 @@ fn file_and_column(said: &str) -> (&str, Option<&str>) {
 }
 
 impl Table {
-    /// Reads a text: a line of headers, `speed [rpm], torque [N*m]`, then rows of numbers, with commas or
-    /// semicolons between them. What stands behind `#` is a comment.
+    /// Parses a text: a line of headers, `speed [rpm], torque [N*m]`, then rows of numbers, separated by
+    /// commas or semicolons. `#` begins a comment.
     fn parse(text: &str) -> Result<Table, String> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let lines = text.lines().zip(1..);
@@ -146,7 +147,7 @@ impl Table {
         Ok(Table { columns })
     }
 
-    /// The column that is asked for; of two the second.
+    /// The requested column; by default the second of two.
     fn column(&self, asked: Option<&str>) -> Result<&Column, (Code, String, Option<String>)> {
         let others = &self.columns[1..];
         let names = || others.iter().map(|column| column.name.as_str());
@@ -214,7 +215,7 @@ impl Column {
     }
 }
 
-/// A number as tables have them: `-1.5e-3`, `.5`, `+2`.
+/// A number in the format of tables: `-1.5e-3`, `.5`, `+2`.
 fn number_in(cell: &str) -> Option<Rational> {
     let is_number = |c: char| c.is_ascii_digit() || "+-.eE".contains(c);
     if cell.len() > LONGEST_NUMBER || !cell.chars().all(is_number) {
@@ -229,7 +230,7 @@ fn number_in(cell: &str) -> Option<Rational> {
     Rational::parse_decimal(&format!("{sign}{whole}{digits}"))
 }
 
-/// What a unit measures, as a spec would write it.
+/// The measure of a unit as a spec would write it.
 fn measure(unit: &str) -> Option<Measure> {
     let (mut sources, mut report) = (Sources::new(), Report::new());
     let texts = [unit, "0"].map(|text| {
@@ -245,7 +246,7 @@ fn measure(unit: &str) -> Option<Measure> {
     }
 }
 
-/// The coefficients of `u (d + u (c + u b))` behind each row but the last.
+/// The coefficients of `u (d + u (c + u b))` after each row except the last.
 fn cubics(x: &[Rational], y: &[Rational]) -> Option<Vec<[Rational; 3]>> {
     let pairs = |list: &[Rational]| -> Vec<Rational> {
         list.windows(2).map(|pair| &pair[1] - &pair[0]).collect()
@@ -296,7 +297,7 @@ fn cubics(x: &[Rational], y: &[Rational]) -> Option<Vec<[Rational; 3]>> {
     (0..=last).map(cubic).collect()
 }
 
-/// The slope at an end, by the parabola through three rows, kept from overshooting.
+/// The slope at an end, from the parabola through three rows, limited to avoid overshoot.
 fn at_end([h0, h1]: [&Rational; 2], [s0, s1]: [&Rational; 2]) -> Option<Rational> {
     let (two, three) = (Rational::from(2), Rational::from(3));
     let first = &(&(&two * h0) + h1) * s0;
@@ -310,7 +311,7 @@ fn at_end([h0, h1]: [&Rational; 2], [s0, s1]: [&Rational; 2]) -> Option<Rational
 }
 
 impl<'a, 'd> Resolver<'a, 'd, '_> {
-    /// `table("torque.csv", x)`, or with `hold` behind it.
+    /// `table("torque.csv", x)`, with an optional `hold`.
     pub(super) fn table(
         &mut self,
         arguments: &'a [Expression],
@@ -381,7 +382,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         if let Some((measure, _)) = &first.unit {
             let why = format!("`{}` of `{path}` is in this unit", first.name);
             self.demand(x.unit, measure.unit, argument.span, &why);
-            // A bare number is measured in the unit of the table.
+            // A bare number is in the unit of the table.
             if x.unit.is_some() && !measure.is_si() {
                 at = measure.of_si(self.dag) * at;
             }
@@ -403,8 +404,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// Notes that a table is not asked for what is beyond its ends: a run ends there. False where that has been
-    /// refused.
+    /// Records that the argument stays within the ends of the table; a run ends where it does not. Returns
+    /// false if that was refused.
     fn stays_within(
         &mut self,
         (first, path): (&Column, &str),
@@ -449,7 +450,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         true
     }
 
-    /// The value of a column at a place of the first one, in the units of the table.
+    /// The value of a column at an argument of the first column, in the units of the table.
     fn interpolated(
         &self,
         [first, column]: [&Column; 2],

@@ -1,12 +1,12 @@
-//! Expressions as a spec writes them, for what quotes them after families are unrolled.
+//! Writes expressions as in a spec, for quotations after families are unrolled.
 //!
-//! The text of a macro's body is not at hand; its tree is.
+//! The text of a macro's body is not available; its syntax tree is.
 
 use std::fmt::Write as _;
 
 use crate::syntax::{Expression, ExpressionKind, Reference, coordinate_of_rate, rate_name};
 
-/// `q[3]`, or `x` for what is no family; `der(q[3])` of a rate.
+/// `q[3]`, or `x` for a name that is not a family; `der(q[3])` for a rate.
 pub(super) fn show(base: &str, index: Option<i64>) -> String {
     match (index, coordinate_of_rate(base)) {
         (Some(index), Some(base)) => rate_name(base, format_args!("[{index}]")),
@@ -15,7 +15,7 @@ pub(super) fn show(base: &str, index: Option<i64>) -> String {
     }
 }
 
-/// The text of an expression, the index of the family replaced by its value.
+/// The text of an expression, with the index of the family replaced by its value.
 pub(super) fn shown(expression: &Expression, index: Option<(&str, i64)>) -> String {
     let mut text = String::new();
     Writer {
@@ -26,7 +26,7 @@ pub(super) fn shown(expression: &Expression, index: Option<(&str, i64)>) -> Stri
     text
 }
 
-/// The text of a factor of a product: a sum stands in brackets.
+/// The text of a factor of a product, with brackets around a sum.
 pub(super) fn shown_factor(expression: &Expression, index: Option<(&str, i64)>) -> String {
     let mut text = String::new();
     Writer {
@@ -37,7 +37,7 @@ pub(super) fn shown_factor(expression: &Expression, index: Option<(&str, i64)>) 
     text
 }
 
-/// How strongly a place binds what stands in it: what binds less is put in brackets.
+/// The binding strength of a position: an expression that binds more weakly is put in brackets.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Strength {
     Sum,
@@ -146,7 +146,7 @@ impl Writer<'_, '_> {
         }
     }
 
-    /// The value of an index such as `i + 1`, which is shown as the member that it means.
+    /// The value of an index such as `i + 1`, which is shown as the member that it refers to.
     fn whole(&self, index: &Expression) -> Option<i64> {
         match &index.kind {
             ExpressionKind::Number(number) => number.parse().ok(),

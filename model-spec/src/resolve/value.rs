@@ -1,4 +1,5 @@
-//! What an expression of a spec can be worth, and what the place where it stands demands.
+//! The values that expressions of a spec can have, and the requirements of the places where
+//! they stand.
 
 use lagrangian_symbolic::{Expr, Stage};
 
@@ -6,10 +7,10 @@ use crate::diagnostic::Code;
 use crate::model::{PoseId, Space, stage};
 use crate::unit::Unit;
 
-/// The worth of an expression.
+/// The value of an expression.
 #[derive(Clone, Debug)]
 pub(crate) enum Value<'d> {
-    /// Not known: an error has been reported, or what it needs is still to be resolved.
+    /// Unknown: an error was reported, or something that it needs is not yet resolved.
     Unknown,
     /// A number.
     Scalar(Scalar<'d>),
@@ -28,10 +29,10 @@ pub(crate) type MemberId = usize;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scalar<'d> {
     pub expr: Expr<'d>,
-    /// `None` for what is made of bare numbers: it takes any unit in a sum, and is dimensionless as
-    /// a factor.
+    /// `None` for an expression of bare numbers: it takes any unit in a sum, and is dimensionless
+    /// as a factor.
     pub unit: Option<Unit>,
-    /// About how much it is, where that is known already; for checks alone.
+    /// Its approximate value, if known already; only for checks.
     pub number: Option<f64>,
 }
 
@@ -39,9 +40,9 @@ pub(crate) struct Scalar<'d> {
 #[derive(Clone, Debug)]
 pub(crate) struct Vector<'d> {
     pub components: Vec<Expr<'d>>,
-    /// `None` for what is made of bare numbers.
+    /// `None` for an expression of bare numbers.
     pub unit: Option<Unit>,
-    /// Of a point that is given in a frame: the frame, and the point along its axes.
+    /// For a point that is given in a frame: the frame, and the point in its axes.
     pub local: Option<(PoseId, Vec<Expr<'d>>)>,
 }
 
@@ -50,10 +51,10 @@ impl<'d> Value<'d> {
         matches!(self, Value::Unknown)
     }
 
-    /// As a message calls it.
+    /// The word for it in messages.
     pub fn kind(&self) -> &'static str {
         match self {
-            Value::Unknown => "nothing", // never said: what is unknown has been reported
+            Value::Unknown => "nothing", // never shown: unknown values have been reported
             Value::Scalar(_) => "a number",
             Value::Vector(_) => "a vector",
             Value::Frame(_) => "a frame",
@@ -61,7 +62,7 @@ impl<'d> Value<'d> {
         }
     }
 
-    /// When it becomes known.
+    /// Its stage.
     pub fn stage(&self) -> Stage {
         match self {
             Value::Scalar(scalar) => scalar.expr.stage(),
@@ -72,7 +73,7 @@ impl<'d> Value<'d> {
 }
 
 impl<'d> Vector<'d> {
-    /// A vector that is given in no frame but the ground's.
+    /// A vector that is given in ground axes only.
     pub fn new(components: Vec<Expr<'d>>, unit: Option<Unit>) -> Vector<'d> {
         Vector {
             components,
@@ -81,26 +82,26 @@ impl<'d> Vector<'d> {
         }
     }
 
-    /// When it becomes known.
+    /// Its stage.
     pub fn stage(&self) -> Stage {
         let stages = self.components.iter().map(|component| component.stage());
         stages.max().unwrap_or(stage::CONSTANT)
     }
 }
 
-/// Where an expression stands.
+/// The context of an expression.
 #[derive(Clone, Copy)]
 pub(crate) struct Scope<'a> {
     /// The index of the family that is being unrolled.
     pub index: Option<(&'a str, i64)>,
-    /// What may occur here.
+    /// The limit of dependencies.
     pub limit: &'static Limit,
-    /// The unit that the place demands, to tell which of two terms is the wrong one.
+    /// The unit that the place requires, to decide which of two terms is wrong.
     pub hint: Option<Unit>,
 }
 
 impl Scope<'_> {
-    /// This place with another limit.
+    /// This scope with another limit.
     pub fn within(self, limit: &'static Limit) -> Self {
         Scope {
             limit,
@@ -109,26 +110,26 @@ impl Scope<'_> {
         }
     }
 
-    /// This place, where a unit is demanded.
+    /// This scope with a required unit.
     pub fn hinting(self, hint: impl Into<Option<Unit>>) -> Self {
         let hint = hint.into();
         Scope { hint, ..self }
     }
 }
 
-/// What an expression may depend on, by the place where it stands.
+/// The dependencies that are allowed in a place.
 pub(crate) struct Limit {
     /// The latest stage.
     pub stage: Stage,
-    /// What stands there, to begin a sentence with.
+    /// The subject of the place, at the beginning of a sentence.
     pub what: &'static str,
-    /// What depending on more is called.
+    /// The code of a violation.
     pub code: Code,
     /// Why it is forbidden, or what to do instead.
     pub help: &'static str,
 }
 
-/// What may stand in a place: nothing later than a stage.
+/// A limit that allows nothing later than a stage.
 pub(crate) const fn limit(stage: Stage, what: &'static str, help: &'static str) -> Limit {
     let code = Code::ForbiddenDependence;
     Limit {
@@ -149,10 +150,10 @@ const fn constant_mass(what: &'static str) -> Limit {
     }
 }
 
-/// What helps where only positions may stand.
+/// The help for places where only positions are allowed.
 pub(crate) const POSITIONS: &str = "only coordinates, parameters and `t` can stand here";
 
-/// The limits of places that several sections have, and of all that is no element.
+/// The limits of places in several sections, and of everything that is not an element.
 pub(crate) mod limits {
     use super::{Limit, POSITIONS, constant_mass, limit, stage};
 
@@ -228,7 +229,7 @@ pub(crate) mod limits {
     pub static PUBLISHED: Limit = limit(stage::ACCELERATION, "a published formula", "");
 }
 
-/// What a value depends on that makes it as late as it is.
+/// The dependency that gives a value its stage.
 pub(crate) fn dependence(stage: Stage) -> &'static str {
     match stage {
         stage::CONSTANT => "constants",
@@ -241,7 +242,7 @@ pub(crate) fn dependence(stage: Stage) -> &'static str {
     }
 }
 
-/// As a message calls it.
+/// The number of components in the words of a message.
 pub(crate) fn dimension_text(space: Space) -> &'static str {
     match space {
         Space::Plane => "two components in the plane",
@@ -249,7 +250,8 @@ pub(crate) fn dimension_text(space: Space) -> &'static str {
     }
 }
 
-/// Whether no derivative with respect to a velocity depends on a velocity.
+/// Whether an expression is linear in the velocities: no derivative with respect to a velocity
+/// depends on a velocity.
 pub(crate) fn is_linear(expression: Expr<'_>) -> bool {
     let dag = expression.dag();
     let symbols = expression.symbols().into_iter();

@@ -1,4 +1,5 @@
-//! What a spec says and may not have meant: names that nothing uses, and bodies without weight.
+//! Warnings about specs that are valid but perhaps unintended: names that nothing uses, and bodies
+//! without weight.
 
 use lagrangian_symbolic::{Expr, evaluate};
 
@@ -14,13 +15,13 @@ use crate::unit::Unit;
 /// The section that gives bodies their weight.
 const GRAVITY: &str = "gravity";
 
-/// The most heights and coordinates, multiplied, that are looked at: a machine of more has its
-/// gravity or is a test of something else.
+/// The largest product of the numbers of bodies and coordinates that are examined: a larger machine
+/// has gravity, or is a test of something else.
 const MOST_PAIRS: usize = 4096;
 
 impl<'a, 'd> Resolver<'a, 'd, '_> {
     /// Reports parameters, constants, inputs, definitions and frames that nothing uses. A name that
-    /// begins with an underscore is meant to be unused.
+    /// begins with an underscore is unused on purpose.
     pub fn notice_unused(&mut self, layers: &'a [Spec]) {
         let has_gravity = layers.iter().any(|spec| spec.statement(GRAVITY).is_some());
         let mut unused = Vec::new();
@@ -59,7 +60,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// Reports a machine whose bodies hang or are carried, and that says nothing about gravity.
+    /// Reports a machine whose bodies hang or are carried by springs, but that has no gravity.
     pub fn notice_weight(&mut self, model: &Model<'d>, layers: &'a [Spec]) {
         let says = |spec: &Spec| {
             let mut removed = spec.remove.iter().map(|remove| remove.section.value);
@@ -99,13 +100,14 @@ fn the(section: SectionKind) -> &'static str {
     }
 }
 
-/// The places of a body: its height, and how far it is to the sides.
+/// The height of a body and its horizontal coordinates.
 fn height<'a, 'd>(at: &'a [Expr<'d>]) -> Option<(Expr<'d>, &'a [Expr<'d>])> {
     at.split_last().map(|(height, sides)| (*height, sides))
 }
 
-/// A body whose height is stationary where an angle is zero, and is not constant: it hangs or stands
-/// there, as nothing does that turns in a horizontal plane and counts its angle from an axis.
+/// A body whose height is stationary where an angle is zero, and is not constant: it hangs or
+/// stands there. A body that turns in a horizontal plane, with an angle measured from an axis, does
+/// not do so.
 fn hanging<'d>(model: &Model<'d>) -> Option<(crate::source::Span, String)> {
     if model.bodies.len() * model.coordinates.len() > MOST_PAIRS {
         return None;
@@ -142,7 +144,7 @@ fn hanging<'d>(model: &Model<'d>) -> Option<(crate::source::Span, String)> {
     None
 }
 
-/// A machine whose bodies move along the vertical alone, carried by springs.
+/// A machine whose bodies move only vertically, carried by springs.
 fn carried(model: &Model<'_>) -> Option<(crate::source::Span, String)> {
     let moves = |e: Expr<'_>| e.stage() >= stage::POSITION;
     let mut bodies = model.bodies.iter();

@@ -1,8 +1,8 @@
-//! What needs what: definitions in any order, without recursion from one to the next.
+//! Resolves definitions in any order, without recursion from one to the next.
 //!
-//! An attempt to work something out notes what it still needs and goes on with nothing in its
-//! place. What it needs is then worked out first, and the attempt repeated. So a chain of
-//! definitions of any length takes memory and no stack, and a definition that needs itself is seen.
+//! An attempt to resolve something records what it still needs and continues with an unknown value
+//! in its place. What it needs is then resolved first, and the attempt is repeated. So a chain of
+//! definitions of any length takes memory but no stack, and a circular definition is detected.
 
 use super::Resolver;
 use super::text::show;
@@ -10,7 +10,7 @@ use super::value::{MemberId, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 
-/// How far something is worked out.
+/// The progress of resolving something.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum State {
     Untouched,
@@ -19,10 +19,10 @@ pub(super) enum State {
     Done,
 }
 
-/// Something to work out.
+/// Something to resolve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Need {
-    /// Which members a family has.
+    /// The members of a family.
     Group(usize),
     /// The value of a definition, a frame, the mass centre of a body.
     Member(MemberId),
@@ -30,11 +30,11 @@ pub(super) enum Need {
     Frame(MemberId),
 }
 
-/// The most names of a circle that a message lists.
+/// The largest number of names of a circular definition that a message lists.
 const LISTED: usize = 6;
 
 impl<'a, 'd> Resolver<'a, 'd, '_> {
-    /// Notes that something is needed where `span` says it.
+    /// Records that something is needed, at `span`.
     pub(super) fn need(&mut self, need: Need, span: Span) {
         self.needs.push((need, span));
     }
@@ -51,10 +51,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// Works out what is noted as needed, and what that needs in turn.
+    /// Resolves what is recorded as needed, and what that needs in turn.
     fn provide(&mut self) {
         let mut stack: Vec<Need> = Vec::new();
-        // What is being worked out, each needing the next.
+        // The definitions in progress, each needing the next.
         let mut path: Vec<Need> = Vec::new();
         stack.extend(self.needs.drain(..).rev().map(|(need, _)| need));
         while let Some(&top) = stack.last() {
@@ -76,7 +76,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             for (need, span) in std::mem::take(&mut self.needs).into_iter().rev() {
                 if *self.state(need) == State::Busy {
                     self.circular(&path, need, span);
-                    // It stays unknown, so that whoever waits for it gets on.
+                    // It stays unknown, so that the definitions waiting for it can proceed.
                     *self.state(need) = State::Done;
                     path.retain(|&other| other != need);
                 } else {
@@ -112,7 +112,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// Reports a definition that needs itself.
+    /// Reports a circular definition.
     fn circular(&mut self, path: &[Need], need: Need, span: Span) {
         let begin = path.iter().position(|&other| other == need).unwrap_or(0);
         let names: Vec<String> = path[begin..].iter().map(|&need| self.title(need)).collect();
@@ -146,7 +146,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// The value of a member, if it is worked out.
+    /// The value of a member, if it is resolved.
     pub fn value_of(&mut self, member: MemberId, span: Span) -> Value<'d> {
         if self.members[member].state == State::Done {
             return self.members[member].value.clone();

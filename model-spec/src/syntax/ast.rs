@@ -1,8 +1,8 @@
 //! The syntax tree of a spec.
 //!
-//! Every name, every field and every expression keeps the place where it stands. Sums, products and
-//! chains of methods are lists, so that only brackets, powers and signs nest, and their depth is
-//! limited: a walk over a tree may recurse.
+//! Every name, field and expression keeps its place in the text. Sums, products and chains of
+//! methods are lists, so that only brackets, powers and signs nest, and their depth is limited: a
+//! traversal of a tree may recurse.
 
 use std::fmt;
 
@@ -11,19 +11,18 @@ use crate::syntax::section::Section;
 
 /// One machine, as written.
 ///
-/// The items of a section stand in one list, in the order of the text, however often the section
-/// repeats.
+/// The items of a section are in one list, in the order of the text, even if the section repeats.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spec {
     /// Documentation of the machine.
     pub docs: String,
-    /// The name of the machine; empty where the text fails to say it.
+    /// The name of the machine; empty if the text has none.
     pub name: Ident,
     /// `in plane` or `in space`.
     pub space: Option<Spanned<Space>>,
     /// The file that `extends` names.
     pub extends: Option<Spanned<String>>,
-    /// The headings, in the order of the text; a section that repeats is there repeatedly.
+    /// The headings, in the order of the text; a section that repeats is listed repeatedly.
     pub sections: Vec<Spanned<SectionKind>>,
 
     /// `name: unit = default`
@@ -34,9 +33,9 @@ pub struct Spec {
     pub coordinates: Vec<Item<Quantity>>,
     /// `der(name): unit = rate`, among the coordinates; the value is never left out
     pub rates: Vec<Item<Quantity>>,
-    /// `name: unit = start`, of first order
+    /// `name: unit = start`, first-order states
     pub states: Vec<Item<Quantity>>,
-    /// `der(name) = expression`, among the states; the value is never left out, the unit is where nobody says it
+    /// `der(name) = expression`, among the states; the value is never left out, the unit is if none is given
     pub state_rates: Vec<Item<Quantity>>,
     /// `name: unit = default`
     pub inputs: Vec<Item<Quantity>>,
@@ -68,7 +67,7 @@ pub struct Spec {
     pub derivatives: Vec<Item<()>>,
     /// `time`, `coordinates`
     pub stages: Vec<Item<()>>,
-    /// The methods of integration that emitted code is to have more for than its accelerations.
+    /// The integration methods for which emitted code needs more than accelerations.
     pub methods: Vec<Item<()>>,
     /// `theta`, or `der(theta)`, which is the name of a rate here
     pub keep: Vec<Item<()>>,
@@ -80,28 +79,28 @@ pub struct Spec {
     pub published: Vec<Published>,
     /// `remove section.name;`
     pub remove: Vec<Remove>,
-    /// The files that stand in `table("…", x)`, with their columns where these are said.
+    /// The files in `table("…", x)`, with their columns if given.
     pub tables: Vec<Spanned<String>>,
 
-    /// True where something had to be skipped that may have declared names: then a name that is
-    /// declared nowhere is no mistake of its own.
+    /// Whether something was skipped that may have declared names: an undeclared name is then no
+    /// error of its own.
     pub incomplete: bool,
-    /// Parameters to which the program that reads the spec gives values of their own, by name or as one member of a family. Where the
-    /// spec derives one of them from others, its formula gives way. No text says it.
+    /// Parameters to which the program that reads the spec gives values, by name or as one member of a family. If the spec derives
+    /// one of them from others, the value replaces its formula. No text in the spec can set this.
     pub given: Vec<String>,
     /// From `machine` to the closing brace.
     pub span: Span,
 }
 
 impl Spec {
-    /// The same spec, where these parameters are given values and are not derived from others. Names that are
-    /// no derived parameters change nothing.
+    /// The same spec, with values given to these parameters instead of deriving them from others. Names of
+    /// other things have no effect.
     pub fn with_given(mut self, names: impl IntoIterator<Item = String>) -> Spec {
         self.given.extend(names);
         self
     }
 
-    /// The heading of a section, where the machine has it: the first one, if it repeats.
+    /// The heading of a section, if the machine has it; the first one, if it repeats.
     pub fn section(&self, kind: SectionKind) -> Option<Span> {
         self.sections
             .iter()
@@ -128,26 +127,26 @@ impl Spec {
         self.elements.extend(items);
     }
 
-    /// The items of the section of elements that a word heads.
+    /// The items of the section of elements with a heading word.
     pub fn elements_of(&self, word: &str) -> impl Iterator<Item = &Item<ElementContent>> {
         let all = self.elements.iter();
         all.filter(move |element| element.section.word == word)
             .map(|element| &element.item)
     }
 
-    /// The section of a single statement that a word heads.
+    /// The single-statement section with a heading word.
     pub fn statement(&self, word: &str) -> Option<&SectionStatement> {
         let mut all = self.statements.iter();
         all.find(|statement| statement.section.word == word)
     }
 }
 
-/// A value and the place where it is written.
+/// A value with its place in the text.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Spanned<T> {
-    /// What is written.
+    /// The value.
     pub value: T,
-    /// Where.
+    /// Its place.
     pub span: Span,
 }
 
@@ -156,11 +155,11 @@ pub struct Spanned<T> {
 pub struct Ident {
     /// The word; a raw identifier `r#type` is `type` here.
     pub text: String,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
 }
 
-/// Where a machine moves.
+/// Whether a machine moves in the plane or in space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Space {
     /// `in plane`: vectors of two components, bodies that turn about its normal.
@@ -181,10 +180,10 @@ macro_rules! sections {
         }
 
         impl SectionKind {
-            /// All but those of elements, in the order of the reference.
+            /// All sections except those of elements, in the order of the reference manual.
             pub(crate) const OF_OTHERS: &[SectionKind] = &[$(SectionKind::$kind,)+];
 
-            /// The word that heads the section.
+            /// The heading word of the section.
             pub fn as_str(self) -> &'static str {
                 match self {
                     $(SectionKind::$kind => $name,)+
@@ -219,7 +218,7 @@ sections! {
 }
 
 impl SectionKind {
-    /// The section that a word most likely means which heads none.
+    /// The section that was most likely meant by an unknown heading word.
     pub fn meant_by(word: &str) -> Option<SectionKind> {
         Some(match word {
             "body" | "mass" | "masses" | "particles" | "links" => SectionKind::Bodies,
@@ -231,15 +230,15 @@ impl SectionKind {
         })
     }
 
-    /// The section among some that a word heads.
+    /// The section among some with a heading word.
     pub(crate) fn named_among(all: &[SectionKind], word: &str) -> Option<SectionKind> {
         all.iter().copied().find(|kind| kind.as_str() == word)
     }
 
-    /// The fields that an item of this section can have; none where its items are no records.
+    /// The fields that an item of this section can have; none if its items are not records.
     ///
-    /// The parser accepts no other field and none twice. Which of them go together is checked when
-    /// they are used.
+    /// The parser accepts no other field, and none twice. Conflicts between fields are detected
+    /// when they are used.
     pub fn fields(self) -> &'static [&'static str] {
         match self {
             SectionKind::Bodies => &["mass", "inertia", "at", "angle", "frame", "outline"],
@@ -274,7 +273,7 @@ impl SectionKind {
         }
     }
 
-    /// One item of this section, as a message calls it.
+    /// The phrase for one item of this section in messages.
     pub fn item(self) -> &'static str {
         match self {
             SectionKind::Parameters => "a parameter",
@@ -308,31 +307,31 @@ impl fmt::Display for SectionKind {
     }
 }
 
-/// One item of a section: its name, and what is said of it.
+/// One item of a section: its name and its content.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Item<C> {
     /// Documentation, line by line.
     pub docs: String,
-    /// What is declared: one thing, one member of a family, or a whole family.
+    /// The declaration: a single thing, one member of a family, or a whole family.
     pub name: Declared,
-    /// What is said of it.
+    /// Its content.
     pub content: C,
     /// The whole item.
     pub span: Span,
 }
 
-/// A name where it is declared: `theta`, `link[0]`, `q[1..N]`, `bob[i in 1..N]`.
+/// A name in a declaration: `theta`, `link[0]`, `q[1..N]`, `bob[i in 1..N]`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Declared {
     /// The name without its index.
     pub base: Ident,
-    /// Which members of a family are meant.
+    /// The members of a family that it refers to.
     pub index: Index,
     /// Name and index.
     pub span: Span,
 }
 
-/// The index of a name where it is declared.
+/// The index of a name in a declaration.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Index {
     /// `theta`: not a family.
@@ -340,11 +339,11 @@ pub enum Index {
     None,
     /// `link[0]`: one member.
     One(Expression),
-    /// `q[1..N]` or `bob[i in 1..N]`: one member after the other.
+    /// `q[1..N]` or `bob[i in 1..N]`: each member in turn.
     Range(Range),
 }
 
-/// What an index runs over: `i in 1..N`, both ends included.
+/// The range of an index: `i in 1..N`, both ends included.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Range {
     /// The name of the index inside the item; `q[1..N]` has none.
@@ -360,18 +359,18 @@ pub struct Range {
 /// `unit = value`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quantity {
-    /// The unit. Only a constant may leave it out, and then takes that of its value.
+    /// The unit. Only a constant may omit it, and then has the unit of its value.
     pub unit: Option<Unit>,
-    /// The value, where it is given.
+    /// The value, if given.
     pub value: Option<Expression>,
 }
 
 /// A unit: a product of powers, empty for `1`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Unit {
-    /// Its factors, in the order of the text; a factor below the line has a negative power.
+    /// Its factors, in the order of the text; a factor in the denominator has a negative power.
     pub factors: Vec<UnitFactor>,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
 }
 
@@ -402,30 +401,30 @@ impl fmt::Display for Unit {
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnitFactor {
     /// A name that [`Measure::named`](crate::unit::Measure::named) knows; any other word was reported,
-    /// and the whole unit is as if left out.
+    /// and the whole unit is treated as omitted.
     pub name: Ident,
-    /// The exponent, negative below the line.
+    /// The exponent, negative in the denominator.
     pub power: i32,
-    /// Whether the exponent is half of that: `m^(3/2)`.
+    /// Whether the exponent is half of `power`: `m^(3/2)`.
     pub halved: bool,
 }
 
 /// `{ field: value, … }`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Record {
-    /// The fields in the order of the text: each one that its section knows, each at most once.
+    /// The fields in the order of the text: only fields of its section, each at most once.
     pub fields: Vec<Field>,
     /// From brace to brace.
     pub span: Span,
 }
 
 impl Record {
-    /// The value of a field, where it is given.
+    /// The value of a field, if given.
     pub fn get(&self, name: &str) -> Option<&Expression> {
         self.field(name).map(|field| &field.value)
     }
 
-    /// A field, where it is given.
+    /// A field, if given.
     pub fn field(&self, name: &str) -> Option<&Field> {
         self.fields.iter().find(|field| field.name.text == name)
     }
@@ -443,9 +442,9 @@ pub struct Field {
 /// `left = right`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equation {
-    /// What stands left of `=`.
+    /// The left side.
     pub left: Expression,
-    /// What stands right of it.
+    /// The right side.
     pub right: Expression,
 }
 
@@ -461,13 +460,13 @@ pub enum Approximation {
 /// `left > right` in `assume`; for a family `s[i] > 0 for i in 1..N`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Relation {
-    /// What stands left of the sign.
+    /// The left side.
     pub left: Expression,
     /// The sign.
     pub operator: Spanned<Comparison>,
-    /// What stands right of it.
+    /// The right side.
     pub right: Expression,
-    /// The family over which it holds.
+    /// The index range over which it holds.
     pub range: Option<Range>,
     /// The whole relation.
     pub span: Span,
@@ -495,7 +494,8 @@ pub struct ElementItem {
     pub item: Item<ElementContent>,
 }
 
-/// What an item of a section of elements says, by the [`Form`](crate::syntax::Form) of the section.
+/// The content of an item of a section of elements, by the [`Form`](crate::syntax::Form) of
+/// the section.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ElementContent {
     /// `{ field: value, … }`
@@ -507,7 +507,7 @@ pub enum ElementContent {
 }
 
 impl ElementContent {
-    /// The value of a field, where it is a record that gives it.
+    /// The value of a field, if the content is a record that gives it.
     pub fn get(&self, name: &str) -> Option<&Expression> {
         match self {
             ElementContent::Record(record) => record.get(name),
@@ -523,9 +523,9 @@ pub struct SectionStatement {
     pub section: &'static Section,
     /// Documentation.
     pub docs: String,
-    /// What it says; none where the spec says `none`.
+    /// Its value; none if the spec says `none`.
     pub value: Option<Expression>,
-    /// From the heading to what it says.
+    /// From the heading to the value.
     pub span: Span,
 }
 
@@ -534,8 +534,8 @@ pub struct SectionStatement {
 pub struct Remove {
     /// The section that loses an item.
     pub section: Spanned<SectionKind>,
-    /// The item: the whole family where a family is named without an index. `remove springs;` and
-    /// `remove gravity;` name none, and take all.
+    /// The item: the whole family if a family is named without an index. `remove springs;` and
+    /// `remove gravity;` have no name, and remove everything.
     pub name: Option<Declared>,
     /// The whole statement.
     pub span: Span,
@@ -546,7 +546,7 @@ pub struct Remove {
 pub struct Published {
     /// Documentation.
     pub docs: String,
-    /// Where the equations were printed.
+    /// The publication.
     pub title: Spanned<String>,
     /// The equations.
     pub items: Vec<PublishedItem>,
@@ -559,22 +559,22 @@ pub struct Published {
 pub struct PublishedItem {
     /// Documentation.
     pub docs: String,
-    /// Which quantity it gives.
+    /// The kind of quantity.
     pub kind: Spanned<PublishedKind>,
-    /// Of which body or coordinate; none for the quantities of the whole machine.
+    /// The body or coordinate; none for the quantities of the whole machine.
     pub of: Option<Declared>,
-    /// What was printed.
+    /// The printed statement.
     pub statement: Statement,
     /// The whole item.
     pub span: Span,
 }
 
-/// What a published item states.
+/// The statement of a published item.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Statement {
     /// `… = value`
     Value(Expression),
-    /// `…: left = right`, of an equation of motion only.
+    /// `…: left = right`, only for an equation of motion.
     Equation(Equation),
 }
 
@@ -627,12 +627,12 @@ impl PublishedKind {
     }
 }
 
-/// An expression: a scalar, a vector, a point, a frame or the name of something.
+/// An expression: a scalar, a vector, a point, a frame or a name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
-    /// What it is.
+    /// Its kind.
     pub kind: ExpressionKind,
-    /// Where it stands, brackets included.
+    /// Its place, including brackets.
     pub span: Span,
 }
 
@@ -663,7 +663,7 @@ pub enum ExpressionKind {
     Error,
 }
 
-/// A name where it is used.
+/// A name in an expression.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reference {
     /// The name without its index.
@@ -675,18 +675,18 @@ pub struct Reference {
 /// A term of a sum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Term {
-    /// True behind a minus.
+    /// Whether a minus precedes it.
     pub negative: bool,
-    /// What is added or subtracted.
+    /// The operand that is added or subtracted.
     pub value: Expression,
 }
 
 /// A factor of a product.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Factor {
-    /// True behind a slash.
+    /// Whether a slash precedes it.
     pub divides: bool,
-    /// What is multiplied or divided by.
+    /// The operand that is multiplied or divided by.
     pub value: Expression,
 }
 
@@ -702,18 +702,18 @@ pub struct Call {
 /// `root.link.link…`
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chain {
-    /// What stands before the first dot.
+    /// The expression before the first dot.
     pub root: Box<Expression>,
-    /// What stands behind the dots, one at least.
+    /// The links after the dots, at least one.
     pub links: Vec<Link>,
 }
 
 /// `.origin` or `.turn(q[i])`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
-    /// The word behind the dot.
+    /// The word after the dot.
     pub name: Ident,
-    /// The arguments of a method; none where there are no brackets.
+    /// The arguments of a method; none if there are no brackets.
     pub arguments: Option<Vec<Expression>>,
     /// From the word to the end of its arguments.
     pub span: Span,

@@ -1,8 +1,7 @@
-//! Brackets find their partners before anything else is read.
+//! Pairs brackets before anything else is parsed.
 //!
-//! A bracket that is missing throws a parser off for the rest of the file. Here it is reported
-//! once, where it opens, and made up where it most likely belongs; the parser only ever sees
-//! balanced text.
+//! A missing bracket misleads a parser for the rest of the file. Here it is reported once, where it
+//! opens, and inserted where it most likely belongs; the parser sees only balanced text.
 
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::source::Span;
@@ -17,24 +16,24 @@ pub(crate) struct Word<'t> {
     pub text: &'t str,
     pub span: Span,
     pub joint: bool,
-    /// Where the bracket stands that closes this one; of no meaning for other tokens.
+    /// The index of the closing bracket; meaningless for other tokens.
     pub partner: usize,
-    /// True for a bracket that the text lacks, and for the one that it would close.
+    /// Whether this bracket is missing in the text, or is the partner of one that is.
     pub mended: bool,
 }
 
-/// How many brackets one message shows.
+/// The number of brackets that one message shows.
 const SHOWN: usize = 4;
 
-/// The tokens with every bracket closed by its partner; what had to be mended is reported.
+/// The tokens with every bracket paired; repairs are reported.
 ///
-/// `sections` are those of the language: they do not nest.
+/// `sections` are those of the language, which do not nest.
 pub(crate) fn balance<'t>(
     tokens: &'t [Token],
     sections: &'t [SectionKind],
     report: &mut Report,
 ) -> Vec<Word<'t>> {
-    // A comment or a raw string without an end swallows closing brackets, which are not to blame.
+    // An unterminated comment or raw string swallows closing brackets, which are then not reported.
     let swallowed = tokens
         .first()
         .is_some_and(|token| report.has(token.span.source, Code::Unterminated));
@@ -67,11 +66,12 @@ struct Balance<'t> {
     tokens: &'t [Token],
     sections: &'t [SectionKind],
     words: Vec<Word<'t>>,
-    /// The brackets that are open: where they stand in `words`.
+    /// The indices in `words` of the brackets that are open.
     open: Vec<(usize, Delimiter)>,
-    /// How many of each kind are open: a bracket that closes nothing must not search them all.
+    /// The number of open brackets of each kind, so that a bracket that closes nothing need not
+    /// search them all.
     count: [usize; 3],
-    /// True where the text is unbalanced and the language has to tell what was meant.
+    /// Whether the text is unbalanced, so that the language has to show what was meant.
     mending: bool,
 }
 
@@ -79,7 +79,7 @@ impl<'t> Balance<'t> {
     fn run(&mut self, report: &mut Report) {
         for (at, token) in self.tokens.iter().enumerate() {
             if self.mending && self.open.len() > 1 && self.is_heading(at) {
-                // Sections do not nest: what is still open in the one before was never closed.
+                // Sections do not nest: brackets still open in the preceding one were never closed.
                 self.close_down_to(1, token.span, report);
             }
             match token.kind {
@@ -107,7 +107,8 @@ impl<'t> Balance<'t> {
         });
     }
 
-    /// The bracket at `at` closes the last one of its kind; those inside of it were never closed.
+    /// The bracket at `at` closes the last one of its kind; brackets opened inside that were
+    /// never closed.
     fn close(&mut self, at: usize, delimiter: Delimiter, report: &mut Report) {
         let token = &self.tokens[at];
         let ends_machine_early = self.mending
@@ -123,7 +124,7 @@ impl<'t> Balance<'t> {
                 self.close_down_to(level + 1, token.span, report);
                 self.close_last(token, token.span, false);
             }
-            // `(a, b]`: one slip, not a bracket too many and another too few.
+            // `(a, b]`: a single slip, not one bracket too many and another too few.
             (None, Some(&(open, kind)))
                 if kind != Delimiter::Brace
                     && delimiter != Delimiter::Brace
@@ -150,7 +151,7 @@ impl<'t> Balance<'t> {
         }
     }
 
-    /// Makes up the brackets that close all but the outermost `level`, and reports them as one.
+    /// Inserts the brackets that close all but the outermost `level`, and reports them together.
     fn close_down_to(&mut self, level: usize, place: Span, report: &mut Report) {
         let Some(unclosed) = self
             .open
@@ -174,7 +175,7 @@ impl<'t> Balance<'t> {
             diagnostic = diagnostic.note(span, note);
         }
         report.push(diagnostic);
-        // Made-up brackets stand where they are missing, and take no room.
+        // Inserted brackets stand where they are missing, with an empty span.
         let place = Span {
             end: place.start,
             ..place
@@ -217,7 +218,7 @@ impl<'t> Balance<'t> {
         }
     }
 
-    /// True where a section begins: `springs {`, `gravity (`, `published "…"`.
+    /// Whether a section begins here: `springs {`, `gravity (`, `published "…"`.
     fn is_heading(&self, at: usize) -> bool {
         let [word, next, ..] = &self.tokens[at..] else {
             return false;
@@ -254,7 +255,7 @@ impl<'t> Balance<'t> {
         heading < self.tokens.len() && self.is_heading(heading)
     }
 
-    /// True if the next bracket is one that closes `kind`.
+    /// Whether the next bracket is one that closes `kind`.
     fn next_bracket_closes(&self, at: usize, kind: Delimiter) -> bool {
         let next = self.tokens[at..]
             .iter()

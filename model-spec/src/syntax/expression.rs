@@ -1,4 +1,4 @@
-//! Expressions.
+//! Parses expressions.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -7,10 +7,10 @@ use crate::syntax::ast::*;
 use crate::syntax::parse::{Group, Parser};
 use crate::token::{Delimiter, TokenKind};
 
-/// How deep brackets, powers and signs may nest.
+/// The largest nesting depth of brackets, powers and signs.
 ///
-/// Formulas that people write nest ten deep. Reading and every later walk over the tree recurse,
-/// and a hundred levels fit into the smallest stack that a thread is given.
+/// Formulas written by people nest ten deep. Parsing and every later traversal of the tree recurse,
+/// and a hundred levels fit into the smallest stack of a thread.
 pub const NESTING_LIMIT: usize = 128;
 
 impl Parser<'_> {
@@ -87,7 +87,7 @@ impl Parser<'_> {
         }
     }
 
-    /// `a^b`: the power binds tighter than a sign before it, and to the right: `-x^2 = -(x^2)`,
+    /// `a^b`: the power binds tighter than a preceding sign, and to the right: `-x^2 = -(x^2)`,
     /// `a^b^c = a^(b^c)`.
     fn power(&mut self) -> Expression {
         let base = self.chain();
@@ -257,7 +257,7 @@ impl Parser<'_> {
         Expression { kind, span }
     }
 
-    /// `(a, b, …)`, as it stands behind a function; none where it is nested too deeply.
+    /// `(a, b, …)`, the arguments of a function; none if they are nested too deeply.
     fn arguments(&mut self) -> Option<Vec<Expression>> {
         let group = self.enter_nested(Delimiter::Parenthesis)?;
         let mut list = Vec::new();
@@ -266,7 +266,7 @@ impl Parser<'_> {
         Some(list)
     }
 
-    /// Steps behind a bracket, one level deeper.
+    /// Enters a bracket, one level deeper.
     pub(super) fn enter_nested(&mut self, delimiter: Delimiter) -> Option<Group> {
         let start = self.here();
         if !self.descend(start) {
@@ -279,13 +279,13 @@ impl Parser<'_> {
         group
     }
 
-    /// Steps out of what [`Parser::enter_nested`] entered.
+    /// Leaves the group that [`Parser::enter_nested`] entered.
     pub(super) fn leave_nested(&mut self, group: Group, expected: &str) {
         self.leave(group, expected);
         self.depth -= 1;
     }
 
-    /// One level deeper, or a mistake.
+    /// Increases the depth by one level, or reports an error.
     fn descend(&mut self, place: Span) -> bool {
         if self.depth >= NESTING_LIMIT {
             let message = format!("this expression is nested more than {NESTING_LIMIT} deep");
@@ -305,7 +305,7 @@ impl Parser<'_> {
     }
 }
 
-/// What to write instead of something that begins no expression.
+/// The help for something with which no expression begins.
 fn operand_help(found: Option<TokenKind>) -> Option<String> {
     let help = match found? {
         TokenKind::Punct('+') => "a sum begins without a sign, or with `-`",

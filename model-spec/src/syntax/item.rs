@@ -1,4 +1,4 @@
-//! Items of sections, by what is said of them.
+//! Parses items of sections, by their content.
 
 use crate::diagnostic::{Code, Diagnostic, nearest, one_of};
 use crate::source::Span;
@@ -11,7 +11,7 @@ use crate::token::{Delimiter, TokenKind, shown};
 use crate::unit::Measure;
 
 impl Parser<'_> {
-    /// The items of a section: documentation, a name, and what `content` reads.
+    /// The items of a section: documentation, a name, and the content that `content` parses.
     fn items<C>(
         &mut self,
         kind: SectionKind,
@@ -33,7 +33,8 @@ impl Parser<'_> {
         });
     }
 
-    /// Reads each item of a section, behind its documentation; `None` is one that cannot be read.
+    /// Parses each item of a section, after its documentation; `None` is an item that cannot
+    /// be parsed.
     fn each_item(
         &mut self,
         kind: SectionKind,
@@ -52,7 +53,7 @@ impl Parser<'_> {
         });
     }
 
-    /// The brace behind a heading.
+    /// The brace after a heading.
     pub(super) fn enter_section(&mut self, kind: SectionKind) -> Option<Group> {
         let brace_follows = self
             .peek_second()
@@ -67,8 +68,8 @@ impl Parser<'_> {
         self.enter(Delimiter::Brace)
     }
 
-    /// True where an item begins: documentation, or `name:`, `name =`, `name {`, `name[…]`,
-    /// `der(…)`.
+    /// Whether an item begins here: documentation, or `name:`, `name =`, `name {`,
+    /// `name[…]`, `der(…)`.
     fn begins_item(&self) -> bool {
         let follows = |kind| {
             matches!(
@@ -86,13 +87,13 @@ impl Parser<'_> {
         }
     }
 
-    /// True where the rate of a coordinate begins: `der(`.
+    /// Whether the rate of a coordinate begins here: `der(`.
     fn begins_rate(&self) -> bool {
         let bracket = TokenKind::Open(Delimiter::Parenthesis);
         self.is_word("der") && self.peek_second().is_some_and(|word| word.kind == bracket)
     }
 
-    /// A name where it is declared: `theta`, `link[0]`, `q[1..N]`, `bob[i in 1..N]`.
+    /// A name in a declaration: `theta`, `link[0]`, `q[1..N]`, `bob[i in 1..N]`.
     pub(super) fn declared(&mut self, what: &str) -> Option<Declared> {
         let base = self.ident(what)?;
         let mut declared = Declared {
@@ -114,7 +115,7 @@ impl Parser<'_> {
         Some(declared)
     }
 
-    /// What stands between the brackets of a declaration.
+    /// The content of the brackets of a declaration.
     fn index(&mut self) -> Index {
         let second_is_in = self
             .peek_second()
@@ -150,7 +151,7 @@ impl Parser<'_> {
         Some(self.range_above(Some(variable), start, low))
     }
 
-    /// `..N`, behind the first index.
+    /// `..N`, after the first index.
     fn range_above(&mut self, variable: Option<Ident>, start: Span, low: Expression) -> Range {
         self.at += 2;
         if self.is_mark('=') || self.is_mark('.') {
@@ -245,7 +246,7 @@ impl Parser<'_> {
         });
     }
 
-    /// `der(phi)`, `der(q[1..N])`: the coordinate; its span is that of the whole.
+    /// `der(phi)`, `der(q[1..N])`: the coordinate; its span covers the whole.
     fn rate_of(&mut self) -> Option<Declared> {
         let start = self.here();
         self.at += 1;
@@ -256,7 +257,7 @@ impl Parser<'_> {
         declared.map(|declared| Declared { span, ..declared })
     }
 
-    /// `: unit = value`, behind the name.
+    /// `: unit = value`, after the name.
     fn quantity(
         &mut self,
         kind: SectionKind,
@@ -335,7 +336,7 @@ impl Parser<'_> {
         });
     }
 
-    /// `name: { … }` is read as `name { … }`.
+    /// `name: { … }` is parsed like `name { … }`.
     fn enter_section_item(&mut self, kind: SectionKind) {
         if (self.is_mark(':') || self.is_mark('='))
             && self
@@ -367,7 +368,7 @@ impl Parser<'_> {
                 None => format!("its fields are {}", one_of(known)),
             });
             self.report_always(unknown);
-            // The field that was meant is there, and nobody needs to miss it.
+            // The intended field is present, so it need not be reported as missing.
             match near {
                 Some(near) => meant.text = near.to_owned(),
                 None => return,
@@ -402,7 +403,7 @@ impl Parser<'_> {
                 self.equations(kind, &mut items);
                 spec.add_elements(section, items, ElementContent::Equation);
             }
-            // What is a statement has no items.
+            // A single-statement section has no items.
             Form::Statement => {}
         }
     }
@@ -479,7 +480,7 @@ impl Parser<'_> {
         });
     }
 
-    /// A coordinate, or the rate of one: its base is `der(theta)` then.
+    /// A coordinate, or the rate of one, whose base is then `der(theta)`.
     pub(super) fn kept_start(&mut self) -> Option<Declared> {
         if !self.begins_rate() {
             return self.declared("the name of a coordinate");
@@ -560,7 +561,7 @@ impl Parser<'_> {
         Some(Spanned { value, span })
     }
 
-    /// `published "title" { … }`, behind its first word.
+    /// `published "title" { … }`, after its first word.
     pub(super) fn published(&mut self, spec: &mut Spec, heading: Span, docs: String) {
         let mut title = Spanned {
             value: String::new(),
@@ -573,7 +574,7 @@ impl Parser<'_> {
         } else {
             let help = "say where it was printed: `published \"Part I\" { … }`".to_owned();
             self.unexpected_because("a title in quotes", Some(help));
-            // Without a title, but with its equations.
+            // Continue without a title, but with the equations.
             self.failed = !self.is_open(Delimiter::Brace);
         }
         if self.failed {

@@ -1,4 +1,4 @@
-//! The machine: its heading, its sections, and the statements between them.
+//! Parses the machine: its heading, its sections, and the statements between them.
 
 use crate::diagnostic::{Code, Diagnostic, nearest, one_of};
 use crate::source::Span;
@@ -30,7 +30,7 @@ impl Parser<'_> {
         spec
     }
 
-    /// Goes to the word `machine`, or to what was meant by it.
+    /// Advances to the word `machine`, or to one that was probably meant as such.
     fn find_machine(&mut self) -> bool {
         if self.eat_word("machine") {
             return true;
@@ -79,7 +79,7 @@ impl Parser<'_> {
             spec.name = name;
         }
         while self.header_clause(&mut spec) {}
-        // Whatever hinders in the heading, the braces hold what matters.
+        // After any error in the heading, the content of the braces is still parsed.
         while self.failed && self.peek().is_some() && !self.is_open(Delimiter::Brace) {
             self.skip_word();
         }
@@ -101,7 +101,7 @@ impl Parser<'_> {
             return spec;
         };
         spec.span = start.to(group.span);
-        // A variant that changes nothing is its base under another name.
+        // A variant that changes nothing is its base under another name, which is allowed.
         if self.at >= group.close && spec.extends.is_none() {
             let message = "this machine is empty";
             let empty = Diagnostic::new(Code::EmptyMachine, group.span, message);
@@ -207,7 +207,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Reports a section that does not exist; returns the one that was meant.
+    /// Reports an unknown section; returns the one that was meant.
     fn unknown_section(&mut self, heading: &Ident) -> Option<SectionKind> {
         let message = format!("there is no section {}", shown(&heading.text));
         let mut unknown = Diagnostic::new(Code::UnknownSection, heading.span, message);
@@ -223,7 +223,7 @@ impl Parser<'_> {
         near.and_then(|near| SectionKind::named_among(sections, near))
     }
 
-    /// Goes on at the next heading, or behind the next section.
+    /// Continues at the next heading, or after the next section.
     fn skip_to_heading(&mut self, close: usize) {
         let start = self.at;
         while self.at < close {
@@ -243,7 +243,7 @@ impl Parser<'_> {
         self.failed = false;
     }
 
-    /// What stands behind a heading.
+    /// The content after a heading.
     fn section(&mut self, spec: &mut Spec, kind: SectionKind, heading: Span, docs: String) {
         match kind {
             SectionKind::Parameters => self.quantities(kind, &mut spec.parameters),
@@ -315,7 +315,7 @@ impl Parser<'_> {
         self.failed = !next_is_entry;
     }
 
-    /// `remove springs.x_left;`, behind its first word.
+    /// `remove springs.x_left;`, after its first word.
     fn remove(&mut self, spec: &mut Spec, start: Span, close: usize) {
         let help = "write `remove springs.x_left;`";
         if spec.extends.is_none() {

@@ -1,8 +1,8 @@
-//! Words one after the other, what is said about those that do not fit, and how reading goes on.
+//! The basic operations of the parser: reading words, reporting errors, and recovering from them.
 //!
-//! Parsing never stops at a mistake. What is wrong is reported, the rest of the smallest list
-//! element around it is skipped, and reading goes on behind the next comma; so the mistakes of one
-//! item hide none in another, and the tree is as complete as the text allows.
+//! Parsing never stops at an error. The error is reported, the rest of the smallest enclosing list
+//! element is skipped, and parsing continues after the next comma; so errors in one item hide none
+//! in another, and the tree is as complete as the text allows.
 
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::source::{SourceId, Span};
@@ -12,7 +12,7 @@ use crate::syntax::brackets::{Word, balance, opening};
 use crate::token::{Delimiter, Token, TokenKind, shown};
 
 impl Spec {
-    /// Reads the tokens of `source` in a language of these `sections`. Whatever is wrong is reported, all
+    /// Parses the tokens of `source` in a language with these `sections`. All errors are reported
     /// at once.
     pub(crate) fn read(
         tokens: &[Token],
@@ -29,8 +29,8 @@ impl Spec {
 }
 
 impl Quantity {
-    /// Reads the value of a quantity, and its unit, from two texts that hold nothing else. Whatever is wrong
-    /// is reported.
+    /// Parses the value of a quantity, and its unit, from two texts that contain nothing else. Errors
+    /// are reported.
     pub(crate) fn parse([unit, value]: [(SourceId, &[Token]); 2], report: &mut Report) -> Quantity {
         let mut parser = Parser::new(unit.1, unit.0, &[], report);
         let unit = parser.unit();
@@ -49,22 +49,23 @@ pub(super) struct Parser<'t> {
     pub(super) sections: &'t [SectionKind],
     /// The next word.
     pub(super) at: usize,
-    /// The empty span behind the last word.
+    /// The empty span after the last word.
     pub(super) end: Span,
-    /// How deep the expression at hand is nested.
+    /// The nesting depth of the current expression.
     pub(super) depth: usize,
-    /// True from a mistake on until the rest of its list element was skipped: nothing is reported.
+    /// Whether an error occurred and the rest of its list element is not yet skipped: nothing
+    /// is reported.
     pub(super) failed: bool,
-    /// How many brackets around the next word lack their partner: nothing inside is reported.
+    /// The number of brackets without partners around the next word: nothing inside is reported.
     pub(super) quiet: usize,
-    /// True once something was skipped that may have declared a name.
+    /// Whether something was skipped that may have declared a name.
     pub(super) skipped_names: bool,
     /// The files of tables.
     pub(super) texts: Vec<Spanned<String>>,
     pub(super) report: &'t mut Report,
 }
 
-/// A bracketed group that is being read.
+/// A bracketed group that is being parsed.
 pub(super) struct Group {
     pub(super) close: usize,
     quiet: bool,
@@ -72,7 +73,7 @@ pub(super) struct Group {
     pub(super) span: Span,
 }
 
-/// Words, and what is done about those that do not fit.
+/// Reading words, and handling those that do not fit.
 impl<'t> Parser<'t> {
     fn new(
         tokens: &'t [Token],
@@ -98,7 +99,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// Nothing more.
+    /// Checks that the input has ended.
     fn expect_end(&mut self) {
         if self.peek().is_some() && !self.failed {
             let help = self.help_between();
@@ -119,7 +120,7 @@ impl<'t> Parser<'t> {
         self.peek().map_or(self.end, |word| word.span)
     }
 
-    /// The place of the word before.
+    /// The place of the preceding word.
     pub(super) fn before(&self) -> Span {
         let before = self.at.checked_sub(1).and_then(|at| self.words.get(at));
         before.map_or(self.end, |word| word.span)
@@ -137,7 +138,7 @@ impl<'t> Parser<'t> {
         self.is(TokenKind::Punct(mark))
     }
 
-    /// True at two marks without a space between them: `..`, `>=`.
+    /// Whether two marks follow without a space between them: `..`, `>=`.
     pub(super) fn is_pair(&self, first: char, second: char) -> bool {
         self.peek()
             .is_some_and(|word| word.kind == TokenKind::Punct(first) && word.joint)
@@ -163,38 +164,38 @@ impl<'t> Parser<'t> {
         found
     }
 
-    /// Reports a mistake that the reader of the text can see past.
+    /// Reports an error after which parsing continues normally.
     pub(super) fn complain(&mut self, diagnostic: Diagnostic) {
         if !self.failed && self.quiet == 0 {
             self.report.push(diagnostic);
         }
     }
 
-    /// Reports what was wrong before the mistake at hand.
+    /// Reports an error even if another one has already occurred.
     pub(super) fn report_always(&mut self, diagnostic: Diagnostic) {
         if self.quiet == 0 {
             self.report.push(diagnostic);
         }
     }
 
-    /// Reports what stands twice where one of it makes sense.
+    /// Reports a duplicate where only one is allowed.
     pub(super) fn complain_twice(&mut self, span: Span, what: &str, first: Span) {
         let again = Diagnostic::new(Code::SaidTwice, span, format!("{what} is said twice"));
         self.complain(again.help("keep one of them").note(first, "the first"));
     }
 
-    /// Reports a mistake after which the rest of the list element makes no sense.
+    /// Reports an error that makes the rest of the list element meaningless.
     pub(super) fn fail(&mut self, diagnostic: Diagnostic) {
         self.complain(diagnostic);
         self.failed = true;
     }
 
-    /// The next word is not what was expected.
+    /// Reports that the next word is not the expected one.
     pub(super) fn unexpected(&mut self, expected: &str) {
         self.unexpected_because(expected, None);
     }
 
-    /// The next word is not what was expected, and what to do about it.
+    /// Reports that the next word is not the expected one, with help.
     pub(super) fn unexpected_because(&mut self, expected: &str, help: Option<String>) {
         let known = self
             .peek()
@@ -205,11 +206,11 @@ impl<'t> Parser<'t> {
             diagnostic.help = help;
             self.complain(diagnostic);
         }
-        // A word that was reported before needs no second message.
+        // A word that was already reported needs no second message.
         self.failed = true;
     }
 
-    /// The next word, for a message.
+    /// The next word, as shown in messages.
     pub(super) fn found(&self) -> String {
         match self.peek() {
             None => "the end".to_owned(),
@@ -225,7 +226,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// The operator of two marks that the next words make, if they make one of Rust's.
+    /// The two-character operator that the next words form, if it is one of Rust's.
     fn operator(&self) -> Option<&'static str> {
         let operators = ["..", ">=", "<=", "==", "**", "->", "=>", "::", "||", "&&"];
         let (first, second) = (self.peek()?, self.peek_second()?);
@@ -248,7 +249,8 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// A mark for which many write another; then this is said, and reading goes on.
+    /// Expects a mark for which another one is often written; in that case reports it
+    /// and continues.
     pub(super) fn expect_mark_not(&mut self, mark: char, other: char, help: &str) {
         if self.is_mark(other) && !self.is_pair(other, other) {
             let message = format!("expected `{mark}`, found `{other}`");
@@ -260,7 +262,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// `=`; who writes `==` is told, and reading goes on.
+    /// `=`; `==` is reported, and parsing continues.
     pub(super) fn expect_equals(&mut self) {
         if self.is_pair('=', '=') {
             let first = self.here();
@@ -289,7 +291,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// Steps behind an opening bracket, which must be there.
+    /// Enters an opening bracket, which must be present.
     pub(super) fn enter(&mut self, delimiter: Delimiter) -> Option<Group> {
         let word = self
             .peek()
@@ -298,8 +300,8 @@ impl<'t> Parser<'t> {
             self.unexpected(&format!("`{}`", opening(delimiter)));
             return None;
         };
-        // An unclosed brace was closed where a section or the text ends, and what it holds is
-        // sound; other brackets were closed anywhere.
+        // An unclosed brace was closed where a section or the text ends, so its content is
+        // reliable; other brackets may have been closed anywhere.
         let quiet = word.mended && delimiter != Delimiter::Brace;
         self.quiet += usize::from(quiet);
         self.at += 1;
@@ -312,7 +314,7 @@ impl<'t> Parser<'t> {
         })
     }
 
-    /// Steps behind the closing bracket, where everything must have been read.
+    /// Leaves a group at its closing bracket; everything inside must have been read.
     pub(super) fn leave(&mut self, group: Group, expected: &str) {
         if self.at < group.close && !self.failed {
             self.unexpected(expected);
@@ -323,10 +325,10 @@ impl<'t> Parser<'t> {
         self.quiet -= usize::from(group.quiet);
     }
 
-    /// The elements of a list up to the end of the group, with commas between them.
+    /// Parses the elements of a list up to the end of the group, separated by commas.
     ///
-    /// `begins` tells where another element begins, so that a missing comma costs nothing but
-    /// itself.
+    /// `begins` tells where another element begins, so that a missing comma causes no
+    /// further errors.
     pub(super) fn list(
         &mut self,
         group: Group,
@@ -359,13 +361,13 @@ impl<'t> Parser<'t> {
         span
     }
 
-    /// After an element comes neither a comma nor the end.
+    /// Reports that an element is followed neither by a comma nor by the end.
     fn unexpected_between(&mut self) {
         let help = self.help_between();
         self.unexpected_because("`,` or an operator", help);
     }
 
-    /// What to write where an expression does not go on.
+    /// The help for an expression that ends unexpectedly.
     fn help_between(&self) -> Option<String> {
         let behind_operand = self.at.checked_sub(1).and_then(|at| self.words.get(at));
         let operand = |kind| {
@@ -398,7 +400,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// Goes on behind the next comma of this list.
+    /// Continues after the next comma of this list.
     fn skip_to_comma(&mut self, close: usize) {
         let start = self.at;
         while self.at < close && !self.is_mark(',') && !self.is_mark(';') {
@@ -409,7 +411,7 @@ impl<'t> Parser<'t> {
         self.at += usize::from(self.at < close);
     }
 
-    /// One word, or a whole group.
+    /// Skips one word, or a whole group.
     pub(super) fn skip_word(&mut self) {
         self.at = match self.peek() {
             Some(word) if matches!(word.kind, TokenKind::Open(_)) => word.partner + 1,
@@ -417,7 +419,7 @@ impl<'t> Parser<'t> {
         };
     }
 
-    /// Remembers if `start..end`, which nobody reads, may declare something.
+    /// Records whether the skipped words `start..end` may declare something.
     pub(super) fn note_skipped(&mut self, start: usize, end: usize) {
         let skipped = self.words.get(start..end).unwrap_or_default();
         self.skipped_names |= skipped.windows(2).any(|pair| {
@@ -429,7 +431,7 @@ impl<'t> Parser<'t> {
         });
     }
 
-    /// Documentation: `/// …`, or `#[doc = "…"]` as the compiler hands it to a macro.
+    /// Documentation: `/// …`, or `#[doc = "…"]` as the compiler passes it to a macro.
     pub(super) fn docs(&mut self) -> String {
         let mut lines = Vec::new();
         loop {
@@ -437,7 +439,7 @@ impl<'t> Parser<'t> {
                 lines.extend(doc_lines(word.text));
                 self.at += 1;
             } else if let Some((text, inner, length)) = self.doc_attribute() {
-                // Documentation of the inside, `//! …`, is a comment like any other.
+                // Inner documentation, `//! …`, is treated as an ordinary comment.
                 if !inner {
                     lines.extend(doc_lines(text));
                 }
@@ -449,7 +451,7 @@ impl<'t> Parser<'t> {
         lines.join("\n").trim().to_owned()
     }
 
-    /// The text of `#[doc = "…"]`, whether it is `#![doc = "…"]`, and how many words it has.
+    /// The text of `#[doc = "…"]`, whether it is `#![doc = "…"]`, and the number of its words.
     pub(super) fn doc_attribute(&self) -> Option<(&'t str, bool, usize)> {
         let words = self.words.get(self.at..)?;
         let is = |at: usize, kind| words.get(at).is_some_and(|word| word.kind == kind);
@@ -466,7 +468,7 @@ impl<'t> Parser<'t> {
         is_doc.then(|| (words[bracket + 3].text, inner, bracket + 5))
     }
 
-    /// Documentation behind which nothing stands.
+    /// Reports documentation that precedes nothing.
     pub(super) fn complain_of_docs(&mut self) {
         let message = "this documents nothing";
         let lost = Diagnostic::new(Code::UnexpectedToken, self.before(), message);
@@ -474,9 +476,9 @@ impl<'t> Parser<'t> {
     }
 }
 
-/// The lines of one documentation comment, without the space or the asterisk that begins each.
+/// The lines of a documentation comment, without the space or asterisk at the beginning of each.
 fn doc_lines(text: &str) -> Vec<String> {
-    // `///` alone parts two paragraphs.
+    // `///` alone separates two paragraphs.
     if text.is_empty() {
         return vec![String::new()];
     }

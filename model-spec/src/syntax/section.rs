@@ -1,37 +1,37 @@
-//! Sections of elements, as the parser has to know them.
+//! Sections of elements, as far as the parser needs to know them.
 //!
-//! What an element is stands in one file of its own, and the list of these files is handed to the
-//! parser: nothing here names any of them.
+//! Each element is defined in a file of its own, and the parser receives the list of these files:
+//! nothing here names any of them.
 
 use std::cmp::Ordering;
 use std::fmt;
 use std::hash::{Hash, Hasher};
 
-/// How a section of elements is written, and what its items are called.
+/// The syntax of a section of elements, and the words for its items.
 ///
-/// Two of them are the same if the same word heads them.
+/// Two sections are equal if they have the same heading word.
 #[derive(Clone, Copy)]
 pub struct Section {
-    /// The word that heads it: `springs`.
+    /// The heading word: `springs`.
     pub word: &'static str,
-    /// One of its items, as a message calls it: `a spring`.
+    /// The phrase for one of its items in messages: `a spring`.
     pub item: &'static str,
-    /// What stands before the name of an element, in the chapter and in messages: `spring`. Empty where
-    /// the name says it.
+    /// The noun before the name of an element, in the chapter and in messages: `spring`. Empty if the
+    /// name alone is clear.
     pub noun: &'static str,
-    /// What an item says.
+    /// The form of its items.
     pub form: Form,
-    /// How one is written, for messages.
+    /// An example of an item, for messages.
     pub help: &'static str,
 }
 
-/// What an item of a section of elements says.
+/// The form of an item of a section of elements.
 #[derive(Clone, Copy, Debug)]
 pub enum Form {
-    /// `name { field: value, … }`: the fields that it can have.
+    /// `name { field: value, … }`, with the fields that it can have.
     ///
-    /// The parser accepts no other field and none twice. Which of them go together is checked when they
-    /// are used.
+    /// The parser accepts no other field, and none twice. Conflicts between fields are detected when
+    /// they are used.
     Records(&'static [&'static str]),
     /// `name: expression`
     Expressions,
@@ -42,7 +42,7 @@ pub enum Form {
 }
 
 impl Section {
-    /// The fields that an item can have; none where its items are no records.
+    /// The fields that an item can have; none if its items are not records.
     pub fn fields(&self) -> &'static [&'static str] {
         match self.form {
             Form::Records(fields) => fields,

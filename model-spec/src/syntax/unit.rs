@@ -1,4 +1,4 @@
-//! Units as they are written: `kg*m^2/s`.
+//! Parses units: `kg*m^2/s`.
 
 use crate::diagnostic::{Code, Diagnostic, nearest};
 use crate::syntax::ast::{Unit, UnitFactor};
@@ -7,7 +7,7 @@ use crate::token::{Delimiter, TokenKind, shown};
 use crate::unit::Measure;
 
 impl Parser<'_> {
-    /// `kg*m^2/s`; none where a part of it is unknown.
+    /// `kg*m^2/s`; none if a part of it is unknown.
     pub(super) fn unit(&mut self) -> Option<Unit> {
         let start = self.here();
         let mut factors = Vec::new();
@@ -17,7 +17,7 @@ impl Parser<'_> {
         known.then_some(Unit { factors, span })
     }
 
-    /// Factors with `*` and `/` between them, all to the power `sign`.
+    /// Factors separated by `*` and `/`, all to the power `sign`.
     fn unit_product(&mut self, sign: i32, factors: &mut Vec<UnitFactor>) -> bool {
         let mut known = self.unit_power(sign, factors);
         loop {
@@ -45,7 +45,8 @@ impl Parser<'_> {
             if !halves {
                 continue;
             }
-            // Of a unit that is not SI the root is no fraction, and there are no quarters.
+            // The square root of a non-SI unit has no rational size, and quarters of powers are
+            // not supported.
             let measure = Measure::named(&factor.name.text);
             if factor.halved || measure.is_some_and(|measure| !measure.is_si()) {
                 let name = &factor.name.text;
@@ -98,7 +99,7 @@ impl Parser<'_> {
         known
     }
 
-    /// An integer, with a sign or without; in brackets it may have `/2` behind it, which the second part tells.
+    /// An integer with an optional sign; in brackets it may be followed by `/2`, which the second part reports.
     fn unit_exponent(&mut self) -> Option<(i32, bool)> {
         /// No mechanical quantity has a higher power of a unit.
         const HIGHEST: i32 = 12;
@@ -140,7 +141,7 @@ impl Parser<'_> {
     }
 }
 
-/// What to do about a unit that the language does not have.
+/// The help for a unit that the language does not have.
 fn unit_help(name: &str) -> String {
     let known = || Measure::names().chain(["mm", "cm", "km", "kN", "MPa", "kW", "ms", "kHz"]);
     let help = match name {

@@ -1,9 +1,9 @@
-//! Coordinates that are not treated exactly, because a paper or a linear theory does not.
+//! Coordinates that are approximated, to match a paper or a linear theory.
 //!
-//! Approximations act on energies, before Lagrange's equations are formed: what is derived from an
-//! energy conserves it, while equations cut short one by one need not. Forces, torques and outputs
-//! stay exact, and so do positions. Where both kinds occur, velocities are frozen first; then
-//! energies, built from them, are cut to second order.
+//! Approximations act on energies, before Lagrange's equations are formed: equations derived from
+//! an energy conserve it, while equations truncated one by one need not. Forces, torques, outputs
+//! and positions stay exact. If both kinds occur, velocities are frozen first; the energies built
+//! from them are then truncated to second order.
 
 use lagrangian_symbolic::{Dag, Expr, Function, Id, Node, Symbol, Tangent, reachable, substitute};
 
@@ -13,9 +13,9 @@ use lagrangian_spec::model::{ApproximationKind, Model, stage};
 /// The approximations of a machine.
 pub(super) struct Approximations<'d> {
     dag: &'d Dag,
-    /// Coordinates of which the sine is 0 and the cosine 1 in velocities.
+    /// Coordinates whose sine is replaced by 0 and whose cosine by 1 in velocities.
     frozen: Vec<Symbol>,
-    /// Coordinates and their rates, of which energies are kept to second order.
+    /// Coordinates and their rates in which energies are expanded to second order.
     small: Vec<Symbol>,
 }
 
@@ -41,10 +41,10 @@ impl<'d> Approximations<'d> {
         self.frozen.is_empty() && self.small.is_empty()
     }
 
-    /// Frozen coordinates, eq. (E16): in velocities `sin θ → 0` and `cos θ → 1`, after
-    /// differentiating.
+    /// Frozen coordinates, eq. (E16): `sin θ → 0` and `cos θ → 1` in velocities,
+    /// after differentiating.
     ///
-    /// In angles like `θ + φ` that is `θ → 0`, as the addition theorems say. Elsewhere `θ` stays.
+    /// In angles like `θ + φ` this is `θ → 0`, by the addition theorems. Elsewhere `θ` stays.
     pub fn motion(&self, motion: &Motion<'d>) -> Motion<'d> {
         if self.frozen.is_empty() {
             return motion.clone();
@@ -59,8 +59,8 @@ impl<'d> Approximations<'d> {
     /// Small coordinates, eq. (E17): energies to second order in coordinates and rates together,
     /// `f(εθ, εθ̇) = f₀ + ε f₁ + ½ ε² f₂ + …` at `ε = 1`.
     ///
-    /// Undefined where an energy has no such expansion: a distance that vanishes at `θ = 0` has a
-    /// kink there.
+    /// Undefined if an energy has no such expansion: a distance that vanishes at `θ = 0` is not
+    /// differentiable there.
     pub fn energies(&self, energies: &[Expr<'d>]) -> Vec<Expr<'d>> {
         if self.small.is_empty() {
             return energies.to_vec();

@@ -1,15 +1,15 @@
-//! From a machine to the problem of its fastest motion: conditions (17), recognized.
+//! Finds the brachistochrone problem of a machine, and tests conditions (17) on it.
 //!
 //! ```text
 //! a_αβ constant    Q_α = −c_α constant    slip τ, load ν, weights ρ and μ of every guide constant
 //! ```
 //!
-//! The letters are those of D. Đurić, *On Brachistochronic Motion of a Multibody System with Real Constraints*:
-//! `b_α = Σ μ ν τ_α` and `d_αβ = Σ μ τ_α ρ_β` belong to the power of friction `−b·v − v·d a`. Whatever constant forces act
-//! besides gravity count as slopes of a potential.
+//! The letters are those of D. Đurić, *On Brachistochronic Motion of a Multibody System with Real Constraints*: `b_α = Σ μ
+//! ν τ_α` and `d_αβ = Σ μ τ_α ρ_β` belong to the power of friction `−b·v − v·d a`. Constant forces other than gravity
+//! count as gradients of a potential.
 //!
-//! Outside of these conditions masses, forces and friction may depend on coordinates, and forces on velocities too; then
-//! `−Q_α` includes the inertia forces that velocities make.
+//! Without these conditions masses, forces and friction may depend on coordinates, and forces on velocities too; then
+//! `−Q_α` includes the inertia forces due to velocities.
 
 use std::fmt;
 
@@ -19,7 +19,7 @@ use super::{Equations, SlidingEquation};
 use lagrangian_spec::identity;
 use lagrangian_spec::model::Model;
 
-/// The problem of a machine's fastest motion, over symbols of parameters.
+/// The brachistochrone problem of a machine, over symbols of parameters.
 #[derive(Clone, Debug)]
 pub struct Brachistochronic<'d> {
     /// `a_αβ`, by rows.
@@ -30,7 +30,8 @@ pub struct Brachistochronic<'d> {
     pub guides: Vec<Guided<'d>>,
 }
 
-/// A guide that slides and presses: `N = ν + ρ·a + Σ κ F`, with the friction `F = −μ N` of each guide.
+/// A guide that slides, with its normal reaction `N = ν + ρ·a + Σ κ F`, where `F = −μ N` is the
+/// friction of each guide.
 #[derive(Clone, Debug)]
 pub struct Guided<'d> {
     /// Its name.
@@ -41,7 +42,7 @@ pub struct Guided<'d> {
     pub load: Expr<'d>,
     /// `ρ`.
     pub weights: Vec<Expr<'d>>,
-    /// `κ`, by the guides in their order.
+    /// `κ`, one for each guide in order.
     pub by_friction_forces: Vec<Expr<'d>>,
     /// `μ`.
     pub friction: Expr<'d>,
@@ -50,21 +51,21 @@ pub struct Guided<'d> {
 /// A condition that a machine does not meet.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Unmet {
-    /// A coefficient depends on what changes along the motion.
+    /// A coefficient depends on something that changes along the motion.
     Varies {
         /// The coefficient.
         what: String,
         /// The coordinate, its rate as `der(q)`, the input, or `t`.
         with: String,
     },
-    /// What a guide in space presses with is the size of a vector.
+    /// The normal reaction of a guide in space is the magnitude of a vector.
     Presses {
         /// The guide.
         guide: String,
     },
-    /// The machine has constraints: its coordinates are not free.
+    /// The machine has constraints, so its coordinates are not independent.
     Constrained,
-    /// Four numbers turn a frame, and their length is none of the motion.
+    /// A quaternion turns a frame, and its length is not part of the motion.
     Turned,
     /// There are no coordinates.
     Empty,
@@ -94,18 +95,20 @@ impl fmt::Display for Unmet {
 }
 
 impl<'d> Brachistochronic<'d> {
-    /// The problem under (17), or every condition that is not met.
+    /// The problem under (17).
     ///
     /// # Errors
-    /// The conditions that the machine does not meet, each with the first thing on which a coefficient depends.
+    /// Every condition that is not met, each with the first variable on which a coefficient depends.
     pub fn of(model: &Model<'d>, equations: &Equations<'d>) -> Result<Self, Vec<Unmet>> {
         Self::within(model, equations, [Reach::Parameters; 2])
     }
 
-    /// The problem where masses and friction depend on coordinates, and forces and loads on velocities too.
+    /// The problem with masses and friction that depend on coordinates, and forces and loads that depend on
+    /// velocities too.
     ///
     /// # Errors
-    /// As [`of`](Self::of): constraints, explicit time, inputs, and friction that depends on velocities.
+    /// As for [`of`](Self::of): constraints, explicit time, inputs, and friction that depends
+    /// on velocities.
     pub fn anywhere(model: &Model<'d>, equations: &Equations<'d>) -> Result<Self, Vec<Unmet>> {
         Self::within(model, equations, [Reach::Coordinates, Reach::Rates])
     }
@@ -142,7 +145,7 @@ impl<'d> Brachistochronic<'d> {
         let mass: Vec<Vec<Expr<'d>>> = mass.collect();
         let slope = (0..n).map(|i| {
             let force = format!("the force on `{}`", name(i));
-            // What explicit time or a changing mass adds to the inertia is a force as well.
+            // Inertia forces due to explicit time or a changing mass count as forces too.
             let drive = format!("the inertia force on `{}`", name(i));
             let applied = checked(model, equations.applied[i], &force, of_motion, &mut unmet);
             let bias = checked(model, equations.bias[i], &drive, of_motion, &mut unmet);
@@ -153,7 +156,7 @@ impl<'d> Brachistochronic<'d> {
         let guides = guides
             .filter_map(|sliding| guided(model, sliding, [of_place, of_motion], &mut unmet))
             .collect();
-        // The matrix is symmetric, and an entry is told once.
+        // The matrix is symmetric, and each entry is reported once.
         let mut told = Vec::new();
         for condition in unmet {
             if !told.contains(&condition) {
@@ -198,7 +201,7 @@ fn guided<'d>(
     let by_friction_forces = each(&normal.by_friction_forces, "the reaction to friction");
     let load = of(normal.load, "the reaction at rest", of_motion);
     let friction = of(sliding.friction, "the coefficient of friction", of_place);
-    // What it slides on may be driven.
+    // The base on which it slides may be driven.
     let moving = model.coordinates.iter().zip(&sliding.row);
     let moving = model.dag.sum(moving.map(|(c, &row)| row * c.v));
     if identity::equal(sliding.slip, moving) != Some(true) {
@@ -217,7 +220,7 @@ fn guided<'d>(
     })
 }
 
-/// What a coefficient may depend on.
+/// The variables that a coefficient may depend on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Reach {
     Parameters,
@@ -225,7 +228,8 @@ enum Reach {
     Rates,
 }
 
-/// The coefficient with nothing in it beyond its reach; told where there is.
+/// The coefficient, if it depends only on what its reach allows; otherwise the violation
+/// is recorded.
 fn checked<'d>(
     model: &Model<'d>,
     value: Expr<'d>,

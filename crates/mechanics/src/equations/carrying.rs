@@ -1,35 +1,34 @@
-//! What a guide carries, and on what a force on a coordinate acts.
+//! Determines which bodies a guide carries, and on which bodies a force on a coordinate acts.
 //!
-//! The normal reaction of a guide is found by letting its body go (E33), and counts what the spec
-//! builds on that body. A body may move with the same coordinates and not be built on it: then
-//! something ties the two that the spec does not name, and whether it pulls across the guide cannot
-//! be known. That is found out by letting the guided body go *along* its guide, where it moves
-//! anyhow:
+//! The normal reaction of a guide is found by releasing its body (E33), and accounts for whatever
+//! the spec builds on that body. Another body may move with the same coordinates without being
+//! built on it. Then something that the spec does not name ties the two, and whether it pulls
+//! across the guide cannot be known. This is detected by displacing the guided body *along* its
+//! guide, where it can move anyway:
 //!
 //! ```text
 //! J_δ e = J_q c + Σ α n_δ                                                  (E38)
 //! ```
 //!
-//! `J` are the velocities of all bodies, by the rates of the coordinates (`q`), or by displacements of
-//! the guided bodies (`δ`). If a displacement along the guide is a motion of the machine, but for guides
-//! that open, then Newton's law along the guide holds for what the guide carries with the forces that
-//! the spec names. If it is none, something else has to pull there, and of that the spec says
-//! nothing. Both sides are compared in the prime field, so that the look of an expression does not
-//! matter.
+//! `J` are the velocities of all bodies, by the rates of the coordinates (`q`) or by the displacements
+//! of the guided bodies (`δ`). If a displacement along the guide is a motion of the machine, apart from
+//! guides that open, then Newton's law along the guide holds for what the guide carries with the forces
+//! that the spec names. If it is not, some force that the spec does not name has to act there. Both
+//! sides are compared in the prime field, so the form of an expression does not matter.
 //!
-//! A body may also be free to move along the guide on its own, and yet be written by the coordinate of
-//! the guided body. Then (E38) holds, and what holds the body across the guide is as open. So of a body
-//! that moves with a coordinate of a guide it is asked that this guide carries it, that another one
-//! does which that coordinate moves, or that it can be moved across the guide while all else rests, alone or
-//! with others of its kind: then whatever ties it has no part across the guide (virtual work), in whatever mixture of
-//! coordinates its place is written.
+//! A body may also be free to move along the guide independently, and yet have its position expressed by the
+//! coordinate of the guided body. Then (E38) holds, but what holds the body across the guide is just as undetermined.
+//! So a body that moves with a coordinate of a guide must satisfy one of three conditions: this guide carries it;
+//! another guide that moves with that coordinate carries it; or it can be moved across the guide while everything
+//! else rests, alone or together with others of its kind. In the last case whatever ties it has no component across
+//! the guide (virtual work), in whatever combination of coordinates its position is written.
 //!
-//! Whatever else depends on coordinates (constraints, springs, points of forces) is held against the
-//! same `c` and `α`: what depends on where the guided body is changes by (E38) as the bodies do. What
-//! does not is written in coordinates, and acts along the guide. Where it cannot act along the guide
-//! alone, it must be written by positions. A force on a coordinate acts on the bodies that this moves. If
-//! the guide carries only some of them, and the force is none that could act on these alone, nobody says
-//! how it is shared.
+//! Everything else that depends on coordinates (constraints, springs, points of forces) is tested with
+//! the same `c` and `α`. What depends on the position of the guided body changes by (E38) as the bodies
+//! do. What does not is written in coordinates, and acts along the guide; if it cannot act along the
+//! guide alone, it must be written in positions. A force on a coordinate acts on the bodies that the
+//! coordinate moves. If the guide carries only some of them, and the force could not act on these alone,
+//! its distribution among the bodies is undetermined.
 
 use lagrangian_scalar::{Dual, Residue, Scalar};
 use lagrangian_symbolic::{Expr, Node, Symbol, evaluate};
@@ -44,68 +43,70 @@ use lagrangian_spec::model::element::{Contribution, Element, Energy, Load, Slidi
 use lagrangian_spec::model::{Inertia, Model, Place, PoseId, Rotation, Space};
 use lagrangian_spec::source::Span;
 
-/// Points of the prime field that are tried until all expressions have a value at one of them: each
-/// square root has one at every second point.
+/// The number of points of the prime field that are tried until all expressions have a value at one
+/// of them: each square root exists at every second point.
 const TRIALS: u64 = 256;
 
-/// Points that are tried for what acts on a machine, if it has no value at the first: in the prime field,
-/// and then, for what has no values there, in ordinary numbers.
+/// The numbers of points that are tried for forces without a value at the first point: in the prime
+/// field, and then, for those without values there, in ordinary numbers.
 const TRIALS_OF_ACTIONS: [u64; 2] = [16, 4];
 
-/// Multiplications that the question whether (E38) holds may take, if nothing is zero: some seconds.
+/// The largest number of multiplications for testing (E38), if nothing is zero: some seconds.
 const WORK: usize = 500_000_000;
 
-/// Multiplications that the search for the body to blame may take.
+/// The largest number of multiplications for finding the body to blame.
 const WORK_OF_BLAME: usize = 100_000_000;
 
-/// Ordinary numbers count as zero below this, relative to the greatest of their kind. They take the
-/// place of the prime field only where that has no values.
+/// Ordinary numbers count as zero below this, relative to the largest of their kind. They replace
+/// the prime field only if that has no values.
 const CLEAR: f64 = 1e-9;
 
-/// Which bodies the guides of a machine carry, and on which bodies forces on its coordinates act.
+/// The bodies that the guides of a machine carry, and the bodies on which forces on its
+/// coordinates act.
 ///
-/// All lists are of indices, ascending: bodies as in [`Model::bodies`], guides as in
-/// [`Model::sliding`], where a surface stands twice, once for each tangent, coordinates as in [`Model::coordinates`].
+/// All lists are of indices, ascending: bodies as in [`Model::bodies`], guides as in [`Model::sliding`], where a
+/// surface occurs twice, once for each tangent, coordinates as in [`Model::coordinates`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Carrying {
-    /// For each guide, the bodies that move off with it: the guided one, and what is built on it.
-    /// The weight and the inertia of these, with all that the spec lets pull on them, make its normal
-    /// reaction; what a guide between them and another body carries comes through that guide.
+    /// For each guide, the bodies that move off with it: the guided body, and everything built on it.
+    /// Their weight and inertia, with all forces on them in the spec, determine the normal reaction;
+    /// if another guide lies between them and a further body, it transmits the load of that body.
     pub carried: Vec<Vec<usize>>,
-    /// For each coordinate, the bodies that move while it changes and all others rest. A force on the
-    /// coordinate acts on these.
+    /// For each coordinate, the bodies that move while it changes and all other coordinates rest. A
+    /// force on the coordinate acts on these.
     pub moved: Vec<Vec<usize>>,
-    /// For each guide, the coordinates whose change is part of a displacement along it, the `c` of
-    /// (E38): a force on such a coordinate pushes what the guide carries. Where it moves none of that,
-    /// or other bodies too in a way that forces on the carried ones alone cannot, it pushes through a tie of
-    /// which nobody says how it pulls across the guide, and the reaction is not determined while a
-    /// force acts on that coordinate. None where (E38) does not hold.
+    /// For each guide, the coordinates whose change is part of a displacement along it, the `c` of (E38): a
+    /// force on such a coordinate pushes what the guide carries. If the coordinate moves nothing of that, or
+    /// moves other bodies too in a way that forces on the carried ones alone cannot, it pushes through a tie
+    /// whose pull across the guide is unknown, and the reaction is undetermined while a force acts on that
+    /// coordinate. None if (E38) does not hold.
     pub pushed_by: Vec<Option<Vec<usize>>>,
-    /// For each guide, those among `pushed_by` of which that is so.
+    /// For each guide, those among `pushed_by` for which the reaction is undetermined.
     unsaid: Vec<Vec<usize>>,
 }
 
 impl Carrying {
-    /// Of a machine; nothing if it has no guides, or has no values that could be looked
-    /// at.
+    /// The analysis of a machine; nothing if it has no guides, or if its expressions have no values
+    /// at any point tried.
     pub fn of(model: &Model<'_>) -> Option<Carrying> {
         let motion = Motion::<Residue>::of(model).map(|motion| motion.carrying(model));
         motion.or_else(|| Some(Motion::<f64>::of(model)?.carrying(model)))
     }
 
-    /// The coordinates on which a force would push what a guide carries through something of which the
-    /// spec does not say how it pulls across the guide.
+    /// The coordinates on which a force would push what a guide carries through a tie whose pull
+    /// across the guide the spec does not determine.
     pub fn unsaid(&self, guide: usize) -> &[usize] {
         &self.unsaid[guide]
     }
 }
 
-/// Says of every guide what leaves its reaction undetermined. True if anything does.
+/// Reports for every guide what leaves its reaction undetermined. Returns true if anything does.
 pub(super) fn refuse_untied(model: &Model<'_>, report: &mut Report) -> bool {
     let mut looked_at = Vec::new();
     let mut found = Motion::<Residue>::of(model)
         .map_or_else(Vec::new, |motion| motion.refused(model, &mut looked_at));
-    // What the prime field has no values of: nothing, or things that act.
+    // Ordinary numbers are used if the prime field has no values for the motion, or for some of
+    // the forces.
     if found.is_empty() && (looked_at.is_empty() || looked_at.contains(&false)) {
         found = Motion::<f64>::of(model)
             .map_or_else(Vec::new, |motion| motion.refused(model, &mut looked_at));
@@ -115,13 +116,13 @@ pub(super) fn refuse_untied(model: &Model<'_>, report: &mut Report) -> bool {
     refused
 }
 
-/// Numbers in which (E38) is looked at.
+/// Numbers in which (E38) is tested.
 trait Number: Scalar {
-    /// How many points are tried for what acts.
+    /// The number of points that are tried for forces.
     const TRIALS_OF_ACTIONS: u64;
     /// A value for a symbol.
     fn random(point: u64, symbol: Symbol) -> Self;
-    /// How large it is, 0 if it counts as zero beside numbers of this size.
+    /// Its magnitude, or 0 if it counts as zero beside numbers of this size.
     fn size_beside(self, size: f64) -> f64;
 }
 
@@ -153,7 +154,7 @@ impl Number for f64 {
     }
 }
 
-/// What moves: a body, or the frame that a guide is on, with its place among the rows.
+/// A moving part: a body, or the frame that a guide is on, with its rows.
 struct Part {
     what: What,
     rows: std::ops::Range<usize>,
@@ -162,54 +163,54 @@ struct Part {
 #[derive(Clone, Copy)]
 enum What {
     Body(usize),
-    /// What the body of this guide slides on.
+    /// The base on which the body of this guide slides.
     Base(usize),
 }
 
-/// How everything moves at a point: rows of velocities, columns of coordinates and, behind them, of
-/// the displacements of each guide, two in the plane and three in space.
+/// The velocities of all parts at a point: rows are components of velocities; columns are
+/// coordinates, followed by the displacements of each guide, two in the plane and three in space.
 struct Motion<T> {
     parts: Vec<Part>,
     columns: Vec<Vec<T>>,
-    /// The directions of the guides, as long as the spec has them.
+    /// The directions of the guides, unnormalized, as in the spec.
     directions: Vec<Vec<T>>,
-    /// The normals of surfaces, as long as the spec has them.
+    /// The normals of surfaces, unnormalized, as in the spec.
     normals: Vec<Option<Vec<T>>>,
-    /// Which guide each contact is of: a surface has two, one for each tangent.
+    /// The guide of each contact: a surface has two contacts, one for each tangent.
     numbers: Vec<usize>,
     coordinates: usize,
-    /// How many components a vector has.
+    /// The number of components of a vector.
     dimension: usize,
-    /// How large entries are.
+    /// The size of the entries.
     size: f64,
     point: u64,
 }
 
-/// A displacement along a guide as a motion of the machine: what each column takes part with, less the
+/// A displacement along a guide as a motion of the machine: the coefficient of each column, minus the
 /// displacement itself.
 struct Along<T>(Vec<T>);
 
 impl<T: Scalar> Along<T> {
-    /// By how much the displacement along the guide changes what these are the derivatives of,
-    /// other than the motion of the machine does.
+    /// The difference between the change of an expression by the displacement along the guide and
+    /// its change by the motion of the machine, given its derivatives.
     fn amiss(&self, derivatives: impl Iterator<Item = T>) -> T {
         let pairs = self.0.iter().zip(derivatives);
         pairs.fold(T::ZERO, |sum, (&c, x)| sum + c * x)
     }
 }
 
-/// Where the displacements of the guides are.
+/// The positions of the guides.
 #[derive(Clone, Copy, PartialEq)]
 enum Guides {
     /// At zero.
     Shut,
-    /// Anywhere. What moves off with a body moves off by the displacement itself, so (E38) holds with the
-    /// same `c` and `α`; and what acts between two points shows that it depends on both, though it may
-    /// do no work where the guides are shut, as a spring straight across one.
+    /// At arbitrary displacements. Whatever moves off with a body moves by the displacement itself, so
+    /// (E38) holds with the same `c` and `α`. A force between two points shows that it depends on both,
+    /// even if it does no work while the guides are shut, like a spring straight across one.
     Ajar,
 }
 
-/// The machine in which guides are relaxed, with what its symbols are at a point.
+/// The machine with relaxed guides, and the values of its symbols at a point.
 struct Relaxed<'m, 'd> {
     model: &'m Model<'d>,
     x: Variables<'d>,
@@ -226,7 +227,7 @@ impl<'m, 'd> Relaxed<'m, 'd> {
         })
     }
 
-    /// The value of a symbol where all guides are shut, or where they are ajar.
+    /// The value of a symbol with all guides shut, or ajar.
     fn value<T: Number>(&self, (point, guides): (u64, Guides), symbol: Symbol) -> T {
         let open = |symbols: &[Symbol]| symbols[self.coordinates..].contains(&symbol);
         if guides == Guides::Shut && (open(&self.x.q) || open(&self.x.v)) {
@@ -236,8 +237,8 @@ impl<'m, 'd> Relaxed<'m, 'd> {
         }
     }
 
-    /// The derivatives of some expressions by the coordinates, or by their rates: one list for each
-    /// column.
+    /// The derivatives of some expressions with respect to the coordinates, or to their rates: one
+    /// list for each column.
     fn derivatives<T: Number>(
         &self,
         point: (u64, Guides),
@@ -260,8 +261,8 @@ impl<'m, 'd> Relaxed<'m, 'd> {
 }
 
 impl Relaxed<'_, '_> {
-    /// The guides along which (E38) holds where they are ajar too: what is built in other ways than by
-    /// frames and points may move off by more than the displacement.
+    /// The guides along which (E38) also holds if they are ajar: bodies that are not built from frames
+    /// and points alone may move off by more than the displacement.
     fn hold_ajar<T: Number>(&self, motion: &Motion<T>, alongs: &[(usize, Along<T>)]) -> Vec<usize> {
         let (_, places) = parts(self.model);
         let columns = self.derivatives::<T>((motion.point, Guides::Ajar), &places, &self.x.q);
@@ -281,7 +282,7 @@ impl<T: Number> Motion<T> {
         Motion::among(model, 0..TRIALS)
     }
 
-    /// How everything moves at the first of some points where it has values.
+    /// The motion at the first of some points where everything has a value.
     fn among(model: &Model<'_>, mut points: std::ops::Range<u64>) -> Option<Motion<T>> {
         if model.sliding().is_empty() {
             return None;
@@ -334,7 +335,8 @@ impl<T: Number> Motion<T> {
         })
     }
 
-    /// The columns of the displacements of a guide: both tangents of a surface have the same.
+    /// The columns of the displacements of a guide, which are the same for both tangents of
+    /// a surface.
     fn own(&self, guide: usize) -> Vec<usize> {
         let first = self.coordinates + self.dimension * self.numbers[guide];
         (first..first + self.dimension).collect()
@@ -347,8 +349,8 @@ impl<T: Number> Motion<T> {
             .fold(T::ZERO, |sum, term| sum + term)
     }
 
-    /// Vectors that are across a guide, and of which all others that are so are combinations: one in the plane and of a surface, and
-    /// of a curve in space three, of which one follows from the others.
+    /// Vectors that span the directions across a guide: one in the plane and for a surface; for a curve in space three, one of which
+    /// depends on the others.
     fn across(&self, guide: usize) -> Vec<Vec<T>> {
         let zero = T::ZERO;
         if let Some(normal) = &self.normals[guide] {
@@ -361,14 +363,14 @@ impl<T: Number> Motion<T> {
         }
     }
 
-    /// Whether a pull is across a guide, not along it alone.
+    /// Whether a pull has a component across a guide.
     fn is_across(&self, guide: usize, pull: &[T]) -> bool {
         let across = self.across(guide);
         across.iter().any(|n| dot(n, pull).size_beside(1.0) != 0.0)
     }
 
-    /// The displacement along a guide as a motion of the machine in which guides may open, if it is
-    /// one, seen in some rows.
+    /// The displacement along a guide as a motion of the machine with guides that may open,
+    /// compared in some rows; none if it is not such a motion.
     fn along(&self, guide: usize, rows: &[usize]) -> Option<Along<T>> {
         let e = &self.directions[guide];
         let target: Vec<T> = rows
@@ -393,7 +395,7 @@ impl<T: Number> Motion<T> {
             Some(solved) => solved,
             None => combination(columns, target, self.size)?,
         };
-        // From normals to displacements along the axes.
+        // Converts coefficients of normals to displacements along the axes.
         let mut all = solved[..self.coordinates].to_vec();
         all.resize(self.columns.len(), T::ZERO);
         for ((other, normal), &alpha) in normals.iter().zip(&solved[self.coordinates..]) {
@@ -407,7 +409,7 @@ impl<T: Number> Motion<T> {
         Some(Along(all))
     }
 
-    /// What most machines have: the displacement is that of one coordinate.
+    /// The common case: the displacement is that of a single coordinate.
     fn by_one(&self, columns: &[Vec<T>], target: &[T]) -> Option<Vec<T>> {
         let is_zero = |x: T| x.size_beside(self.size) == 0.0;
         let row = target.iter().position(|&x| !is_zero(x))?;
@@ -488,15 +490,16 @@ impl<T: Number> Motion<T> {
         }
     }
 
-    /// Whether forces on the coordinates push what a guide carries along it (`along` says by which
-    /// coordinates that moves), and not said is how they pull across the guide: such a coordinate moves
-    /// nothing that is carried; or it moves other bodies too, and the forces are none that act on the
-    /// carried bodies alone, so that a part of them, nobody says which, acts on the others.
+    /// Whether forces on the coordinates push what a guide carries along it, with an undetermined pull
+    /// across the guide; `along` gives the coordinates by which it moves. This is so if such a
+    /// coordinate moves nothing that is carried, or if it moves other bodies too and the forces are
+    /// not equivalent to forces on the carried bodies alone, so that an unknown part of them acts on
+    /// the others.
     fn is_unsaid(&self, guide: usize, along: &Along<T>, forces: &[T]) -> bool {
         let carried = self.bodies_moved_by(&self.own(guide));
         let is_carried = |body: &usize| carried.contains(body);
         let is_in = |x: T| x.size_beside(self.size) != 0.0;
-        // As large as the entries of the matrix.
+        // Scaled to the size of the entries of the matrix.
         let sizes = forces.iter().map(|x| x.size_beside(0.0));
         let scale = T::from_f64(self.size / sizes.fold(f64::MIN_POSITIVE, f64::max));
         let forces: Vec<T> = forces.iter().map(|&x| scale * x).collect();
@@ -511,7 +514,7 @@ impl<T: Number> Motion<T> {
         if !moves_others {
             return false;
         }
-        // Forces on the carried bodies are combinations of the derivatives of their places.
+        // Forces on the carried bodies are combinations of the derivatives of their positions.
         let rows = self.rows(|k| match self.parts[k].what {
             What::Body(body) => carried.contains(&body),
             What::Base(_) => false,
@@ -523,8 +526,8 @@ impl<T: Number> Motion<T> {
         combination(places.collect(), forces, self.size).is_none()
     }
 
-    /// A message for each thing that leaves a reaction undetermined. Of the things that act, it is noted
-    /// which have been looked at; those that have no value at any point have not.
+    /// A message for each thing that leaves a reaction undetermined. `looked_at` records which forces
+    /// were tested; those without a value at any point were not.
     fn refused(&self, model: &Model<'_>, looked_at: &mut Vec<bool>) -> Vec<Diagnostic> {
         let mut found = Vec::new();
         let Some(relaxed) = Relaxed::of(model) else {
@@ -544,12 +547,12 @@ impl<T: Number> Motion<T> {
                         "it can where what moves with the guided body is built on its frame",
                     ));
                 }
-                // Of a surface it has been said with the first tangent.
+                // For a surface it was reported with the first tangent.
                 None if sliding.is_second() && !found.is_empty() => {}
                 None => found.extend(self.blame(model, guide, sliding)),
             }
         }
-        // One thing at a time: with other bodies tied the rest may be right.
+        // The remaining tests may pass once the bodies are tied, so they wait.
         if found.is_empty() {
             found = self.loose(model);
         }
@@ -588,8 +591,8 @@ impl<T: Number> Motion<T> {
         found
     }
 
-    /// Bodies that are free along a guide, are written by its coordinate, and are held across it, but by
-    /// nothing that the spec names.
+    /// Bodies that are free along a guide, have positions expressed by its coordinate, and are held
+    /// across it by something that the spec does not name.
     fn loose(&self, model: &Model<'_>) -> Vec<Diagnostic> {
         let sliding = model.sliding();
         let guides: Vec<usize> = (0..sliding.len()).collect();
@@ -623,7 +626,7 @@ impl<T: Number> Motion<T> {
             let of_guides = guides.iter().filter(of_guide);
             found.extend(of_guides.map(|&guide| (index, guide)));
         }
-        // Those that hang together move together.
+        // Bodies that are tied to each other move together.
         let all: Vec<usize> = found.iter().map(|(part, _)| *part).collect();
         found.retain(|&(part, guide)| {
             !self.is_free_across(guide, &[part]) && !self.is_free_across(guide, &all)
@@ -633,13 +636,14 @@ impl<T: Number> Motion<T> {
         found.into_iter().map(untied).collect()
     }
 
-    /// Whether some parts can be moved across a guide as one while everything else rests and no guide opens. By
-    /// virtual work, the forces that tie them to each other and to all else have no sum across the guide then.
+    /// Whether some parts can be moved across a guide as one while everything else rests and no guide opens.
+    /// Then, by virtual work, the forces that tie them to each other and to everything else have no resultant
+    /// across the guide.
     fn is_free_across(&self, guide: usize, parts: &[usize]) -> bool {
         let is_free = |by: Vec<T>| {
             let mut target = Vec::new();
             for (index, part) in self.parts.iter().enumerate() {
-                // The components of a place, and how it is turned where that matters.
+                // The components of a position, and the orientation if it matters.
                 let is_moved = parts.contains(&index);
                 target.extend((0..part.rows.len()).map(|row| match by.get(row) {
                     Some(&by) if is_moved => by,
@@ -652,8 +656,7 @@ impl<T: Number> Motion<T> {
         self.across(guide).into_iter().all(is_free)
     }
 
-    /// The bodies that are tied to what a guide carries by nothing that the spec names: without them
-    /// (E38) holds.
+    /// The bodies that the spec does not tie to what a guide carries: without them (E38) holds.
     fn blame(&self, model: &Model<'_>, guide: usize, sliding: &Sliding<'_>) -> Vec<Diagnostic> {
         let body = &model.bodies[sliding.body].name;
         let name = sliding.said();
@@ -666,7 +669,7 @@ impl<T: Number> Motion<T> {
         };
         let affordable = self.work().saturating_mul(self.parts.len()) <= WORK_OF_BLAME;
         if affordable && is_right(&blamed) {
-            // What it carries is the last to be blamed.
+            // Parts that the guide carries are blamed last.
             let mut order: Vec<usize> = (0..self.parts.len()).collect();
             order.sort_by_key(|&k| !self.moves(&self.parts[k], &own));
             for k in order {
@@ -694,7 +697,7 @@ impl<T: Number> Motion<T> {
     }
 }
 
-/// The message for a part that moves with the body of a guide, and is tied to it by nothing.
+/// The message for a part that moves with the body of a guide without being tied to it.
 fn untied(model: &Model<'_>, guide: usize, what: What) -> Diagnostic {
     let sliding = model.sliding()[guide];
     let (body, name) = (&model.bodies[sliding.body].name, sliding.said());
@@ -723,10 +726,10 @@ fn untied(model: &Model<'_>, guide: usize, what: What) -> Diagnostic {
     diagnostic.note(sliding.span, "this guide")
 }
 
-/// What came of looking at something that acts: nothing where it has no value, or what is wrong with it.
+/// The result of testing a force: nothing if it has no value, otherwise the error in it, if any.
 type Looked = Option<Option<Diagnostic>>;
 
-/// The terms of a sum, or all of what is none.
+/// The terms of a sum; an expression that is not a sum is its only term.
 fn addends(value: Expr<'_>) -> Vec<Expr<'_>> {
     match value.node() {
         Node::Sum(terms) => terms.iter().map(|(id, _)| value.dag().expr(*id)).collect(),
@@ -734,18 +737,18 @@ fn addends(value: Expr<'_>) -> Vec<Expr<'_>> {
     }
 }
 
-/// What is written in coordinates, held against the motion along the guides.
+/// Tests what is written in coordinates against the motion along the guides.
 struct Written<'s, 'm, 'd, T> {
     motion: &'s Motion<T>,
     relaxed: &'s Relaxed<'m, 'd>,
     model: &'m Model<'d>,
     alongs: &'s [(usize, Along<T>)],
-    /// The guides along which (E38) holds where they are ajar too.
+    /// The guides along which (E38) also holds if they are ajar.
     ajar: Vec<usize>,
 }
 
 impl<'d, T: Number> Written<'_, '_, 'd, T> {
-    /// What is refused of that which has values at this point and has not been looked at before.
+    /// The errors in everything that has values at this point and was not tested before.
     fn refused(&self, looked_at: &mut Vec<bool>) -> Vec<Diagnostic> {
         let mut found = Vec::new();
         let mut number = 0;
@@ -772,7 +775,7 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
         found
     }
 
-    /// Looks at what an element contributes beside constraints.
+    /// Tests what an element contributes other than constraints.
     fn look_at(
         &self,
         element: &Element<'d>,
@@ -819,7 +822,7 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
                     look(&|| self.stretch(*measure, &what, *span))
                 }
             }
-            // A torque acts on a body that is known to turn; the rest acts on bodies by itself.
+            // A torque acts on a body that is known to turn; the others act on bodies directly.
             Contribution::Load(Load::Torque { .. })
             | Contribution::Gravity(_)
             | Contribution::Constraint(_)
@@ -834,8 +837,8 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
         x.size_beside(1.0) == 0.0
     }
 
-    /// The derivatives of an expression by all columns, where the guides are shut; nothing where it has
-    /// none.
+    /// The derivatives of an expression with respect to all columns, with the guides shut; nothing if
+    /// it has none.
     fn slopes(&self, expression: Expr<'d>, by: &[Symbol]) -> Option<Vec<T>> {
         self.slopes_where(Guides::Shut, expression, by)
     }
@@ -848,7 +851,7 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
         slopes.iter().all(|x| x.is_finite()).then_some(slopes)
     }
 
-    /// The guides along which an expression changes otherwise than the bodies do, and by how much.
+    /// The guides along which an expression does not change as the bodies do, with the difference.
     fn amiss<'w>(&'w self, slopes: &'w [T]) -> impl Iterator<Item = (usize, T)> + 'w {
         self.alongs.iter().filter_map(|(guide, along)| {
             let amiss = along.amiss(slopes.iter().copied());
@@ -856,8 +859,9 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
         })
     }
 
-    /// The first guide along which what acts by an expression does not change as the bodies do, and
-    /// acts across it on what is carried; or is `unsaid` by how much it changes along it.
+    /// The first guide along which the force of an expression does not change as the bodies do
+    /// and acts across it on what is carried, or for which `unsaid` holds of its change along
+    /// the guide.
     fn first_unsaid(
         &self,
         expression: Expr<'d>,
@@ -903,8 +907,8 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
         diagnostic.help(help).note(sliding.span, "this guide")
     }
 
-    /// A constraint in coordinates: a rope or a gear, as long as its coefficients are constant. One
-    /// whose coefficients vary is the geometry of something that pulls in a direction.
+    /// Tests a constraint in coordinates. With constant coefficients it is a rope or a gear; with
+    /// varying ones it is the geometry of something that pulls in a direction.
     fn constraint(&self, equation: &ConstraintEquation<'d>, span: Span) -> Looked {
         let x = &self.relaxed.x;
         let slopes = match equation.position {
@@ -927,8 +931,8 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
         Some(Some(self.diagnostic(guide, span, &what, help)))
     }
 
-    /// A stretch in coordinates: it grows by a metre for each metre along the guide if what stretches
-    /// lies along the guide.
+    /// Tests a stretch in coordinates: along a spring that lies along the guide it grows by a metre
+    /// for each metre of displacement.
     fn stretch(&self, stretch: Expr<'d>, what: &str, span: Span) -> Looked {
         let across = self.first_unsaid(stretch, &self.relaxed.x.q, |_, guide, amiss| {
             let e = &self.motion.directions[guide];
@@ -938,11 +942,11 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
         Some(across.map(|guide| self.diagnostic(guide, span, what, help)))
     }
 
-    /// What acts with the derivatives of an expression as forces: an energy or what makes one, a
-    /// dissipation by its rates, a coordinate on which a force acts. In coordinates it acts along the
-    /// guides, and must act on what the guide carries itself, not through something else. What acts
-    /// between a body and a place in coordinates pulls on that place too, and nobody says what holds it
-    /// across the guide.
+    /// Tests a force that is the derivative of an expression: an energy, a dissipation by its rates,
+    /// or a coordinate on which a force acts. Written in coordinates it acts along the guides, and
+    /// must act on what the guide carries directly, not through something else. A force between a body
+    /// and a place in coordinates pulls on that place too, and what holds the place across the guide
+    /// is unknown.
     fn acting(&self, (expression, by): (Expr<'d>, &[Symbol]), what: &str, span: Span) -> Looked {
         let unsaid = self.first_unsaid(expression, by, |slopes, guide, _| {
             let along = self.alongs.iter().find(|(k, _)| *k == guide);
@@ -953,7 +957,7 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
         Some(unsaid.map(|guide| self.diagnostic(guide, span, what, help)))
     }
 
-    /// A force at a point in coordinates is right where it acts along the guide.
+    /// Tests a force at a point in coordinates, which must act along the guide.
     fn force(&self, what: &str, (at, value): (&[Expr<'d>], &[Expr<'d>]), span: Span) -> Looked {
         let slopes: Vec<Vec<T>> = at
             .iter()
@@ -978,7 +982,7 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
     }
 }
 
-/// The coordinates whose rates are in the slip of a guide.
+/// For each coordinate whether its rate occurs in the slip of a guide.
 fn slides_by(model: &Model<'_>, guide: usize) -> Vec<bool> {
     let x = Variables::of(model);
     let sliding = model.sliding()[guide];
@@ -1010,8 +1014,8 @@ fn is_a_base(model: &Model<'_>, body: usize) -> bool {
     })
 }
 
-/// Bodies and what guides are on, and where they are: the components of a place, and how it is turned where a rotation
-/// has inertia, or turns a guide: an angle in the plane, the axes in space.
+/// The bodies and the bases of guides, with their places: the components of the position and, if a rotation has
+/// inertia or turns a guide, the orientation, an angle in the plane and the axes in space.
 fn parts<'d>(model: &Model<'d>) -> (Vec<Part>, Vec<Expr<'d>>) {
     let (mut parts, mut places) = (Vec::new(), Vec::new());
     let mut add = |what, place: &[Expr<'d>], turned: Vec<Expr<'d>>| {
@@ -1036,7 +1040,7 @@ fn parts<'d>(model: &Model<'d>) -> (Vec<Part>, Vec<Expr<'d>>) {
     (parts, places)
 }
 
-/// How something is turned: by an angle in the plane; in space its axes, which turn as it does.
+/// The orientation: an angle in the plane; in space the axes.
 fn turned<'d>(model: &Model<'d>, rotation: Rotation<'d>) -> Vec<Expr<'d>> {
     match (model.space, rotation) {
         (Space::Plane, rotation) => planar_turn(model, rotation).into_iter().collect(),
@@ -1051,8 +1055,8 @@ fn dot<T: Scalar>(u: &[T], v: &[T]) -> T {
     terms.fold(T::ZERO, |sum, term| sum + term)
 }
 
-/// A column as a combination of others, by Gauss's elimination; none if it is no combination. What is
-/// not determined is 0.
+/// A column as a linear combination of others, by Gaussian elimination; none if it is not one.
+/// Undetermined coefficients are 0.
 fn combination<T: Number>(columns: Vec<Vec<T>>, target: Vec<T>, size: f64) -> Option<Vec<T>> {
     let width = columns.len();
     let height = target.len();

@@ -1,16 +1,15 @@
-//! The inertia that a frame in space carries, eq. (E27): all that is fixed to it, as one.
+//! Composite inertia of frames in space, eq. (E27): everything fixed to a frame, as one body.
 //!
-//! Three things make one composite body of what a link consists of, and one with few parameters. What is fixed to frames
-//! that are a constant shift apart is added up. Of that, what is symmetric about the axis of the
-//! link's hinge moves as if it were fixed to what carries the hinge, whatever the angle: the mass as
-//! if it were on the axis, the first moment along it, and as much inertia as both directions across
-//! it have, are handed on to there. So every link but the last loses its mass, and of its ten
-//! parameters of inertia at most seven are left (W. Khalil and J.-F. Bennis, *Symbolic calculation
-//! of the base inertial parameters of closed-loop robots*, Int. J. Robotics Res. 14 (1995)
-//! 112–128). What reaches the ground is gone.
+//! Three steps make one composite body of the parts of a link, with few parameters. The inertia of all bodies fixed to
+//! frames that are a constant shift apart is added up. The part of it that is symmetric about the axis of the link's
+//! hinge moves as if it were fixed to the carrier of the hinge, whatever the angle: the mass as if it were on the axis,
+//! the first moment along the axis, and as much inertia as the two directions across it have in common are handed on to
+//! the carrier. So every link but the last loses its mass, and of its ten inertia parameters at most seven remain (W.
+//! Khalil and J.-F. Bennis, *Symbolic calculation of the base inertial parameters of closed-loop robots*, Int. J.
+//! Robotics Res. 14 (1995) 112–128). What reaches the ground has no effect and is dropped.
 //!
-//! The kinetic energy is the same for every motion, and so is every equation; all of this is work of
-//! the parameter stage.
+//! The kinetic energy is the same for every motion, and so is every equation; all of this is
+//! computed in the parameter stage.
 
 use lagrangian_symbolic::{Dag, Expr, Stage};
 
@@ -39,7 +38,7 @@ impl<'d> Composite<'d> {
         }
     }
 
-    /// A body: its mass, its centre, and its inertia about the centre.
+    /// The composite of a body, from its mass, its centre, and its inertia about the centre.
     pub fn of_body(mass: Expr<'d>, centre: &Vector<'d>, tensor: &[Expr<'d>; 6]) -> Composite<'d> {
         let at_centre = Composite {
             mass,
@@ -49,7 +48,7 @@ impl<'d> Composite<'d> {
         at_centre.shifted(centre)
     }
 
-    /// Whether parameters alone decide it.
+    /// Whether it depends on parameters alone.
     pub fn is_constant(&self) -> bool {
         self.components().all(|x| x.stage() <= Stage::PARAMETER)
     }
@@ -61,7 +60,7 @@ impl<'d> Composite<'d> {
             .chain(self.tensor)
     }
 
-    /// Whether its inertia depends on how the origin moves.
+    /// Whether its inertia depends on the motion of the origin.
     pub fn moves(&self) -> bool {
         [self.mass]
             .into_iter()
@@ -81,8 +80,8 @@ impl<'d> Composite<'d> {
         }
     }
 
-    /// This body about the origin of a frame that sees this one's at `r`: `s + m r`, and `J` with
-    /// `(2 r·s + m r²) 1 − (r sᵀ + s rᵀ + m r rᵀ)` more.
+    /// This body about the origin of a frame in which the origin of this one is at `r`: `s + m r`,
+    /// and `J` plus `(2 r·s + m r²) 1 − (r sᵀ + s rᵀ + m r rᵀ)`.
     fn shifted(&self, r: &Vector<'d>) -> Composite<'d> {
         let Composite {
             mass: m,
@@ -106,7 +105,7 @@ impl<'d> Composite<'d> {
         }
     }
 
-    /// What is symmetric about an axis, and the rest.
+    /// The part that is symmetric about an axis, and the rest.
     fn split(&self, axis: usize) -> [Composite<'d>; 2] {
         let (next, last) = others(axis);
         let zero = self.mass.dag().zero();
@@ -120,7 +119,7 @@ impl<'d> Composite<'d> {
         [symmetric, rest]
     }
 
-    /// Momentum and its moment about the origin: `m u + ω×s`, `J ω + s×u`.
+    /// Momentum and angular momentum about the origin: `m u + ω×s`, `J ω + s×u`.
     pub fn momentum(&self, motion: &Twist<'d>) -> [Vector<'d>; 2] {
         let Twist { linear, angular } = motion;
         [
@@ -135,8 +134,8 @@ impl<'d> Composite<'d> {
         ]
     }
 
-    /// What inertia demands, about the origin: `m a + W s` with `W s = α×s + ω×(ω×s)`, and `J α +
-    /// ω×J ω + s×a`, eq. (E15).
+    /// Force and moment required by inertia, about the origin: `m a + W s` with
+    /// `W s = α×s + ω×(ω×s)`, and `J α + ω×J ω + s×a`, eq. (E15).
     pub fn demand(&self, turning: &Turning<'d>, a: &Vector<'d>) -> [Vector<'d>; 2] {
         let carried = turning.apply(&self.moment);
         let moment = cross(&self.moment, a);
@@ -147,7 +146,7 @@ impl<'d> Composite<'d> {
         ]
     }
 
-    /// Pairs of `u`, `ω` and their weights: `T = ½ Σ weight u w`.
+    /// Triples of `u`, `ω` and their weight: `T = ½ Σ weight u w`.
     pub fn pairs(&self, motion: &Twist<'d>) -> Vec<[Expr<'d>; 3]> {
         let [x, y, z] = motion.angular;
         let [xx, yy, zz, xy, xz, yz] = self.tensor;
@@ -164,8 +163,9 @@ impl<'d> Composite<'d> {
     }
 }
 
-/// Gathers composites, by pose: adds up what is fixed together, and hands on what is symmetric about a
-/// hinge wherever something else is there to take it, or it is gone.
+/// The composites by pose: adds up bodies that are fixed together, and hands the part that is
+/// symmetric about a hinge on to its carrier, if that carries something else or is the ground, where
+/// the part is dropped.
 pub(super) fn gathered<'d>(
     model: &Model<'d>,
     bodies: impl Iterator<Item = (PoseId, Composite<'d>)>,
@@ -190,7 +190,7 @@ pub(super) fn gathered<'d>(
         let Step::Turn { axis, .. } = &model.poses[index].step else {
             continue;
         };
-        // Up constant shifts to the next turn, or the ground.
+        // Follow constant shifts up to the next turn, or to the ground.
         let mut carrier = model.poses[index].parent;
         let mut shifts: Vec<&[Expr<'d>]> = Vec::new();
         while let Step::Shift(r) = &model.poses[carrier.index()].step

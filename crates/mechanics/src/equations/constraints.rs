@@ -1,4 +1,4 @@
-//! Bilateral constraints, as they meet the accelerations.
+//! Bilateral constraints, as conditions on the accelerations.
 //!
 //! ```text
 //! holonomic      g(q, t) = 0,   φ = Dg = G v + ∂g/∂t,   G = ∂g/∂q       (E29)
@@ -8,7 +8,7 @@
 //! ```
 //!
 //! `D` is the total time derivative (E8), so explicit time is in `φ` and in `γ`. Circles that roll
-//! on each other give one constraint of each kind: they touch, and the points that touch have the
+//! on each other give one constraint of each kind: they touch, and the touching points have the
 //! same velocity.
 
 use lagrangian_symbolic::{Expr, normal, substitute};
@@ -22,18 +22,18 @@ use lagrangian_spec::model::{Model, stage};
 use lagrangian_spec::source::Span;
 use lagrangian_spec::unit::Unit;
 
-/// The most terms of a constraint that is multiplied out, to see what cancels: the distance of two
-/// circles in polar coordinates has a dozen.
+/// The largest number of terms of a constraint that is multiplied out to find what cancels: the
+/// distance of two circles in polar coordinates has a dozen.
 const TERMS: usize = 200;
 
 /// A bilateral constraint.
 #[derive(Clone, Debug)]
 pub struct ConstraintEquation<'d> {
-    /// Its name; the two of circles that roll are `wheel.gap` and `wheel.slip`.
+    /// Its name; the two constraints of rolling circles are `wheel.gap` and `wheel.slip`.
     pub name: String,
     /// `g(q, t)`, of a holonomic one.
     pub position: Option<Expr<'d>>,
-    /// `φ(q, v, t)`, which is `dg/dt` of a holonomic one; linear in `v`.
+    /// `φ(q, v, t)`, which is `dg/dt` if it is holonomic; linear in `v`.
     pub rate: Expr<'d>,
     /// The row of `G(q, t)`.
     pub row: Vec<Expr<'d>>,
@@ -41,7 +41,7 @@ pub struct ConstraintEquation<'d> {
     pub drift: Expr<'d>,
     /// The symbol of its multiplier `λ`.
     pub multiplier: Expr<'d>,
-    /// The unit of `g`, or of `φ` where there is no `g`.
+    /// The unit of `g`, or of `φ` if there is no `g`.
     pub unit: Unit,
 }
 
@@ -79,7 +79,7 @@ impl<'d> ConstraintEquation<'d> {
     }
 }
 
-/// The constraints of a machine, those of `constraints` first.
+/// The constraints of a machine, beginning with those of the section `constraints`.
 pub fn constraints<'d>(model: &Model<'d>) -> Vec<ConstraintEquation<'d>> {
     let x = Variables::of(model);
     let said = model.constraints().into_iter().map(|constraint| {
@@ -90,7 +90,7 @@ pub fn constraints<'d>(model: &Model<'d>) -> Vec<ConstraintEquation<'d>> {
         };
         let rates = standing(said);
         if !rates.is_empty() {
-            // A rate that cancels is none, however it is spelled.
+            // Rates that cancel do not count, whatever the form of the expression.
             let gone = identity::irrelevant(model.dag, &[said], rates);
             said = identity::without(model.dag, vec![said], &gone)[0];
         }
@@ -109,7 +109,7 @@ pub fn constraints<'d>(model: &Model<'d>) -> Vec<ConstraintEquation<'d>> {
     all
 }
 
-/// Where the spec says each of the [`constraints`].
+/// The span of each of the [`constraints`] in the spec.
 pub(super) fn spans(model: &Model<'_>) -> Vec<Span> {
     let rolling = model.rolling();
     let rolling = rolling.iter().flat_map(|r| [r.span, r.span]);
@@ -117,7 +117,7 @@ pub(super) fn spans(model: &Model<'_>) -> Vec<Span> {
     said.iter().map(|c| c.span).chain(rolling).collect()
 }
 
-/// The rates `φ` of constraints where nothing moves: 0 but for those that move by themselves.
+/// The rates `φ` of constraints at zero velocities: 0 except for rheonomic ones.
 pub(super) fn rates_at_rest<'d>(
     model: &Model<'d>,
     constraints: &[ConstraintEquation<'d>],
@@ -128,7 +128,7 @@ pub(super) fn rates_at_rest<'d>(
     substitute(model.dag, &rates, &at_rest)
 }
 
-/// What is to be zero.
+/// The residual of a constraint.
 enum Statement<'d> {
     Position(Expr<'d>),
     Rate(Expr<'d>),
@@ -164,9 +164,9 @@ fn equation<'d>(
     }
 }
 
-/// Circles that touch and do not slip. `gap` opens with a positive multiplier, the force that presses
-/// one on the other; the multiplier of `slip` is the friction on the first circle, along the
-/// tangent that is the direction to it from the other's centre, turned left.
+/// Circles that touch and do not slip. A positive multiplier of `gap` opens it and is the force that
+/// presses one circle on the other; the multiplier of `slip` is the friction on the first circle,
+/// along the tangent that is the direction from the other's centre to it, turned left.
 fn of_rolling<'d>(
     model: &Model<'d>,
     x: &Variables<'d>,

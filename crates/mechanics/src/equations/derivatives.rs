@@ -1,16 +1,16 @@
-//! Derivatives of the accelerations, by the theorem of implicit functions.
+//! Derivatives of the accelerations, by the implicit function theorem.
 //!
-//! The accelerations are where `r(a, x) = f − M a` vanishes, whatever else `x` there is in the
+//! The accelerations are the root of `r(a, x) = f − M a`, where `x` is any other variable of the
 //! equations: a coordinate, a rate, an input, a parameter. Differentiating `r(a(x), x) = 0` gives
 //!
 //! ```text
 //! M ∂a/∂x = ∂r/∂x        (E26), on the right with a held at its value
 //! ```
 //!
-//! With constraints the multipliers are unknowns too, and `r` goes on with `γ − G a`. So no
-//! acceleration is ever differentiated: each column takes one forward sweep over `r`, which
-//! is linear in the number of links, and one more right-hand side for the elimination that the
-//! accelerations themselves take.
+//! With constraints the multipliers are unknowns too, and `r` continues with `γ − G a`. So no
+//! acceleration is ever differentiated: each column takes one forward sweep over `r`, which is
+//! linear in the number of links, and one more right-hand side in the elimination that the
+//! accelerations take anyway.
 
 use lagrangian_symbolic::{Expr, Symbol, Tangent};
 
@@ -18,7 +18,7 @@ use super::constraints::ConstraintEquation;
 use super::symmetric::Symmetric;
 use lagrangian_spec::model::{Model, Variable};
 
-/// The residual of the equations of a machine with constraints: `f − M a + Gᵀ λ`, and behind it
+/// The residual of the equations of a machine with constraints: `f − M a + Gᵀ λ`, followed by
 /// `γ − G a`.
 pub(super) fn constrained<'d>(
     model: &Model<'d>,
@@ -38,7 +38,7 @@ pub(super) fn constrained<'d>(
     held.chain(kept).collect()
 }
 
-/// `f − M a`, eq. (E25), where there is no projection to take it from.
+/// `f − M a`, eq. (E25), if there is no projection that gives it directly.
 pub(super) fn unbalanced<'d>(
     model: &Model<'d>,
     mass_matrix: &Symmetric<Expr<'d>>,

@@ -1,4 +1,4 @@
-//! Energies and dissipation, each the sum that a textbook writes.
+//! Energies and dissipation, each as the sum in textbooks.
 
 use lagrangian_symbolic::{Expr, Tangent};
 
@@ -12,7 +12,7 @@ pub(super) fn kinetic_energy<'d>(body: &Body<'d>, motion: &Motion<'d>) -> Expr<'
     kinetic_form(body, motion, motion) / 2
 }
 
-/// The symmetric bilinear form of which `T` is half the square: `m u·w + ω_uᵀ I ω_w`.
+/// The symmetric bilinear form whose quadratic form is `2 T`: `m u·w + ω_uᵀ I ω_w`.
 pub(super) fn kinetic_form<'d>(body: &Body<'d>, u: &Motion<'d>, w: &Motion<'d>) -> Expr<'d> {
     let rotation = match &body.inertia {
         Inertia::Particle => None,
@@ -39,7 +39,7 @@ pub(super) fn potential_energy<'d>(model: &Model<'d>) -> Expr<'d> {
     model.dag.sum(stored.chain(weights(model)))
 }
 
-/// One share of the potential energy.
+/// A term of the potential energy.
 pub(super) fn stored<'d>(energy: &Energy<'d>) -> Expr<'d> {
     match energy {
         Energy::Quadratic(deformation) => deformation.energy(),
@@ -55,8 +55,8 @@ pub(super) fn weights<'d>(model: &Model<'d>) -> impl Iterator<Item = Expr<'d>> {
     })
 }
 
-/// Rayleigh's dissipation function, eq. (E3): `D = Σ ½ b ṡ² + Σ R`, over deformations that are damped
-/// and given functions.
+/// Rayleigh's dissipation function, eq. (E3): `D = Σ ½ b ṡ² + Σ R`, over damped deformations and
+/// given functions.
 ///
 /// `rate` is the total derivative.
 pub(super) fn dissipation<'d>(model: &Model<'d>, rate: &mut Tangent<'d>) -> Expr<'d> {
@@ -65,7 +65,7 @@ pub(super) fn dissipation<'d>(model: &Model<'d>, rate: &mut Tangent<'d>) -> Expr
         .sum(model.dissipated().map(|energy| dissipated(energy, rate)))
 }
 
-/// One share of the dissipation function.
+/// A term of the dissipation function.
 pub(super) fn dissipated<'d>(energy: &Energy<'d>, rate: &mut Tangent<'d>) -> Expr<'d> {
     match energy {
         Energy::Quadratic(damped) => damped.coefficient * rate.of(damped.measure).square() / 2,

@@ -1,12 +1,12 @@
-//! How a machine may move: coordinates, constraints that are independent, and the freedom left.
+//! Degrees of freedom of a machine: coordinates, independent constraints, and the difference.
 //!
-//! What counts is the rank of `G` on the constraints: at coordinates that meet them, since two
-//! constraints that say the same have independent rows wherever they are violated. Such places are
-//! found from the start by Newton's method, in double-double, and from each by a step at random
-//! along the directions that are free, and Newton's method again. A rank can only fall at a place,
-//! so the largest found is the one that holds nearly everywhere about the start; at the start
-//! itself it may be less, where motions fork. The constraints of a rate, of rolling for one, count
-//! as those of a place do.
+//! The number of independent constraints is the rank of `G` at coordinates that satisfy the
+//! constraints; elsewhere it may be larger, since two equivalent constraints have independent rows
+//! wherever they are violated. Such places are found by Newton's method in double-double, from the
+//! start, and from each place after a random step along the free directions. The rank can only be
+//! lower at special places, so the largest one found holds nearly everywhere about the start; at
+//! the start itself it may be lower, at a bifurcation of motions. Constraints of rates, such as
+//! rolling, count like those of positions.
 
 mod contradiction;
 
@@ -20,47 +20,49 @@ use super::{ConstraintEquation, Equations};
 use lagrangian_spec::identity;
 use lagrangian_spec::model::Model;
 
-/// How many places are looked at besides the start.
+/// The number of places that are examined besides the start.
 const PLACES: usize = 5;
 
-/// The most constraints and coordinates, multiplied, of a machine whose rank is found: a place takes
-/// milliseconds then.
+/// The largest product of the numbers of constraints and coordinates for which the rank is computed;
+/// a place then takes milliseconds.
 const MOST_ENTRIES: usize = 4096;
 
-/// The most steps of Newton's method. It converges quadratically, and at a fork by halves.
+/// The largest number of steps of Newton's method. It converges quadratically, but only linearly,
+/// by halves, at a bifurcation.
 const STEPS: usize = 120;
 
-/// A row of `G` counts as dependent where no more of its length than this is left. Places are known
-/// to 1e-14 at a fork and to 1e-28 elsewhere.
+/// A row of `G` counts as dependent if at most this fraction of its length remains. Places are
+/// known to 1e-14 at a bifurcation and to 1e-28 elsewhere.
 const DEPENDENT: f64 = 1e-10;
 
-/// What the constraints may be off, of the size of their rows: double-double rounds at 1e-32.
+/// The tolerance of residuals, relative to the size of their rows: double-double rounds at 1e-32.
 const MET: f64 = 1e-26;
 
-/// How freely a machine moves.
+/// The degrees of freedom of a machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Freedom {
     /// The generalized coordinates.
     pub coordinates: usize,
-    /// The fours of coordinates that turn frames, the length of each of which is no freedom.
+    /// The number of quaternions that turn frames; the length of each is not a degree of freedom.
     pub lengths: usize,
     /// The constraints, two for each rolling contact.
     pub constraints: usize,
-    /// How many of them are independent; none where no place was found that meets them.
+    /// The number of independent ones; none if no place was found that satisfies them.
     pub independent: Option<Independent>,
 }
 
-/// How many constraints are independent.
+/// The number of independent constraints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Independent {
     /// Nearly everywhere about the start.
     pub generic: usize,
-    /// At the start, or where it meets the constraints next to that.
+    /// At the start, or at the nearest place that satisfies the constraints.
     pub at_start: usize,
 }
 
 impl Freedom {
-    /// The degrees of freedom: coordinates less independent constraints, and less the lengths of fours.
+    /// The degrees of freedom: coordinates minus independent constraints and minus the lengths
+    /// of quaternions.
     pub fn degrees(&self) -> Option<usize> {
         let coordinates = self.coordinates - self.lengths;
         match (self.constraints, self.independent) {
@@ -70,7 +72,8 @@ impl Freedom {
     }
 }
 
-/// The freedom of a machine. Parameters have their defaults; those without are of the order of 1.
+/// The freedom of a machine. Parameters have their defaults; those without a default are of the
+/// order of 1.
 pub fn freedom<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Freedom {
     let constraints = &equations.constraints;
     let coordinates = model.coordinates.len();
@@ -90,12 +93,12 @@ pub fn freedom<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Freedom {
 
 type Row = Vec<DoubleDouble>;
 
-/// The places of a machine, as numbers.
+/// Evaluates the constraints of a machine at places.
 struct Places<'m, 'd> {
     model: &'m Model<'d>,
-    /// What is to be zero, then the rows of `G`: those of places first.
+    /// The residuals, then the rows of `G`; constraints of positions come first.
     formulas: Vec<Expr<'d>>,
-    /// How many constraints are of places.
+    /// The number of constraints of positions.
     of_places: usize,
     rows: usize,
     known: FxHashMap<Symbol, DoubleDouble>,
@@ -148,7 +151,7 @@ impl<'m, 'd> Places<'m, 'd> {
         (self.seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    /// Where the spec says that the machine starts; none where that has no value.
+    /// The start of the machine in the spec; none if it has no value.
     fn start(&self) -> Option<Row> {
         let starts: Vec<Expr<'d>> = self.model.coordinates.iter().map(|q| q.start).collect();
         let zero = DoubleDouble::from_f64(0.0);
@@ -162,7 +165,8 @@ impl<'m, 'd> Places<'m, 'd> {
         let at_start = self.rank(&place)?;
         let mut generic = at_start;
         for _ in 0..PLACES {
-            // Shorter steps where a long one leads to where the constraints cannot be met.
+            // Take a shorter step if a longer one leads to where the constraints cannot
+            // be satisfied.
             let found = [0.3, 0.03, 0.003].into_iter().find_map(|length| {
                 let step: Row = place
                     .iter()
@@ -183,7 +187,7 @@ impl<'m, 'd> Places<'m, 'd> {
         Some(Independent { generic, at_start })
     }
 
-    /// The numbers that are known at a place.
+    /// The values of the symbols at a place.
     fn known_at(&self, place: &[DoubleDouble]) -> FxHashMap<Symbol, DoubleDouble> {
         let coordinates = self.model.coordinates.iter().zip(place);
         let mut values = self.known.clone();
@@ -191,7 +195,8 @@ impl<'m, 'd> Places<'m, 'd> {
         values
     }
 
-    /// What the constraints are off at a place, and the rows of `G`; none where they have no value.
+    /// The residuals of the constraints at a place, and the rows of `G`; none if they have
+    /// no value.
     fn at(&self, place: &[DoubleDouble]) -> Option<(Row, Vec<Row>)> {
         let values = self.known_at(place);
         let zero = DoubleDouble::from_f64(0.0);
@@ -211,7 +216,7 @@ impl<'m, 'd> Places<'m, 'd> {
         Some(orthogonal(&rows).len())
     }
 
-    /// A place next to this one that meets the constraints.
+    /// A place near this one that satisfies the constraints.
     fn met_near(&self, mut place: Row) -> Option<Row> {
         if self.of_places == 0 {
             return Some(place);
@@ -227,13 +232,13 @@ impl<'m, 'd> Places<'m, 'd> {
             }
             let step = least_step(&rows, &residuals);
             let longest = step.iter().map(|d| d.to_f64().abs()).fold(0.0, f64::max);
-            // Far from the constraints a whole step may lead anywhere.
+            // Far from the constraints a full step may lead anywhere.
             let damped = (0.5 * size / longest.max(1e-300)).min(1.0);
             for (q, d) in place.iter_mut().zip(step) {
                 *q = *q - d * DoubleDouble::from_f64(damped);
             }
         }
-        // At a fork Newton's method gains a bit a step, and ends where rounding does.
+        // At a bifurcation Newton's method gains one bit per step, and ends at round-off.
         let (residuals, _) = self.at(&place)?;
         let off = residuals.iter().map(|off| off.to_f64().abs());
         (off.fold(0.0, f64::max) <= 1e-20).then_some(place)
@@ -249,7 +254,7 @@ fn length(row: &[DoubleDouble]) -> f64 {
     dot(row, row).to_f64().sqrt()
 }
 
-/// A vector less its parts along orthonormal rows.
+/// A vector minus its components along orthonormal rows.
 fn free_part(rows: &[Row], mut vector: Row) -> Row {
     // Twice is enough: W. Kahan, in B. N. Parlett, The Symmetric Eigenvalue Problem (1980) §6.9.
     for row in rows.iter().chain(rows) {
@@ -261,13 +266,13 @@ fn free_part(rows: &[Row], mut vector: Row) -> Row {
     vector
 }
 
-/// Orthonormal rows that span the same, as many as are independent. The longest is taken first, by
-/// the remainder of its own length.
+/// Orthonormal rows that span the same space, as many as are independent. The row with the largest
+/// remainder relative to its length is taken first.
 fn orthogonal(rows: &[Row]) -> Vec<Row> {
     pivoted(rows).into_iter().map(|(_, row)| row).collect()
 }
 
-/// [`orthogonal`] rows, each with the place of the row that it comes from.
+/// The rows of [`orthogonal`], each with the index of the row that it comes from.
 fn pivoted(rows: &[Row]) -> Vec<(usize, Row)> {
     let unit = |row: &Row| {
         let length = dot(row, row).sqrt();
@@ -300,12 +305,13 @@ fn pivoted(rows: &[Row]) -> Vec<(usize, Row)> {
     found
 }
 
-/// The shortest step that meets, to first order, as many constraints as are independent.
+/// The shortest step that satisfies, to first order, as many constraints as are independent.
 fn least_step(rows: &[Row], residuals: &[DoubleDouble]) -> Row {
     let zero = DoubleDouble::from_f64(0.0);
     let width = rows.first().map_or(0, Vec::len);
     let mut step = vec![zero; width];
-    // Along each new direction in turn, so that its row, which has none of the later ones, is met.
+    // Along each new direction in turn: its row has no component along later ones, so it
+    // stays satisfied.
     for (place, direction) in pivoted(rows) {
         let missing = residuals[place] - dot(&rows[place], &step);
         let gain = dot(&rows[place], &direction);

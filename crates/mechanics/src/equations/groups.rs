@@ -1,8 +1,8 @@
-//! The equations of motion in groups, as an engineer reads them: inertia, velocity terms, drive, gravity, springs, dampers,
-//! and what is applied.
+//! The equations of motion as groups of terms for an engineer to read: inertia, velocity terms, drive, gravity, springs,
+//! dampers, and applied forces.
 //!
-//! Nothing new is derived: the groups of an equation add up to `(M a + h − Q)ᵢ`, and a test says so for every machine. They
-//! are for reading; programs are made from `M`, `h` and `f` themselves.
+//! Nothing new is derived: the groups of an equation add up to `(M a + h − Q)ᵢ`, as a test checks for every machine. They
+//! are for reading only; programs are made from `M`, `h` and `f` themselves.
 
 use lagrangian_symbolic::normal::{self, READABLE_BUDGET};
 use lagrangian_symbolic::{Expr, Node, Symbol};
@@ -15,15 +15,16 @@ use lagrangian_spec::identity;
 use lagrangian_spec::model::Model;
 use lagrangian_spec::model::element::{Contribution, Energy};
 
-/// The most terms of a velocity term multiplied out, to see by which rates it goes.
+/// The largest number of terms of a velocity term that is multiplied out to find the rates in it.
 const VELOCITY_TERMS: usize = 1000;
 
-/// What one element does by one of its means: what it stores, what it dissipates, or what it applies.
+/// One contribution of one element: the energy that it stores, the dissipation, or the force that
+/// it applies.
 #[derive(Clone, Debug)]
 pub struct Share<'d> {
     /// The element, by its index in [`Model::elements`].
     pub element: usize,
-    /// With what it stands in an equation.
+    /// Its kind of term in an equation.
     pub kind: Kind,
     /// Its share of the potential energy or of the dissipation function; a force has none.
     pub energy: Option<Expr<'d>>,
@@ -31,7 +32,7 @@ pub struct Share<'d> {
     pub forces: Vec<Expr<'d>>,
 }
 
-/// The applied forces by their elements: their sum is `Q`, eq. (E6).
+/// The applied forces by element: their sum is `Q`, eq. (E6).
 pub fn shares<'d>(model: &Model<'d>) -> Vec<Share<'d>> {
     let dag = model.dag;
     let x = Variables::of(model);
@@ -49,7 +50,7 @@ pub fn shares<'d>(model: &Model<'d>) -> Vec<Share<'d>> {
         }
     };
 
-    // Energies, each as if it were the only one: −∂V/∂q.
+    // Each energy by itself: −∂V/∂q.
     for (index, element) in elements() {
         let all = element.contributions.iter();
         if all
@@ -119,7 +120,7 @@ pub fn shares<'d>(model: &Model<'d>) -> Vec<Share<'d>> {
     shares
 }
 
-/// What acts on the lengths of the numbers that turn frames, eq. (E75), one for each coordinate: a part of `Q` that no element makes.
+/// The forces on the lengths of quaternions, eq. (E75), one for each coordinate: a part of `Q` that comes from no element.
 pub fn on_lengths<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
     if model.quaternions.is_empty() {
         return vec![model.dag.zero(); model.coordinates.len()];
@@ -131,7 +132,7 @@ pub fn on_lengths<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
     projection.project(&loads, 0..x.q.len())
 }
 
-/// What is zero becomes 0.
+/// Replaces forces that are identically zero by 0.
 fn settle<'d>(model: &Model<'d>, shares: &mut [Share<'d>]) {
     let forces = shares.iter().flat_map(|c| c.forces.iter().copied());
     let mut forces: Vec<Expr<'d>> = forces.collect();
@@ -140,7 +141,7 @@ fn settle<'d>(model: &Model<'d>, shares: &mut [Share<'d>]) {
     places.zip(forces).for_each(|(place, force)| *place = force);
 }
 
-/// What the terms of a group have in common.
+/// The kind of the terms of a group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// The mass matrix times the accelerations.
@@ -149,9 +150,9 @@ pub enum Kind {
     Centrifugal,
     /// Products of two rates.
     Coriolis,
-    /// All of `h` where it is too long to be taken apart.
+    /// All of `h`, if it is too long to be split.
     Velocity,
-    /// What explicit time contributes to the inertia.
+    /// Contributions of explicit time to the inertia forces.
     Drive,
     /// Weights.
     Gravity,
@@ -161,14 +162,14 @@ pub enum Kind {
     Potentials,
     /// Dampers and given dissipation functions.
     Dissipation,
-    /// Applied forces and torques, inputs among them: these stand on the right side.
+    /// Applied forces and torques, including inputs: these stand on the right side.
     Applied,
 }
 
 /// Terms of one kind.
 #[derive(Clone, Debug)]
 pub struct Group<'d> {
-    /// What they have in common.
+    /// Their kind.
     pub kind: Kind,
     /// The terms. Their sum stands on the left side of the equation, or on the right if they are [`Kind::Applied`].
     pub terms: Vec<Term<'d>>,
@@ -177,7 +178,7 @@ pub struct Group<'d> {
 /// `coefficient·factor`.
 #[derive(Clone, Copy, Debug)]
 pub struct Term<'d> {
-    /// What stands before the factor, in a form to be read.
+    /// The coefficient of the factor, in readable form.
     pub coefficient: Expr<'d>,
     /// An acceleration, a product of rates, or 1.
     pub factor: Expr<'d>,
@@ -190,10 +191,10 @@ impl<'d> Term<'d> {
     }
 }
 
-/// The equation of motion of coordinate `i` in groups, in the order of their kinds; empty groups are left out.
+/// The equation of motion of coordinate `i` in groups, in the order of their kinds, without empty groups.
 ///
-/// `shares` are those of the same model. On the left `M a + h` and what potentials and dampers do, on the right what
-/// is applied.
+/// `shares` are those of the same model. On the left are `M a + h` and the forces of potentials and dampers, on the
+/// right the applied forces.
 pub fn equation<'d>(
     model: &Model<'d>,
     equations: &Equations<'d>,
@@ -237,7 +238,7 @@ pub fn equation<'d>(
     ] {
         let of_kind = shares.iter().filter(|share| share.kind == kind);
         let sum = of_kind.map(|share| share.forces[i]);
-        // The row of a state says what its rate is.
+        // The row of a state gives its rate.
         let rate = model.coordinates[i].rate;
         let others = rate.into_iter().chain([on_lengths[i]]);
         let sum = dag.sum(sum.chain(others.filter(|_| kind == Kind::Applied)));
@@ -254,8 +255,8 @@ pub fn equation<'d>(
     groups
 }
 
-/// The bias by the rates in it. It is a polynomial of second degree in `v`; without explicit time it has no terms of a lower
-/// one, since `D²p` has none, eq. (E13).
+/// The bias, split by the rates in it. It is a quadratic polynomial in `v`; without explicit time it has only terms of
+/// second degree, like `D²p`, eq. (E13).
 fn velocity_terms<'d>(model: &Model<'d>, bias: Expr<'d>) -> Vec<(Kind, Term<'d>)> {
     if bias.is_zero() {
         return Vec::new();
@@ -278,7 +279,7 @@ fn velocity_terms<'d>(model: &Model<'d>, bias: Expr<'d>) -> Vec<(Kind, Term<'d>)
             [(_, 2)] => Kind::Centrifugal,
             _ => Kind::Coriolis,
         },
-        // A rate alone, or none.
+        // A single rate, or none.
         _ => Kind::Drive,
     };
     let terms = collected.into_iter();
@@ -296,7 +297,7 @@ fn velocity_terms<'d>(model: &Model<'d>, bias: Expr<'d>) -> Vec<(Kind, Term<'d>)
         .collect()
 }
 
-/// A coefficient in a form to be read, what its terms have in common before them.
+/// A coefficient in readable form, with the common factors of its terms taken out.
 pub fn compact(expression: Expr<'_>) -> Expr<'_> {
     normal::factored(readable(expression), READABLE_BUDGET)
 }

@@ -1,4 +1,4 @@
-//! Guides: along what a body slides, and how fast.
+//! Directions of guides, and velocities along and across them.
 
 use lagrangian_spec::identity;
 use lagrangian_spec::model::circles::planar_turn;
@@ -10,14 +10,14 @@ use super::kinematics::cross;
 
 /// The directions of a guide, unit vectors in ground axes.
 pub(super) struct Guide<'d> {
-    /// Along what the body slides.
+    /// The direction in which the body slides.
     pub along: Vec<Expr<'d>>,
-    /// The directions in which its reaction is counted: the normal in the plane. In space a guide presses in any direction
-    /// across, and its reaction is counted along the axes of the ground.
+    /// The directions of the components of its reaction: the normal in the plane. In space a guide presses in any
+    /// direction across itself, and its reaction is given in ground axes.
     pub axes: Vec<Vec<Expr<'d>>>,
 }
 
-/// The guides of a machine among its contacts: which of them a contact is of. A surface is one guide, and two contacts.
+/// The guide of each contact of a machine. A surface is one guide with two contacts.
 pub(crate) fn guides_of(model: &Model<'_>) -> Vec<usize> {
     let mut guides = 0;
     let number = |sliding: &Sliding<'_>| {
@@ -27,8 +27,8 @@ pub(crate) fn guides_of(model: &Model<'_>) -> Vec<usize> {
     model.sliding().into_iter().map(number).collect()
 }
 
-/// Whether in the equation that says what the reaction of one contact is, that of another takes part: each guide once, said by its
-/// first contact, and the own one by the contact itself.
+/// Whether the reaction of contact `other` occurs in the equation for the reaction of contact `own`: each guide occurs once, by
+/// its first contact, and the guide of `own` by that contact itself.
 pub(crate) fn counts(guides: &[usize], own: usize, other: usize) -> bool {
     if guides[own] == guides[other] {
         own == other
@@ -37,15 +37,15 @@ pub(crate) fn counts(guides: &[usize], own: usize, other: usize) -> bool {
     }
 }
 
-/// How a guided body moves on what it slides on, at some rate.
+/// The velocity of a guided body relative to its base.
 pub(super) struct Relative<'d> {
     /// Along the guide.
     pub slip: Expr<'d>,
-    /// Along each of the directions in which the reaction of the guide is counted.
+    /// Along each of the directions of the reaction's components.
     pub off: Vec<Expr<'d>>,
 }
 
-/// How a guided body moves on what it slides on, at some rate.
+/// The velocity of a guided body relative to its base; `rate` differentiates.
 pub(super) fn relative<'d>(
     model: &Model<'d>,
     sliding: &Sliding<'d>,
@@ -59,7 +59,7 @@ pub(super) fn relative<'d>(
     }
 }
 
-/// The velocity of a guided body seen from what it slides on, in ground axes: `ẋ_body − ẋ_on − ω_on×r`.
+/// The velocity of a guided body relative to its base, in ground axes: `ẋ_body − ẋ_on − ω_on×r`.
 pub(super) fn velocity<'d>(
     model: &Model<'d>,
     sliding: &Sliding<'d>,
@@ -81,8 +81,8 @@ pub(super) fn velocity<'d>(
     (0..at.len()).map(component).collect()
 }
 
-/// A point of what a body slides on, and the angular velocity of that: one number in the plane, three in ground axes in
-/// space; none where nothing says how it turns.
+/// A point of the base on which a body slides, and the base's angular velocity: one number in the plane, three in
+/// ground axes in space; none if its orientation is not given.
 pub(super) fn base<'m, 'd>(
     model: &'m Model<'d>,
     sliding: &Sliding<'d>,
@@ -104,12 +104,13 @@ pub(super) fn base<'m, 'd>(
     (origin, turning)
 }
 
-/// The angular velocity of a frame in space, in ground axes: the rates of all turns that lead to it, each about its own axis.
+/// The angular velocity of a frame in space, in ground axes: the sum over all turns that lead to it, each rate about its
+/// own axis.
 fn turning<'d>(model: &Model<'d>, mut pose: PoseId, rate: &mut Tangent<'d>) -> Vec<Expr<'d>> {
     let mut terms = vec![Vec::new(); 3];
     while pose != PoseId::GROUND {
         let here = &model.poses[pose.index()];
-        // A turn leaves its own axis where it is.
+        // A turn leaves its own axis unchanged.
         for (axis, rate) in here.step.turning(|x| Some(rate.of(x))).unwrap_or_default() {
             for (terms, &along) in terms.iter_mut().zip(&here.axes[axis]) {
                 terms.push(rate * along);
@@ -135,14 +136,15 @@ pub(super) fn guide<'d>(model: &Model<'d>, sliding: &Sliding<'d>) -> Guide<'d> {
         None => left,
         Some(given) => {
             let [x, y] = [sliding.direction[0], sliding.direction[1]];
-            // The given one is so many times the direction turned left, and the roots of their lengths
-            // need not be compared.
+            // The given normal is this multiple of the direction turned left, so the roots of their
+            // lengths need not be compared.
             let times = dot(given, &[-y, x]) / model.dag.sum([x.square(), y.square()]);
-            // Said by its components the direction turned is as good as the given one, and shorter.
+            // The direction turned left has the same components and is shorter to write than the
+            // given normal.
             match identity::steady_sign(times) {
                 Some(true) => left,
                 Some(false) => left.into_iter().map(|x| -x).collect(),
-                // The sides change with parameters or coordinates.
+                // The sign changes with parameters or coordinates.
                 None => unit(given),
             }
         }
@@ -151,7 +153,7 @@ pub(super) fn guide<'d>(model: &Model<'d>, sliding: &Sliding<'d>) -> Guide<'d> {
     Guide { along, axes }
 }
 
-/// A vector as long as 1.
+/// A vector normalized to length 1.
 pub(super) fn unit<'d>(vector: &[Expr<'d>]) -> Vec<Expr<'d>> {
     let dag = vector[0].dag();
     let square = dag.sum(vector.iter().map(|x| x.square()));

@@ -1,7 +1,7 @@
-//! What a machine conserves, and what its equations are free of: facts that are decided, not asserted.
+//! Conserved quantities of a machine, and variables that do not occur in its equations: facts that are
+//! tested, not assumed.
 //!
-//! Each is decided in the prime field, see [`lagrangian_spec::identity`]: what is said here has been tried. What cannot be decided is
-//! not said.
+//! Each is decided in the prime field, see [`lagrangian_spec::identity`]. What cannot be decided is not reported.
 
 use lagrangian_symbolic::Expr;
 
@@ -10,18 +10,18 @@ use super::{Equations, constraints, kinematics};
 use lagrangian_spec::identity;
 use lagrangian_spec::model::{Model, stage};
 
-/// What holds of the equations of a machine.
+/// Facts about the equations of a machine.
 #[derive(Clone, Debug)]
 pub struct Facts<'d> {
     /// Coordinates on which neither kinetic nor potential energy depends.
     pub cyclic: Vec<Cyclic<'d>>,
-    /// What becomes of the energy.
+    /// The balance of energy.
     pub energy: Energy<'d>,
     /// Whether neither an energy, nor the dissipation, nor an applied force depends on explicit time.
     pub autonomous: bool,
     /// Whether the mass matrix depends on nothing but parameters.
     pub constant_mass_matrix: bool,
-    /// Coordinates whose accelerations occur together, directly or by way of others: the diagonal blocks of the mass matrix.
+    /// Coordinates whose accelerations are coupled, directly or through others: the diagonal blocks of the mass matrix.
     pub blocks: Vec<Vec<usize>>,
 }
 
@@ -32,18 +32,18 @@ pub struct Cyclic<'d> {
     pub coordinate: usize,
     /// Its momentum `∂T/∂v`.
     pub momentum: Expr<'d>,
-    /// The generalized force on it, reactions of constraints included, which is all that changes the
-    /// momentum: 0 where it is conserved.
+    /// The generalized force on it, including reactions of constraints. It alone changes the
+    /// momentum, which is conserved if it is 0.
     pub force: Expr<'d>,
 }
 
-/// What becomes of the energy along every motion.
+/// The balance of energy along every motion.
 #[derive(Clone, Debug)]
 pub enum Energy<'d> {
-    /// `T + V`, with what states of first order store, is conserved.
+    /// `T + V`, with the energy stored in first-order states, is conserved.
     Conserved,
-    /// `Σ vᵢ ∂T/∂vᵢ − T + V`, Jacobi's integral, is conserved, and `T + V` is not: something is driven, in a way that
-    /// explicit time does not show in the energies.
+    /// `Σ vᵢ ∂T/∂vᵢ − T + V`, Jacobi's integral, is conserved, but `T + V` is not: something is driven in a way that
+    /// does not bring explicit time into the energies.
     Jacobi(Expr<'d>),
     /// `d(T + V)/dt = P − R`, eq. (E20).
     Balance,
@@ -66,8 +66,8 @@ impl<'d> Facts<'d> {
     }
 }
 
-/// By Lagrange's equations `dpᵢ/dt = ∂T/∂qᵢ + Qᵢ`: where `∂T/∂qᵢ = ∂V/∂qᵢ = 0` the momentum is changed by `Qᵢ` alone, and
-/// conserved if that is nothing. H. Goldstein, C. Poole, J. Safko, *Classical Mechanics*, 3rd ed. 2002, §2.6.
+/// By Lagrange's equations `dpᵢ/dt = ∂T/∂qᵢ + Qᵢ`: if `∂T/∂qᵢ = ∂V/∂qᵢ = 0`, the momentum is changed by `Qᵢ` alone, and
+/// is conserved if `Qᵢ = 0`. H. Goldstein, C. Poole, J. Safko, *Classical Mechanics*, 3rd ed. 2002, §2.6.
 fn cyclic<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Cyclic<'d>> {
     let dag = model.dag;
     let x = Variables::of(model);
@@ -75,7 +75,7 @@ fn cyclic<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Cyclic<'d>> {
     let kinetic = slopes(equations.kinetic_energy);
     let potential = slopes(equations.potential_energy);
     let momenta = kinematics::gradient(dag, equations.kinetic_energy, &x.v);
-    // Of the integral of a state that is nothing to be told.
+    // For the integral of a state the fact is trivial.
     let places = (0..x.q.len()).filter(|&i| model.coordinates[i].rate.is_none());
     let ignorable = places.filter(|&i| is_zero(kinetic[i]) && is_zero(potential[i]));
     let cyclic = |coordinate: usize| {
@@ -91,8 +91,8 @@ fn cyclic<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Cyclic<'d>> {
     ignorable.map(cyclic).collect()
 }
 
-/// `d/dt (Σ vᵢ ∂T/∂vᵢ − T + V) = Σ vᵢ Fᵢ − ∂T/∂t + ∂V/∂t`, where F is what neither comes from V nor from inertia; by (E20)
-/// `d(T + V)/dt = P − R`. Goldstein, §2.7.
+/// `d/dt (Σ vᵢ ∂T/∂vᵢ − T + V) = Σ vᵢ Fᵢ − ∂T/∂t + ∂V/∂t`, where F are the forces that come neither from V nor from
+/// inertia; by (E20) `d(T + V)/dt = P − R`. Goldstein, §2.7.
 fn energy<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Energy<'d> {
     let dag = model.dag;
     let x = Variables::of(model);
@@ -102,7 +102,7 @@ fn energy<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Energy<'d> {
     if model.energies_of_states().next().is_some() || model.losses().next().is_some() {
         return Energy::Balance;
     }
-    // A constraint that moves by itself does work, which no potential knows.
+    // A rheonomic constraint does work that no potential accounts for.
     let still = constraints::rates_at_rest(model, &equations.constraints);
     if !still.into_iter().all(is_zero) {
         return Energy::Balance;
@@ -146,7 +146,8 @@ fn is_autonomous(model: &Model<'_>, equations: &Equations<'_>) -> bool {
     sources.all(|source| is_zero(explicit.of(source)))
 }
 
-/// Coordinates that a chain of entries of the mass matrix joins, each list and the list of lists in ascending order.
+/// Coordinates that are connected by entries of the mass matrix; each list and the list of lists are in
+/// ascending order.
 fn blocks(model: &Model<'_>, equations: &Equations<'_>) -> Vec<Vec<usize>> {
     let n = equations.mass_matrix.dimension();
     let mut block: Vec<usize> = (0..n).collect();
@@ -167,7 +168,7 @@ fn blocks(model: &Model<'_>, equations: &Equations<'_>) -> Vec<Vec<usize>> {
         .collect()
 }
 
-/// Whether an expression is 0 for sure.
+/// Whether an expression is certainly 0.
 fn is_zero(expression: Expr<'_>) -> bool {
     identity::is_zero(expression) == Some(true)
 }

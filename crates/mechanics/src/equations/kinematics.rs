@@ -1,4 +1,4 @@
-//! Motion: velocities and accelerations of bodies, by differentiating where they are.
+//! Velocities and accelerations of bodies, by differentiating their positions.
 
 use lagrangian_symbolic::{Dag, Expr, Symbol, Tangent};
 
@@ -32,7 +32,7 @@ impl<'d> Variables<'d> {
 
     /// The total time derivative, eq. (E8): `D = ∂/∂t + Σ vᵢ ∂/∂qᵢ + Σ aᵢ ∂/∂vᵢ`.
     ///
-    /// Explicit time is always in it.
+    /// It always includes explicit time.
     pub fn total(&self, model: &Model<'d>) -> Tangent<'d> {
         let rates = self
             .v
@@ -45,16 +45,16 @@ impl<'d> Variables<'d> {
         )
     }
 
-    /// The total time derivative of a motion that does not accelerate: (E8) with `a = 0`.
+    /// The total time derivative of a motion without accelerations: (E8) with `a = 0`.
     ///
-    /// For whatever depends on `q` and `t` only it *is* the total derivative; applied twice it
-    /// gives all of an acceleration but the terms linear in `a`.
+    /// For an expression in `q` and `t` only it *is* the total derivative; applied twice it gives
+    /// the acceleration without the terms linear in `a`.
     pub fn coasting(&self, model: &Model<'d>) -> Tangent<'d> {
         Tangent::new(model.dag, &self.kinematic(model).collect::<Vec<_>>())
     }
 
-    /// The total time derivative of what depends on coordinates, states of first order and time: states change as they
-    /// are said to.
+    /// The total time derivative of an expression in coordinates, first-order states and time; states change at their
+    /// given rates.
     pub fn along_states(&self, model: &Model<'d>) -> Tangent<'d> {
         let states = self.v.iter().zip(&model.coordinates);
         let states = states.filter_map(|(&v, c)| Some((v, c.rate?)));
@@ -69,7 +69,7 @@ impl<'d> Variables<'d> {
         Tangent::new(model.dag, &[(self.t, model.dag.one())])
     }
 
-    /// `Σ vᵢ ∂/∂qᵢ`, with `t` held: along the virtual displacement `v`.
+    /// `Σ vᵢ ∂/∂qᵢ`, with `t` held: the variation along the virtual displacement `v`.
     pub fn virtual_motion(&self, model: &Model<'d>) -> Tangent<'d> {
         let rates = self
             .q
@@ -105,9 +105,9 @@ impl<'d> Variables<'d> {
     }
 }
 
-/// How one body moves: the velocity of its mass centre and its angular velocity.
+/// The motion of one body: the velocity of its mass centre and its angular velocity.
 ///
-/// Which axes they refer to is for the caller to say. The angular velocity has no component where
+/// The caller decides along which axes they are given. The angular velocity has no component if
 /// rotation carries no energy, one in the plane, three in space.
 #[derive(Clone, Debug)]
 pub(super) struct Motion<'d> {
@@ -115,9 +115,9 @@ pub(super) struct Motion<'d> {
     pub angular: Vec<Expr<'d>>,
 }
 
-/// How every body moves when coordinates and time change at the given `rate`, straight from
-/// positions and axes: the mass centre along the ground's axes, the angular velocity by (E9) about
-/// the body's own.
+/// The motion of every body if coordinates and time change at the given `rate`, directly from
+/// positions and axes: the mass centre in ground axes, the angular velocity by (E9) in the body's
+/// own axes.
 pub(super) fn literal_motion<'d>(model: &Model<'d>, rate: &mut Tangent<'d>) -> Vec<Motion<'d>> {
     let motion = |body: &Body<'d>| {
         let linear = body.at.iter().map(|&x| rate.of(x)).collect();
@@ -137,8 +137,8 @@ pub(super) fn literal_motion<'d>(model: &Model<'d>, rate: &mut Tangent<'d>) -> V
     model.bodies.iter().map(motion).collect()
 }
 
-/// The angular velocity of every body that has an orientation: in the plane one number, in space its components about the
-/// axes of the body's own frame, eq. (E10). Empty where the spec says no orientation.
+/// The angular velocity of every body that has an orientation: in the plane one number, in space its components in the
+/// axes of the body's own frame, eq. (E10). Empty if the spec gives no orientation.
 pub fn angular_velocities<'d>(model: &Model<'d>) -> Vec<Vec<Expr<'d>>> {
     let rate = &mut Variables::of(model).coasting(model);
     let frame = |body: &Body<'d>| match body.rotation {
@@ -164,10 +164,10 @@ pub fn angular_velocities<'d>(model: &Model<'d>) -> Vec<Vec<Expr<'d>>> {
     model.bodies.iter().map(of_body).collect()
 }
 
-/// Angular velocity of a frame about its own axes, eq. (E9): `ω₁ = e₃·ė₂`, `ω₂ = e₁·ė₃`, `ω₃ =
-/// e₂·ė₁`.
+/// Angular velocity of a frame in its own axes, eq. (E9): `ω₁ = e₃·ė₂`, `ω₂ = e₁·ė₃`, `ω₃ = e₂·ė₁`.
 ///
-/// These are the entries below the diagonal, cyclically, of `AᵀȦ`, which is skew since `AᵀA = 1`.
+/// These are the entries below the diagonal, cyclically, of `AᵀȦ`, which is skew-symmetric since
+/// `AᵀA = 1`.
 pub(super) fn angular_velocity_of_axes<'d>(
     model: &Model<'d>,
     pose: PoseId,
@@ -182,7 +182,7 @@ pub(super) fn angular_velocity_of_axes<'d>(
     [dot_rate(2, 1), dot_rate(0, 2), dot_rate(1, 0)]
 }
 
-/// A vector in space, along the axes of some frame.
+/// A vector in space, in the axes of some frame.
 pub(super) type Vector<'d> = [Expr<'d>; 3];
 
 /// `u × w`.
@@ -211,24 +211,25 @@ pub(super) fn apply_tensor<'d>(tensor: &[Expr<'d>; 6], w: &Vector<'d>) -> Vector
     ]
 }
 
-/// The velocity of a frame in space along its own axes: of its origin, and its angular velocity.
+/// The velocity of the origin of a frame in space and its angular velocity, in the frame's
+/// own axes.
 #[derive(Clone, Debug)]
 pub(super) struct Twist<'d> {
     pub linear: Vector<'d>,
     pub angular: Vector<'d>,
 }
 
-/// Which frames a walk along the chains of frames has to visit.
+/// The frames that a traversal of the chains of frames has to visit.
 pub(super) struct Chains {
-    /// The parents of what is asked for, and what is asked for, by pose.
+    /// The requested frames and all their ancestors, by pose.
     needed: Vec<bool>,
-    /// Those of which the motion of the origin is asked for too.
+    /// Those for which the motion of the origin is requested too.
     needed_origin: Vec<bool>,
 }
 
 impl Chains {
-    /// The chains that lead from the ground to the frames that turn, and to those whose origins
-    /// move.
+    /// The chains from the ground to the frames whose rotation is needed, and to those whose
+    /// origins are needed.
     pub fn to<'d>(
         model: &Model<'d>,
         turning: impl Iterator<Item = PoseId>,
@@ -237,7 +238,7 @@ impl Chains {
         let upwards = |ends: &mut dyn Iterator<Item = PoseId>| {
             let mut needed = vec![false; model.poses.len()];
             ends.for_each(|pose| needed[pose.index()] = true);
-            // Parents come first, so a walk from the end meets every child before its parent.
+            // Parents come first, so a backward traversal meets every child before its parent.
             for index in (0..needed.len()).rev() {
                 if needed[index] {
                     needed[model.poses[index].parent.index()] = true;
@@ -257,19 +258,19 @@ impl Chains {
         }
     }
 
-    /// Velocities of frames along their own axes, eq. (E10), when coordinates and time change at
-    /// the given `rate`.
+    /// Velocities of frames in their own axes, eq. (E10), if coordinates and time change at the
+    /// given `rate`.
     ///
-    /// From parent to child, with `r` the shift and `e`, `φ` the axis and angle of the turn:
+    /// From parent to child, with the shift `r` and the axis `e` and angle `φ` of the turn:
     ///
     /// ```text
     /// shift:  ω' = ω            u' = u + ω×r + ṙ
     /// turn:   ω' = Rᵀω + e φ̇    u' = Rᵀu
     /// ```
     ///
-    /// and where four numbers turn it, (E73), their angular velocity in the place of e φ̇.
+    /// For a turn by a quaternion, (E73), its angular velocity replaces e φ̇.
     ///
-    /// The result has one entry for each pose; those that were not asked for are at rest.
+    /// The result has one entry for each pose; poses that were not requested are at rest.
     pub fn velocities<'d>(&self, model: &Model<'d>, rate: &mut Tangent<'d>) -> Vec<Twist<'d>> {
         let zero = [model.dag.zero(); 3];
         let mut twists: Vec<Twist<'d>> = Vec::with_capacity(model.poses.len());
@@ -307,8 +308,8 @@ impl Chains {
         twists
     }
 
-    /// Accelerations of frames along their own axes, eq. (E11), given their velocities at the same
-    /// `rate`.
+    /// Accelerations of frames in their own axes, eq. (E11), given their velocities at the
+    /// same `rate`.
     ///
     /// ```text
     /// shift:  α' = α                        a' = a + α×r + ω×(ω×r + 2 ṙ) + r̈
@@ -370,7 +371,7 @@ impl Chains {
         accelerations
     }
 
-    /// A vector of the ground along the axes of every frame that was asked for.
+    /// A vector of the ground in the axes of every requested frame.
     pub fn carried<'d>(&self, model: &Model<'d>, ground: Vector<'d>) -> Vec<Vector<'d>> {
         let mut vectors: Vec<Vector<'d>> = Vec::with_capacity(model.poses.len());
         for (index, pose) in model.poses.iter().enumerate() {
@@ -385,9 +386,9 @@ impl Chains {
     }
 }
 
-/// A vector of the ground along the axes of one frame: `Rᵀ` for each turn on the way there; or, far
+/// A vector of the ground in the axes of one frame: `Rᵀ` for each turn on the way there; or, far
 /// from the ground, its products with the axes, so that a vector on every link of a long chain does
-/// not make as many walks along it.
+/// not take as many traversals of the chain.
 pub(super) fn along_axes<'d>(model: &Model<'d>, pose: PoseId, ground: &[Expr<'d>]) -> Vector<'d> {
     const FAR: usize = 64;
     let mut turns = Vec::new();
@@ -416,7 +417,7 @@ pub(super) fn along_axes<'d>(model: &Model<'d>, pose: PoseId, ground: &[Expr<'d>
     turns.into_iter().rev().fold(vector(ground), turn)
 }
 
-/// The velocity of a point `r` of a frame, along its axes: `u + ω×r + ṙ`.
+/// The velocity of a point `r` of a frame, in its axes: `u + ω×r + ṙ`.
 pub(super) fn velocity_at<'d>(
     frame: &Twist<'d>,
     r: &Vector<'d>,
@@ -429,7 +430,7 @@ pub(super) fn velocity_at<'d>(
     ])
 }
 
-/// The acceleration of a point `r` of a frame, along its axes: `a + α×r + ω×(ω×r + 2 ṙ) + r̈`.
+/// The acceleration of a point `r` of a frame, in its axes: `a + α×r + ω×(ω×r + 2 ṙ) + r̈`.
 pub(super) fn acceleration_at<'d>(
     frame: &Twist<'d>,
     omega: &Vector<'d>,
@@ -462,8 +463,8 @@ fn shifted_acceleration<'d>(
     ])
 }
 
-/// How a frame turns, as the matrix `W = α× + ω×ω×` that gives the acceleration `W r` of its points,
-/// entry by entry: what several points and tensors have in common is computed once.
+/// The rotation of a frame, as the matrix `W = α× + ω×ω×` that gives the acceleration `W r` of its
+/// points, entry by entry, so that common parts of several points and tensors are computed once.
 pub(super) struct Turning<'d> {
     /// `α`.
     alpha: Vector<'d>,
@@ -534,7 +535,7 @@ pub(super) fn others(axis: usize) -> (usize, usize) {
     ((axis + 1) % 3, (axis + 2) % 3)
 }
 
-/// `Rᵀu`: the components of a vector along axes that are turned by `angle` about one of them.
+/// `Rᵀu`: the components of a vector in axes that are turned by `angle` about one of them.
 fn turned<'d>(u: &Vector<'d>, axis: usize, angle: Expr<'d>) -> Vector<'d> {
     let (next, last) = others(axis);
     let (sin, cos) = (angle.sin(), angle.cos());
@@ -544,7 +545,7 @@ fn turned<'d>(u: &Vector<'d>, axis: usize, angle: Expr<'d>) -> Vector<'d> {
     result
 }
 
-/// The components of a vector along axes that are given along those it has components along.
+/// The components of a vector in other axes, which are given in the present ones.
 fn along<'d>(axes: &[Vector<'d>; 3], u: &Vector<'d>) -> Vector<'d> {
     axes.map(|axis| u[0].dag().sum((0..3).map(|k| axis[k] * u[k])))
 }

@@ -4,8 +4,8 @@
 //! d/dt ∂T/∂vᵢ − ∂T/∂qᵢ = −∂V/∂qᵢ − ∂D/∂vᵢ + Fᵢ
 //! ```
 //!
-//! What is derived here is the measure of everything else: [`Oracle`] takes no short cut, and no
-//! code is emitted from it unless an approximation asks for these very equations
+//! This derivation is the reference for everything else: [`Oracle`] takes no shortcut, and no code
+//! is emitted from it unless an approximation asks for these very equations
 //! ([`super::approximation`]). Explicit time is never dropped: the `d/dt` is that of eq. (E8).
 
 use lagrangian_symbolic::{Expr, Symbol, Tangent, substitute};
@@ -21,7 +21,7 @@ use lagrangian_spec::model::circles::planar_turn;
 use lagrangian_spec::model::element::Load;
 use lagrangian_spec::model::{Model, Place, Rotation, Space};
 
-/// The literal Lagrange equations of a machine. Slow to derive and long; never shipped.
+/// The literal Lagrange equations of a machine. Slow to derive and long; never emitted.
 pub struct Oracle<'d> {
     /// `T`, eq. (E1).
     pub kinetic_energy: Expr<'d>,
@@ -43,11 +43,11 @@ pub struct Oracle<'d> {
     pub residual: Vec<Expr<'d>>,
 }
 
-/// A constraint, every derivative by the rule of the chain and one variable at a time.
+/// A constraint; every derivative is taken by the chain rule, one variable at a time.
 pub struct OracleConstraint<'d> {
-    /// `g`; zero where velocities alone are constrained.
+    /// `g`; zero if only velocities are constrained.
     pub position: Expr<'d>,
-    /// `φ = Σ vᵢ ∂g/∂qᵢ + ∂g/∂t`, or as it is said.
+    /// `φ = Σ vᵢ ∂g/∂qᵢ + ∂g/∂t`, or the given constraint of rates.
     pub rate: Expr<'d>,
     /// `∂φ/∂vᵢ`.
     pub row: Vec<Expr<'d>>,
@@ -55,7 +55,7 @@ pub struct OracleConstraint<'d> {
     pub residual: Expr<'d>,
 }
 
-/// A guided contact, every derivative by the rule of the chain and one variable at a time.
+/// A guided contact; every derivative is taken by the chain rule, one variable at a time.
 pub struct OracleSliding<'d> {
     /// `w`.
     pub slip: Expr<'d>,
@@ -65,10 +65,11 @@ pub struct OracleSliding<'d> {
     pub drift: Expr<'d>,
     /// `dw/dt` with the accelerations in it.
     pub slip_rate: Expr<'d>,
-    /// In space the direction that tells which part of the reaction presses, of length 1: the normal of a surface, or the tangent of
+    /// In space the unit vector that determines the pressing part of the reaction: the normal of a surface, or the tangent of
     /// a curve.
     pub telling: Vec<Expr<'d>>,
-    /// For each component of the reaction the equation of the displacement that opens the guide that way.
+    /// For each component of the reaction the equation of the displacement that opens the guide in
+    /// that direction.
     pub reactions: Vec<OracleReaction<'d>>,
     /// `μ` and `μ₀`.
     pub coefficients: [Expr<'d>; 2],
@@ -76,20 +77,20 @@ pub struct OracleSliding<'d> {
 
 /// The equation of a displacement that opens a guide.
 pub struct OracleReaction<'d> {
-    /// What inertia and applied forces leave of it.
+    /// The residual of inertia and applied forces.
     pub unbalanced: Expr<'d>,
-    /// What the multipliers of the constraints do along that displacement,
+    /// The coefficients of the multipliers of the constraints along that displacement.
     pub by_multipliers: Vec<Expr<'d>>,
-    /// what the friction forces of the contacts do,
+    /// The coefficients of the friction forces of the contacts.
     pub by_friction_forces: Vec<Expr<'d>>,
-    /// and what the components of the normal reactions do.
+    /// The coefficients of the components of the normal reactions.
     pub by_normals: Vec<Expr<'d>>,
 }
 
 impl<'d> Oracle<'d> {
-    /// The equations, every derivative taken where the textbook takes it.
+    /// Derives the equations, with every derivative where the textbook has it.
     ///
-    /// The model must be one that [`super::Equations::derive`] accepts.
+    /// The model must be accepted by [`super::Equations::derive`].
     pub fn derive(model: &Model<'d>) -> Oracle<'d> {
         let dag = model.dag;
         let x = Variables::of(model);
@@ -103,7 +104,7 @@ impl<'d> Oracle<'d> {
         let potential_energy = approximations.energy(energy::potential_energy(model));
         let dissipation = approximations.energy(energy::dissipation(model, total));
         let applied = applied(model, &x, potential_energy, dissipation);
-        // Lengths of four numbers resist as bodies do, eq. (E74), and what they have is no energy of the machine.
+        // The lengths of quaternions have inertia as bodies do, eq. (E74), but no energy of the machine.
         let lengths = model.quaternions.iter();
         let lengths = lengths.map(|four| four.inertia * total.of(four.size()).square() / 2);
         let resisting = dag.sum([kinetic_energy].into_iter().chain(lengths));
@@ -154,7 +155,7 @@ impl<'d> Oracle<'d> {
     }
 }
 
-/// The guided contacts of a machine, by Lagrange's equations of the relaxed one.
+/// The guided contacts of a machine, by Lagrange's equations of the relaxed machine.
 fn sliding<'d>(model: &Model<'d>) -> Vec<OracleSliding<'d>> {
     let Some(relaxed) = &model.relaxed else {
         return Vec::new();
@@ -192,7 +193,7 @@ fn sliding<'d>(model: &Model<'d>) -> Vec<OracleSliding<'d>> {
                 .iter()
                 .map(|rate| along(axis, &|i| rate.slip.diff(x.v[i])))
                 .collect(),
-            // The two contacts of a surface have one reaction, which counts once.
+            // The two contacts of a surface share one reaction, which counts once.
             by_normals: (rates.iter().enumerate())
                 .flat_map(|(j, rate)| rate.off.iter().map(move |off| (j, off)))
                 .map(|(j, off)| {
@@ -280,7 +281,7 @@ fn applied<'d>(
     (0..x.q.len()).map(force).collect()
 }
 
-/// The power of a torque on what turns as the rate says, as terms of a sum.
+/// The power of a torque on a body or frame that turns at the given rate, as terms of a sum.
 fn power<'d>(
     model: &Model<'d>,
     on: Place,
@@ -293,7 +294,7 @@ fn power<'d>(
             angle.map(|angle| torque[0] * rate.of(angle)).collect()
         }
         (Space::Space, Rotation::Frame(pose)) => {
-            // The torque along the body's axes, against the rate of turning about them.
+            // The torque in the body's axes times the angular velocity in them.
             let turning = kinematics::angular_velocity_of_axes(model, pose, rate);
             let axes = model.poses[pose.index()].axes.iter();
             let along = |axis: &Vec<Expr<'d>>| {
@@ -308,9 +309,9 @@ fn power<'d>(
     }
 }
 
-/// `M`, `h` from any kinetic energy, eqs. (E4) and (E5), in as few sweeps as there are: `p = ∂T/∂v`
-/// and `∂T/∂q` are one reverse sweep each, `M` one for each of its rows, and `h = ṗ − ∂T/∂q` at `a
-/// = 0` one forward sweep. Nothing if they become too large.
+/// `M` and `h` from any kinetic energy, eqs. (E4) and (E5), in as few sweeps as possible:
+/// `p = ∂T/∂v` and `∂T/∂q` are one reverse sweep each, `M` one for each of its rows, and
+/// `h = ṗ − ∂T/∂q` at `a = 0` one forward sweep. Nothing if they become too large.
 pub(super) fn inertia<'d>(
     model: &Model<'d>,
     x: &Variables<'d>,

@@ -1,10 +1,10 @@
-//! What may not depend on how long the four numbers are that turn a frame.
+//! Refuses machines that depend on the length of a quaternion that turns a frame.
 //!
-//! Their length has an equation of motion of its own, (E74) and (E75), which is no business of the machine's: whatever carries inertia,
-//! acts or constrains has to be the same for every multiple of them. That is so of everything that is built on frames. Where a formula
-//! holds the numbers themselves it need not be, and the machine would do work on a length that no body has. So it is tried, in the
-//! prime field: the derivative along `δe = e` of what is a place, and along `δė = e` of what depends on rates, has to be 0. What only
-//! says how large a load is may read them: its power is on places.
+//! The length has an equation of motion of its own, (E74) and (E75), which is not part of the machine: everything that carries inertia,
+//! acts or constrains must be the same for every multiple of the quaternion. This holds for everything built on frames. A formula that
+//! contains the four numbers themselves need not satisfy it, and the machine would do work on a length that no body has. So it is
+//! tested in the prime field: the derivative of positions along `δe = e`, and of expressions in rates along `δė = e`, must be 0. An
+//! expression that only gives the magnitude of a load may contain the numbers, because the power of the load is that of positions.
 
 use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
 use lagrangian_spec::identity;
@@ -16,7 +16,8 @@ use lagrangian_symbolic::{Expr, Tangent};
 
 use super::kinematics::Variables;
 
-/// Refuses what depends on the lengths of four numbers, and approximations beside them. True if anything is refused.
+/// Refuses dependence on the lengths of quaternions, and approximations in a machine that has any. Returns true if
+/// anything is refused.
 pub(super) fn refuse(model: &Model<'_>, report: &mut Report) -> bool {
     let Some(first) = model.quaternions.first() else {
         return false;
@@ -57,10 +58,10 @@ pub(super) fn refuse(model: &Model<'_>, report: &mut Report) -> bool {
     refused
 }
 
-/// How things change where four numbers become longer.
+/// Variations of expressions if a quaternion becomes longer.
 struct Longer<'d> {
     places: Tangent<'d>,
-    /// Where their rates become longer along them.
+    /// The variation if its rates grow along it.
     rates: Tangent<'d>,
 }
 
@@ -73,7 +74,7 @@ impl<'d> Longer<'d> {
         identity::is_zero(self.rates.of(e)) == Some(false)
     }
 
-    /// What depends on the length, and where the spec says it.
+    /// The expressions that depend on the length, with their spans in the spec.
     fn found(&mut self, model: &Model<'d>, four: &[usize; 4]) -> Vec<(String, Span)> {
         let mut found = Vec::new();
         for (index, pose) in model.poses.iter().enumerate() {
@@ -93,7 +94,7 @@ impl<'d> Longer<'d> {
             });
         }
         if !found.is_empty() {
-            // What is built on such a frame is as well.
+            // Everything built on such a frame depends on the length too.
             return found;
         }
         for body in &model.bodies {
@@ -118,7 +119,7 @@ impl<'d> Longer<'d> {
         }
         for contact in &model.contacts {
             let moves = match &contact.geometry {
-                // Polygons are in the plane, where nothing turns by four numbers.
+                // Polygons exist only in the plane, where no quaternion turns anything.
                 ContactGeometry::Circles(_) | ContactGeometry::Corner(_) => false,
                 ContactGeometry::Point { point, .. } => point.center.iter().any(|&x| self.moves(x)),
                 ContactGeometry::Expressions { gap, slip, across } => {
@@ -155,7 +156,7 @@ impl<'d> Longer<'d> {
                     self.moves(said)
                 }
             }
-            // These act on frames and bodies, or are no part of the equations of motion.
+            // These act on frames and bodies, or are not part of the equations of motion.
             Contribution::Load(Load::Torque { .. })
             | Contribution::Gravity(_)
             | Contribution::Rolling(_)

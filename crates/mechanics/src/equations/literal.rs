@@ -1,37 +1,38 @@
-//! Lagrange's equations of the second kind, evaluated and not expanded: what every program is held
-//! against before it leaves the compiler.
+//! Evaluates Lagrange's equations of the second kind numerically, without expanding them: the
+//! reference with which every program is compared before it leaves the compiler.
 //!
 //! ```text
 //! w·(d/dt ∂T/∂v − ∂T/∂q) = w·Q
 //! ```
 //!
-//! is wanted as a number, at a state `q, v, t` with accelerations `a` and for a direction `w`. No
-//! derivative is written down. The positions of the bodies are run over numbers with three
-//! infinitesimals δ, τ, ε, each of which has the square 0:
+//! is needed as a number, at a state `q, v, t` with accelerations `a` and for a direction `w`. No
+//! derivative is formed symbolically. The positions of the bodies are evaluated over numbers with
+//! three infinitesimals δ, τ, ε, each of which has the square 0:
 //!
-//! * `δ` makes velocities of positions: `q + δ v`, `t + δ` gives `x + δ ẋ`;
-//! * `τ` makes rates along the motion: `q + τ v`, `v + τ a`, `t + τ`;
+//! * `δ` turns positions into velocities: `q + δ v`, `t + δ` gives `x + δ ẋ`;
+//! * `τ` gives rates along the motion: `q + τ v`, `v + τ a`, `t + τ`;
 //! * `ε` varies in the direction `w`: `v + ε w`, and `q − τε w`.
 //!
-//! `T`, put together from velocities as (E1) says, then is a number with `τ` and `ε` in it, and by
-//! the chain rule what stands before `τε` is
+//! `T`, composed from velocities as in (E1), is then a number with `τ` and `ε` in it, and by the
+//! chain rule its coefficient of `τε` is
 //!
 //! ```text
 //! Σ wᵢ (d/dt ∂T/∂vᵢ) − Σ wᵢ ∂T/∂qᵢ
 //! ```
 //!
 //! Nothing is assumed about `T`; it need not even be that of a body, so the approximated energies
-//! of (E16) and (E17) take the same way. In the same run `τε` of `V` is `−w·∂V/∂q`, `ε` of `D` is
-//! `w·∂D/∂v`, `−τε` of a point is how `w` moves it, `δτ` of a constraint is its second derivative
-//! along the motion and `ε` of a velocity its slope along `w`.
+//! of (E16) and (E17) are treated in the same way. In the same evaluation the coefficient of `τε`
+//! in `V` is `−w·∂V/∂q`, that of `ε` in `D` is `w·∂D/∂v`, that of `−τε` in a point its displacement
+//! along `w`, that of `δτ` in a constraint its second derivative along the motion, and that of `ε`
+//! in a velocity its derivative along `w`.
 //!
-//! One direction drawn at random proves all equations: two different linear forms of `w` agree at a
-//! random `w` with probability 1/(2⁶¹ − 1) (J. T. Schwartz, *Fast probabilistic algorithms for
-//! verification of polynomial identities*, J. ACM 27 (1980) 701–717). So the equations cost as much as
-//! evaluating where the bodies are, eight numbers at a time.
+//! One random direction proves all equations: two different linear forms of `w` agree at a random `w`
+//! with probability 1/(2⁶¹ − 1) (J. T. Schwartz, *Fast probabilistic algorithms for verification of
+//! polynomial identities*, J. ACM 27 (1980) 701–717). So the equations cost as much as evaluating the
+//! positions of the bodies, with eight numbers for each value.
 //!
-//! This module shares with the derivation the [`Model`] and the evaluation of expressions; no
-//! velocity, no derivative and no simplification of [`super::projected`] is in it.
+//! This module shares only the [`Model`] and the evaluation of expressions with the derivation; it
+//! uses no velocity, no derivative and no simplification of [`super::projected`].
 
 mod frozen;
 mod in_space;
@@ -48,7 +49,7 @@ use lagrangian_spec::model::{
     Rotation, Space, Surface, Touching, quaternion,
 };
 
-/// Where a machine is, how it moves, and what acts on it.
+/// A state of a machine with its accelerations and inputs.
 #[derive(Clone, Debug)]
 pub(crate) struct State<R> {
     pub t: R,
@@ -59,7 +60,7 @@ pub(crate) struct State<R> {
     pub parameters: Vec<R>,
 }
 
-/// What Lagrange's equations say at a state, for a direction `w`.
+/// The values of Lagrange's equations at a state, for a direction `w`.
 #[derive(Clone, Debug)]
 pub(crate) struct Literal<R> {
     /// `T`, eq. (E1).
@@ -70,15 +71,15 @@ pub(crate) struct Literal<R> {
     pub dissipation: R,
     /// `E`, eq. (E59).
     pub state_energy: R,
-    /// `d(T + V + E)/dt` along the motion, on which states change as they are said to.
+    /// `d(T + V + E)/dt` along the motion, on which states change at their given rates.
     pub energy_rate: R,
-    /// What is lost beside dissipation.
+    /// The power lost in addition to dissipation.
     pub lost: R,
     /// `w·(d/dt ∂T/∂v − ∂T/∂q)`.
     pub inertia: R,
     /// `w·Q`, eq. (E6).
     pub applied: R,
-    /// The part that lengths of four numbers have in `v·(M a − f)`, which is no power.
+    /// The share of the lengths of quaternions in `v·(M a − f)`, which is not power.
     pub of_lengths: R,
     pub constraints: Vec<LiteralConstraint<R>>,
     pub sliding: Vec<LiteralSliding<R>>,
@@ -88,13 +89,15 @@ pub(crate) struct Literal<R> {
 /// A unilateral contact at a state.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LiteralUnilateral<R> {
-    /// How far it is open.
+    /// The distance by which it is open.
     pub open: LiteralConstraint<R>,
-    /// The gap, as a constraint of positions would hold it at 0: of a polygon that of the face which touches.
+    /// The gap, as a constraint of positions that would hold it at 0; for a polygon the gap to the face
+    /// that touches.
     pub gap: LiteralConstraint<R>,
-    /// Of a polygon, how far the corner is outside of the face, how far beyond its ends, and how fast that grows.
+    /// For a polygon, the distance of the corner outside the face, its distance beyond the ends of the face, and
+    /// the rate of the latter.
     pub face: Option<[R; 3]>,
-    /// The slip, as a constraint of velocities would.
+    /// The slip, as a constraint of velocities that would hold it at 0.
     pub slip: LiteralConstraint<R>,
     /// `e`, `eₜ`, `μ` and `μ₀`.
     pub coefficients: [R; 4],
@@ -103,7 +106,7 @@ pub(crate) struct LiteralUnilateral<R> {
 /// A bilateral constraint at a state.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LiteralConstraint<R> {
-    /// `g`; 0 where velocities alone are constrained.
+    /// `g`; 0 if only velocities are constrained.
     pub position: R,
     /// `φ`.
     pub rate: R,
@@ -111,29 +114,30 @@ pub(crate) struct LiteralConstraint<R> {
     pub acceleration: R,
     /// `w·∂φ/∂v`.
     pub along: R,
-    /// The slope of `g` along `w` as a rate, which is 0 if positions are constrained indeed.
+    /// The derivative of `g` along `w` with respect to the rates, which is 0 if it really
+    /// constrains positions.
     pub by_rates: R,
 }
 
 /// A guided contact at a state.
 #[derive(Clone, Debug)]
 pub(crate) struct LiteralSliding<R> {
-    /// `w`, how fast it slides.
+    /// `w`, the slip velocity.
     pub slip: R,
     /// `dw/dt` with the accelerations in it.
     pub slip_rate: R,
-    /// The slope of the slip along the direction.
+    /// The derivative of the slip along the direction.
     pub slip_along: R,
-    /// The directions in which the reaction is counted: in the plane the direction of the guide turned left, of length 1; in
-    /// space the axes of the ground.
+    /// The directions of the reaction's components: in the plane the direction of the guide turned left, of length 1; in
+    /// space the ground axes.
     pub axes: Vec<Vec<R>>,
-    /// The slopes of the velocities along these.
+    /// The derivatives of the velocities along these.
     pub off_along: Vec<R>,
-    /// The product of the direction turned left with the normal which the spec gives; 1 where it gives none, and in space.
+    /// The product of the direction turned left with the normal in the spec; 1 if none is given, and in space.
     pub side: R,
     /// `μ` and `μ₀`.
     pub coefficients: [R; 2],
-    /// In space the direction that tells which part of the reaction presses, of length 1: the normal of a surface, or the tangent of
+    /// In space the unit vector that determines the pressing part of the reaction: the normal of a surface, or the tangent of
     /// a curve.
     pub telling: Vec<R>,
 }
@@ -144,10 +148,10 @@ type Varied<R> = Dual<Dual<R>>;
 /// Numbers with δ, τ and ε.
 type Moving<R> = Dual<Varied<R>>;
 
-/// Numbers of which two orders in small coordinates are known; see [`Lagrange::small`].
+/// Numbers with two orders in small coordinates; see [`Lagrange::small`].
 type Small<R> = Dual<Dual<Varied<R>>>;
 
-/// What a symbol stands for.
+/// The meaning of a symbol.
 #[derive(Clone, Copy)]
 enum Meaning {
     Time,
@@ -158,17 +162,17 @@ enum Meaning {
     Input(usize),
 }
 
-/// The equations of a model, ready to be evaluated.
+/// The equations of a model, prepared for evaluation.
 pub(crate) struct Lagrange<'m, 'd> {
     pub model: &'m Model<'d>,
     meanings: FxHashMap<Symbol, Meaning>,
-    /// Everything that is evaluated along the motion.
+    /// All expressions that are evaluated along the motion.
     pub roots: Vec<Expr<'d>>,
-    /// What of it the kinetic energy needs.
+    /// Those that the kinetic energy needs.
     kinetic: Vec<Expr<'d>>,
-    /// What the other energies need.
+    /// Those that the other energies need.
     energies: Vec<Expr<'d>>,
-    /// For each of the model's constraints whether positions are constrained.
+    /// For each constraint of the model whether it constrains positions.
     holonomic: Vec<bool>,
     /// Whether each coordinate counts as small.
     small: Vec<bool>,
@@ -176,7 +180,7 @@ pub(crate) struct Lagrange<'m, 'd> {
     frozen: Vec<bool>,
 }
 
-/// A number along a motion: where something is, and how fast it moves.
+/// A number along a motion: a value and its rate.
 trait Path: Scalar {
     type Base: Scalar;
     fn here(self) -> Self::Base;
@@ -203,12 +207,12 @@ impl<S: Scalar> Path for Frozen<S> {
     }
 }
 
-/// Expressions by their nodes.
+/// Values by the nodes of their expressions.
 type Values<P> = FxHashMap<Id, P>;
 
 impl<'m, 'd> Lagrange<'m, 'd> {
-    /// The equations of a model. Of a constraint in which rates stand it has to be said whether it
-    /// constrains positions all the same, since they cancel: `holonomic`.
+    /// The equations of a model. `holonomic` says which constraints constrain positions; a
+    /// constraint that contains rates may do so if these cancel.
     pub fn of(model: &'m Model<'d>, holonomic: impl Fn(usize) -> bool) -> Lagrange<'m, 'd> {
         let n = model.coordinates.len();
         let kinds = |kind: ApproximationKind| {
@@ -238,7 +242,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         self.values_with(expressions, at, &[])
     }
 
-    /// The values of expressions at a state, where some more symbols have values.
+    /// The values of expressions at a state, with values for further symbols.
     pub fn values_with<R: Scalar>(
         &self,
         expressions: &[Expr<'d>],
@@ -262,7 +266,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         })
     }
 
-    /// What the equations say at a state, for the direction `w`.
+    /// The values of the equations at a state, for the direction `w`.
     pub fn at<R: Scalar>(&self, at: &State<R>, w: &[R]) -> Literal<R> {
         let model = self.model;
         let of_state = |symbol| self.moving(symbol, at, w);
@@ -312,7 +316,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         }
     }
 
-    /// What states of first order store, with its rate along the motion.
+    /// The energy stored in first-order states, with its rate along the motion.
     fn stored<R: Scalar>(&self, at: &State<R>) -> Dual<R> {
         let model = self.model;
         let energies: Vec<Expr<'d>> = model.energies_of_states().collect();
@@ -365,7 +369,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         dissipation.value.derivative
     }
 
-    /// A symbol in numbers with δ, τ and ε.
+    /// A symbol as a number with δ, τ and ε.
     fn moving<R: Scalar>(&self, symbol: Symbol, at: &State<R>, w: &[R]) -> Moving<R> {
         let fixed = |value| Dual::constant(Dual::constant(Dual::constant(value)));
         match self.meanings.get(&symbol) {
@@ -388,7 +392,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         }
     }
 
-    /// The kinetic energy of velocities that are frozen by (E16).
+    /// The kinetic energy with velocities frozen by (E16).
     fn frozen_energy<S: Scalar>(&self, moving: impl Fn(Symbol) -> Dual<S>) -> S {
         let values = all(self.model, &self.kinetic, |symbol| {
             let moving = moving(symbol);
@@ -401,8 +405,8 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         kinetic_energy(self.model, &|e: Expr<'d>| values[&e.id()])
     }
 
-    /// The energies and the dissipation to second order in what is small, (E17), of velocities that
-    /// may be frozen.
+    /// The energies and the dissipation to second order in small coordinates, (E17), with
+    /// velocities that may be frozen.
     fn approximated<R: Scalar>(&self, at: &State<R>, w: &[R], is_frozen: bool) -> [Varied<R>; 3] {
         let model = self.model;
         let of_state = |symbol| self.small(symbol, at, w);
@@ -424,7 +428,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         ]
     }
 
-    /// A symbol as [`Self::moving`] has it, but small coordinates and their rates multiplied by the
+    /// A symbol as in [`Self::moving`], with small coordinates and their rates multiplied by the
     /// sum of two more infinitesimals.
     fn small<R: Scalar>(&self, symbol: Symbol, at: &State<R>, w: &[R]) -> Dual<Small<R>> {
         let Dual { value, derivative } = self.moving(symbol, at, w);
@@ -458,7 +462,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
     fn virtual_work<R: Scalar>(&self, x: &impl Fn(Expr<'d>) -> Moving<R>) -> R {
         let model = self.model;
         let here = |e: Expr<'d>| x(e).value.value.value;
-        // How w moves something: q has −w before τε.
+        // The displacement along w: q contains w with the coefficient −τε.
         let moved = |e: Expr<'d>| -x(e).value.derivative.derivative;
         let of_torque = |on: Place, torque: &[Expr<'d>]| {
             let mut work = R::ZERO;
@@ -469,7 +473,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
                     }
                 }
                 (Space::Space, Rotation::Frame(pose)) => {
-                    // The turn is ½ Σ e × δe, along the ground's axes.
+                    // The rotation is ½ Σ e × δe, in ground axes.
                     for e in &model.poses[pose.index()].axes {
                         for (k, &torque) in torque.iter().enumerate() {
                             let (next, last) = ((k + 1) % 3, (k + 2) % 3);
@@ -566,7 +570,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
                 let rate = beyond.derivative.value.value;
                 [gap.value.value.value, beyond.value.value.value, rate]
             }),
-            // Without friction nobody looks at the slip.
+            // Without friction the slip is not used.
             slip: of_rate(friction.map_or(nothing, |_| slip)),
             coefficients: [
                 here(contact.response.coefficients()[0]),
@@ -629,7 +633,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
                 let turning = turned.map_or(Varied::<R>::ZERO, |angle| x(angle).derivative);
                 vec![-(turning * arm[1]), turning * arm[0]]
             }
-            // `ω × r = Σ ėₖ (eₖ·r)` over the axes of what it slides on.
+            // `ω × r = Σ ėₖ (eₖ·r)` over the axes of the base.
             (Space::Space, Rotation::Frame(pose)) => {
                 let axes = &model.poses[pose.index()].axes;
                 let along =
@@ -702,14 +706,14 @@ impl<'m, 'd> Lagrange<'m, 'd> {
     }
 }
 
-/// `f + f₁ + ½ f₂`, where `f₁` stands before either of the infinitesimals of [`Lagrange::small`] and
-/// `f₂` before their product.
+/// `f + f₁ + ½ f₂`, where `f₁` is the coefficient of either infinitesimal of [`Lagrange::small`] and
+/// `f₂` that of their product.
 fn expanded<R: Scalar>(f: Small<R>) -> Varied<R> {
     let half = Varied::<R>::from_ratio(1, 2);
     f.value.value + f.value.derivative + half * f.derivative.derivative
 }
 
-/// What has no value.
+/// An undefined value.
 fn unknown<S: Scalar>() -> S {
     S::ONE / S::ZERO
 }
@@ -744,7 +748,7 @@ fn rate<R: Scalar>(at: &State<R>, w: &[R], i: usize) -> Varied<R> {
     }
 }
 
-/// A constraint of positions: `g` with its rates.
+/// A constraint of positions: `g` with its derivatives.
 fn of_position<R: Scalar>(g: Moving<R>) -> LiteralConstraint<R> {
     LiteralConstraint {
         position: g.value.value.value,
@@ -796,7 +800,7 @@ fn all<'d, P: Scalar>(
     roots.iter().map(|root| root.id()).zip(values).collect()
 }
 
-/// What the kinetic energy is made from.
+/// The expressions that the kinetic energy needs.
 fn kinetic<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
     let mut roots = Vec::new();
     for body in &model.bodies {
@@ -819,8 +823,8 @@ fn kinetic<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
     roots
 }
 
-/// What the lengths of the numbers that turn frames add to the inertia, and to what is applied, along `w`: eqs. (E74) and (E75). It
-/// is no energy of the machine. The last is what the first is less the second along the velocity itself.
+/// The contributions of the lengths of quaternions to the inertia and to the applied forces, along `w`: eqs. (E74) and (E75). They
+/// are not energies of the machine. The third value is the first minus the second, along the velocity itself.
 fn lengths<'d, R: Scalar>(model: &Model<'d>, x: &impl Fn(Expr<'d>) -> Moving<R>) -> [R; 3] {
     let half = Varied::<R>::from_ratio(1, 2);
     let two = R::from_ratio(2, 1);
@@ -832,7 +836,8 @@ fn lengths<'d, R: Scalar>(model: &Model<'d>, x: &impl Fn(Expr<'d>) -> Moving<R>)
         let growing = sum((0..4).map(|k| e[k] * e_rate[k])) / square;
         let inertia = x(four.inertia).value;
         let energy = half * inertia * growing * growing;
-        // How w moves half the logarithm of the square: q has −w before τε.
+        // The change of half the logarithm of the square along w: q contains w with the
+        // coefficient −τε.
         let s = square.value.value;
         let moved = -(square.derivative.derivative / (two * s));
         let rate = R::from_ratio(quaternion::RATE, 1);
@@ -849,7 +854,7 @@ fn lengths<'d, R: Scalar>(model: &Model<'d>, x: &impl Fn(Expr<'d>) -> Moving<R>)
     all
 }
 
-/// What potential energy and dissipation are made from.
+/// The expressions that potential energy and dissipation need.
 fn energies<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
     let mut roots: Vec<Expr<'d>> = Vec::new();
     for energy in model.stored().chain(model.dissipated()) {
@@ -868,7 +873,7 @@ fn energies<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
     roots
 }
 
-/// What forces, constraints and guides are made from.
+/// The expressions that forces, constraints and guides need.
 fn geometry<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
     let mut roots: Vec<Expr<'d>> = Vec::new();
     let pose = |pose: PoseId, roots: &mut Vec<Expr<'d>>| {
@@ -1058,7 +1063,7 @@ fn dissipation<'d, P: Path>(model: &Model<'d>, x: &impl Fn(Expr<'d>) -> P) -> P:
     }))
 }
 
-/// The centre of a circle, and how fast what it is fixed to turns.
+/// The centre of a circle, and the angular velocity of what it is fixed to.
 fn placed<'d, R: Scalar>(
     model: &Model<'d>,
     circle: &Circle<'d>,
@@ -1068,7 +1073,7 @@ fn placed<'d, R: Scalar>(
     fixed(model, circle.on, [c, d], x)
 }
 
-/// Where a point is that is fixed to a frame or a body, and how fast that turns.
+/// The position of a point fixed to a frame or a body, and the angular velocity of that.
 fn fixed<'d, R: Scalar>(
     model: &Model<'d>,
     on: Place,
@@ -1107,19 +1112,21 @@ fn fixed<'d, R: Scalar>(
     (centre, turning)
 }
 
-/// How a corner of a polygon stands to another polygon.
+/// The position of a corner of a polygon relative to another polygon.
 struct OnPolygon<R> {
-    /// How far it is outside of the polygon.
+    /// Its distance outside the polygon.
     open: Moving<R>,
-    /// How far it is outside of the face that separates best.
+    /// Its distance outside the face that separates best.
     height: Moving<R>,
-    /// How far it is beyond the ends of that.
+    /// Its distance beyond the ends of that face.
     beyond: Moving<R>,
-    /// How fast it slides along the face, in the direction that turned left points outwards.
+    /// Its slip velocity along the face, in the direction that points outwards if it is
+    /// turned left.
     slip: Varied<R>,
 }
 
-/// How a corner of a polygon stands to another: distances from lines through two corners of that, as the ground sees them all.
+/// The position of a corner of a polygon relative to another polygon: distances from lines through two corners of the latter,
+/// all in ground axes.
 fn on_polygon<'d, R: Scalar>(
     model: &Model<'d>,
     corner: &Corner<'d>,
@@ -1138,7 +1145,7 @@ fn on_polygon<'d, R: Scalar>(
         x,
     );
     let faces = ends.len();
-    // Along each face, of length 1.
+    // Unit vectors along the faces.
     let edges: Vec<[Moving<R>; 2]> = (0..faces)
         .map(|k| {
             let [a, b] = [0, 1].map(|i| ends[(k + 1) % faces][i] - ends[k][i]);
@@ -1163,7 +1170,7 @@ fn on_polygon<'d, R: Scalar>(
         })
         .collect();
     let half = Moving::<R>::from_ratio(1, 2);
-    // From the last face to the first: `left` is 1 as long as no face behind separates better than all before it, else 0.
+    // From the last face to the first: `left` is 1 as long as no later face separates better than all before it, else 0.
     let mut so_far: Vec<Moving<R>> = Vec::with_capacity(faces);
     for &separation in &separations {
         let best = so_far
@@ -1194,7 +1201,8 @@ fn on_polygon<'d, R: Scalar>(
         found.height = found.height + weight * distance(k, place);
         found.beyond =
             found.beyond + weight * fold(others.map(|j| distance(j, place)).collect(), Moving::max);
-        // The polygon's own point under the corner moves with its end, and turns about it.
+        // The polygon's own point under the corner moves with the end of the face, and turns
+        // about it.
         let arm = [0, 1].map(|i| (place[i] - ends[k][i]).value);
         let carried = [-(turning * arm[1]), turning * arm[0]];
         let along = [0, 1].map(|i| {
@@ -1206,8 +1214,7 @@ fn on_polygon<'d, R: Scalar>(
     found
 }
 
-/// How far a circle is from touching a surface, and how fast the points that touch slide past each
-/// other.
+/// The distance of a circle from touching a surface, and the slip velocity of the touching points.
 fn on_surface<'d, R: Scalar>(
     model: &Model<'d>,
     circle: &Circle<'d>,
@@ -1221,8 +1228,8 @@ fn on_surface<'d, R: Scalar>(
     }
 }
 
-/// How far a circle is from touching another, inside or outside of it, and how fast the points that
-/// touch slide past each other, along the direction from the other's centre turned left.
+/// The distance of a circle from touching another, inside or outside of it, and the slip velocity
+/// of the touching points, along the direction from the other's centre turned left.
 fn on_circle<'d, R: Scalar>(
     model: &Model<'d>,
     first: &Circle<'d>,
@@ -1240,7 +1247,7 @@ fn on_circle<'d, R: Scalar>(
     } else {
         distance - small - large
     };
-    // The point that touches: the first circle's at c ± r e, the other's at R e.
+    // The touching point: the first circle's at c ± r e, the other's at R e.
     let e = line.map(|c| c.value / distance.value);
     let tangent = [-e[1], e[0]];
     let arm = if is_inside { small.value } else { -small.value };
@@ -1249,7 +1256,7 @@ fn on_circle<'d, R: Scalar>(
     [gap, Dual::constant(slip)]
 }
 
-/// Gap and slip of a circle on the first axis of a frame, on the side of the second.
+/// Gap and slip of a circle on the first axis of a frame, on the side of the second axis.
 fn on_line<'d, R: Scalar>(
     model: &Model<'d>,
     circle: &Circle<'d>,

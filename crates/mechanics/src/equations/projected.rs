@@ -1,31 +1,30 @@
-//! The cheap route to the same equations: accelerations projected on the directions in which
-//! coordinates move.
+//! Derives the same equations at lower cost, by projecting accelerations on the directions in which
+//! coordinates move bodies.
 //!
-//! A body's inertia resists along `∂x/∂qᵢ`, and so
+//! A body's inertia force acts along `∂x/∂qᵢ`, and so
 //!
 //! ```text
 //! d/dt ∂T/∂vᵢ − ∂T/∂qᵢ = Σ m ẍ·∂x/∂qᵢ + Σ (I α + ω×I ω)·∂ω/∂vᵢ
 //! ```
 //!
-//! Why: let `u = Dp` be the rate of a scalar position `p(q, t)` of constant weight `w`, `T = ½ Σ w
-//! u²`. Then `∂u/∂vᵢ = ∂p/∂qᵢ` (cancelling the dots) and `d/dt ∂p/∂qᵢ = ∂u/∂qᵢ` (exchanging
-//! derivatives), hence
+//! Proof: let `u = Dp` be the rate of a scalar position `p(q, t)` of constant weight `w`, with
+//! `T = ½ Σ w u²`. Then `∂u/∂vᵢ = ∂p/∂qᵢ` (cancellation of dots) and `d/dt ∂p/∂qᵢ = ∂u/∂qᵢ`
+//! (exchange of derivatives), hence
 //!
 //! ```text
 //! d/dt ∂T/∂vᵢ − ∂T/∂qᵢ = Σ w [D(u ∂p/∂qᵢ) − u ∂u/∂qᵢ] = Σ w (Du) ∂p/∂qᵢ
 //! ```
 //!
-//! It needs `w` constant. For a rigid body in space, cut into particles fixed in it, the same sum
-//! over particles is `m ẍ·∂x/∂qᵢ` for the mass centre and `(I α + ω×I ω)·∂ω/∂vᵢ` for the rest,
-//! along any axes: Kane's equations. T. R. Kane and D. A. Levinson, *Dynamics: Theory and
+//! This requires a constant `w`. For a rigid body in space, divided into particles fixed in it, the
+//! same sum over particles is `m ẍ·∂x/∂qᵢ` for the mass centre and `(I α + ω×I ω)·∂ω/∂vᵢ` for the
+//! rest, along any axes: Kane's equations. T. R. Kane and D. A. Levinson, *Dynamics: Theory and
 //! Applications*, 1985, ch. 4 and 6.
 //!
-//! What makes it cheap is that a sum `Σ load·∂p/∂qᵢ` for *all* `i` is one reverse sweep over the
-//! graph of the positions. Where links hang on links the graph is a chain, and forward and reverse
-//! sweep together are the recursive Newton–Euler algorithm: linear in the number of links. Frames
-//! in space carry their velocities along their own axes (E10), where a turn is four
-//! multiplications; there the reverse sweep runs over `u(v)` instead of `p(q)`, since `∂u/∂vᵢ` is
-//! the same.
+//! It is cheap because a sum `Σ load·∂p/∂qᵢ` for *all* `i` is one reverse sweep over the graph of
+//! the positions. For a chain of links the graph is a chain too, and the forward and reverse sweep
+//! together are the recursive Newton–Euler algorithm, linear in the number of links. Frames in
+//! space carry their velocities in their own axes (E10), where a turn is four multiplications;
+//! there the reverse sweep runs over `u(v)` instead of `p(q)`, since `∂u/∂vᵢ` is the same.
 
 use lagrangian_symbolic::{Dag, Expr, Symbol, Tangent, reverse};
 
@@ -41,25 +40,25 @@ use lagrangian_spec::model::element::{Energy, Load};
 use lagrangian_spec::model::quaternion::Quaternion;
 use lagrangian_spec::model::{Body, Inertia, Model, Place, PoseId, Rotation, Space};
 
-/// What carries a machine's inertia, in the form that is cheapest to differentiate.
+/// The nodes that carry a machine's inertia, in the form that is cheapest to differentiate.
 pub(super) struct Projection<'a, 'd> {
     model: &'a Model<'d>,
     x: &'a Variables<'d>,
     chains: Chains,
     bodies: Vec<Carrier<'d>>,
-    /// The inertia of the same bodies, by where it is: on points, or fixed to frames.
+    /// The inertia of the same bodies, grouped by carrier: points, or frames to which it is fixed.
     inertial: Vec<Carrier<'d>>,
     composites: Vec<(PoseId, Composite<'d>)>,
 }
 
-/// What carries the inertia of one body.
+/// The nodes that carry the inertia of one body.
 struct Carrier<'d> {
     /// Scalar positions with their weights: `T = ½ Σ w (Dp)²`.
     points: Vec<Weighted<'d>>,
-    /// Mass, and the mass centre along the axes of a frame in space; such a centre is not among the
-    /// points.
+    /// Mass, and the mass centre in the axes of a frame in space; such a centre is not among
+    /// the points.
     centre: Option<(Expr<'d>, PoseId, Vector<'d>)>,
-    /// Inertia about the axes of a frame in space.
+    /// Inertia in the axes of a frame in space.
     tensor: Option<([Expr<'d>; 6], PoseId)>,
 }
 
@@ -72,21 +71,21 @@ struct Weighted<'d> {
     gravity: Option<Expr<'d>>,
 }
 
-/// How a body moves at some rate, or the loads on it, in the order of its [`Carrier`].
+/// The motion of a body at some rate, or the loads on it, in the order of its [`Carrier`].
 struct Carried<'d> {
     points: Vec<Expr<'d>>,
     linear: Option<Vector<'d>>,
     angular: Option<Vector<'d>>,
 }
 
-/// Loads and where they act: `Σ load·∂node/∂x`, as virtual work says.
+/// Loads with the nodes on which they act: `Σ load·∂node/∂x`, by virtual work.
 #[derive(Default)]
 pub(super) struct Loads<'d> {
     /// On functions of `q`: `load·∂node/∂qᵢ`.
     on_positions: Vec<(Expr<'d>, Expr<'d>)>,
     /// On functions of `v`: `load·∂node/∂vᵢ`.
     on_rates: Vec<(Expr<'d>, Expr<'d>)>,
-    /// On coordinates themselves.
+    /// On coordinates directly.
     on_coordinates: Vec<(usize, Expr<'d>)>,
 }
 
@@ -125,7 +124,7 @@ impl<'a, 'd> Projection<'a, 'd> {
 
     /// Mass matrix, eq. (E12): `Mᵢⱼ = Σ w ∂p/∂qᵢ ∂p/∂qⱼ`, which is (E4).
     ///
-    /// Column `j` is the momentum of a machine that moves with `vⱼ = 1`, projected: one reverse
+    /// Column `j` is the projected momentum of a machine that moves with `vⱼ = 1`, one reverse
     /// sweep. Nothing if they become too large.
     pub fn mass_matrix(&self) -> Option<Symmetric<Expr<'d>>> {
         let coasting = &mut self.x.coasting(self.model);
@@ -167,14 +166,14 @@ impl<'a, 'd> Projection<'a, 'd> {
     /// The loads of inertia at `a = 0`, times `sign`; their projection is the bias, eq. (E13):
     /// `hᵢ = Σ w (D²p) ∂p/∂qᵢ`, which is (E5).
     ///
-    /// With `gravity` it acts too, as an acceleration of the ground.
+    /// With `gravity` the loads include it, as an acceleration of the ground.
     pub fn bias_loads(&self, sign: i64, gravity: bool) -> Loads<'d> {
         self.inertia_loads(&mut self.x.coasting(self.model), sign, gravity)
     }
 
-    /// The residual of the equations of motion where the accelerations are given, `f − M a`, eq. (E25): inertia
-    /// and gravity reversed, and what is applied, by one sweep. This is recursive Newton–Euler,
-    /// linear in the number of links.
+    /// The residual of the equations of motion at given accelerations, `f − M a`, eq. (E25): inertia and
+    /// gravity reversed, and the applied loads, in one sweep. This is recursive Newton–Euler, linear in the
+    /// number of links.
     pub fn unbalanced(&self) -> Vec<Expr<'d>> {
         let mut loads = self.inertia_loads(&mut self.x.total(self.model), -1, true);
         self.add_applied(&mut loads);
@@ -203,10 +202,11 @@ impl<'a, 'd> Projection<'a, 'd> {
         loads
     }
 
-    /// Adds what is applied, gravity apart, eq. (E14): `Qᵢ = Σ F·∂x/∂qᵢ`, which is (E6).
+    /// Adds the applied loads without gravity, eq. (E14): `Qᵢ = Σ F·∂x/∂qᵢ`, which is (E6).
     ///
-    /// What is deformed pulls with `−c s` along its deformation, what is damped with `−b ṡ`; forces and
-    /// torques act where they act. A coefficient that depends on coordinates or rates gives its own term.
+    /// A spring pulls with `−c s` along its deformation, a damper with `−b ṡ`; forces and torques act
+    /// at their points and bodies. A coefficient that depends on coordinates or rates gives a term of
+    /// its own.
     pub fn add_applied(&self, loads: &mut Loads<'d>) {
         let (model, rate) = (self.model, &mut self.x.coasting(self.model));
         for energy in model.stored() {
@@ -234,7 +234,8 @@ impl<'a, 'd> Projection<'a, 'd> {
         self.add_lengths(loads);
     }
 
-    /// Adds what keeps the lengths of the numbers that turn frames, eq. (E75). It acts on them alone, and is no power.
+    /// Adds the load that restores the lengths of quaternions, eq. (E75). It acts on the lengths alone, and has
+    /// no power.
     pub fn add_lengths(&self, loads: &mut Loads<'d>) {
         let rate = &mut self.x.coasting(self.model);
         for four in &self.model.quaternions {
@@ -243,15 +244,15 @@ impl<'a, 'd> Projection<'a, 'd> {
         }
     }
 
-    /// Adds the rates of states of first order, eq. (E57): that of a state stands in the row of the coordinate
-    /// of which it is the rate.
+    /// Adds the rates of first-order states, eq. (E57): the rate of a state stands in the row of the
+    /// coordinate whose rate the state is.
     pub fn add_state_rates(&self, loads: &mut Loads<'d>) {
         let coordinates = self.model.coordinates.iter().enumerate();
         let rates = coordinates.filter_map(|(i, c)| Some((i, c.rate?)));
         loads.on_coordinates.extend(rates);
     }
 
-    /// Adds `Σ m g·∂x/∂qᵢ`, on the nodes that inertia acts on.
+    /// Adds `Σ m g·∂x/∂qᵢ`, at the nodes that carry the inertia.
     pub fn add_gravity(&self, loads: &mut Loads<'d>) {
         let Some(g) = self.model.gravity() else {
             return;
@@ -314,7 +315,8 @@ impl<'a, 'd> Projection<'a, 'd> {
         }
     }
 
-    /// Adds `M·∂ω/∂vᵢ` of a torque. `twists` are how all frames in space move, once it has been needed.
+    /// Adds `M·∂ω/∂vᵢ` of a torque. `twists` are the velocities of all frames in space, once they have
+    /// been needed.
     fn add_torque(
         &self,
         on: Place,
@@ -369,12 +371,13 @@ impl<'a, 'd> Projection<'a, 'd> {
             .collect()
     }
 
-    /// Inertia, and loads, on velocities: `applied`, gravity apart, with inertia itself from the rates
-    /// on; in space `forces`, with the bias and gravity among them.
+    /// Inertia and loads on velocities. In the plane the loads are `applied`, without gravity, and the
+    /// inertia forces are derived from the rates of the velocities; in space the loads are `forces`,
+    /// which include the bias and gravity.
     ///
-    /// A load on a position acts on its velocity: `∂(Dp)/∂vᵢ = ∂p/∂qᵢ`. In space all that a motion
-    /// without accelerations demands is a load, computed from the ground to the tips along axes that
-    /// turn, and only what accelerations add is left to solve for.
+    /// A load on a position acts on its velocity: `∂(Dp)/∂vᵢ = ∂p/∂qᵢ`. In space the inertia forces of
+    /// a motion without accelerations are a load, computed from the ground to the tips in axes that
+    /// turn, and only the contribution of the accelerations remains to be solved for.
     pub fn unprojected(&self, applied: &Loads<'d>, forces: &Loads<'d>) -> super::Unprojected<'d> {
         let rate = &mut self.x.coasting(self.model);
         let drifts = self.model.space == Space::Plane;
@@ -459,7 +462,7 @@ impl<'a, 'd> Projection<'a, 'd> {
         self.model.dag.sum(powers)
     }
 
-    /// Kinetic energy of every body, eq. (E1), along the axes that are cheapest.
+    /// Kinetic energy of every body, eq. (E1), in the axes that are cheapest.
     pub fn kinetic_energies(&self) -> Vec<Expr<'d>> {
         let velocities = self.velocities(&mut self.x.coasting(self.model));
         let energy = |((body, carrier), velocity): ((&Body<'d>, &Carrier<'d>), &Carried<'d>)| {
@@ -474,9 +477,9 @@ impl<'a, 'd> Projection<'a, 'd> {
             .collect()
     }
 
-    /// Power of whatever moves the machine by explicit time, eq. (E19): `Σ w (D²p) ∂p/∂t`, the
-    /// inertia of what is driven times the velocity at which it is driven. Accelerations occur in
-    /// it.
+    /// Power of everything that is driven by explicit time, eq. (E19): `Σ w (D²p) ∂p/∂t`,
+    /// the inertia force of what is driven times the velocity at which it is driven. It
+    /// contains accelerations.
     pub fn drive_power(&self) -> Expr<'d> {
         let driven = self.velocities(&mut self.x.explicit(self.model));
         if driven.iter().all(Carried::is_at_rest) {
@@ -493,7 +496,7 @@ impl<'a, 'd> Projection<'a, 'd> {
         )
     }
 
-    /// How every body moves at a rate.
+    /// The motion of every body at a rate.
     fn velocities(&self, rate: &mut Tangent<'d>) -> Vec<Carried<'d>> {
         self.velocities_of(&self.bodies, rate)
     }
@@ -514,7 +517,7 @@ impl<'a, 'd> Projection<'a, 'd> {
         list.iter().map(velocity).collect()
     }
 
-    /// How frames in space move at a rate.
+    /// The velocities of frames in space at a rate.
     fn twists(&self, rate: &mut Tangent<'d>) -> Vec<Twist<'d>> {
         match self.model.space {
             Space::Plane => Vec::new(),
@@ -522,7 +525,8 @@ impl<'a, 'd> Projection<'a, 'd> {
         }
     }
 
-    /// How frames in space move at a rate, and how they accelerate; with `gravity` the ground accelerates by `−g`.
+    /// The velocities of frames in space at a rate, and their accelerations; with `gravity` the ground accelerates
+    /// by `−g`.
     fn motion(&self, rate: &mut Tangent<'d>, gravity: bool) -> (Vec<Twist<'d>>, Vec<Twist<'d>>) {
         let model = self.model;
         let gravity = model.gravity().filter(|_| gravity);
@@ -537,8 +541,8 @@ impl<'a, 'd> Projection<'a, 'd> {
         }
     }
 
-    /// What inertia demands: `m ẍ`, and by (E15) `τ = I α + ω×I ω`. The rate says whether with
-    /// accelerations; with `gravity` the ground accelerates by `−g`.
+    /// The forces required by inertia: `m ẍ`, and by (E15) `τ = I α + ω×I ω`. Whether accelerations
+    /// are included depends on the rate; with `gravity` the ground accelerates by `−g`.
     fn inertia(
         &self,
         list: &[Carrier<'d>],
@@ -591,7 +595,7 @@ impl<'d> Carrier<'d> {
         }
     }
 
-    /// The motion as [`energy`] wants it: linear, then angular.
+    /// The motion in the form that [`energy`] expects: linear, then angular.
     fn motion(&self, model: &Model<'d>, carried: &Carried<'d>) -> Motion<'d> {
         let dimension = model.space.dimension();
         let in_points = if carried.linear.is_some() {
@@ -627,7 +631,7 @@ impl<'d> Carried<'d> {
 }
 
 impl<'d> Loads<'d> {
-    /// Loads on what carries the inertia of a body that moves with the given velocity.
+    /// Adds loads at the nodes that carry the inertia of a body that moves with the given velocity.
     fn on_body(&mut self, body: &Carrier<'d>, velocity: &Carried<'d>, load: Carried<'d>) {
         let positions = body.points.iter().map(|point| point.position);
         self.on_positions.extend(positions.zip(load.points));
@@ -645,13 +649,13 @@ impl<'d> Loads<'d> {
         }
     }
 
-    /// Loads on how a frame moves: a force, and a moment about its origin.
+    /// Adds loads on the motion of a frame: a force, and a moment about its origin.
     fn on_frame(&mut self, twist: &Twist<'d>, [force, moment]: [Vector<'d>; 2]) {
         self.on_rates.extend(twist.linear.into_iter().zip(force));
         self.on_rates.extend(twist.angular.into_iter().zip(moment));
     }
 
-    /// Loads that derive from a potential and a dissipation function.
+    /// Loads derived from a potential and a dissipation function.
     pub fn of_energies(dag: &'d Dag, potential: Expr<'d>, dissipation: Expr<'d>) -> Loads<'d> {
         Loads {
             on_positions: vec![(potential, dag.int(-1))],
@@ -661,7 +665,7 @@ impl<'d> Loads<'d> {
     }
 }
 
-/// An entry of the diagonal of the mass matrix: the row of a state says what its rate is, `1 ṡ = f`.
+/// An entry of the diagonal of the mass matrix: the row of a state gives its rate, `1 ṡ = f`.
 pub(super) fn with_state<'d>(model: &Model<'d>, i: usize, entry: Expr<'d>) -> Expr<'d> {
     match model.coordinates[i].rate {
         Some(_) => entry + 1,
@@ -669,8 +673,8 @@ pub(super) fn with_state<'d>(model: &Model<'d>, i: usize, entry: Expr<'d>) -> Ex
     }
 }
 
-/// In the plane everything is a scalar position; in space what moves with frames is described along
-/// their axes.
+/// The carrier of a body. In the plane everything is a scalar position; in space whatever moves
+/// with frames is described in their axes.
 fn carrier<'d>(model: &Model<'d>, body: &Body<'d>) -> Carrier<'d> {
     let centre = match model.space {
         Space::Plane => None,
@@ -705,7 +709,7 @@ fn carrier<'d>(model: &Model<'d>, body: &Body<'d>) -> Carrier<'d> {
     }
 }
 
-/// The lengths of the numbers that turn frames, eq. (E74), which have an inertia of their own that is no body's.
+/// The lengths of quaternions, eq. (E74), which have an inertia of their own that belongs to no body.
 fn lengths<'d>(model: &Model<'d>) -> impl Iterator<Item = Carrier<'d>> {
     let length = |four: &Quaternion<'d>| Carrier {
         points: vec![Weighted {
@@ -719,7 +723,7 @@ fn lengths<'d>(model: &Model<'d>) -> impl Iterator<Item = Carrier<'d>> {
     model.quaternions.iter().map(length)
 }
 
-/// What is fixed to frames, gathered, and what is not.
+/// The inertia that is fixed to frames, gathered, and the rest.
 fn gather<'d>(
     model: &Model<'d>,
     bodies: &[Carrier<'d>],

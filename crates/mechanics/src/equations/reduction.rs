@@ -1,15 +1,15 @@
-//! Coordinates that constraints settle, put into the machine.
+//! Eliminates coordinates that constraints determine, by substitution into the machine.
 //!
-//! A constraint of positions that one coordinate enters linearly, with a coefficient that only
-//! parameters decide, gives that coordinate as an expression in the others: `s = R − r`, `y = x²/l`,
-//! `phi = omega t`. Put in wherever it stands, neither it nor the constraint is left, and what is
-//! derived is Lagrange's equations in fewer coordinates, by every route that there is. So too a
-//! constraint of rates whose coefficients are all parameters', as of wheels that roll: it says `q_d =
-//! Σ cᵢ qᵢ + C`, and `C`, which the start decides and nothing changes, is read off the state where
-//! it matters at all.
+//! If one coordinate enters a constraint of positions linearly, with a coefficient that depends on
+//! parameters alone, the constraint gives that coordinate as an expression in the others:
+//! `s = R − r`, `y = x²/l`, `phi = omega t`. Substituting it everywhere removes both the coordinate
+//! and the constraint, and Lagrange's equations are derived in fewer coordinates, by every route. The
+//! same holds for a constraint of rates whose coefficients depend on parameters alone, as for rolling
+//! wheels: it gives `q_d = Σ cᵢ qᵢ + C`. The constant `C` is determined by the start, and is computed
+//! from the state where it matters.
 //!
-//! The state keeps all coordinates. Those that depend on others have accelerations that follow from
-//! theirs, `a_d = D²(q_d)`, and are kept on the constraints as every state is.
+//! The state keeps all coordinates. The dependent ones have accelerations that follow from the
+//! others, `a_d = D²(q_d)`, and are kept on the constraints like every state.
 
 use std::collections::BTreeSet;
 
@@ -23,22 +23,22 @@ use lagrangian_spec::identity;
 use lagrangian_spec::model::element::{Contribution, Load};
 use lagrangian_spec::model::{Inertia, Model, Rotation, Step, stage};
 
-/// A machine without the coordinates that constraints settle.
+/// A machine without the coordinates that constraints determine.
 #[derive(Clone, Debug)]
 pub struct Reduction<'d> {
-    /// The machine, with the coordinates and constraints that are left.
+    /// The machine, with the remaining coordinates and constraints.
     pub machine: ReducedModel<'d>,
     /// Its equations.
     pub equations: Equations<'d>,
-    /// The indices of the coordinates that are left.
+    /// The indices of the remaining coordinates.
     pub coordinates: Vec<usize>,
-    /// The indices of the constraints that are left.
+    /// The indices of the remaining constraints.
     pub constraints: Vec<usize>,
-    /// The coordinates that are not.
+    /// The eliminated coordinates.
     pub dependents: Vec<Dependent<'d>>,
 }
 
-/// A model that is not shown.
+/// A model whose debug output is only its name.
 #[derive(Clone)]
 pub struct ReducedModel<'d>(pub Model<'d>);
 
@@ -48,27 +48,28 @@ impl std::fmt::Debug for ReducedModel<'_> {
     }
 }
 
-/// A coordinate that a constraint settles.
+/// A coordinate that a constraint determines.
 #[derive(Clone, Debug)]
 pub struct Dependent<'d> {
     /// Its index.
     pub coordinate: usize,
     /// The index of the constraint.
     pub constraint: usize,
-    /// How it enters the constraint: ∂g/∂q of it or ∂φ/∂v, of parameters alone.
+    /// Its coefficient in the constraint: ∂g/∂q or ∂φ/∂v with respect to it, of parameters alone.
     pub coefficient: Expr<'d>,
-    /// Where it is, of the other coordinates and perhaps the symbol of its `offset`.
+    /// Its position, as a function of the other coordinates and perhaps of the symbol of
+    /// its `offset`.
     pub position: Expr<'d>,
-    /// How fast it moves, of the others and their rates.
+    /// Its rate, as a function of the others and their rates.
     pub rate: Expr<'d>,
-    /// How it accelerates.
+    /// Its acceleration.
     pub acceleration: Expr<'d>,
-    /// Where rates are constrained: a symbol that stands for what the start has decided, and its
-    /// meaning.
+    /// For a constraint of rates: a symbol for the constant that the start determines, and
+    /// its meaning.
     pub offset: Option<[Expr<'d>; 2]>,
 }
 
-/// The coordinates that constraints settle, each in terms of those that are left.
+/// The coordinates that constraints determine, each in terms of the remaining ones.
 pub fn dependents<'d>(
     model: &Model<'d>,
     constraints: &[ConstraintEquation<'d>],
@@ -96,7 +97,7 @@ pub fn dependents<'d>(
     }
 }
 
-/// What stands for the coordinates that depend on others, their rates and accelerations.
+/// The replacements of the dependent coordinates, their rates and accelerations.
 fn replacements<'d>(x: &Variables<'d>, dependents: &[Dependent<'d>]) -> Vec<(Symbol, Expr<'d>)> {
     let of = |d: &Dependent<'d>| {
         let i = d.coordinate;
@@ -109,7 +110,7 @@ fn replacements<'d>(x: &Variables<'d>, dependents: &[Dependent<'d>]) -> Vec<(Sym
     dependents.iter().flat_map(of).collect()
 }
 
-/// The coordinate that a constraint settles best, if it settles any.
+/// The coordinate that is best eliminated by a constraint, if there is one.
 fn dependent<'d>(
     model: &Model<'d>,
     x: &Variables<'d>,
@@ -146,7 +147,7 @@ fn dependent<'d>(
     let (position, offset) = match constraint.position {
         Some(_) => (-(rest / coefficient), None),
         None => {
-            // All coefficients are parameters', so q_d = C + Σ cᵢ qᵢ + b t.
+            // All coefficients depend on parameters alone, so q_d = C + Σ cᵢ qᵢ + b t.
             let others = slopes.iter().filter(|(i, _)| *i != coordinate);
             let along = others.map(|&(i, slope)| -(slope / coefficient) * dag.expr_of(x.q[i]));
             let at_rest: Vec<_> = left.iter().map(|&i| (x.v[i], dag.zero())).collect();
@@ -175,9 +176,9 @@ fn dependent<'d>(
     })
 }
 
-/// Whether one may divide by a coefficient: it is not 0. Where it happens to be 0 for the parameters
-/// that the spec gives, another coordinate or none is the better choice, though this one would do for
-/// others.
+/// Whether a coefficient may be divided by, that is, is not 0. If it is 0 for the parameters in
+/// the spec, another coordinate or none is the better choice, even though this one would do for
+/// other parameters.
 fn is_usable(model: &Model<'_>, coefficient: Expr<'_>) -> bool {
     if identity::is_zero(coefficient) != Some(false) {
         return false;
@@ -191,7 +192,7 @@ fn is_usable(model: &Model<'_>, coefficient: Expr<'_>) -> bool {
     value.is_finite() && value != 0.0
 }
 
-/// In how many expressions of the machine each coordinate stands.
+/// The number of expressions of the machine in which each coordinate occurs.
 fn uses(model: &Model<'_>, x: &Variables<'_>) -> Vec<usize> {
     let mut model = model.clone();
     let all: Vec<_> = expressions(&mut model)
@@ -202,7 +203,7 @@ fn uses(model: &Model<'_>, x: &Variables<'_>) -> Vec<usize> {
     x.q.iter().map(of).collect()
 }
 
-/// Every expression that the equations of motion come from.
+/// Every expression that enters the equations of motion.
 fn expressions<'m, 'd>(model: &'m mut Model<'d>) -> Vec<&'m mut Expr<'d>> {
     let mut all: Vec<&'m mut Expr<'d>> = Vec::new();
     for pose in &mut model.poses {
@@ -213,8 +214,8 @@ fn expressions<'m, 'd>(model: &'m mut Model<'d>) -> Vec<&'m mut Expr<'d>> {
             Step::Ground => {}
             Step::Shift(along) => all.extend(along),
             Step::Turn { angle, .. } => all.push(angle),
-            // No constraint settles one of four numbers whose length it does not know: what is 0 for every length is not
-            // linear in one of them.
+            // No constraint determines a component of a quaternion without knowing its length: a constraint that holds
+            // for every length is not linear in one component.
             Step::Quaternion(_) => {}
         }
     }
@@ -242,15 +243,14 @@ fn expressions<'m, 'd>(model: &'m mut Model<'d>) -> Vec<&'m mut Expr<'d>> {
     all
 }
 
-/// The machine without the coordinates that constraints settle; nothing if they settle none, or if
+/// The machine without the coordinates that constraints determine; nothing if there are none, or if
 /// it has no equations without them.
 pub(super) fn reduction<'d>(
     model: &Model<'d>,
     constraints: &[ConstraintEquation<'d>],
 ) -> Option<Box<Reduction<'d>>> {
     let dependents = dependents(model, constraints);
-    // Derivatives, and what stages leave, are about all of the state.
-    // So is friction.
+    // Derivatives, the results of stages, and friction refer to the whole state.
     let is_whole = !model.derivatives.is_empty() || !model.stages.is_empty();
     if dependents.is_empty() || is_whole || !model.sliding().is_empty() {
         return None;
@@ -301,8 +301,8 @@ pub(super) fn reduction<'d>(
     }))
 }
 
-/// A contribution without the part that constraints take over. Constraints are counted apart, and a force on a coordinate that
-/// depends on others acts on these.
+/// A contribution without the part that constraints take over. Constraints are counted separately, and a force on a dependent
+/// coordinate acts on the coordinates that determine it.
 fn contribution<'d>(
     contribution: Contribution<'d>,
     x: &Variables<'d>,

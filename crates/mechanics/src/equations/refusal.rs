@@ -1,4 +1,4 @@
-//! Machines that cannot be derived, and why.
+//! Refuses machines that cannot be derived, and says why.
 
 use lagrangian_scalar::{Residue, Scalar};
 use lagrangian_symbolic::Expr;
@@ -18,15 +18,16 @@ use lagrangian_spec::model::{
 use lagrangian_spec::source::Span;
 use lagrangian_spec::syntax::SectionKind;
 
-/// Refuses what is understood but not derived yet: one message for each section. True if anything
-/// is refused. Circles are geometry: on their own they add nothing to the equations, and reports
-/// draw them.
+/// Refuses what is understood but not derived yet, with one message for each section. Returns true
+/// if anything is refused. Circles alone are geometry: they add nothing to the equations, and
+/// reports draw them.
 pub(super) fn refuse_unsupported(model: &Model<'_>, report: &mut Report) -> bool {
     let refused = refuse_contacts(model, report);
     refuse_sliding(model, report) || refused
 }
 
-/// Refuses what goes with unilateral contacts not yet. True if anything is refused.
+/// Refuses what is not yet supported together with unilateral contacts. Returns true if anything
+/// is refused.
 fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
     let Some(first) = model.contacts.first() else {
         return false;
@@ -100,7 +101,7 @@ fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
             }
         }
     }
-    // What leans on a contact counts as one.
+    // Rolling resistance and second tangents count as contacts.
     let leaning = rolling().count()
         + model
             .contacts
@@ -144,7 +145,7 @@ fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
     refused
 }
 
-/// Refuses what goes with friction not yet. True if anything is refused.
+/// Refuses what is not yet supported together with friction. Returns true if anything is refused.
 fn refuse_sliding(model: &Model<'_>, report: &mut Report) -> bool {
     let sliding = model.sliding();
     let Some(first) = sliding.first() else {
@@ -200,7 +201,8 @@ fn refuse_sliding(model: &Model<'_>, report: &mut Report) -> bool {
     refused
 }
 
-/// Refuses what rolls or rubs without a word on how it turns. True if anything is refused.
+/// Refuses bodies that roll or rub without a given orientation. Returns true if anything
+/// is refused.
 pub(super) fn refuse_unturned(model: &Model<'_>, report: &mut Report) -> bool {
     let mut refused = false;
     let mut refuse = |circle: &Circle<'_>, surface: Surface, span: Span| {
@@ -214,7 +216,7 @@ pub(super) fn refuse_unturned(model: &Model<'_>, report: &mut Report) -> bool {
             };
             let body = &model.bodies[body];
             let in_space = model.space == Space::Space;
-            // In space an angle turns a rotor about an axis that no contact knows.
+            // In space an angle turns a rotor, about an axis that contacts do not know.
             let is_rotor = in_space && matches!(body.rotation, Rotation::Angle(_));
             if matches!(body.rotation, Rotation::Unspecified) || is_rotor {
                 let message = format!("nothing says how the body `{}` turns", body.name);
@@ -242,7 +244,8 @@ pub(super) fn refuse_unturned(model: &Model<'_>, report: &mut Report) -> bool {
             {
                 refuse(&model.circles[*circle], *surface, contact.span);
             }
-            // Where a point of a body is depends on how that is turned, friction or not.
+            // The position of a point of a body depends on its orientation, with or
+            // without friction.
             ContactGeometry::Point { point, surface } => refuse(point, *surface, contact.span),
             ContactGeometry::Circles(_)
             | ContactGeometry::Corner(_)
@@ -252,14 +255,15 @@ pub(super) fn refuse_unturned(model: &Model<'_>, report: &mut Report) -> bool {
     refuse_unturned_polygons(model, report) || refused
 }
 
-/// Refuses polygons on bodies without a word on how these turn, once for each pair. True if anything is refused.
+/// Refuses polygons on bodies without a given orientation, once for each pair. Returns true if anything
+/// is refused.
 fn refuse_unturned_polygons(model: &Model<'_>, report: &mut Report) -> bool {
     let mut refused = false;
     for contact in &model.contacts {
         let ContactGeometry::Corner(Corner { corner, own, .. }) = &contact.geometry else {
             continue;
         };
-        // Each polygon is asked where its own first corner is.
+        // Each polygon is checked at the contact of its own first corner.
         let (0, Place::Body(body)) = (*corner, own.on) else {
             continue;
         };
@@ -274,16 +278,16 @@ fn refuse_unturned_polygons(model: &Model<'_>, report: &mut Report) -> bool {
     refused
 }
 
-/// The most coordinates of a machine: with 256 the mass matrix has 32 896 different entries, and
-/// eliminating it takes three million operations.
+/// The largest number of coordinates of a machine: with 256 the mass matrix has 32 896 different
+/// entries, and eliminating it takes three million operations.
 pub const MOST_COORDINATES: usize = 256;
 
-/// The most nodes and operands that the expressions of a machine may have: with all that is made of them on the way
-/// to a program, each takes 100 to 350 bytes and some 2 µs, so that a gigabyte and 10 s suffice.
+/// The largest number of nodes and operands of the expressions of a machine: including everything made from them on
+/// the way to a program, each takes 100 to 350 bytes and some 2 µs, so a gigabyte and 10 s suffice.
 pub(super) const MOST_SIZE: usize = 2_500_000;
 
-/// Refuses machines of more than [`MOST_COORDINATES`] coordinates, at the first one too many. True
-/// if refused.
+/// Refuses machines of more than [`MOST_COORDINATES`] coordinates, at the first one too many.
+/// Returns true if refused.
 pub(super) fn refuse_many_coordinates(model: &Model<'_>, report: &mut Report) -> bool {
     let Some(coordinate) = model.coordinates.get(MOST_COORDINATES) else {
         return false;
@@ -295,11 +299,11 @@ pub(super) fn refuse_many_coordinates(model: &Model<'_>, report: &mut Report) ->
     true
 }
 
-/// The most equations of constraints, of which those of circles that roll are two each.
+/// The largest number of constraint equations; rolling circles count two each.
 const MOST_CONSTRAINTS: usize = 256;
 
-/// Refuses machines of more than [`MOST_CONSTRAINTS`] constraints, at the first one too many. True
-/// if refused.
+/// Refuses machines of more than [`MOST_CONSTRAINTS`] constraints, at the first one too many.
+/// Returns true if refused.
 pub(super) fn refuse_many_constraints(model: &Model<'_>, report: &mut Report) -> bool {
     let spans = constraints::spans(model);
     let Some(&span) = spans.get(MOST_CONSTRAINTS) else {
@@ -311,14 +315,14 @@ pub(super) fn refuse_many_constraints(model: &Model<'_>, report: &mut Report) ->
     true
 }
 
-/// Says that the equations are too large.
+/// Reports that the equations are too large.
 pub(crate) fn refuse_large(model: &Model<'_>, report: &mut Report) {
     let message = "the equations of this machine are too large to be derived";
     let help = format!("written out they may have {MOST_SIZE} terms and factors");
     report.push(Diagnostic::new(Code::TooLarge, model.span, message).help(help));
 }
 
-/// Refuses equations in which something has no value at all. True if refused.
+/// Refuses equations that contain an undefined value. Returns true if refused.
 pub(super) fn refuse_undefined(
     model: &Model<'_>,
     equations: &Equations<'_>,
@@ -354,8 +358,8 @@ pub(super) fn refuse_undefined(
     true
 }
 
-/// Refuses coordinates that may move without moving any inertia, where no constraint stops them: they
-/// have no accelerations. True if refused.
+/// Refuses coordinates that can move without moving any inertia and that no constraint stops: they
+/// have no accelerations. Returns true if refused.
 pub(super) fn refuse_massless<'d>(
     model: &Model<'d>,
     mass_matrix: &Symmetric<Expr<'d>>,

@@ -1,4 +1,4 @@
-//! Guided contacts with Coulomb friction: how fast they slide, and what presses.
+//! Guided contacts with Coulomb friction: their slip velocities and normal reactions.
 //!
 //! ```text
 //! slip             w = e·(ẋ_body − ẋ_on − ω_on×r) = τ v + b(q, t),   τ = ∂w/∂v         (E32)
@@ -8,19 +8,19 @@
 //!                  M a = f + Gᵀλ + Σ τᵀ F
 //! ```
 //!
-//! The reaction is that of a guide that is let go: δ displaces the body, with all that is built on
-//! its frame, and the row of δ in Lagrange's equations says which force along it keeps δ at zero. It
-//! depends on the accelerations, so friction changes the matrix in front of them. Displacements δ are
-//! in ground axes. In the plane what counts is the row along the normal `n`, which is `e` turned left. In space a guide
-//! holds its body in two directions, and all three rows are taken: the reaction is a vector in ground axes. What acts along the
-//! guide and is written in coordinates is in its part along `e`; `|N|` is the length of the rest.
+//! The reaction is found by releasing the guide: δ displaces the body with everything built on its frame, and the row of δ in
+//! Lagrange's equations gives the force along δ that keeps it at zero. It depends on the accelerations, so friction changes the
+//! matrix in front of them. Displacements δ are in ground axes. In the plane only the row along the normal `n` is needed, where
+//! `n` is `e` turned left. In space a guide holds its body in two directions, and all three rows are used: the reaction is a
+//! vector in ground axes. Forces along the guide that are written in coordinates appear in its component along `e`; `|N|` is
+//! the length of the rest.
 //!
-//! On a surface in space, which holds a body from both sides, the slip has two components (E76). They stand as two contacts, the
-//! second behind the first, with one displacement and one reaction.
+//! On a surface in space, which holds a body from both sides, the slip has two components (E76). They are two contacts, one
+//! after the other, with one displacement and one reaction.
 //!
-//! Where several guides hold one body, each displacement meets the reactions of all of them: the rows
-//! are solved for the reactions, here and symbolically. Guides that hold the same cannot be told
-//! apart, and are refused.
+//! If several guides hold one body, each displacement is opposed by the reactions of all of them: the
+//! rows are solved for the reactions here, symbolically. Guides that constrain the same displacement
+//! cannot be told apart, and are refused.
 
 use lagrangian_symbolic::{Expr, Tangent, substitute};
 
@@ -34,8 +34,8 @@ use lagrangian_spec::identity;
 use lagrangian_spec::model::element::{self, Sliding};
 use lagrangian_spec::model::{Model, Space, stage};
 
-/// The most contacts of a machine: at a stop, every way in which they may stick or slide is looked at,
-/// and of six contacts there are 46 656.
+/// The largest number of contacts of a machine: at a stop, every combination of sticking and sliding
+/// is tried, and for six contacts there are 46 656.
 pub const MOST_CONTACTS: usize = 6;
 
 /// A guided contact with Coulomb friction.
@@ -43,8 +43,7 @@ pub const MOST_CONTACTS: usize = 6;
 pub struct SlidingEquation<'d> {
     /// Its name.
     pub name: String,
-    /// `w(q, v, t)`, in m/s: the velocity of the body along the direction, less that of what it
-    /// slides on.
+    /// `w(q, v, t)`, in m/s: the velocity of the body along the direction, minus that of its base.
     pub slip: Expr<'d>,
     /// `τ(q, t) = ∂w/∂v`.
     pub row: Vec<Expr<'d>>,
@@ -52,34 +51,33 @@ pub struct SlidingEquation<'d> {
     pub drift: Expr<'d>,
     /// The direction `e(q, t)`, of length 1.
     pub direction: Vec<Expr<'d>>,
-    /// The normal `n(q, t)` of the surface that it slides on, of any length, and which of its tangents the direction is; none of
-    /// what slides along a line or a curve.
+    /// The normal `n(q, t)` of the surface on which it slides, of any length, and which of its tangents the direction is; none
+    /// if it slides along a line or a curve.
     pub surface: Option<(Vec<Expr<'d>>, element::Tangent)>,
-    /// The components of the normal reaction: one in the plane, along the normal; three in space, along the axes of the
-    /// ground.
+    /// The components of the normal reaction: one in the plane, along the normal; three in space, in ground axes.
     pub reactions: Vec<Reaction<'d>>,
     /// `μ`.
     pub friction: Expr<'d>,
-    /// `μ₀`, of what sticks.
+    /// `μ₀`, which applies while it sticks.
     pub static_friction: Expr<'d>,
 }
 
 /// A component of a normal reaction, as a linear form.
 #[derive(Clone, Debug)]
 pub struct Reaction<'d> {
-    /// `ν(q, v, t, u)`, in N: what it is where nothing accelerates.
+    /// `ν(q, v, t, u)`, in N: its value without accelerations.
     pub load: Expr<'d>,
-    /// `ρ(q, t)`, by acceleration.
+    /// `ρ(q, t)`, the coefficients of the accelerations.
     pub by_accelerations: Vec<Expr<'d>>,
-    /// `χ(q, t)`, by the multipliers of the constraints.
+    /// `χ(q, t)`, the coefficients of the multipliers of the constraints.
     pub by_multipliers: Vec<Expr<'d>>,
-    /// `κ(q, t)`, by the friction of each contact.
+    /// `κ(q, t)`, the coefficients of the friction forces of the contacts.
     pub by_friction_forces: Vec<Expr<'d>>,
 }
 
 impl<'d> SlidingEquation<'d> {
-    /// The direction by which the part of the reaction is told that presses, of length 1: the normal of a surface, along which all of
-    /// it does, or the tangent of a curve, along which nothing does.
+    /// The unit vector that determines the pressing part of the reaction: the normal of a surface, along which all of it presses, or
+    /// the tangent of a curve, along which nothing presses.
     pub fn telling(&self) -> Vec<Expr<'d>> {
         match &self.surface {
             Some((normal, _)) => unit(normal),
@@ -87,17 +85,18 @@ impl<'d> SlidingEquation<'d> {
         }
     }
 
-    /// Whether it is the second tangent of the surface that the contact before it is on.
+    /// Whether it is the second tangent of the surface of the preceding contact.
     pub fn is_second(&self) -> bool {
         matches!(self.surface, Some((_, element::Tangent::Second)))
     }
 
     /// The components of the normal reaction over the symbols of the accelerations and of the multipliers, in their order: in space
-    /// three in ground axes, and on a surface one, along its normal. The friction of other contacts is left out; the contact's own,
-    /// which is along the direction, has none.
+    /// three in ground axes, and on a surface one, along its normal. The friction of other contacts is left out; the contact's own
+    /// friction acts along the direction and has no component in it.
     pub fn normal(&self, model: &Model<'d>, multipliers: &[Expr<'d>]) -> Vec<Expr<'d>> {
         let dag = model.dag;
-        // With the accelerations of any motion there is a part along the direction in space: the friction.
+        // With accelerations of an arbitrary motion the vector has a component along the direction in
+        // space, the friction.
         let across = |part: Vec<Expr<'d>>| {
             if part.len() == 1 {
                 return part;
@@ -129,8 +128,8 @@ impl<'d> SlidingEquation<'d> {
         load.into_iter().enumerate().map(sum).collect()
     }
 
-    /// What presses in a machine that has no constraints and no friction on the way, over the symbols of the accelerations:
-    /// the normal reaction in the plane, its size in space.
+    /// The pressing force in a machine without constraints and with friction left out, over the symbols of the
+    /// accelerations: the normal reaction in the plane, its magnitude in space.
     pub fn pressing(&self, model: &Model<'d>) -> Expr<'d> {
         match &self.normal(model, &[])[..] {
             [normal] => *normal,
@@ -150,8 +149,8 @@ impl<'d> Reaction<'d> {
     }
 }
 
-/// The contacts of a machine; nothing, and a message for each reason, where a guide is
-/// none, or its reaction is not determined.
+/// The contacts of a machine; nothing, and a message for each reason, if a guide is invalid or its
+/// reaction is undetermined.
 pub(super) fn sliding<'d>(
     model: &Model<'d>,
     report: &mut Report,
@@ -196,7 +195,7 @@ pub(super) fn sliding<'d>(
         let slip = relative(model, sliding, guide, &mut coasting).slip;
         let (slip, row) = settled(model, &x, slip);
         let reactions = if sliding.is_second() {
-            // Both tangents have one reaction.
+            // Both tangents share one reaction.
             equations
                 .last()
                 .map_or_else(Vec::new, |first: &SlidingEquation<'d>| {
@@ -220,8 +219,8 @@ pub(super) fn sliding<'d>(
     Some(equations)
 }
 
-/// A slip and its derivatives by the rates. What of it is constant, or zero, is written as such: a body
-/// at rest on a rail that moves has the slip 0, and not what rounding makes of differences.
+/// A slip and its derivatives by the rates. Constant or zero parts are written as constants: a body at
+/// rest on a moving rail has the slip 0, and not the round-off of differences.
 fn settled<'d>(model: &Model<'d>, x: &Variables<'d>, slip: Expr<'d>) -> (Expr<'d>, Vec<Expr<'d>>) {
     let dag = model.dag;
     let derived = gradient(dag, slip, &x.v);
@@ -240,7 +239,7 @@ fn settled<'d>(model: &Model<'d>, x: &Variables<'d>, slip: Expr<'d>) -> (Expr<'d
     (dag.sum(rates.chain([of_base])), parts)
 }
 
-/// Why a contact is no guide.
+/// Why a contact is not a valid guide.
 fn what_is_wrong<'d>(
     model: &Model<'d>,
     sliding: &Sliding<'d>,
@@ -253,7 +252,7 @@ fn what_is_wrong<'d>(
     if let (Some(tangent), Some(normal)) = (sliding.tangent, &sliding.normal) {
         return match tangent {
             element::Tangent::First => what_is_wrong_on_surface(model, sliding, normal),
-            // It has been said of the first.
+            // It was reported for the first tangent.
             element::Tangent::Second => None,
         };
     }
@@ -299,13 +298,13 @@ fn what_is_wrong<'d>(
 
 const HELD_BY_MORE: &str = "where it is on the guide follows from how the guide moves: say under `sliding` what else it slides in, with `friction: 0` where that is smooth";
 
-/// Whether a body has no other guide.
+/// Whether this is the only guide of its body.
 fn is_alone(model: &Model<'_>, sliding: &Sliding<'_>) -> bool {
     let guides = model.sliding().into_iter().filter(|s| !s.is_second());
     guides.filter(|s| s.body == sliding.body).count() == 1
 }
 
-/// Why what is said by a normal is no surface on which a body slides.
+/// Why a contact given by a normal is not a valid surface for a body to slide on.
 fn what_is_wrong_on_surface<'d>(
     model: &Model<'d>,
     sliding: &Sliding<'d>,
@@ -334,7 +333,7 @@ fn what_is_wrong_on_surface<'d>(
     let rows: Vec<Vec<Expr<'d>>> = (velocity.iter())
         .map(|&velocity| gradient(model.dag, velocity, &x.v))
         .collect();
-    // The velocity is at right angles to the normal, so it has one or two independent components.
+    // The velocity is perpendicular to the normal, so it has one or two independent components.
     let cross = |i: usize, j: usize| {
         let minor = |k: usize, l: usize| rows[k][i] * rows[l][j] - rows[k][j] * rows[l][i];
         [(1, 2), (2, 0), (0, 1)]
@@ -361,8 +360,8 @@ fn what_is_wrong_on_surface<'d>(
     None
 }
 
-/// What of a velocity is across a guide: in the plane the velocity is given by its component along the normal, in space by
-/// all of them, and the cross product with the direction is zero where nothing is across.
+/// The components of a velocity across a guide: in the plane the velocity is given by its component along the normal; in
+/// space by all components, and its cross product with the direction is zero if it has no part across.
 fn across<'d>(direction: &[Expr<'d>], off: &[Expr<'d>]) -> Vec<Expr<'d>> {
     match (direction, off) {
         (&[x, y, z], &[u, v, w]) => cross(&[x, y, z], &[u, v, w]).to_vec(),
@@ -370,8 +369,8 @@ fn across<'d>(direction: &[Expr<'d>], off: &[Expr<'d>]) -> Vec<Expr<'d>> {
     }
 }
 
-/// Whether a slip is decided by the motion of what the body slides on: then something else holds the
-/// body, of which nothing is known.
+/// Whether the motion of the base alone determines a slip: then something else, which is unknown,
+/// holds the body.
 fn follows<'d>(
     model: &Model<'d>,
     sliding: &Sliding<'d>,
@@ -389,9 +388,9 @@ fn follows<'d>(
 
 /// The rows of all displacements along the normals, before they are solved for the reactions.
 struct Reactions<'d> {
-    /// What the reactions along each displacement add up to.
+    /// The sum of the reactions along each displacement.
     rows: Vec<Reaction<'d>>,
-    /// By each normal reaction.
+    /// The coefficients of each normal reaction.
     shares: Vec<Vec<Expr<'d>>>,
 }
 
@@ -458,7 +457,7 @@ impl<'d> Reactions<'d> {
         reactions
     }
 
-    /// Writes 0 and 1 for what is 0 and 1.
+    /// Replaces coefficients that are identically 0 or 1 by these constants.
     fn settle(&mut self) {
         let known = |e: &mut Expr<'d>| {
             let dag = e.dag();
@@ -475,10 +474,10 @@ impl<'d> Reactions<'d> {
         self.shares.iter_mut().flatten().for_each(known);
     }
 
-    /// The reactions, by elimination; none where a row is a combination of others.
+    /// The reactions, by elimination; none if a row is a linear combination of others.
     ///
-    /// No rows are exchanged: every diagonal entry is 1, and its pivot is 0 only where two
-    /// guides hold the same.
+    /// No rows are exchanged: every diagonal entry is 1, and its pivot is 0 only if two guides
+    /// constrain the same displacement.
     fn solved(mut self) -> Option<Vec<Reaction<'d>>> {
         let count = self.rows.len();
         for k in 0..count {

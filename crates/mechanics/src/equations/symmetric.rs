@@ -8,7 +8,7 @@ pub struct Symmetric<T> {
 }
 
 impl<T> Symmetric<T> {
-    /// The matrix of these entries; asked for row by row, `i ≥ j`.
+    /// The matrix with these entries; `entry` is called row by row for `i ≥ j`.
     pub fn from_lower(dimension: usize, mut entry: impl FnMut(usize, usize) -> T) -> Symmetric<T> {
         let mut lower = Vec::with_capacity(dimension * (dimension + 1) / 2);
         for i in 0..dimension {
@@ -24,7 +24,7 @@ impl<T> Symmetric<T> {
         self.dimension
     }
 
-    /// The entry in row `i` and column `j`, which is that in row `j` and column `i`.
+    /// The entry in row `i` and column `j`, which equals that in row `j` and column `i`.
     ///
     /// # Panics
     /// If there is no such row or column.
@@ -43,12 +43,12 @@ impl<T> Symmetric<T> {
         &self.lower
     }
 
-    /// The entries `i ≥ j`, row by row, to be changed.
+    /// The entries `i ≥ j`, row by row, mutable.
     pub fn lower_mut(&mut self) -> &mut [T] {
         &mut self.lower
     }
 
-    /// The entries `i ≥ j` with their places, row by row.
+    /// The entries `i ≥ j` with their indices, row by row.
     pub fn entries(&self) -> impl Iterator<Item = (usize, usize, &T)> {
         let places = (0..self.dimension).flat_map(|i| (0..=i).map(move |j| (i, j)));
         places.zip(&self.lower).map(|((i, j), entry)| (i, j, entry))

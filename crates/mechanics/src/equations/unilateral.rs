@@ -1,4 +1,4 @@
-//! Unilateral contacts: gaps, their rates, and how fast what touches slips.
+//! Unilateral contacts: gaps, their rates, and slip velocities.
 //!
 //! ```text
 //! gap        g(q, t) ≥ 0,   γₙ = Dg = wₙ v + ∂g/∂t,   wₙ = ∂γₙ/∂v                     (E51)
@@ -10,8 +10,8 @@
 //! motion     M a = f + Gᵀλ + Σ wₙᵀ λₙ + Σ wₜᵀ λₜ
 //! ```
 //!
-//! `D` is the total time derivative (E8), so a wall that moves is in `γ` and in `δ`. What presses, what
-//! sticks and what an impact leaves of the rates is for the run to find out.
+//! `D` is the total time derivative (E8), so a moving wall is in `γ` and in `δ`. Contact forces,
+//! sticking, and the rates after an impact are found by the run.
 
 use lagrangian_symbolic::{Expr, normal};
 
@@ -24,7 +24,7 @@ use lagrangian_spec::model::{
     Surface, polygons, spheres,
 };
 
-/// The most terms of a gap that is multiplied out, to see what cancels.
+/// The largest number of terms of a gap that is multiplied out to find what cancels.
 const TERMS: usize = 200;
 
 /// A unilateral contact.
@@ -36,23 +36,24 @@ pub struct UnilateralEquation<'d> {
     pub gap: Expr<'d>,
     /// Along the normal, and along the tangent.
     pub directions: [DirectionEquation<'d>; 2],
-    /// `e` and `eₜ`, or the parameters of a law of force; `μ` and `μ₀`.
+    /// `e` and `eₜ`, or the parameters of a force law; `μ` and `μ₀`.
     pub coefficients: [Expr<'d>; 4],
-    /// How it bounces, if it does.
+    /// The impact law, if it is rigid.
     pub law: ImpactLaw,
-    /// Whether with the others or one after the other.
+    /// Whether simultaneous impacts are solved together or one after the other.
     pub order: ImpactOrder,
-    /// What becomes of it where its friction leaves no motion.
+    /// What happens if friction leaves no consistent motion (Painlevé's paradox).
     pub painleve: Painleve,
-    /// By which law it presses, if it yields.
+    /// The force law, if it is compliant.
     pub compliance: Option<Compliance>,
     /// Whether there is friction.
     pub rubs: bool,
-    /// Whether it is the rolling of the contact before it: see [`Unilateral`](lagrangian_program::Unilateral).
+    /// Whether it is the rolling resistance of the preceding contact: see [`Unilateral`](lagrangian_program::Unilateral).
     pub rolls: bool,
-    /// Whether it is the second tangent of the contact before it, in space: see [`Unilateral`](lagrangian_program::Unilateral).
+    /// Whether it is the second tangent of the preceding contact, in space: see [`Unilateral`](lagrangian_program::Unilateral).
     pub across: bool,
-    /// Of a corner on a face of a polygon, how far it is outside of that face, how far beyond its ends, and how fast that grows.
+    /// For a corner on a face of a polygon, its distance outside the face, its distance beyond the ends of the face, and the
+    /// rate of the latter.
     pub face: Option<[Expr<'d>; 3]>,
 }
 
@@ -61,7 +62,7 @@ pub struct UnilateralEquation<'d> {
 pub struct DirectionEquation<'d> {
     /// `γ(q, v, t)`, in m/s.
     pub rate: Expr<'d>,
-    /// `w(q, t)`, by coordinates.
+    /// `w(q, t)`, one entry for each coordinate.
     pub row: Vec<Expr<'d>>,
     /// `δ(q, v, t)`.
     pub drift: Expr<'d>,
@@ -107,7 +108,7 @@ pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
         let zero = model.dag.zero();
         let rubs = contact.friction.is_some();
         let (gap, rate, slip) = match of_face {
-            // These choose between features, and multiplied out they would be long.
+            // These select among features, and multiplied out they would be long.
             Some((rate, _)) => (gap, rate, if rubs { slip } else { zero }),
             None => {
                 let gap = plain(gap);
@@ -137,7 +138,8 @@ pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
             face: of_face.map(|(_, face)| face),
         };
         if let (true, Some(across)) = (rubs, across) {
-            // What it leans on has its gap and its normal; all that is its own is the other component of the slip.
+            // It shares the gap and the normal of the preceding contact; only the other component of the slip is
+            // its own.
             let [normal, _] = own.directions.clone();
             let second = UnilateralEquation {
                 name: format!("{}.across", contact.name),
@@ -154,7 +156,8 @@ pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
         else {
             return vec![own];
         };
-        // What it leans on has its gap and its normal; all that is its own is a rate of rotation.
+        // It shares the gap and the normal of the preceding contact; only an angular velocity is
+        // its own.
         let rate = plain(circles::rolling(model, touching, &mut x.coasting(model)));
         let rolling = UnilateralEquation {
             name: format!("{}.rolling", contact.name),

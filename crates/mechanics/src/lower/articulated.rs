@@ -1,11 +1,11 @@
-//! The accelerations without a mass matrix: eliminated where the inertia is, from the tips of the
+//! Solves for the accelerations without a mass matrix, by eliminating inertia from the tips of the
 //! machine to the ground.
 //!
-//! Inertia sits on velocities `u` of bodies, `T = ½ Σ w u²`, and the velocity of a body is built
-//! from that of what it hangs on: `u = u' + l cos φ·φ̇`. Written for all accelerations at once the
-//! equations of motion are sparse, and this elimination keeps them so. By Gauss's principle the
-//! accelerations make `½ Σ G_xy ẋ ẏ − Σ g_x ẋ` least. This form is held over a *front* of
-//! velocities, at first those that carry inertia or loads. Until the front is empty:
+//! Inertia belongs to velocities `u` of bodies, `T = ½ Σ w u²`, and the velocity of a body is built
+//! from that of the body it hangs on: `u = u' + l cos φ·φ̇`. Written for all accelerations at once
+//! the equations of motion are sparse, and this elimination keeps them so. By Gauss's principle the
+//! accelerations minimize `½ Σ G_xy ẋ ẏ − Σ g_x ẋ`. This quadratic form is kept over a *front* of
+//! velocities, initially those with inertia or loads. Until the front is empty:
 //!
 //! ```text
 //! a velocity v of a coordinate on which nothing else in the front depends is eliminated:
@@ -15,20 +15,20 @@
 //!     g_k += cₖ (g_u − G_uu β)     g_x −= G_ux β
 //! ```
 //!
-//! Velocities that are coupled and have parts in common give way together, `u = C w + e`: with `B = G C`
-//! the form becomes `Cᵀ B`, and what its columns share is computed once. Where a velocity is the only
-//! one that a coordinate's goes into, `u = ±v + …`, it stands for that: a chain's bars have angular
+//! Coupled velocities with common parts are replaced together, `u = C w + e`: with `B = G C` the form
+//! becomes `Cᵀ B`, and common parts of its columns are computed once. If a coordinate's velocity `v`
+//! enters only one velocity, `u = ±v + …`, then `u` takes its place: so the bars of a chain have angular
 //! velocities of their own, whatever their angles are measured from.
 //!
-//! In space the accelerations that velocities have where no coordinate accelerates are computed from
-//! the ground on and are among the loads; then `β = 0`.
+//! In space the accelerations that velocities have without accelerations of coordinates are computed
+//! from the ground outwards and are among the loads; then `β = 0`.
 //!
 //! The accelerations follow in reverse order. On a chain of links this is the articulated-body
 //! algorithm, linear in the number of links (R. Featherstone, *The calculation of robot dynamics
-//! using articulated-body inertias*, Int. J. Robotics Res. 2 (1983) 13–30); a machine of free
-//! bodies falls apart, since the inertia that a body in polar coordinates leaves behind is `m − m
-//! cos² − m sin² = 0` to the algebra. Every `G` is positive semidefinite and every elimination
-//! symmetric, so rounding errors stay as small as in Cholesky's method.
+//! using articulated-body inertias*, Int. J. Robotics Res. 2 (1983) 13–30). A machine of free
+//! bodies decouples, since the algebra simplifies the inertia that remains of a body in polar
+//! coordinates to `m − m cos² − m sin² = 0`. Every `G` is positive semidefinite and every
+//! elimination symmetric, so rounding errors stay as small as in Cholesky's method.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -42,36 +42,38 @@ use crate::{InertialPair, Unprojected};
 use lagrangian_spec::identity;
 use lagrangian_spec::model::Model;
 
-/// The most terms that may go into the form. Where it takes more, the mass matrix is the better
-/// way.
+/// The largest number of terms that may enter the form. Beyond it, elimination of the mass matrix
+/// is better.
 const BUDGET: usize = 40_000;
 
-/// How many nodes and operands may be made on the way. What grows more is coupled too densely to be
-/// eliminated along itself.
+/// The largest number of nodes and operands that may be created on the way. A machine that needs
+/// more is coupled too densely to be eliminated along its structure.
 const MOST_GROWTH: usize = 4_000_000;
 
-/// How many there may be in all: nothing of what was tried is forgotten, and this is half a gigabyte.
+/// The largest total number: the graph keeps what was tried and discarded, and this is half
+/// a gigabyte.
 const MOST_SIZE: usize = 10_000_000;
 
-/// How many nodes may lie between the velocity of a point on a bar and those of its joint and of the bar. A
-/// velocity that is built from more, nested deeper than anybody places a point, is none of a bar; and each
-/// would have to be followed to its end.
+/// The largest number of nodes between the velocity of a point on a bar and those of its joint and of the
+/// bar. A velocity that is nested deeper is not treated as that of a point on a bar, since following each
+/// of these to its end would take too long.
 const LONGEST_ARM: usize = 64;
 
-/// Accelerations in the order of the coordinates, and pivots in the order of elimination, with
-/// their coordinates.
+/// Accelerations in the order of the coordinates, and pivots with their coordinates in the order
+/// of elimination.
 pub(super) struct Solution<'d> {
     pub(super) accelerations: Vec<Expr<'d>>,
     pub(super) pivots: Vec<(usize, Expr<'d>)>,
-    /// Symbols in all of these, and what they stand for: a value that is computed once.
+    /// Symbols in all of these with their meanings, values that are computed once.
     pub(super) names: Vec<(Expr<'d>, Expr<'d>)>,
-    /// What was done, in order.
+    /// The steps, in order.
     pub(super) steps: Vec<Step<'d>>,
     /// The coordinates by the nodes of their velocities.
     pub(super) coordinates: BTreeMap<Id, usize>,
 }
 
-/// Solves for the accelerations; `None` where it takes too much, or a coordinate has no inertia.
+/// Solves for the accelerations; `None` if that takes too much work, or if a coordinate has
+/// no inertia.
 pub(super) fn solve<'d>(
     model: &Model<'d>,
     machine: &Unprojected<'d>,
@@ -80,7 +82,7 @@ pub(super) fn solve<'d>(
     within_bounds(model.dag, || eliminated(model, machine, order))
 }
 
-/// What `derive` makes of a machine; `None` where the graph grows too much on the way.
+/// The result of `derive`; `None` if the graph grows too much on the way.
 fn within_bounds<T>(dag: &Dag, derive: impl FnOnce() -> Option<T>) -> Option<T> {
     dag.set_limit((dag.size() + MOST_GROWTH).min(MOST_SIZE));
     let derived = derive();
@@ -109,7 +111,7 @@ fn eliminated<'d>(
         let terms = std::iter::once(*alone).chain(terms);
         let total = match order {
             Order::Short => front.totals.total(terms.collect()),
-            // A common factor would have to wait for the parts.
+            // Factoring out a common factor would make it wait for the other parts.
             Order::Ahead => model.dag.sum(terms),
         };
         known.insert(*of, total);
@@ -118,7 +120,7 @@ fn eliminated<'d>(
         .iter()
         .filter_map(|step| Some((*front.coordinates.get(&step.of)?, step.pivot?)))
         .collect();
-    // A coordinate without inertia need not look like one.
+    // The inertia of a coordinate may be identically zero without looking so.
     let divisors: Vec<Expr<'d>> = steps.iter().filter_map(|step| step.pivot).collect();
     if !identity::are_divisors(model.dag, &divisors, &front.names) {
         return None;
@@ -142,11 +144,11 @@ fn eliminated<'d>(
     })
 }
 
-/// The mass matrix by the same way, nothing eliminated: the lower triangle, row by row.
+/// The mass matrix in the same way, without eliminating anything: the lower triangle, row by row.
 ///
-/// Once every velocity has given way to those of coordinates, the form is that of `M`. A body
-/// adds its inertia to that of what it hangs on before it is handed on, so that each entry takes one
-/// link's work: the composite rigid body algorithm (M. W. Walker and D. E. Orin, *Efficient dynamic
+/// Once every velocity is replaced by those of coordinates, the form is that of `M`. A body adds its
+/// inertia to that of the body it hangs on before the sum is passed on, so each entry takes the work
+/// of one link: the composite rigid body algorithm (M. W. Walker and D. E. Orin, *Efficient dynamic
 /// computer simulation of robotic mechanisms*, J. Dyn. Syst. Meas. Control 104 (1982) 205–211).
 pub(super) fn mass_matrix<'d>(
     model: &Model<'d>,
@@ -183,13 +185,13 @@ fn composite_inertia<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option
 
 /// A velocity that has left the front: its acceleration is `alone + Σ c·part`.
 ///
-/// For other forces at rest, `Σ G ẍ = r`, it is `r/pivot + Σ c·part`, 0 + … without a pivot; and
-/// `c r` comes to the load on each part.
+/// For another right-hand side at zero velocities, `Σ G ẍ = r`, it is `r/pivot + Σ c·part`, where
+/// the first term is 0 without a pivot; and `c r` is added to the load on each part.
 pub(super) struct Step<'d> {
     pub(super) of: Id,
     alone: Expr<'d>,
     pub(super) parts: Vec<(Id, Expr<'d>)>,
-    /// What it was divided by, if it was eliminated.
+    /// Its pivot, if it was eliminated.
     pub(super) pivot: Option<Expr<'d>>,
 }
 
@@ -199,8 +201,8 @@ struct Composition<'d> {
     rest: Expr<'d>,
 }
 
-/// A velocity that stands for that of a coordinate: `u = ±v + Σ c·part + rest`, and nothing else is
-/// built from `v`.
+/// A velocity that takes the place of a coordinate's: `u = ±v + Σ c·part + rest`, and nothing else
+/// is built from `v`.
 struct Place<'d> {
     id: Id,
     /// `v`.
@@ -210,18 +212,19 @@ struct Place<'d> {
     rest: Expr<'d>,
 }
 
-/// What is computed first.
+/// The order of computations.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Order {
-    /// One elimination after the other, in the fewest operations.
+    /// One elimination after the other, with the fewest operations.
     Short,
-    /// What does not wait for the last division before what does: with an update `− w wᵀ/d` on its
-    /// way, `Cᵀ G C` is made of G as it was, and `w` becomes `Cᵀ w`, so that the next pivot waits for
-    /// one multiplication and one subtraction only. This is the same elimination, with more operations.
+    /// Computations that do not depend on the last division first: while an update `− w wᵀ/d` is
+    /// pending, `Cᵀ G C` is computed from the old G, and `w` becomes `Cᵀ w`, so that the next pivot
+    /// waits for only one multiplication and one subtraction. This is the same elimination, with
+    /// more operations.
     Ahead,
 }
 
-/// An update `− w wᵀ/d` of the form that is not made yet.
+/// A pending update `− w wᵀ/d` of the form.
 struct Update<'d> {
     /// `w`, by row.
     column: BTreeMap<Id, Expr<'d>>,
@@ -232,39 +235,41 @@ struct Update<'d> {
 struct Front<'d> {
     dag: &'d Dag,
     order: Order,
-    /// Updates that are not made yet.
+    /// Pending updates.
     late: Vec<Update<'d>>,
-    /// The coordinates by the nodes of their velocities, or of those in their places.
+    /// The coordinates by the nodes of their velocities, or of the velocities in their places.
     coordinates: BTreeMap<Id, usize>,
-    /// What stands in the places of the coordinates' velocities.
+    /// The velocities that take the places of the coordinates' velocities.
     places: Vec<Option<Place<'d>>>,
-    /// Which coordinates' velocities a node depends on, where it is linear in them.
+    /// The coordinates on whose velocities a node depends, if it is linear in them.
     touches: FxHashMap<Id, BTreeSet<usize>>,
-    /// How many nodes a node is a part of.
+    /// The number of nodes of which a node is a part.
     parents: FxHashMap<Id, usize>,
-    /// `d/dt` of what depends on coordinates and time.
+    /// `d/dt` of expressions in coordinates and time.
     rate: Tangent<'d>,
     /// Terms of G, row by row, both triangles.
     form: BTreeMap<Id, BTreeMap<Id, Vec<Expr<'d>>>>,
     /// Terms of g.
     loads: BTreeMap<Id, Vec<Expr<'d>>>,
-    /// How many velocities of the front that are no coordinates' depend on each coordinate's.
+    /// For each coordinate the number of velocities in the front, other than those of coordinates,
+    /// that depend on its velocity.
     uses: Vec<usize>,
-    /// Whether velocities accelerate where no coordinate does.
+    /// Whether velocities have accelerations when all coordinate accelerations are zero.
     drifts: bool,
-    /// What falls freely where the machine is seen from, with its acceleration there.
+    /// The velocities that fall freely in the accelerated frame in which the machine is described,
+    /// with their accelerations there.
     falls: FxHashMap<Id, Expr<'d>>,
     /// Whether coefficients may be given names.
     may_name: bool,
-    /// Coefficients by names, and what these stand for.
+    /// Named coefficients and their meanings.
     names: Vec<(Expr<'d>, Expr<'d>)>,
     totals: Totals<'d>,
-    /// How many terms have come into G and g.
+    /// The number of terms that have entered G and g.
     terms: usize,
 }
 
 impl<'d> Front<'d> {
-    /// The front at first. With `places`, velocities may stand for those of coordinates.
+    /// The initial front. With `places`, velocities may take the places of coordinates' velocities.
     fn of(model: &Model<'d>, machine: &Unprojected<'d>, places: bool) -> Front<'d> {
         let dag = model.dag;
         let coordinates = model.coordinates.iter().enumerate();
@@ -319,11 +324,11 @@ impl<'d> Front<'d> {
         front
     }
 
-    /// Finds velocities that may stand for those of coordinates: a sum with `±v` among its terms,
-    /// where nothing else is built from `v` and `v` itself has no inertia.
+    /// Finds velocities that may take the place of a coordinate's velocity: a sum with `±v` among
+    /// its terms, if nothing else is built from `v` and `v` itself has no inertia.
     ///
     /// So each bar of a chain gets an angular velocity of its own, whatever its angle is measured
-    /// from, and of a joint in space the angular velocity about its axis.
+    /// from, and a joint in space the angular velocity about its axis.
     fn find_places(&mut self, roots: &[Expr<'d>], machine: &Unprojected<'d>) {
         let inert: FxHashSet<Id> = machine
             .inertia
@@ -353,7 +358,7 @@ impl<'d> Front<'d> {
             let Some(parts) = self.direct_parts(id) else {
                 continue;
             };
-            // Of several, one.
+            // If there are several, take the first.
             let index = *indices.iter().min().unwrap_or(&0);
             let of = |part: &Id| self.coordinates.get(part) == Some(&index);
             let Some((own, c)) = parts.iter().find(|(part, _)| of(part)) else {
@@ -388,7 +393,7 @@ impl<'d> Front<'d> {
         self.find_linear(roots);
     }
 
-    /// The velocities that inertia and loads are on, and the coordinates'.
+    /// The velocities of inertia and loads, and those of the coordinates.
     fn roots(&self, model: &Model<'d>, machine: &Unprojected<'d>) -> Vec<Expr<'d>> {
         let inertial = machine.inertia.iter().flat_map(|pair| [pair.u, pair.w]);
         let loaded = machine.loads.iter().map(|(u, _)| *u);
@@ -396,12 +401,13 @@ impl<'d> Front<'d> {
         inertial.chain(loaded).chain(velocities).collect()
     }
 
-    /// The components of points on bars: of a velocity and one turn, at a distance across the bar.
+    /// The velocity components of points on bars: the sum of a velocity and one rotation, at a
+    /// distance across the bar.
     fn arms(&self) -> BTreeMap<Id, Arm<'d>> {
         let mut arms: BTreeMap<Id, Arm<'d>> = BTreeMap::new();
         let mut nodes: Vec<Id> = self.touches.keys().copied().collect();
         nodes.sort_unstable();
-        // What a node is built from comes before it, so each is looked at once.
+        // The parts of a node come before it, so each node is visited once.
         let mut linear: FxHashSet<Id> = FxHashSet::default();
         for id in nodes {
             if self.coordinates.contains_key(&id) {
@@ -428,7 +434,7 @@ impl<'d> Front<'d> {
             if one != self.dag.one() || across.stage() <= Stage::PARAMETER || !rest.is_zero() {
                 continue;
             }
-            // Measured from the joint, where it is from another point of the bar.
+            // Measured from the joint, if it was given from another point of the bar.
             let arm = match arms.get(&joint) {
                 Some(inner) if inner.turning == turning => Arm {
                     joint: inner.joint,
@@ -448,13 +454,13 @@ impl<'d> Front<'d> {
         arms
     }
 
-    /// Forgets what [`find_linear`](Self::find_linear) found.
+    /// Discards the results of [`find_linear`](Self::find_linear).
     fn forget(&mut self) {
         self.touches.clear();
         self.parents.clear();
     }
 
-    /// What velocities with another in their place follow from: `v = ±(u − Σ c·part − rest)`.
+    /// The velocities whose places others took, in terms of these: `v = ±(u − Σ c·part − rest)`.
     fn places(&mut self) -> Vec<Step<'d>> {
         let places = std::mem::take(&mut self.places);
         let steps = places.iter().flatten().map(|place| {
@@ -470,7 +476,7 @@ impl<'d> Front<'d> {
         steps.collect()
     }
 
-    /// Finds which nodes are linear in velocities, and in which.
+    /// Finds the nodes that are linear in velocities, and the velocities that they contain.
     fn find_linear(&mut self, roots: &[Expr<'d>]) {
         for id in reachable(self.dag, roots) {
             let node = self.dag.node(id);
@@ -499,7 +505,7 @@ impl<'d> Front<'d> {
                 self.enter(w.id());
                 self.add(u.id(), w.id(), if u == w { weight } else { weight / 2 });
             }
-            // The other one moves as time says.
+            // The other one depends on time alone.
             (true, false) => {
                 let load = -(weight / 2 * self.drift(&[], w));
                 self.enter(u.id());
@@ -510,7 +516,8 @@ impl<'d> Front<'d> {
         }
     }
 
-    /// Adds loads, by velocity; those on what is not linear in velocities go to the coordinates.
+    /// Adds loads to velocities; those on nodes that are not linear in velocities go to
+    /// the coordinates.
     fn add_loads(&mut self, loads: &[(Expr<'d>, Expr<'d>)], model: &Model<'d>) {
         let velocities: Vec<Symbol> = model
             .coordinates
@@ -523,7 +530,7 @@ impl<'d> Front<'d> {
             .partition(|(u, _)| self.is_linear(u.id()));
         let direct = reverse(self.dag, &others, &velocities);
         let direct = model.coordinates.iter().map(|c| c.v).zip(direct);
-        // Several on one velocity are one, that nothing takes apart again.
+        // Several loads on one velocity become one, which stays a whole.
         let mut sums: BTreeMap<Id, Vec<Expr<'d>>> = BTreeMap::new();
         for (u, load) in linear.into_iter().chain(direct) {
             let place = self.places.iter().zip(&model.coordinates);
@@ -531,7 +538,7 @@ impl<'d> Front<'d> {
                 .filter(|(_, c)| c.v == u)
                 .find_map(|(p, _)| p.as_ref());
             match place {
-                // What acts on `v = ±(u − Σ c·part − rest)` acts on all of these.
+                // A load on `v = ±(u − Σ c·part − rest)` acts on all of these.
                 Some(place) => {
                     let load = load * place.sign.clone();
                     sums.entry(place.id).or_default().push(load);
@@ -545,7 +552,7 @@ impl<'d> Front<'d> {
                 None => {}
             }
         }
-        // Their accelerations are needed, whether anything acts on them or not.
+        // Their accelerations are needed, with or without loads.
         let parts = self.places.iter().flatten().flat_map(|place| &place.parts);
         for id in parts.map(|(part, _)| *part).collect::<Vec<_>>() {
             self.enter(id);
@@ -603,8 +610,8 @@ impl<'d> Front<'d> {
         }
     }
 
-    /// Takes a velocity out of the front: its own entry of G, the others of its row, and the terms
-    /// of its load.
+    /// Removes a velocity from the front, and returns its diagonal entry of G, the others of its
+    /// row, and the terms of its load.
     fn take(&mut self, id: Id) -> (Expr<'d>, Vec<(Id, Expr<'d>)>, Vec<Expr<'d>>) {
         let row = self.form.remove(&id).unwrap_or_default();
         let mut own = self.dag.zero();
@@ -626,12 +633,12 @@ impl<'d> Front<'d> {
         (own, others, self.loads.remove(&id).unwrap_or_default())
     }
 
-    /// Whether the elimination has taken more than any machine for which it is the better way.
+    /// Whether the elimination has exceeded the size up to which it can be the better way.
     fn is_too_long(&self) -> bool {
         self.terms > BUDGET || self.dag.is_exhausted()
     }
 
-    /// The next step; `None` inside once the front is empty.
+    /// The next step; the inner `None` means that the front is empty.
     fn next(&mut self) -> Option<Option<Vec<Step<'d>>>> {
         if self.is_too_long() {
             return None;
@@ -651,9 +658,9 @@ impl<'d> Front<'d> {
         }
     }
 
-    /// The velocity to replace by its parts, towards the coordinate that the fewest of the front
-    /// depend on: so that a chain is taken apart from its tip. The last one built of those that
-    /// depend on it; nothing else can be built from that.
+    /// The velocity to replace by its parts. The coordinate on which the fewest velocities of the
+    /// front depend is taken first, so that a chain is processed from its tip. Among these
+    /// velocities it is the one built last, from which nothing else can be built.
     fn next_to_replace(&self) -> Option<Id> {
         let built = || {
             self.form
@@ -708,8 +715,8 @@ impl<'d> Front<'d> {
         }
     }
 
-    /// Makes all updates of one row that has been taken from the form, and those that it is in, of the
-    /// others.
+    /// Makes all pending updates that involve a row taken from the form; `own` and `row` receive
+    /// its share.
     fn catch_up(&mut self, id: Id, own: &mut Expr<'d>, row: &mut Vec<(Id, Expr<'d>)>) {
         let (due, others) = std::mem::take(&mut self.late)
             .into_iter()
@@ -738,8 +745,8 @@ impl<'d> Front<'d> {
         }
     }
 
-    /// The velocities that give way together with one: those that have parts in common with it, and
-    /// that nothing else in the front is built from.
+    /// The velocities that are replaced together with a given one: those that share parts with it,
+    /// and from which nothing else in the front is built.
     fn group(&self, first: Id) -> Option<Vec<(Id, Composition<'d>)>> {
         let own = self.composition(first)?;
         let parts: BTreeSet<Id> = own.parts.iter().map(|(part, _)| *part).collect();
@@ -793,8 +800,8 @@ impl<'d> Front<'d> {
         false
     }
 
-    /// Replaces velocities `u = C w + e` by their parts `w`, all at once: with `B = G C`, its rows
-    /// and columns `G` become `Cᵀ B`, so that what columns have in common is computed once.
+    /// Replaces velocities `u = C w + e` by their parts `w`, all at once: with `B = G C`, the rows
+    /// and columns `G` become `Cᵀ B`, so that common parts of columns are computed once.
     fn replace(&mut self, mut group: Vec<(Id, Composition<'d>)>) -> Vec<Step<'d>> {
         let mut drifts: Vec<Expr<'d>> = group
             .iter()
@@ -845,7 +852,7 @@ impl<'d> Front<'d> {
             for (y, value) in &outer[k] {
                 self.add_load(*y, -(*value * drifts[k]));
                 for (x, c) in &group[k].1.parts {
-                    // ẋ ẏ stands twice in the form where y is x itself.
+                    // ẋ ẏ occurs twice in the form if y is x itself.
                     let factor = if x == y { 2 } else { 1 };
                     self.add(*x, *y, factor * (*c * *value));
                 }
@@ -853,7 +860,7 @@ impl<'d> Front<'d> {
         }
         self.congruence(&group, &inner);
         for update in &mut self.late {
-            // What drifts pulls at what the update couples it to, outside of the group.
+            // The drift loads every velocity outside the group that the update couples to it.
             let drifting = group.iter().zip(&drifts).filter_map(|((id, _), drift)| {
                 let value = *update.column.get(id)?;
                 (!drift.is_zero()).then(|| value * *drift)
@@ -891,8 +898,8 @@ impl<'d> Front<'d> {
             .collect()
     }
 
-    /// Whether the velocities of a group are coupled by what varies: then no identity of sines and
-    /// cosines makes `Cᵀ G C` shorter.
+    /// Whether variable entries couple the velocities of a group: then no identity of sines and
+    /// cosines shortens `Cᵀ G C`.
     fn is_full(&self, group: &[(Id, Composition<'d>)], inner: &[Vec<(usize, Expr<'d>)>]) -> bool {
         let couples = |(k, l): (usize, usize)| {
             k != l && self.with_late(group, inner, k, l).stage() > Stage::PARAMETER
@@ -901,7 +908,8 @@ impl<'d> Front<'d> {
     }
 
     /// Gives names to coefficients such as `l cos φ`, so that they are computed once and stay together:
-    /// with `l` taken out of sums and `cos φ` left inside, every use has its own multiplication.
+    /// if `l` were taken out of sums and `cos φ` left inside, every use would have a multiplication of
+    /// its own.
     fn name_coefficients(&mut self, group: &mut [(Id, Composition<'d>)], drifts: &mut [Expr<'d>]) {
         let first = self.names.len();
         for (_, composition) in group.iter() {
@@ -931,7 +939,7 @@ impl<'d> Front<'d> {
         }
     }
 
-    /// An expression with names for the coefficients that are factors of its terms.
+    /// An expression with the coefficients that are factors of its terms replaced by their names.
     fn with_names(&self, e: Expr<'d>, names: &[(Expr<'d>, Expr<'d>)]) -> Expr<'d> {
         let named = |term: Expr<'d>| {
             let (_, factors) = factors_of(term);
@@ -951,7 +959,7 @@ impl<'d> Front<'d> {
             .product(powers.map(|(factor, power)| self.dag.expr(*factor).powi(*power)))
     }
 
-    /// An entry of G of two velocities of a group, with the updates that are not made yet.
+    /// An entry of G for two velocities of a group, including pending updates.
     fn with_late(
         &self,
         group: &[(Id, Composition<'d>)],
@@ -1006,8 +1014,8 @@ impl<'d> Front<'d> {
         }
     }
 
-    /// Whether two velocities are two others along axes that are turned: `u = c w + s w'`, `u' = c
-    /// w' − s w`. Then `w` and `w'`, the cosine and the sine, this with its sign.
+    /// Recognizes two velocities that are two others in rotated axes: `u = c w + s w'`,
+    /// `u' = c w' − s w`. Returns `w` and `w'`, the cosine, and the sine with its sign.
     fn turn(&self, group: &[(Id, Composition<'d>)]) -> Option<([Id; 2], Expr<'d>, Expr<'d>)> {
         let [(_, first), (_, second)] = group else {
             return None;
@@ -1035,8 +1043,8 @@ impl<'d> Front<'d> {
         swapped.then_some(([b, a], s, c))
     }
 
-    /// Adds `Cᵀ G C` for a turn, with a few operations less: for `G = [x z; z y]` and `α = s (y − x) −
-    /// 2 c z` it is `[x + s α, −c α − z; ·, y − s α]`, since `c² + s² = 1`.
+    /// Adds `Cᵀ G C` for a rotation with fewer operations: for `G = [x z; z y]` and
+    /// `α = s (y − x) − 2 c z` it is `[x + s α, −c α − z; ·, y − s α]`, since `c² + s² = 1`.
     fn turn_inertia(
         &mut self,
         [a, b]: [Id; 2],
@@ -1062,7 +1070,7 @@ impl<'d> Front<'d> {
         }
     }
 
-    /// `β = Σ ċ w + ė`: what the acceleration of `Σ c w + e` has beside `Σ c ẇ`.
+    /// `β = Σ ċ w + ė`: the part of the acceleration of `Σ c w + e` besides `Σ c ẇ`.
     fn drift(&mut self, parts: &[(Id, Expr<'d>)], rest: Expr<'d>) -> Expr<'d> {
         if !self.drifts {
             return self.dag.zero();
@@ -1071,8 +1079,8 @@ impl<'d> Front<'d> {
         for (part, c) in parts {
             let w = self.dag.expr(*part);
             let rate = self.rate.of(*c);
-            // Multiplied out: the parts have terms in common, as 2 ṡ φ̇ cos φ, of which each gives
-            // one half.
+            // Multiplied out, because the parts have terms in common, such as 2 ṡ φ̇ cos φ, of
+            // which each gives one half.
             terms.extend(terms_of(rate).into_iter().map(|term| term * w));
         }
         let drift = self.dag.sum(terms);
@@ -1080,18 +1088,18 @@ impl<'d> Front<'d> {
         drift
     }
 
-    /// What the acceleration of `Σ c w` has beside those of its parts because all of them are measured
-    /// from [free fall](Front::falls).
+    /// The part of the acceleration of `Σ c w`, besides those of its parts, that arises because all of
+    /// them are measured relative to [free fall](Front::falls).
     fn fall(&self, id: Id, parts: &[(Id, Expr<'d>)]) -> Expr<'d> {
         let of = |id: &Id| self.falls.get(id).copied().unwrap_or(self.dag.zero());
         let terms = parts.iter().map(|(part, c)| *c * of(part));
         self.dag.sum(terms.chain([-of(&id)]))
     }
 
-    /// Gravity: the machine is seen from where all falls freely.
+    /// Accounts for gravity by describing the machine in a freely falling frame.
     ///
-    /// There nothing has weight, and the ground accelerates upwards; no load comes to any body, and
-    /// no sum of weights is rounded that the ground bears anyway.
+    /// There nothing has weight, and the ground accelerates upwards; no body carries a load of
+    /// gravity, and no sum of weights that the ground bears anyway is rounded.
     fn gravity(&mut self, machine: &Unprojected<'d>) -> Vec<(Expr<'d>, Expr<'d>)> {
         for pair in &machine.inertia {
             let (id, Some(g)) = (pair.u.id(), pair.fall) else {
@@ -1102,7 +1110,7 @@ impl<'d> Front<'d> {
                 self.falls.entry(id).or_insert(g);
             }
         }
-        // So is what they are built on.
+        // The velocities from which these are built fall too.
         let mut open: BTreeSet<Id> = self.falls.keys().copied().collect();
         while let Some(id) = open.pop_last() {
             let Some(Composition { parts, .. }) = self.composition(id) else {
@@ -1119,8 +1127,8 @@ impl<'d> Front<'d> {
                 open.insert(*carrier);
             }
         }
-        // The weights that remain as seen from there: mostly none. Bodies that share a velocity may
-        // fall differently along it, so each pair has its own.
+        // The weights that remain in that frame, mostly none. Bodies that share a velocity may fall
+        // differently along it, so each pair has its own.
         let zero = self.dag.zero();
         let load = |pair: &InertialPair<'d>| {
             let seen = self.falls.get(&pair.u.id()).copied().unwrap_or(zero);
@@ -1129,13 +1137,13 @@ impl<'d> Front<'d> {
         machine.inertia.iter().map(load).collect()
     }
 
-    /// What a velocity is built from: velocities of coordinates, nodes of the front, and nodes that
-    /// more than one other node is built from. `None` if it is not linear.
+    /// The parts of a velocity: velocities of coordinates, nodes of the front, and nodes from which
+    /// more than one other node is built. `None` if it is not linear.
     fn composition(&self, id: Id) -> Option<Composition<'d>> {
         self.composition_within(id, usize::MAX)
     }
 
-    /// [`composition`](Self::composition), if at most `most` nodes lie between the velocity and what it is built from.
+    /// [`composition`](Self::composition), if at most `most` nodes lie between the velocity and its parts.
     fn composition_within(&self, id: Id, mut most: usize) -> Option<Composition<'d>> {
         let mut parts: BTreeMap<Id, Vec<Expr<'d>>> = BTreeMap::new();
         let mut rest = Vec::new();
@@ -1169,7 +1177,7 @@ impl<'d> Front<'d> {
         })
     }
 
-    /// The nodes that a velocity is built from directly, with their coefficients.
+    /// The direct parts of a velocity, with their coefficients.
     fn direct_parts(&self, id: Id) -> Option<Vec<(Id, Expr<'d>)>> {
         match self.dag.node(id) {
             Node::Sum(terms) => Some(
@@ -1213,15 +1221,15 @@ impl<'d> Front<'d> {
     }
 }
 
-/// Sums are multiplied out up to this many terms; what cancels does so among few.
+/// Sums are multiplied out up to this many terms; cancellations occur in short sums.
 const LONGEST_EXPANSION: usize = 24;
 
-/// Which sums are multiplied out.
+/// The sums that are multiplied out.
 #[derive(Clone, Copy)]
 enum Reach {
     /// Earlier totals that are factors of products.
     TotalsInProducts,
-    /// Earlier totals that are factors of products, and again in the products that this gives.
+    /// Earlier totals that are factors of products, and those in the resulting products.
     Deep,
     /// Earlier totals.
     Totals,
@@ -1248,8 +1256,8 @@ struct Totals<'d> {
 }
 
 impl<'d> Totals<'d> {
-    /// The sum; with sums among its factors multiplied out where that makes it shorter: terms of
-    /// several eliminations may cancel, which they cannot while some of them are inside a product.
+    /// The sum, with sums among its factors multiplied out if that makes it shorter: terms of
+    /// several eliminations may cancel, but not while some of them are inside a product.
     fn total(&mut self, terms: Vec<Expr<'d>>) -> Expr<'d> {
         let mut shortest = self.dag.sum(terms.iter().copied());
         if !self.expands {
@@ -1267,8 +1275,8 @@ impl<'d> Totals<'d> {
         self.without_content(shortest)
     }
 
-    /// The sum with those terms multiplied out that have something to cancel; `None` if there are
-    /// none, or it is long.
+    /// The sum with those terms multiplied out that can cancel something; `None` if there are none,
+    /// or if it is long.
     fn partly_expanded(&self, terms: &[Expr<'d>], reach: Reach) -> Option<Expr<'d>> {
         let mut parts: Vec<Vec<Expr<'d>>> = Vec::with_capacity(terms.len());
         let mut len = 0;
@@ -1293,7 +1301,7 @@ impl<'d> Totals<'d> {
         Some(shortest)
     }
 
-    /// The term with sums among its factors multiplied out, unless that is long.
+    /// The term with sums among its factors multiplied out, unless the result is long.
     fn expanded(&self, term: Expr<'d>, reach: Reach) -> Option<Vec<Expr<'d>>> {
         let mut done = Vec::new();
         let mut open = vec![term];
@@ -1339,7 +1347,7 @@ impl<'d> Totals<'d> {
         Some(done)
     }
 
-    /// A sum whose terms have factors in common, as the product of these and the remaining sum.
+    /// Takes the common factors of the terms out of a sum.
     fn without_content(&mut self, total: Expr<'d>) -> Expr<'d> {
         let terms = terms_of(total);
         let mut common: BTreeMap<Id, i32> = factors_of(terms[0]).1.into_iter().collect();
@@ -1369,7 +1377,7 @@ impl<'d> Totals<'d> {
         common * rest
     }
 
-    /// Remembers that a sum may be multiplied out again.
+    /// Records that a sum may be multiplied out again.
     fn made(&mut self, sum: Expr<'d>) {
         if matches!(sum.node(), Node::Sum(terms) if terms.len() > 1) {
             self.made.insert(sum.id());
@@ -1390,7 +1398,7 @@ fn factors_of(e: Expr<'_>) -> (Rational, Vec<(Id, i32)>) {
     }
 }
 
-/// The terms of a sum, or of a multiple of a sum; of anything else, itself.
+/// The terms of a sum or of a multiple of a sum; any other expression is its only term.
 fn terms_of(e: Expr<'_>) -> Vec<Expr<'_>> {
     let dag = e.dag();
     match e.node() {
@@ -1409,7 +1417,8 @@ fn terms_of(e: Expr<'_>) -> Vec<Expr<'_>> {
     }
 }
 
-/// The multiplications and additions at the top of an expression, its parts taken as given.
+/// The number of multiplications and additions at the top of an expression, not counting those of
+/// its parts.
 fn work(e: Expr<'_>) -> usize {
     if e.stage() <= Stage::PARAMETER {
         return 0;

@@ -1,27 +1,28 @@
-//! The inertia of bars in the plane, as masses at their joints.
+//! Replaces the inertia of bars in the plane by masses at their joints.
 //!
-//! A bar turns at the rate `ω` about a joint `H` that moves, and carries something else at a point
-//! `T`, `u_T = u_H + l ω` with `l` across the bar. The velocity of a body on the line through both
-//! is `u = (1 − λ) u_H + λ u_T`, and because `(u_T − u_H)² = l² ω²`,
+//! A bar turns at the rate `ω` about a moving joint `H`, and carries something else at a point `T`,
+//! `u_T = u_H + l ω` with `l` across the bar. The velocity of a body on the line through both is
+//! `u = (1 − λ) u_H + λ u_T`, and because `(u_T − u_H)² = l² ω²`,
 //!
 //! ```text
 //! m u² = (1 − λ) m u_H² + λ m u_T² − λ (1 − λ) m l² ω²
 //! ```
 //!
-//! So two masses and the remaining inertia stand for the body in every motion: work of the
-//! parameter stage, after which `H` and `T` alone are in the equations. Where bars hang on bars each
-//! joint has one mass. Of the ten operations that a centre of mass between the joints costs a link of
-//! a chain, none is left.
+//! So two masses and a remaining inertia are equivalent to the body in every motion. They are
+//! computed in the parameter stage, after which only `H` and `T` occur in the equations. In a chain
+//! of bars each joint has one mass. A centre of mass between the joints would cost each link ten
+//! operations; this removes them all.
 //!
-//! This is done where `λ` is known to be between 0 and 1: a number, as for the middle of a uniform bar,
-//! or `c/l` where the spec assumes `c > 0` and `c <= l`. Then the terms are of the size of what they
-//! stand for. Of any two parameters nobody knows how large their quotient becomes: for a short bar with
-//! a far centre of mass the masses are large and of opposite signs, and as many digits of the turning
-//! are lost; without any length it is a machine still, that a quotient would deny.
+//! The replacement is made if `λ` is known to be between 0 and 1: a number, as for the middle of a
+//! uniform bar, or `c/l` if the spec assumes `c > 0` and `c <= l`. Then the terms are of the size of
+//! those that they replace. The quotient of two arbitrary parameters may be large: for a short bar
+//! with a distant centre of mass the masses would be large and of opposite signs, and the rotational
+//! inertia would lose as many digits. A bar of length zero would be a valid machine, but the quotient
+//! would be undefined.
 //!
-//! The same substitution in space is that of `equations/composite.rs`, from where the idea is:
-//! W. Khalil and J.-F. Bennis, *Symbolic calculation of the base inertial parameters of closed-loop
-//! robots*, Int. J. Robotics Res. 14 (1995) 112–128.
+//! `equations/composite.rs` makes the same substitution in space; the idea is from W. Khalil and
+//! J.-F. Bennis, *Symbolic calculation of the base inertial parameters of closed-loop robots*, Int.
+//! J. Robotics Res. 14 (1995) 112–128.
 
 use std::collections::BTreeMap;
 
@@ -45,7 +46,7 @@ pub(super) struct Arm<'d> {
 
 /// Replaces bodies by masses at the joints of their bars.
 ///
-/// `arms` are the nodes that are components of points on bars. `None` if there is nothing to replace.
+/// `arms` are the velocity components of points on bars. `None` if there is nothing to replace.
 pub(super) fn replaced<'d>(
     machine: &Unprojected<'d>,
     arms: &BTreeMap<Id, Arm<'d>>,
@@ -72,7 +73,7 @@ pub(super) fn replaced<'d>(
         let mass = first.weight;
         let dag = mass.dag();
         let (near, far) = (mass * (1 - bar.share), mass * bar.share);
-        // What acts on the body, falls included, acts on both ends in these shares.
+        // A load on the body, including its fall, is divided between the ends in these proportions.
         let falls = [first.fall, others[0].fall];
         for ((joint, tip), fall) in bar.joint.iter().zip(&bar.tip).zip(falls) {
             for (end, mass) in [(joint, near), (tip, far)] {
@@ -126,7 +127,7 @@ struct Bar<'d> {
     length_squared: Expr<'d>,
 }
 
-/// The points on each bar that carry something, one component each.
+/// The points on each bar that carry something, with one component each.
 fn carried(arms: &BTreeMap<Id, Arm<'_>>) -> BTreeMap<(Id, Id), Vec<Id>> {
     let mut carried: BTreeMap<(Id, Id), Vec<Id>> = BTreeMap::new();
     for (id, arm) in arms.iter().filter(|(_, arm)| arm.carries) {
@@ -185,8 +186,8 @@ fn bar<'d>(
     None
 }
 
-/// Whether a quotient of lengths is known to be in [0, 1]: it is `c/l`, and `c > 0` and `c <= l` are
-/// assumed.
+/// Whether a quotient of lengths is known to be in [0, 1]: it is `c/l`, and `c > 0` and `c <= l`
+/// are assumed.
 fn is_share(share: Expr<'_>, assumptions: &[Assumption<'_>]) -> bool {
     if let Node::Constant(share) = share.node() {
         return (Rational::ZERO..=Rational::ONE).contains(&share);

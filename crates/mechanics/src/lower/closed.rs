@@ -1,11 +1,12 @@
-//! The accelerations of a machine that closes, along it: cut open, it is eliminated from its tips as
-//! any tree is, and what its constraints add passes through the same steps.
+//! The accelerations of a closed-loop mechanism along its structure: the loops are cut open, the
+//! machine is eliminated from its tips like a tree, and the constraint forces pass through the
+//! same steps.
 //!
 //! ```text
 //! a = a₀ + Y λ,   Y = M⁻¹ Gᵀ,   G Y λ = γ − G a₀
 //! ```
 //!
-//! On a chain of links, a₀ and each column of Y take work that is linear in their number; over the mass
+//! On a chain of links, a₀ and each column of Y take work linear in the number of links; with the mass
 //! matrix it grows with the cube. (D. Baraff, *Linear-time dynamics using Lagrange multipliers*,
 //! SIGGRAPH 1996; R. Featherstone, *Rigid Body Dynamics Algorithms*, 2008, section 8.)
 
@@ -16,8 +17,8 @@ use lagrangian_program::graph::{Graph, Scaled};
 use lagrangian_program::solve::{self, Elimination, Pivot, Solution, System};
 use lagrangian_spec::model::Model;
 
-/// Solves `M a = f + Gᵀ λ`, `G a = γ`; `None` where that is certainly longer than over the matrix, or
-/// the machine cannot be eliminated without its constraints.
+/// Solves `M a = f + Gᵀ λ`, `G a = γ`; `None` if that is certainly longer than with the mass matrix,
+/// or if the machine cannot be eliminated without its constraints.
 pub(super) fn solve<'d>(
     lowering: &mut Lowering<'_, 'd>,
     model: &Model<'d>,
@@ -26,7 +27,7 @@ pub(super) fn solve<'d>(
 ) -> Option<Solution> {
     let n = system.coordinates;
     let count = system.forces.len() - n;
-    // Each column has an entry for each coordinate at least, and the multipliers take an elimination
+    // Each column has at least an entry for each coordinate, and the multipliers take an elimination
     // of their own.
     let least = count * n + count * count * count / 6;
     if least > Elimination::of(&lowering.graph, system).multiplications

@@ -1,10 +1,10 @@
-//! The accelerations with their derivatives: `M ∂a/∂x = ∂r/∂x`, eq. (E26), one column for each
-//! variable.
+//! The accelerations with their derivatives: `M ∂a/∂x = ∂r/∂x`, eq. (E26), a column for
+//! each variable.
 //!
-//! The elimination that finds the accelerations is one list of [`Step`]s, whether it goes along the
-//! machine or over the mass matrix. A right-hand side passes through it forwards, and what answers
-//! it comes back; nothing is factored again. The accelerations in the right-hand sides are the
-//! values that the same function computes.
+//! The elimination that gives the accelerations is one list of [`Step`]s, whether it runs along the
+//! machine or over the mass matrix. A right-hand side passes through it forwards, and its solution
+//! comes back; nothing is factored again. The accelerations in the right-hand sides are the values
+//! that the same function computes.
 
 use lagrangian_symbolic::Expr;
 
@@ -16,15 +16,16 @@ use lagrangian_program::solve::{self, Elimination, Pivot, System};
 use lagrangian_program::{Basis, Role, Shape};
 use lagrangian_spec::model::Model;
 
-/// One unknown that leaves the equations: `x_of = r_of/pivot + Σ c x_part`, and its load moves on:
-/// `r_part += c r_of`. One without a pivot only gives way to its parts.
+/// The elimination of one unknown: `x_of = r_of/pivot + Σ c x_part`, and its load is passed on:
+/// `r_part += c r_of`. A step without a pivot only replaces the unknown by its parts.
 struct Step {
     of: usize,
     pivot: Option<Scaled>,
     parts: Vec<(usize, Scaled)>,
 }
 
-/// Four coordinates that turn a frame, and whose rates ė = ½ e∘ω + e u̇ have left the equations for ω and u̇.
+/// The coordinates of a quaternion that turns a frame, whose rates ė = ½ e∘ω + e u̇ were replaced by ω and u̇
+/// in the equations.
 struct Turn {
     places: [usize; 4],
     e: [Scaled; 4],
@@ -32,39 +33,40 @@ struct Turn {
     halves: [Scaled; 4],
 }
 
-/// The accelerations, and how they were found.
+/// The accelerations, and the elimination that gave them.
 pub(super) struct Solved {
     pub accelerations: Vec<Scaled>,
     pub multipliers: Vec<Scaled>,
     steps: Vec<Step>,
-    /// In whose velocities the steps are.
+    /// The turns whose velocities the steps refer to.
     turns: Vec<Turn>,
     pub pivots: Vec<Pivot>,
-    /// How many unknowns there are; the first are the accelerations.
+    /// The number of unknowns; the first are the accelerations.
     unknowns: usize,
 }
 
-/// What the function is made from.
+/// The inputs of the function.
 pub(super) struct Asked<'a, 'd> {
     pub system: &'a System,
     /// The symbols of the multipliers.
     pub multipliers: &'a [Expr<'d>],
     pub unprojected: Option<&'a Unprojected<'d>>,
-    /// The right-hand sides, column by column, over the symbols of the accelerations too; in one form
-    /// or several.
+    /// The right-hand sides, column by column, which may contain the symbols of the accelerations; in
+    /// one form or several.
     pub slopes: &'a [Vec<Vec<Expr<'d>>>],
-    /// Pivots that are looked at once parameters are known.
+    /// Pivots that are checked once parameters are known.
     pub known_pivots: &'a [Pivot],
 }
 
-/// The function of the accelerations and their derivatives, by the way that is cheapest to run.
+/// The function of the accelerations and their derivatives, in the form that is cheapest to run.
 pub(super) fn derivatives<'d>(lowering: &mut Lowering<'_, 'd>, asked: &Asked<'_, 'd>) -> Draft {
     let elimination = Elimination::of(&lowering.graph, asked.system);
     let along = asked
         .unprojected
         .and_then(|machine| along_the_machine(lowering, lowering.model, asked.system, machine));
     let mut candidates = functions(lowering, asked, along.as_ref());
-    // What is certainly longer is not even written down: each column passes through the matrix too.
+    // A certainly longer function is not even written down: each column passes through the
+    // matrix too.
     let is_shorter = |draft: &Draft| {
         elimination.multiplications * asked.columns() <= draft.function.counts().ops()
     };
@@ -78,7 +80,7 @@ pub(super) fn derivatives<'d>(lowering: &mut Lowering<'_, 'd>, asked: &Asked<'_,
         .expect("the mass matrix always leads to one")
 }
 
-/// The functions that lead from one elimination to the same numbers, one for each form of the
+/// The functions that give the same numbers by one elimination, one for each form of the
 /// right-hand sides.
 fn functions<'d>(
     lowering: &mut Lowering<'_, 'd>,
@@ -97,7 +99,7 @@ fn functions<'d>(
 }
 
 impl Asked<'_, '_> {
-    /// How many columns there are, the accelerations among them.
+    /// The number of columns, including the accelerations.
     fn columns(&self) -> usize {
         1 + self.slopes.first().map_or(0, Vec::len)
     }
@@ -107,11 +109,12 @@ fn by_matrix(graph: &mut Graph, asked: &Asked<'_, '_>, elimination: Elimination)
     of_elimination(solve::solve(graph, asked.system, elimination), asked.system)
 }
 
-/// How the accelerations were found, where the matrix of the system was eliminated.
+/// The steps of an elimination of the system's matrix.
 pub(super) fn of_elimination(solution: solve::Solution, system: &System) -> Solved {
     let step = |(pivot, column): (&Pivot, &solve::Column)| Step {
         of: pivot.coordinate,
-        // Pivots of constraints are guarded as positive numbers; without one a row depends on others.
+        // Pivots of constraints are guarded as positive numbers; a row without a pivot depends
+        // on others.
         pivot: (!pivot.pivot.is_zero()).then(|| {
             if pivot.coordinate < system.coordinates {
                 pivot.pivot
@@ -136,7 +139,7 @@ pub(super) fn of_elimination(solution: solve::Solution, system: &System) -> Solv
     }
 }
 
-/// How the accelerations of an open machine are found along it.
+/// The steps of the elimination along an open machine.
 pub(super) fn along_the_machine<'d>(
     lowering: &mut Lowering<'_, 'd>,
     model: &Model<'d>,
@@ -172,7 +175,7 @@ pub(super) fn along_the_machine<'d>(
             pivot: step.pivot.map(|pivot| lowering.values(&[pivot])[0]),
         });
     }
-    // A pivot need only be positive where the entry of M that it was left over from is not at hand.
+    // If the diagonal entry of M is not available, the pivot need only be positive.
     let scale = |coordinate: usize, pivot: Scaled| {
         let diagonal = system.matrix[Shape::index(coordinate, coordinate)];
         if diagonal.is_known() { diagonal } else { pivot }
@@ -239,14 +242,15 @@ fn function<'d>(
     planned.draft(Some(graph), net, Basis::Derived, false)
 }
 
-/// The right-hand sides with the values of accelerations and multipliers in them.
+/// The right-hand sides with the values of accelerations and multipliers substituted.
 fn right_hand_sides<'d>(
     lowering: &mut Lowering<'_, 'd>,
     slopes: &[Vec<Expr<'d>>],
     asked: &Asked<'_, 'd>,
     solved: &Solved,
 ) -> Vec<Vec<Scaled>> {
-    // What was lowered before may hold the accelerations as arguments, as outputs do.
+    // Values that were lowered earlier, such as outputs, may contain the accelerations
+    // as arguments.
     let before = std::mem::take(&mut lowering.values);
     for (coordinate, value) in lowering.model.coordinates.iter().zip(&solved.accelerations) {
         lowering.values.insert(coordinate.a.id(), *value);
@@ -284,7 +288,8 @@ pub(super) fn inverses(graph: &mut Graph, solved: &Solved) -> Vec<Scaled> {
     solved.steps.iter().map(inverse).collect()
 }
 
-/// Solves `M x = r` by the steps that found the accelerations; of rows of constraints, `−λ`.
+/// Solves `M x = r` by the steps that gave the accelerations; for rows of constraints the solution
+/// is `−λ`.
 pub(super) fn respond(
     graph: &mut Graph,
     solved: &Solved,
@@ -315,8 +320,8 @@ pub(super) fn respond(
     of_turns(graph, solved, answers)
 }
 
-/// How the rates of four numbers follow from the velocities of a turn, a row for each: which of ½ e or e goes with which velocity, and
-/// whether it is subtracted. The last velocity is the growth.
+/// The rates of a quaternion in terms of the velocities of its turn, one row for each rate: the component of ½ e or e that multiplies
+/// each velocity, and whether it is subtracted. The last velocity is the growth.
 const OF_TURN: [[(usize, bool); 4]; 4] = [
     [(1, true), (2, true), (3, true), (0, false)],
     [(0, false), (3, true), (2, false), (1, false)],
@@ -336,7 +341,7 @@ impl Turn {
     }
 }
 
-/// Loads on the rates of four numbers as loads on the velocities of their turns.
+/// Converts loads on the rates of quaternions to loads on the velocities of their turns.
 fn onto_turns(graph: &mut Graph, solved: &Solved, mut loads: Vec<Scaled>) -> Vec<Scaled> {
     for turn in &solved.turns {
         let own = turn.places.map(|i| loads[i]);
@@ -350,7 +355,7 @@ fn onto_turns(graph: &mut Graph, solved: &Solved, mut loads: Vec<Scaled>) -> Vec
     loads
 }
 
-/// What answers loads, of the four numbers in the place of the velocities of their turns.
+/// Converts solutions from the velocities of turns to the rates of quaternions.
 fn of_turns(graph: &mut Graph, solved: &Solved, mut answers: Vec<Scaled>) -> Vec<Scaled> {
     for turn in &solved.turns {
         let own = turn.places.map(|i| answers[i]);

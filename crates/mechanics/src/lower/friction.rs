@@ -1,10 +1,10 @@
-//! What the friction forces of the contacts bring about, eqs. (E32)–(E34): `M a = f + Gᵀλ + Σ τᵀF`.
+//! The effect of the friction forces of the contacts, eqs. (E32)–(E34): `M a = f + Gᵀλ + Σ τᵀF`.
 //!
-//! How large they are is not decided here, for it depends on what sticks and what slides. But
-//! everything is linear in them. So the elimination of `M` takes one column more for each contact,
-//! and whoever knows the state of the contacts has a system of as many equations as there are
-//! contacts left: `M + D(sign)`, eliminated as far as no sign is in it, and without a pivot that
-//! depends on one.
+//! The friction forces themselves are not computed here, since they depend on what sticks and what
+//! slides. But everything is linear in them. So the elimination of `M` takes one more column for
+//! each contact, and a caller that knows the state of the contacts is left with a system of as many
+//! equations as contacts: `M + D(sign)`, eliminated as far as it is independent of signs, without a
+//! pivot that depends on one.
 
 use crate::SlidingEquation;
 use crate::lower::derivatives::{Solved, inverses, of_elimination, respond};
@@ -13,7 +13,7 @@ use lagrangian_program::graph::{Graph, Scaled};
 use lagrangian_program::solve::{self, Elimination};
 use lagrangian_program::{Basis, FrictionLayout, Role, Shape};
 
-/// The programs for [`Role::Friction`], from the equations as they were derived and multiplied out.
+/// The drafts for [`Role::Friction`], from the equations as derived and multiplied out.
 pub(super) fn friction<'d>(lowering: &mut Lowering<'_, 'd>, source: Origin<'_, 'd>) -> Vec<Draft> {
     let contacts: Vec<Contact> = source
         .sliding
@@ -60,18 +60,18 @@ pub(super) fn friction<'d>(lowering: &mut Lowering<'_, 'd>, source: Origin<'_, '
     drafts
 }
 
-/// A contact in numbers.
+/// The nodes of a contact.
 struct Contact {
     row: Vec<Scaled>,
     drift: Scaled,
     reactions: Vec<Component>,
     friction: Scaled,
     static_friction: Scaled,
-    /// In space the direction that tells which part of the reaction presses.
+    /// In space the unit vector that determines the pressing part of the reaction.
     telling: Vec<Scaled>,
 }
 
-/// A component of its reaction.
+/// A component of the reaction of a contact.
 struct Component {
     load: Scaled,
     by_accelerations: Vec<Scaled>,

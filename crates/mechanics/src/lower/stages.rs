@@ -1,4 +1,5 @@
-//! The accelerations in stages, from whichever elimination leaves the least to do again.
+//! The accelerations in stages, from the elimination that leaves the least work to the
+//! repeated stage.
 
 use crate::lower::{Candidate, Choice, Draft, Lowering, Origin, Planned, roundings};
 use crate::lower::{articulated, turned};
@@ -7,27 +8,28 @@ use lagrangian_program::solve::{self, Elimination, Pivot, Solution};
 use lagrangian_program::{Basis, Form, Function, Role, Shape, stages};
 use lagrangian_spec::model::Stages;
 
-/// The functions of one way to compute the accelerations, in their order.
+/// The functions of one form of the accelerations, in their order.
 struct Staged {
     drafts: Vec<Draft>,
-    /// What was cut into these.
+    /// The function that was divided into these.
     whole: Draft,
 }
 
 impl Staged {
-    /// The function that is called again and again.
+    /// The function that is called repeatedly.
     fn repeated(&self) -> &Draft {
         self.drafts.last().expect("there is always a last stage")
     }
 
-    /// What a call of every stage takes.
+    /// The cost of calling every stage.
     fn throughput(&self) -> u64 {
         let costs = self.drafts.iter().map(|draft| draft.function.cost());
         costs.map(|cost| cost.throughput).sum()
     }
 }
 
-/// The stages that are asked for. What is compared is the cost of the last, which is repeated.
+/// The requested stages. The form with the lowest cost of the last stage, the one that is repeated,
+/// is chosen.
 pub(super) fn staged<'d>(
     lowering: &mut Lowering<'_, 'd>,
     source: Origin<'_, 'd>,
@@ -44,7 +46,7 @@ pub(super) fn staged<'d>(
             ways.extend(way);
         }
     }
-    // Of those that cost the same again and again, the one that costs the least at first.
+    // Among those with equal repeated cost, the one with the lowest total cost.
     ways.sort_by_key(Staged::throughput);
     let mut different: Vec<Staged> = Vec::with_capacity(ways.len());
     for way in ways {
@@ -110,7 +112,7 @@ fn solutions<'d>(
         let matrix = &systems[0].1.matrix;
         let pivots = along.pivots.iter().zip(lowering.values(&values));
         let pivots = pivots.map(|(&(coordinate, _), pivot)| {
-            // Need only be positive where the entry of M that it was left over from is not at hand.
+            // If the diagonal entry of M is not available, the pivot need only be positive.
             let diagonal = matrix[Shape::index(coordinate, coordinate)];
             let scale = if diagonal.is_known() { diagonal } else { pivot };
             Pivot {
@@ -129,8 +131,8 @@ fn solutions<'d>(
     }
     for (basis, system) in systems {
         let elimination = Elimination::of(&lowering.graph, &system);
-        // What takes longer than the accelerations at once is not even written down: it grows with
-        // the cube of the number of coordinates.
+        // An elimination longer than the accelerations in one function is not even written down: it
+        // grows with the cube of the number of coordinates.
         if has_along && elimination.multiplications > at_once.function.counts().ops() {
             continue;
         }
@@ -140,7 +142,7 @@ fn solutions<'d>(
     solutions
 }
 
-/// The functions of one solution; none where there are no factors to take out.
+/// The functions of one solution; none if there are no factors to take out.
 fn way(
     lowering: &mut Lowering<'_, '_>,
     solution: &Solution,

@@ -1,4 +1,4 @@
-//! States at which roundings of candidates are compared.
+//! States at which the rounding errors of candidate forms are compared.
 
 use lagrangian_program::Source;
 use lagrangian_program::rounding::{SplitMix, State, States};
@@ -6,15 +6,14 @@ use lagrangian_spec::model::Model;
 use lagrangian_symbolic::{Expr, Symbol, evaluate, nearest};
 use rustc_hash::FxHashMap;
 
-/// How many are drawn for each at which all that the spec assumes holds.
+/// The number of states drawn for each one that must satisfy all assumptions of the spec.
 const TRIES: usize = 8;
 
-/// States around the start, where all that the machine assumes holds: angles and other pure
-/// numbers all the way round, lengths by half of themselves and 2 cm, rates of 5 rad/s and
-/// 0.5 m/s, four numbers that turn a frame at the length 1, states of first order by half of 1 and of themselves, times in [0, 10) s; parameters and inputs at their defaults. A parameter that has
-/// none is between ½ and 2, in its unit.
+/// States around the start that satisfy all assumptions of the machine. Angles and other pure numbers vary by a full turn; lengths by half of themselves plus 2
+/// cm; rates by 5 rad/s and 0.5 m/s; first-order states by half of themselves plus one half. Quaternions have length 1; times are in [0, 10) s; parameters and
+/// inputs have their defaults. A parameter without a default is between ½ and 2, in its unit.
 ///
-/// So many states are drawn, from a generator that starts with `seed`, or as many as obey the assumptions.
+/// Draws `count` states, or as many as satisfy the assumptions, from a generator that starts with `seed`.
 pub fn around_start(model: &Model<'_>, seed: u64, count: usize) -> States {
     let mut random = SplitMix(seed);
     let parameters = model.parameters.iter();
@@ -52,7 +51,8 @@ pub fn around_start(model: &Model<'_>, seed: u64, count: usize) -> States {
             is_angle.iter().map(rate).collect()
         };
         let (mut v, a) = (rates(), rates());
-        // A state may have values on one side only, and so a start that is not 0: around that.
+        // A state may be restricted to one sign, which its nonzero start shows: vary it around
+        // the start.
         for (i, v) in v.iter_mut().enumerate() {
             if model.coordinates[i].rate.is_some() {
                 *v = starts[n + i] + *v * (1.0 + starts[n + i].abs());
@@ -90,7 +90,7 @@ pub fn around_start(model: &Model<'_>, seed: u64, count: usize) -> States {
     States { parameters, states }
 }
 
-/// Makes four numbers that turn a frame as long as a run keeps them.
+/// Normalizes a quaternion to length 1, as a run does.
 pub(crate) fn of_length_one(q: &mut [f64], four: [usize; 4]) {
     let length = four.iter().map(|&i| q[i] * q[i]).sum::<f64>().sqrt();
     if length > 0.0 {
@@ -98,7 +98,7 @@ pub(crate) fn of_length_one(q: &mut [f64], four: [usize; 4]) {
     }
 }
 
-/// Which argument a symbol is.
+/// The argument of each symbol.
 struct Symbols(FxHashMap<Symbol, Source>);
 
 impl Symbols {

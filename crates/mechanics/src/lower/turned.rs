@@ -1,14 +1,15 @@
-//! Angular velocities in the place of rates of the four numbers that turn a frame.
+//! Replaces the rates of quaternions by angular velocities.
 //!
-//! What is built on a frame moves with the angular velocity ω of its turn, `2/s vec(ē∘ė)`, and how long the four numbers are changes with
-//! `u̇ = e·ė/s` alone. So three columns of velocities hang on them, not four, and one stands apart: eliminated are ω and u̇,
+//! Everything built on a frame moves with the angular velocity ω of its turn, `2/s vec(ē∘ė)`, and the length of the quaternion changes
+//! with `u̇ = e·ė/s` alone. So three columns of velocities depend on the quaternion instead of four, and one is separate. The unknowns
+//! are ω and u̇,
 //!
 //! ```text
 //! ė = ½ e∘ω + e u̇,      and beside the motion without accelerations ë = ½ e∘α + e ü
 //! ```
 //!
-//! for in space what a motion without ë has is among the loads. With `det ∂(ω, u̇)/∂ė = 8/s²` and orthogonal rows the pivots of M are
-//! those of ω times `4/s`, and that of u̇ times `1/s`.
+//! since in space the accelerations of a motion without ë are among the loads. With `det ∂(ω, u̇)/∂ė = 8/s²` and orthogonal rows the
+//! pivots of M are those of ω times `4/s`, and that of u̇ times `1/s`.
 
 use lagrangian_symbolic::{Dag, Expr, Id, Node, Symbol, Tangent, reachable, substitute};
 use rustc_hash::FxHashMap;
@@ -23,22 +24,22 @@ struct Turned<'d> {
     /// The machine, with the velocities of turns as those of its coordinates.
     model: Model<'d>,
     machine: Unprojected<'d>,
-    /// What the velocities of turns are.
+    /// The meanings of the velocities of turns.
     meanings: Vec<(Symbol, Expr<'d>)>,
 }
 
-/// The accelerations of the coordinates along a machine, in the velocities of its turns where it has any.
+/// The accelerations along a machine, solved in the velocities of its turns if it has any.
 pub(super) struct Along<'d> {
     pub accelerations: Vec<Expr<'d>>,
     /// The pivots of the mass matrix, each with its coordinate.
     pub pivots: Vec<(usize, Expr<'d>)>,
-    /// What was done, in those velocities.
+    /// The steps, in those velocities.
     pub solution: Solution<'d>,
-    /// The fours whose rates have left it: their coordinates, and the numbers.
+    /// The quaternions whose rates were replaced: their coordinates, and their components.
     pub fours: Vec<([usize; 4], [Expr<'d>; 4])>,
 }
 
-/// [`articulated::solve`], for machines with turns by four numbers too.
+/// [`articulated::solve`], extended to machines with quaternions.
 pub(super) fn solve<'d>(
     model: &Model<'d>,
     machine: &Unprojected<'d>,
@@ -65,7 +66,8 @@ pub(super) fn solve<'d>(
     })
 }
 
-/// The machine in the velocities of its turns; `None` if it has none by four numbers, or something moves with their rates otherwise.
+/// The machine in the velocities of its turns; `None` if it has no quaternion, or if something depends on the rates of one in
+/// another way.
 fn turned<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option<Turned<'d>> {
     if model.quaternions.is_empty() || machine.drifts {
         return None;
@@ -78,7 +80,7 @@ fn turned<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option<Turned<'d>
         let places = four.coordinates(model);
         let rates = places.map(|i| model.coordinates[i].v);
         let name = &model.coordinates[places[0]].name;
-        // No name of a spec has a space in it.
+        // Names in a spec contain no spaces.
         let symbol = |of: &str| dag.symbol(&format!("{of} of {name}"), stage::VELOCITY);
         let velocities = ["turn x", "turn y", "turn z", "growth"].map(symbol);
         let s = quaternion::square(&four.e);
@@ -141,7 +143,7 @@ fn turned<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option<Turned<'d>
     })
 }
 
-/// Velocities, sums and products of others, in which some nodes stand for others; `None` where one of these is in a function.
+/// Rewrites velocities, sums and products of others, with some nodes replaced; `None` if one of these is inside a function.
 fn rewritten<'d>(
     dag: &'d Dag,
     roots: &[Expr<'d>],
@@ -172,7 +174,8 @@ fn rewritten<'d>(
 }
 
 impl<'d> Turned<'d> {
-    /// The accelerations of the coordinates of the machine from those of its turns, without what they are where neither accelerates.
+    /// The accelerations of the coordinates of the machine from those of its turns, without the part that remains if
+    /// neither accelerates.
     fn accelerations(&self, model: &Model<'d>, mut of: Vec<Expr<'d>>) -> Vec<Expr<'d>> {
         let dag = model.dag;
         for four in &model.quaternions {
@@ -190,7 +193,7 @@ impl<'d> Turned<'d> {
                 of[i] = value;
             }
         }
-        // Loads on what is not linear in velocities have some in them.
+        // Loads on nodes that are not linear in velocities may contain them.
         substitute(dag, &of, &self.meanings)
     }
 

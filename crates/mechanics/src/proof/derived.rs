@@ -1,10 +1,10 @@
-//! Programs of derivatives are proved, too: against the program that they were made from, run over dual numbers.
+//! Proves programs of derivatives by comparison with the original program, run over dual numbers.
 //!
-//! That one is proved against Lagrange's equations, and dual numbers know nothing of how a derivative was written down: what
-//! they add to a value in a program is the chain rule of every operation. So a [tangent](Program::tangent) is compared number
-//! by number, and an [adjoint](Program::adjoint) by the sum of its derivatives along a direction drawn at random, which proves
-//! all of them at once. The numbers under the dual ones are those of the prime field first, and double-doubles that carry a
-//! bound of their error where the field has none, as with the program itself.
+//! The original program is proved against Lagrange's equations, and dual numbers do not depend on how a derivative was
+//! written: they apply the chain rule to every operation. A [tangent](Program::tangent) is compared number by number, and an
+//! [adjoint](Program::adjoint) by the sum of its derivatives along a random direction, which proves all of them at once. The
+//! dual numbers are first over the prime field, and over double-doubles that carry a bound of their error if values do not
+//! exist in the field, as for the program itself.
 
 use lagrangian_program::{Arguments, Interpreter, Op, Program, Role, is_differentiated};
 use lagrangian_scalar::{Ball, Dual, Residue, Scalar};
@@ -19,26 +19,27 @@ use crate::POINTS;
 use crate::equations::literal::{Lagrange, State};
 
 impl Proved {
-    /// What accelerations and outputs change by where their arguments change, as [`Program::tangent`].
+    /// The changes of accelerations and outputs under changes of their arguments,
+    /// as [`Program::tangent`].
     ///
     /// # Errors
-    /// If it is not that, or has no values anywhere.
+    /// If the comparison fails, or if there are no values at any point.
     pub fn tangent(&self, model: &Model<'_>) -> Result<Proved, Unproved> {
         self.derived(self.0.tangent(), model)
     }
 
-    /// The derivatives of accelerations and outputs backwards, as [`Program::adjoint`].
+    /// The derivatives of accelerations and outputs in reverse mode, as [`Program::adjoint`].
     ///
     /// # Errors
-    /// If it is not that, or has no values anywhere.
+    /// If the comparison fails, or if there are no values at any point.
     pub fn adjoint(&self, model: &Model<'_>) -> Result<Proved, Unproved> {
         self.derived(self.0.adjoint(), model)
     }
 
-    /// A program of derivatives of this one, if it is that: a tangent or an adjoint.
+    /// Proves a program of derivatives of this one, a tangent or an adjoint.
     ///
     /// # Errors
-    /// If it is not, or has no values anywhere.
+    /// If it is not one, or if there are no values at any point.
     pub fn derived(&self, part: Program, model: &Model<'_>) -> Result<Proved, Unproved> {
         match validate(&self.0, &part, model) {
             Ok(()) => Ok(Proved(part)),
@@ -51,7 +52,7 @@ impl Proved {
     }
 }
 
-/// Holds the derivatives `part` of a program against that program.
+/// Compares the program `part` of derivatives with the original.
 fn validate(
     whole: &Program,
     part: &Program,
@@ -71,7 +72,7 @@ fn validate(
     let code = || whole.all_functions().flat_map(|f| &f.code);
     let most = MOST_VALUES / (code().count() as u64).max(1);
     let most = most.clamp(MOST_STATES, MOST_POINTS);
-    // As with the program itself, the field alone decides of sines and cosines only.
+    // As for the program itself, the field alone decides only about sines and cosines.
     let is_smooth = !code().any(|op| matches!(op, Op::Unary(..) | Op::Binary(..)));
     let in_field = Comparison::<Residue>::new(whole, part).run(&machine, POINTS, most);
     if in_field == Found::Equal && is_smooth {
@@ -88,7 +89,7 @@ fn validate(
     }
 }
 
-/// A program over dual numbers beside its derivatives over the numbers in these.
+/// A program over dual numbers, and its derivatives over the numbers in these.
 struct Comparison<'p, R> {
     whole: &'p Program,
     part: &'p Program,
@@ -111,8 +112,8 @@ impl<'p, R: Number> Comparison<'p, R> {
         }
     }
 
-    /// Compares every function at so many points, of at most `most`. An output that has a value hardly anywhere is compared
-    /// wherever it has one, as it is when the program itself is proved.
+    /// Compares every function at `points` points out of at most `most`. An output that rarely has a value is compared
+    /// wherever it has one, as in the proof of the program itself.
     fn run(mut self, machine: &Lagrange<'_, '_>, points: usize, most: u64) -> Found {
         let start = (self.part.start != self.whole.start).then_some(Role::Start);
         let functions = self.part.functions.iter().map(|function| function.role);
@@ -141,7 +142,7 @@ impl<'p, R: Number> Comparison<'p, R> {
         }
     }
 
-    /// Numbers drawn for this point; those of different kinds are independent.
+    /// Random numbers for this point; those of different kinds are independent.
     fn many(&self, kind: u64, len: usize) -> Vec<R> {
         let one = |i: usize| R::random(self.number, (kind << 32) + 1 + i as u64);
         (0..len).map(one).collect()
@@ -272,7 +273,7 @@ impl<'p, R: Number> Comparison<'p, R> {
     ) -> Result<(), Verdict> {
         let role = Role::Gradient(output);
         let duals = self.duals(Role::Output(output), at, by)?;
-        // A number that a program of this name does not read may be anything.
+        // A value that this program does not read may be arbitrary.
         let weighted = State {
             u: [&at.u[..], &vec![R::ONE; at.q.len()]].concat(),
             ..at.clone()

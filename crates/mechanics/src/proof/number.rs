@@ -1,4 +1,4 @@
-//! The numbers that a program and Lagrange's equations are compared in.
+//! The numbers in which a program is compared with Lagrange's equations.
 
 use lagrangian_scalar::{Ball, Residue, Scalar};
 use lagrangian_symbolic::{Expr, nearest};
@@ -7,28 +7,28 @@ use crate::equations::literal::{Lagrange, State};
 use crate::lower::states::of_length_one;
 use lagrangian_program::rounding::SplitMix;
 
-/// What is seen of a number that ought to be 0.
+/// The result of testing a number that ought to be 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sight {
     Zero,
     NotZero,
-    /// Rounding hides it.
+    /// Round-off hides it.
     Hidden,
 }
 
 /// A number in which values can be compared.
 pub(crate) trait Number: Scalar<Stored = Self> {
-    /// Whether there are positive and negative numbers. A field has two roots of everything, and
-    /// cannot say which of them is meant.
+    /// Whether numbers have signs. A field has two roots of every square, and cannot say which of
+    /// them is meant.
     const IS_ORDERED: bool;
 
-    /// A number drawn at random, the same for the same `seed` and `index`.
+    /// A random number, the same for the same `seed` and `index`.
     fn random(seed: u64, index: u64) -> Self;
 
-    /// Whether it is 0, where numbers of that size went into it.
+    /// Whether it is 0, given the size of the numbers that it was computed from.
     fn look(self, size: f64) -> Sight;
 
-    /// Whether it is positive, as far as that means anything.
+    /// Whether it is positive, or the analogue of that in a field.
     fn is_positive(self) -> bool;
 
     /// State number `number` of a machine.
@@ -55,7 +55,7 @@ impl Number for Residue {
         }
     }
 
-    /// "Is a square" plays the part of "is positive".
+    /// In a field, being a square takes the place of being positive.
     fn is_positive(self) -> bool {
         self.sqrt().is_finite()
     }
@@ -90,8 +90,8 @@ impl Number for Ball {
         Ball::from_f64(random.uniform(-1.0, 1.0))
     }
 
-    /// Different numbers are told apart whatever their radii are; equal ones are, up to rounding,
-    /// where rounding is far below whatever a wrong sign or factor would change.
+    /// Different numbers are detected whatever their radii are. Equal ones are accepted up to
+    /// round-off, if that is far below the effect of a wrong sign or factor.
     fn look(self, size: f64) -> Sight {
         const SHARE: f64 = 1.0 / (1u64 << 40) as f64;
         if !self.is_finite() {
@@ -111,9 +111,9 @@ impl Number for Ball {
         self.exceeds(Ball::ZERO)
     }
 
-    /// A state about the start: angles and other pure numbers all the way round at first and nearer
-    /// from try to try, lengths by half of themselves and 2 cm. Parameters are up to a hundredth or a
-    /// twentieth off their defaults, and states of first order about their starts as lengths are, so that none is 0; one that has none is between ½ and 2.
+    /// A random state about the start. Angles and other pure numbers vary by a full turn, lengths by half of themselves plus 2 cm, first-order states by
+    /// half of themselves plus one half, and all less and less from try to try. Parameters are up to a hundredth or a twentieth off their defaults, so
+    /// that none is 0; one without a default is between ½ and 2.
     fn state(number: u64, machine: &Lagrange<'_, '_>) -> State<Ball> {
         let model = machine.model;
         let mut random = SplitMix(number.wrapping_add(1).wrapping_mul(0x5851_f42d_4c95_7f2d));

@@ -1,10 +1,11 @@
-//! A program held against the equations it came from, and against Lagrange's equations themselves.
+//! Compares a program with the equations it came from, and with Lagrange's equations in
+//! symbolic form.
 //!
 //! Both sides are evaluated at random points of a prime field ([`Residue`]), where nothing is
-//! rounded: a program that is wrong in a sign, a factor or an operand gives another value, but for
-//! a chance of about the degree of the difference over 2⁶¹ at each point. The accelerations are not
-//! compared with other accelerations; they are put into the residual of Lagrange's equations, which
-//! must vanish. So it does not matter how they were computed.
+//! rounded: a program with a wrong sign, factor or operand gives another value, except with a
+//! probability of about the degree of the difference over 2⁶¹ at each point. The accelerations are
+//! not compared with other accelerations; they are substituted into the residual of Lagrange's
+//! equations, which must vanish. So it does not matter how they were computed.
 
 use std::fmt;
 
@@ -20,14 +21,14 @@ use lagrangian_program::{
 };
 use lagrangian_spec::model::{Model, Variable};
 
-/// The points at which everything must agree.
+/// The number of points at which everything must agree.
 pub const POINTS: usize = 3;
 
-/// The most points to try. A root needs a point where its argument is a square, which is one point
-/// of two; a machine with twenty roots would need a million.
+/// The largest number of points to try. A root needs a point where its argument is a square, which
+/// holds with probability ½; a machine with twenty roots would need a million.
 const MOST_TRIES: u64 = 4096;
 
-/// How a program is wrong.
+/// The ways in which a program can be wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Disagreement {
     /// A result has another value.
@@ -53,14 +54,14 @@ pub enum Disagreement {
         /// The number of the point.
         point: u64,
     },
-    /// The normal reaction of this guide does not balance what would open it.
+    /// The normal reaction of this guide does not balance the forces that would open it.
     Reaction {
         /// The index of the contact.
         contact: usize,
         /// The number of the point.
         point: u64,
     },
-    /// A coordinate was taken to be settled by a constraint that does not settle it.
+    /// A coordinate was eliminated by a constraint that does not determine it.
     Settled {
         /// The index of the coordinate.
         coordinate: usize,
@@ -69,23 +70,23 @@ pub enum Disagreement {
         /// The number of the point.
         point: u64,
     },
-    /// The pivots that are guarded are not those of the mass matrix.
+    /// The guarded pivots are not those of the mass matrix.
     Pivots {
         /// The number of the point.
         point: u64,
     },
-    /// The program calls a machine singular where it is not.
+    /// The program reports a machine as singular that is not.
     Singular(Singular),
     /// No point was found at which everything has a value.
     Undefined,
-    /// Nothing that the proof does looks at this function.
+    /// The proof does not compare this function.
     Unseen {
         /// The function.
         role: Role,
     },
-    /// No point was found within as many comparisons as the size of the machine allows.
+    /// No point was found within the number of comparisons that the size of the machine allows.
     Exhausted {
-        /// How many.
+        /// The number of comparisons.
         comparisons: u64,
     },
 }
@@ -153,9 +154,9 @@ impl std::error::Error for Disagreement {}
 /// Proves that the program computes what Lagrange's equations say: energies, M, h, Q, f = Q − h,
 /// accelerations that obey them, the derivatives of these, and the same accelerations in stages.
 ///
-/// Derivatives are not compared with other formulas. The accelerations, once they are known to be
-/// right, are run over dual numbers of the prime field, where `ε² = 0` holds exactly as all else
-/// does: what stands before ε is the derivative.
+/// Derivatives are not compared with other formulas. The accelerations, once proved, are run
+/// over dual numbers of the prime field, where `ε² = 0` holds exactly: the coefficient of ε is
+/// the derivative.
 pub fn prove(
     program: &Program,
     model: &Model<'_>,
@@ -245,7 +246,7 @@ pub fn prove_quantities(
     at_points(program, model, |point| point.check_values(quantities))
 }
 
-/// Why a check says nothing yet, or that something is wrong.
+/// Why a check is inconclusive or has failed.
 enum Verdict {
     /// Something has no value at this point.
     Elsewhere,
@@ -286,7 +287,7 @@ struct Point<'a, 'd> {
     interpreter: Interpreter<Residue>,
     /// Runs the accelerations for the values of their guards.
     guards: Interpreter<Residue>,
-    /// The coordinates that constraints settle.
+    /// The coordinates that constraints determine.
     settled: Vec<usize>,
     t: Residue,
     q: Vec<Residue>,
@@ -320,8 +321,9 @@ impl<'a, 'd> Point<'a, 'd> {
         }
     }
 
-    /// Puts coordinates that constraints settle, and their rates, where they are settled: a program
-    /// may not look at them. What the start has decided is as the point has it.
+    /// Sets the coordinates that constraints determine, and their rates, to the values that they
+    /// determine, since a program may not read them. Constants of the start keep their values at
+    /// this point.
     fn follow(&mut self, dependents: &[Dependent<'d>]) {
         self.settled = dependents.iter().map(|d| d.coordinate).collect();
         let offsets = dependents.iter().filter_map(|d| d.offset);
@@ -339,8 +341,7 @@ impl<'a, 'd> Point<'a, 'd> {
         }
     }
 
-    /// The results of a function of the program; with what it reads undefined, they are undefined
-    /// too.
+    /// The results of a function of the program; undefined if the function reads undefined values.
     fn call(&mut self, role: Role, len: usize) -> Result<Vec<Residue>, Verdict> {
         let arguments = Arguments {
             t: self.t,
@@ -370,7 +371,7 @@ impl<'a, 'd> Point<'a, 'd> {
         }
     }
 
-    /// The values of expressions, given the accelerations, whether they are finite or not.
+    /// The values of expressions, given the accelerations; they may be undefined.
     fn evaluate_all(&self, expressions: &[Expr<'d>], a: &[Residue]) -> Vec<Residue> {
         let model = self.model;
         let mut values: FxHashMap<Symbol, Residue> = FxHashMap::default();
@@ -414,8 +415,8 @@ impl<'a, 'd> Point<'a, 'd> {
         Ok(())
     }
 
-    /// The accelerations and multipliers, put into the equations of motion and of the constraints,
-    /// leave nothing.
+    /// Checks that the accelerations and multipliers satisfy the equations of motion and of
+    /// the constraints.
     fn check_motion(&mut self, oracle: &Oracle<'d>) -> Result<(), Verdict> {
         if !oracle.sliding.is_empty() {
             return self.check_friction(oracle);
@@ -451,8 +452,8 @@ impl<'a, 'd> Point<'a, 'd> {
         }
     }
 
-    /// With any friction forces the accelerations, multipliers and normal reactions obey the equations of
-    /// motion, of the constraints, and of the displacements that would open the guides.
+    /// Checks that for any friction forces the accelerations, multipliers and normal reactions obey the
+    /// equations of motion, of the constraints, and of the displacements that would open the guides.
     fn check_friction(&mut self, oracle: &Oracle<'d>) -> Result<(), Verdict> {
         let (n, point) = (oracle.residual.len(), self.number);
         let layout = FrictionLayout {
@@ -544,7 +545,7 @@ impl<'a, 'd> Point<'a, 'd> {
         Ok(())
     }
 
-    /// The lower triangle of the matrix that is eliminated: M, and behind it the rows of G.
+    /// The lower triangle of the matrix that is eliminated: M, followed by the rows of G.
     fn lower(&mut self) -> Result<Vec<Residue>, Verdict> {
         let (n, m) = (self.program.dimension(), self.program.constraints.len());
         let mut lower = self.call(Role::MassMatrix, Shape::Symmetric(n).len())?;
@@ -558,7 +559,7 @@ impl<'a, 'd> Point<'a, 'd> {
         Ok(lower)
     }
 
-    /// The accelerations over dual numbers have the derivatives that the program says.
+    /// Checks that the accelerations over dual numbers have the derivatives that the program gives.
     fn check_derivatives(&mut self) -> Result<(), Verdict> {
         let (role, n) = (Role::Derivatives, self.program.dimension());
         let variables = &self.program.derivatives;
@@ -623,8 +624,8 @@ impl<'a, 'd> Point<'a, 'd> {
         Ok(())
     }
 
-    /// The accelerations in stages are those at once, and the pivots that are guarded on the way are
-    /// those of M.
+    /// Checks that the accelerations in stages equal those computed at once, and that the pivots
+    /// guarded on the way are those of M.
     fn check_stages(&mut self) -> Result<(), Verdict> {
         let n = self.program.dimension();
         let roles = self.program.staged_roles();
@@ -633,7 +634,7 @@ impl<'a, 'd> Point<'a, 'd> {
         };
         let expected = self.call(Role::Accelerations, n)?;
         let lower = self.lower()?;
-        // Pivots of parameters alone; those of the stages take the place of others.
+        // These pivots depend on parameters alone; those of the stages replace the others.
         let rows = n + self.program.constraints.len();
         let mut pivots: Vec<Option<[Residue; 2]>> = vec![None; rows];
         let probe = with_guarded_values(self.program);
@@ -649,8 +650,8 @@ impl<'a, 'd> Point<'a, 'd> {
         self.check_pairs(pairs.as_deref().unwrap_or_default(), &lower, true)
     }
 
-    /// The accelerations in stages, and by coordinates the pivots on the way with their scales; by
-    /// a program [with the values of guards](with_guarded_values).
+    /// The accelerations in stages, and by coordinate the pivots with their scales, from a program
+    /// [with the values of guards](with_guarded_values).
     fn in_stages(
         &mut self,
         probe: &Program,
@@ -683,9 +684,9 @@ impl<'a, 'd> Point<'a, 'd> {
         Ok(results)
     }
 
-    /// The product of the pivots is the determinant of M, one for each coordinate, and each is held
-    /// against its Mᵢᵢ or itself; with constraints it is that of their matrix too, up to the signs of
-    /// theirs.
+    /// Checks that the product of the pivots, one for each coordinate, is the determinant of M, and
+    /// that each pivot is compared with its Mᵢᵢ or itself; with constraints the product is that of
+    /// their matrix too, up to the signs of theirs.
     fn check_pivots(&mut self) -> Result<(), Verdict> {
         let n = self.program.dimension() + self.program.constraints.len();
         let wrong = Disagreement::Pivots { point: self.number };
@@ -693,8 +694,8 @@ impl<'a, 'd> Point<'a, 'd> {
         let coordinates = guarded_coordinates(self.program);
         let mut sorted = coordinates.clone();
         sorted.sort_unstable();
-        // A coordinate that a constraint settles may have none; then the constraint's is what it is
-        // divided by.
+        // A coordinate that a constraint determines may have no pivot; then the pivot of the
+        // constraint is divided by.
         let missing: Vec<usize> = (0..n).filter(|i| !sorted.contains(i)).collect();
         let is_settled = |i: &usize| self.settled.contains(i);
         if sorted.len() + missing.len() != n || !missing.iter().all(is_settled) {
@@ -711,8 +712,8 @@ impl<'a, 'd> Point<'a, 'd> {
         self.check_pairs(&pairs, &lower, missing.is_empty())
     }
 
-    /// The product of pivots is the determinant of the matrix with that lower triangle, and where
-    /// they are those of M the scales are its diagonal.
+    /// Checks that the product of pivots is the determinant of the matrix with that lower triangle
+    /// and, for the pivots of M, that the scales are its diagonal.
     fn check_pairs(
         &self,
         pairs: &[[Residue; 2]],
@@ -733,8 +734,8 @@ impl<'a, 'd> Point<'a, 'd> {
             });
         let diagonal = |i: usize| lower[Shape::index(i, i)];
         let mut by_coordinates = pairs.iter().take(coordinates).enumerate();
-        // Where coordinates are put into others, these have another inertia; so have those that
-        // constraints hold because they have none.
+        // Coordinates have another inertia if others were substituted by them, or if constraints
+        // hold them because they have no inertia.
         let own = &lower[..Shape::Symmetric(coordinates).len()];
         let has_inertia = determinant(own, coordinates) != Residue::ZERO;
         let scales = !are_of_matrix
@@ -752,8 +753,9 @@ impl<'a, 'd> Point<'a, 'd> {
     }
 }
 
-/// A program whose accelerations are the pivots and their scales instead, in the order of the
-/// guards: those of `prepare` first; and whose stages have theirs behind their results.
+/// A copy of a program in which the accelerations return the pivots and their scales instead,
+/// in the order of the guards, beginning with those of `prepare`; stages return theirs after
+/// their results.
 pub(super) fn with_guarded_values(program: &Program) -> Program {
     let mut probe = program
         .with_functions(|role| role == program.solving() || program.staged_roles().contains(&role));
@@ -804,14 +806,14 @@ pub(super) fn guarded_coordinates(program: &Program) -> Vec<usize> {
     guards.map(|guard| guard.coordinate).collect()
 }
 
-/// The determinant of a symmetric matrix, by its lower triangle.
+/// The determinant of a symmetric matrix given by its lower triangle.
 pub(super) fn determinant<R: Scalar>(lower: &[R], n: usize) -> R {
     let entry = |i: usize, j: usize| lower[Shape::index(i.max(j), i.min(j))];
     let row = |i: usize| (0..n).map(|j| entry(i, j)).collect();
     let mut left: Vec<Vec<R>> = (0..n).map(row).collect();
     let mut determinant = R::ONE;
     for k in 0..n {
-        // Rows are exchanged: without inertia of its own a coordinate has no pivot in its place.
+        // Rows are exchanged, because a coordinate without inertia has no pivot on the diagonal.
         let Some(found) = (k..n).find(|&i| left[i][k] != R::ZERO) else {
             return R::ZERO;
         };

@@ -1,4 +1,4 @@
-//! From expressions to rows.
+//! Lowers the expressions of the residuals to the rows of a series.
 
 use lagrangian_program::series::{Level, MOST_ROWS, NoSeries, Row, RowId, Series};
 use lagrangian_spec::model::Model;
@@ -32,14 +32,14 @@ pub(super) fn series(model: &Model<'_>) -> Result<Series, NoSeries> {
     series.pruned().in_time().with_dependences()
 }
 
-/// Expressions on their way to rows.
+/// Converts expressions to rows.
 struct Lowering<'m, 'd> {
     dag: &'d Dag,
     derivatives: &'m FxHashMap<Symbol, Derivative<'d>>,
     sources: FxHashMap<Symbol, Row>,
     rows: Vec<Row>,
     levels: Vec<Level>,
-    /// The rows by what they are: nothing is computed twice.
+    /// The rows by their content, so that nothing is computed twice.
     known: FxHashMap<Row, RowId>,
     of_node: FxHashMap<Id, RowId>,
 }
@@ -74,7 +74,7 @@ impl<'m, 'd> Lowering<'m, 'd> {
         }
     }
 
-    /// The row of an expression; those of all its parts first.
+    /// The row of an expression, after those of all its parts.
     fn expression(&mut self, e: Expr<'d>) -> Result<RowId, NoSeries> {
         for id in reachable(self.dag, &[e]) {
             if !self.of_node.contains_key(&id) {
@@ -90,7 +90,7 @@ impl<'m, 'd> Lowering<'m, 'd> {
             Node::Constant(value) => self.push(Row::Number(value)),
             Node::Pi => self.push(Row::Pi),
             Node::Symbol(symbol) => match self.derivatives.get(&symbol) {
-                // Positions hold no derivatives: this goes one level deep.
+                // Positions contain no derivatives, so this recursion is one level deep.
                 Some(&Derivative { of, twice }) => {
                     let of = self.expression(of)?;
                     self.push(if twice {
@@ -137,7 +137,7 @@ impl<'m, 'd> Lowering<'m, 'd> {
         }
     }
 
-    /// Adds `coefficient·term` to a sum, factors that do not change being taken out of the term.
+    /// Adds `coefficient·term` to a sum, with the constant factors taken out of the term.
     fn add_term(
         &mut self,
         sum: &mut Vec<(Option<RowId>, RowId)>,
@@ -148,7 +148,8 @@ impl<'m, 'd> Lowering<'m, 'd> {
         self.add_row(sum, coefficient, row)
     }
 
-    /// Adds `coefficient·row` to a sum; a row that is a multiple of another, or a sum, adds its terms.
+    /// Adds `coefficient·row` to a sum; if the row is a multiple of another, or a sum, its terms
+    /// are added.
     fn add_row(
         &mut self,
         sum: &mut Vec<(Option<RowId>, RowId)>,
@@ -170,7 +171,7 @@ impl<'m, 'd> Lowering<'m, 'd> {
         Ok(())
     }
 
-    /// A sum in which each row stands once.
+    /// A sum in which each row occurs once.
     fn sum(&mut self, terms: Vec<(Option<RowId>, RowId)>) -> Result<RowId, NoSeries> {
         let mut gathered: Vec<(RowId, Vec<Option<RowId>>)> = Vec::new();
         let mut place: FxHashMap<RowId, usize> = FxHashMap::default();
@@ -199,7 +200,8 @@ impl<'m, 'd> Lowering<'m, 'd> {
         }
     }
 
-    /// Powers of rows, multiplied; what depends on less first, so that more is shared and no order waits long.
+    /// The product of powers of rows; the rows with fewer dependencies come first, so that more is shared and
+    /// no order waits long.
     fn product(&mut self, factors: &[(Id, i32)]) -> Result<RowId, NoSeries> {
         let mut above = Vec::new();
         let mut below = Vec::new();
@@ -324,14 +326,15 @@ impl<'m, 'd> Lowering<'m, 'd> {
         found.map(|index| RowId(index as u32))
     }
 
-    /// Two rows that are each other's derivatives.
+    /// Two rows that are derivatives of each other.
     fn pair(
         &mut self,
         a: RowId,
         first: fn(RowId, RowId) -> Row,
         second: fn(RowId, RowId) -> Row,
     ) -> Result<[RowId; 2], NoSeries> {
-        // The first of a pair is known by its argument and a partner that is the row behind it.
+        // The first row of a pair is identified by its argument, with the row after it as
+        // its partner.
         let next = self.rows.len() as u32;
         let places = [RowId(next), RowId(next + 1)];
         let key = first(a, a);

@@ -1,4 +1,4 @@
-//! From a model to its equations of motion in the form that series need.
+//! Derives the equations of motion of a model in the form that series need.
 //!
 //! ```text
 //! Rᵢ = Σ w ∂p/∂qᵢ p̈ − Qᵢ − Σ λ ∂g/∂qᵢ
@@ -6,9 +6,9 @@
 //!
 //! over scalar positions `p(q, t)` of constant weights `w`: coordinates of mass centres, angles in the plane, and in space
 //! the components of a body's axes, weighted by its pseudo-inertia `J = ½ tr(I) 1 − I`: `½ ωᵀI ω = ½ Σ Jₖₗ ėₖ·ėₗ`. Second
-//! derivatives stand as symbols of their own and are not expanded: in a series `p̈` follows from `p` without a product.
-//! That the sum is Lagrange's equation is shown in `equations/projected.rs`; J. M. Hollerbach, *A recursive
-//! Lagrangian formulation of manipulator dynamics*, IEEE Trans. SMC 10 (1980) 730–736, has it with the matrices of the poses.
+//! derivatives are symbols of their own and are not expanded: in a series `p̈` follows from `p` without a product.
+//! `equations/projected.rs` shows that the sum is Lagrange's equation; J. M. Hollerbach, *A recursive Lagrangian formulation
+//! of manipulator dynamics*, IEEE Trans. SMC 10 (1980) 730–736, has it with the matrices of the poses.
 
 use lagrangian_symbolic::{Dag, Expr, Id, Node, Symbol, reverse};
 use rustc_hash::FxHashMap;
@@ -17,7 +17,7 @@ use lagrangian_program::series::NoSeries;
 use lagrangian_spec::model::element::{Constraint, Energy, Load};
 use lagrangian_spec::model::{Body, Inertia, Model, Rotation, Space, stage};
 
-/// The residuals of the equations of motion, and what the symbols in them stand for.
+/// The residuals of the equations of motion, and the meanings of the symbols in them.
 pub(super) struct Residual<'d> {
     /// One for each coordinate, then one for each constraint: linear in accelerations and multipliers.
     pub rows: Vec<Expr<'d>>,
@@ -49,7 +49,7 @@ pub(super) fn residual<'d>(model: &Model<'d>) -> Result<Residual<'d>, NoSeries> 
     }
     let dag = model.dag;
     let mut rates = Rates::of(model);
-    // What acts on functions of positions: load·∂node/∂qᵢ; and of rates: load·∂node/∂vᵢ.
+    // Loads on functions of positions: load·∂node/∂qᵢ; and of rates: load·∂node/∂vᵢ.
     let (mut on_positions, mut on_rates) = (Vec::new(), Vec::new());
     for body in &model.bodies {
         for (k, &at) in body.at.iter().enumerate() {
@@ -102,7 +102,7 @@ pub(super) fn residual<'d>(model: &Model<'d>) -> Result<Residual<'d>, NoSeries> 
                         let angle = planar_angle(model, rotation);
                         on_positions.extend(angle.map(|angle| (angle, -torque[0])));
                     }
-                    // The turn is ½ Σ e × δe, along the ground's axes.
+                    // The rotation is ½ Σ e × δe, in ground axes.
                     (Space::Space, Rotation::Frame(pose)) => {
                         for e in &model.poses[pose.index()].axes {
                             for (k, &component) in torque.iter().enumerate() {
@@ -123,7 +123,7 @@ pub(super) fn residual<'d>(model: &Model<'d>) -> Result<Residual<'d>, NoSeries> 
             direct[i].push(-rate);
         }
     }
-    // M a = f + Gᵀ λ, and with the other sign, for the matrix to be symmetric, −d²g/dt² = 0.
+    // M a = f + Gᵀ λ, and −d²g/dt² = 0, with this sign for the matrix to be symmetric.
     let (mut multipliers, mut held) = (Vec::new(), Vec::new());
     for (k, constraint) in constraints.iter().enumerate() {
         let multiplier = dag.symbol(&format!("multiplier {k}"), stage::ACCELERATION);
@@ -149,7 +149,7 @@ pub(super) fn residual<'d>(model: &Model<'d>) -> Result<Residual<'d>, NoSeries> 
     })
 }
 
-/// The loads that resist the turning of a body.
+/// The inertia loads on the rotation of a body.
 fn turning<'d>(
     model: &Model<'d>,
     body: &Body<'d>,
@@ -197,7 +197,7 @@ fn planar_angle<'d>(model: &Model<'d>, rotation: Rotation<'d>) -> Option<Expr<'d
     }
 }
 
-/// Derivatives of positions with respect to time, as linear sums over symbols that stand for derivatives.
+/// Time derivatives of positions, as linear sums over symbols of derivatives.
 struct Rates<'m, 'd> {
     model: &'m Model<'d>,
     /// The first and second derivatives of coordinates and time.
@@ -225,8 +225,8 @@ impl<'m, 'd> Rates<'m, 'd> {
         self.linear(position, true)
     }
 
-    /// The derivative of a sum, with factors that do not change taken out. No call on a child: text may nest as deep
-    /// as it likes.
+    /// The derivative of a sum, with constant factors taken out. It does not recurse, since expressions may be
+    /// nested to any depth.
     fn linear(&mut self, position: Expr<'d>, twice: bool) -> Expr<'d> {
         let dag = self.model.dag;
         let mut terms = Vec::new();
@@ -262,7 +262,7 @@ impl<'m, 'd> Rates<'m, 'd> {
         } else {
             ("d", stage::VELOCITY)
         };
-        // No name of a spec has a space in it.
+        // Names in a spec contain no spaces.
         let name = format!("{mark} of {}", of.id().index());
         let symbol = self.model.dag.symbol(&name, stage);
         if let Some(key) = symbol.as_symbol() {
@@ -272,7 +272,7 @@ impl<'m, 'd> Rates<'m, 'd> {
     }
 }
 
-/// The factors that do not change, if there are any, and the others.
+/// The constant factors, if there are any, and the others.
 pub(super) fn split<'d>(dag: &'d Dag, factors: &[(Id, i32)]) -> (Option<Expr<'d>>, Expr<'d>) {
     let power = |&(id, n): &(Id, i32)| dag.expr(id).powi(n);
     let is_constant = |(id, _): &&(Id, i32)| dag.expr(*id).stage() <= stage::PARAMETER;

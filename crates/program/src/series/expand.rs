@@ -1,10 +1,10 @@
-//! The coefficients of a series at a state, over any number.
+//! Computes the coefficients of a series at a state, over any type of number.
 //!
-//! Round k computes the accelerations of order k. Rows of positions are carried to order k + 2 as if `q` had no coefficient
-//! there; rates and forces to order k; the residuals then lack the accelerations of order k, which stand in them with the
-//! mass matrix at the start. These are solved for, and what they change in rows that later rounds read is added: to
-//! rows of positions their gradient by `q` times `q₍k₊₂₎`, to forces their gradient by `a` times `aₖ`. Gradients are
-//! those at the start, since what multiplies the newest coefficient is of order 0.
+//! Round k computes the accelerations of order k. Rows of positions are advanced to order k + 2 as if the coefficient of
+//! `q` were 0 there; rates and forces to order k. The residuals then lack only the accelerations of order k, whose matrix
+//! is the mass matrix at the start. These are solved for, and their effect is added to the rows that later rounds read: for
+//! rows of positions their gradient by `q` times `q₍k₊₂₎`, for forces their gradient by `a` times `aₖ`. The gradients are
+//! those at the start, since the factor of the newest coefficient is of order 0.
 
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -16,31 +16,32 @@ use super::{Along, Arithmetic, Coefficient, Level, Order, Row, RowId, Series};
 use crate::Singular;
 use crate::interpret::{binary, unary};
 
-/// A series ready to be expanded over numbers that are kept as `T`. Nothing is allocated after [`Expander::new`].
+/// A series ready to be expanded over numbers that are stored as `T`. Nothing is allocated
+/// after [`Expander::new`].
 #[derive(Clone, Debug)]
 pub struct Expander<T> {
     series: Arc<Series>,
     parameters: Vec<T>,
-    /// How many accelerations are found.
+    /// The number of coefficients of the accelerations.
     order: usize,
-    /// Coefficients of a row: `order + 2`.
+    /// The number of coefficients of a row: `order + 2`.
     width: usize,
-    /// The rows that change, by their levels.
+    /// The rows that vary, by level.
     by_level: [Vec<u32>; 3],
     /// Rows of positions and forces that the newest accelerations change.
     repaired: [Vec<u32>; 2],
-    /// Rows of which a multiple by the order is asked for.
+    /// Rows whose coefficients are needed multiplied by their orders.
     scaled: Vec<bool>,
-    /// Where the multiples by orders of a row begin, of rows that sums ask for.
+    /// Where these multiples begin for each row, if sums need them.
     weighted_places: Vec<Option<usize>>,
-    /// For each row the sums over orders that it takes.
+    /// For each row its sums over orders.
     sums: Vec<Vec<Sum>>,
     coefficients: Vec<T>,
-    /// `j cⱼ` of some rows.
+    /// `j cⱼ` for some rows.
     weighted: Vec<T>,
     /// The newest coefficient of a row, times its order.
     newest: Vec<T>,
-    /// What rounding took from the coefficient of order 0.
+    /// The rounding error of the coefficient of order 0.
     low: Vec<T>,
     /// Where the gradient of each row begins.
     places: Vec<usize>,
@@ -52,13 +53,13 @@ pub struct Expander<T> {
     inputs: Vec<T>,
     /// Coefficients of the multipliers, one constraint after another.
     multipliers: Vec<T>,
-    /// Unknowns that act on each other, and the factors of their matrix.
+    /// Groups of coupled unknowns, with the factors of their matrices.
     blocks: Vec<Block<T>>,
-    /// What was solved for last.
+    /// The latest solution.
     unknowns: Vec<T>,
-    /// Room for the unknowns of one block, twice.
+    /// Workspace for the unknowns of one block, twice.
     scratch: [Vec<T>; 2],
-    /// 0, 1, 2 … and their reciprocals, the first of which is not read.
+    /// 0, 1, 2 … and their reciprocals; the first reciprocal is not read.
     numbers: Vec<[T; 2]>,
 }
 
@@ -73,7 +74,7 @@ struct Sum {
 struct Block<T> {
     /// The unknowns.
     members: Vec<u32>,
-    /// For each unknown its place among the members.
+    /// For each unknown its index among the members.
     place: Vec<u32>,
     matrix: Vec<T>,
 }
@@ -82,7 +83,7 @@ impl<T: Scalar<Stored = T>> Expander<T> {
     /// A series with parameters, to be expanded to `order` coefficients of the accelerations.
     ///
     /// # Panics
-    /// If there are not as many parameters as the series has.
+    /// If the number of parameters differs from that of the series.
     pub fn new(series: Arc<Series>, parameters: &[T], order: usize) -> Expander<T> {
         assert_eq!(parameters.len(), series.parameters, "one number for each");
         let (rows, n, width) = (series.rows.len(), series.dimension(), order + 2);
@@ -175,7 +176,7 @@ impl<T: Scalar<Stored = T>> Expander<T> {
         expander
     }
 
-    /// Computes what depends on parameters alone.
+    /// Computes the rows that depend on parameters alone.
     fn prepare(&mut self) {
         let series = self.series.clone();
         for index in 0..series.rows.len() {
@@ -189,17 +190,17 @@ impl<T: Scalar<Stored = T>> Expander<T> {
 }
 
 impl<T: Copy> Expander<T> {
-    /// How many coefficients of the accelerations there are.
+    /// The number of coefficients of the accelerations.
     pub fn order(&self) -> usize {
         self.order
     }
 
-    /// The coefficients of a coordinate, `order + 2` many.
+    /// The `order + 2` coefficients of a coordinate.
     pub fn of_coordinate(&self, coordinate: usize) -> &[T] {
         &self.motion[coordinate * self.width..][..self.width]
     }
 
-    /// The coefficients of the multiplier of a constraint, `order` many.
+    /// The `order` coefficients of the multiplier of a constraint.
     pub fn of_multiplier(&self, constraint: usize) -> &[T] {
         &self.multipliers[constraint * self.order..][..self.order]
     }
@@ -215,9 +216,10 @@ impl<T: Copy> Expander<T> {
         }
     }
 
-    /// Expands the motion through a state in arithmetic on numbers `N`. The time is the sum of the two.
+    /// Expands the motion through a state in the arithmetic of numbers `N`. The time is the sum of the
+    /// two given numbers.
     ///
-    /// An error where the mass matrix cannot be inverted.
+    /// An error if the mass matrix cannot be inverted.
     #[inline(always)]
     pub fn expand<N: Scalar<Stored = T>>(
         &mut self,
@@ -264,7 +266,7 @@ impl<T: Copy> Expander<T> {
         Ok(())
     }
 
-    /// Computes the coefficients of an order of all rows of a level.
+    /// Computes the coefficients of one order for all rows of a level.
     #[inline(always)]
     fn advance<N: Scalar<Stored = T>>(&mut self, series: &Series, level: usize, m: usize) {
         for at in 0..self.by_level[level].len() {
@@ -286,7 +288,7 @@ impl<T: Copy> Expander<T> {
         }
     }
 
-    /// Multiplies coefficients of an order, which are final, by it.
+    /// Multiplies final coefficients of one order by the order.
     #[inline(always)]
     fn keep_weighted<N: Scalar<Stored = T>>(&mut self, level: usize, m: usize) {
         for at in 0..self.by_level[level].len() {
@@ -348,7 +350,7 @@ impl<T: Copy> Expander<T> {
         }
     }
 
-    /// Adds a multiple of the gradient of one row to that of another. What changes at another level does not count.
+    /// Adds a multiple of the gradient of one row to that of another; changes at another level do not count.
     #[inline(always)]
     fn add_gradient<N: Scalar<Stored = T>>(
         &mut self,
@@ -376,8 +378,8 @@ impl<T: Copy> Expander<T> {
         }
     }
 
-    /// Factors the mass matrix, bordered by the rows of constraints, which is the gradient of the residuals: L D Lᵀ. Of
-    /// the pivots those of constraints are negative, as long as these do not depend on each other.
+    /// Factors the mass matrix, bordered by the rows of constraints, which is the gradient of the residuals: L D Lᵀ.
+    /// The pivots of constraints are negative as long as the constraints are independent.
     #[inline(always)]
     fn factor<N: Scalar<Stored = T>>(&mut self, series: &Series) -> Result<(), Singular> {
         for block in &mut self.blocks {
@@ -404,7 +406,7 @@ impl<T: Copy> Expander<T> {
         Ok(())
     }
 
-    /// Finds the accelerations of order `round`, and adds what they change.
+    /// Solves for the accelerations of order `round`, and adds their effect.
     #[inline(always)]
     fn solve<N: Scalar<Stored = T>>(&mut self, series: &Series, round: usize) {
         let width = self.width;
@@ -441,7 +443,7 @@ impl<T: Copy> Expander<T> {
             let known = N::load(self.coefficients[index * width + round + 2]);
             let changed = match (&series.rows[index], &series.depends[index][..]) {
                 (Row::Coordinate(i), _) => N::load(self.motion[*i as usize * width + round + 2]),
-                // One product less to wait for.
+                // This shortens the dependency chain by one product.
                 (_, [i]) => {
                     let slope = N::load(self.gradients[self.places[index]]) * share;
                     slope.mul_add(N::load(self.unknowns[*i as usize]), known)
@@ -464,7 +466,7 @@ impl<T: Copy> Expander<T> {
     }
 }
 
-/// The recurrences at an order, on numbers `N`.
+/// The recurrences at one order, in numbers `N`.
 struct At<'e, T, N> {
     of: &'e mut Expander<T>,
     /// 0 for rows of positions.
@@ -536,7 +538,7 @@ impl<T: Copy, N: Scalar<Stored = T>> Arithmetic for At<'_, T, N> {
     #[inline(always)]
     fn weighted(&mut self, row: RowId) -> N {
         match self.of.weighted_places[row.index()] {
-            // Of positions, whose own order is two more, what is final.
+            // For positions, whose own order is higher by two, this coefficient is final.
             Some(place) if self.level > 0 && self.of.series.level(row) == Level::Position => {
                 N::load(self.of.weighted[place + self.m])
             }
@@ -648,7 +650,7 @@ impl<T: Copy, N: Scalar<Stored = T>> Arithmetic for At<'_, T, N> {
     }
 }
 
-/// The sum of a [`Convolution`](super::Convolution) at order `m`, in the order that [`Along`] says.
+/// The sum of a [`Convolution`](super::Convolution) at order `m`, in the order given by [`Along`].
 #[inline(always)]
 fn convolve<T: Copy, N: Scalar<Stored = T>>(a: &[T], b: &[T], m: usize, along: Along) -> N {
     let x = |list: &[T], j: usize| N::load(list[j]);

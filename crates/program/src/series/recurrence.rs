@@ -1,7 +1,7 @@
-//! One coefficient of a row from those before it: the recurrences, over whatever computes them.
+//! The recurrences for one coefficient of a row, over an abstract arithmetic.
 //!
-//! They are written once, over an [`Arithmetic`]: the interpreter computes with them, an emitter writes down what is to be
-//! computed. So both do the same operations in the same order.
+//! They are written once, over an [`Arithmetic`]: the interpreter computes with them, and an emitter writes the operations
+//! down. So both do the same operations in the same order.
 
 use lagrangian_symbolic::{Function as Call, Rational};
 
@@ -16,31 +16,33 @@ pub struct Stream {
     pub weighted: bool,
 }
 
-/// The sum of products over the orders between the first and the one that is computed, `Σ aⱼ b₍m−j₎`.
+/// The sum of products over the orders strictly between 0 and the one that is computed, `Σ aⱼ b₍m−j₎`.
 ///
-/// The terms of the orders 0 and m are not in it: each recurrence adds them, since they depend on its operation.
+/// The terms of the orders 0 and m are not included: each recurrence adds them in its own way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Convolution {
-    /// The factors; where they are added up [by force](Along::Force), first the one that depends on accelerations.
+    /// The factors; if they are added up [by force](Along::Force), the one that depends on accelerations
+    /// comes first.
     pub factors: [Stream; 2],
-    /// In which order the terms are added.
+    /// The order in which the terms are added.
     pub along: Along,
 }
 
-/// In which order the terms of a sum over orders are added: what becomes known last comes last.
+/// The order in which the terms of a sum over orders are added: the latest known comes last.
 ///
-/// All are a sum from the middle outwards ([`convolve_all`](lagrangian_scalar::series::convolve_all)), and what follows it.
+/// Each is a sum from the middle outwards ([`convolve_all`](lagrangian_scalar::series::convolve_all)), followed by the
+/// terms listed after it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Along {
-    /// Of positions: `2 ≤ j ≤ m − 2`, then `j = m − 1`, then `j = 1`.
+    /// For positions: `2 ≤ j ≤ m − 2`, then `j = m − 1`, then `j = 1`.
     Position,
-    /// Of a force and a position: `0 ≤ j ≤ m − 2`, then `j = m − 1`. The term of order 0 is among them.
+    /// For a force and a position: `0 ≤ j ≤ m − 2`, then `j = m − 1`, including the term of order 0.
     Force,
-    /// Of everything else: `1 ≤ j ≤ m − 1`.
+    /// For everything else: `1 ≤ j ≤ m − 1`.
     Rest,
 }
 
-/// What recurrences are computed with. `m` is the order of the coefficient that is asked for.
+/// The operations of recurrences. `m` is the order of the coefficient that is computed.
 pub trait Arithmetic {
     /// A number.
     type X: Copy;
@@ -63,25 +65,26 @@ pub trait Arithmetic {
     fn motion(&mut self, coordinate: u32, is_rate: bool) -> Self::X;
     /// Coefficient 0 of a row.
     fn first(&mut self, row: RowId) -> Self::X;
-    /// Coefficient `m` of a row at the level of this one, as it was just computed.
+    /// Coefficient `m` of a row at the same level, which was just computed.
     fn newest(&mut self, row: RowId) -> Self::X;
     /// Coefficient `m − 1` of a row.
     fn before(&mut self, row: RowId) -> Self::X;
-    /// `m` times coefficient `m` of a row at the level of this one, as it was just computed.
+    /// `m` times coefficient `m` of a row at the same level, which was just computed.
     fn weighted(&mut self, row: RowId) -> Self::X;
     /// Coefficient `m + 1` of a row of positions, times `m + 1`.
     fn derivative(&mut self, row: RowId) -> Self::X;
-    /// Coefficient `m + 2` of a row of positions, as it was just computed, times `(m + 1)(m + 2)`.
+    /// Coefficient `m + 2` of a row of positions, which was just computed, times `(m + 1)(m + 2)`.
     fn second_derivative(&mut self, row: RowId) -> Self::X;
-    /// The row as two factors: one that depends on the order alone, and one that was just computed.
+    /// The second derivative as two factors: one that depends on the order alone, and one that was
+    /// just computed.
     fn second_factors(&mut self, row: RowId) -> [Self::X; 2];
     /// One of the sums of this row.
     fn convolution(&mut self, row: RowId, number: usize) -> Self::X;
-    /// Sine and cosine of a row at order 0, turned by what rounding took from it.
+    /// Sine and cosine of a row at order 0, corrected by the row's rounding error.
     fn sin_cos(&mut self, row: RowId) -> [Self::X; 2];
     /// A function of numbers, at order 0.
     fn call(&mut self, call: Call, a: Self::X, b: Self::X) -> Self::X;
-    /// A sum at order 0, where what rounding takes from it is to be known.
+    /// A sum at order 0 whose rounding error is tracked.
     fn exact_sum(&mut self, row: RowId, terms: &[(Option<RowId>, RowId)]) -> Self::X;
     /// 1/m.
     fn over_order(&mut self) -> Self::X;
@@ -96,11 +99,11 @@ pub trait Arithmetic {
     fn divide(&mut self, a: Self::X, b: Self::X) -> Self::X;
     /// `−a`.
     fn negate(&mut self, a: Self::X) -> Self::X;
-    /// `a b + c`, rounded once where numbers know how.
+    /// `a b + c`, rounded once if the type of number supports it.
     fn multiply_add(&mut self, a: Self::X, b: Self::X, c: Self::X) -> Self::X;
 }
 
-/// A coefficient: of the row itself, and, where that comes first and costs nothing, multiplied by its order.
+/// A coefficient of a row, and the same multiplied by its order if that is computed first at no extra cost.
 pub struct Coefficient<X> {
     /// Coefficient `m`.
     pub plain: X,
@@ -109,7 +112,7 @@ pub struct Coefficient<X> {
 }
 
 impl Series {
-    /// The sums that a coefficient of a row takes.
+    /// The sums that a coefficient of a row needs.
     pub fn convolutions(&self, row: RowId) -> Vec<Convolution> {
         let plain = |row: RowId| Stream {
             row,
@@ -166,7 +169,7 @@ impl Series {
         pairs.into_iter().map(sum).collect()
     }
 
-    /// What a row depends on.
+    /// The level of a row.
     pub fn level(&self, row: RowId) -> Level {
         self.levels[row.index()]
     }
@@ -176,8 +179,8 @@ impl Series {
         self.level(row) > Level::Constant
     }
 
-    /// The rate of a row that grows with time and with nothing else, a constant: `ω` of `ω t`, 1 of the time itself where there
-    /// is none.
+    /// The constant rate of a row that grows with time alone: `ω` for `ω t`, the inner `None` standing for 1, the rate of the
+    /// time itself.
     pub fn phase(&self, row: RowId) -> Option<Option<RowId>> {
         match &self.rows[row.index()] {
             Row::Time => Some(None),
@@ -254,14 +257,14 @@ impl Series {
         to.call(call, a, b)
     }
 
-    /// Whether what changes a row at its own level changes another: positions change second derivatives with them, what
-    /// is of another level stays.
+    /// Whether a change of one row at its own level changes another: positions also change their second derivatives;
+    /// rows of other levels stay.
     pub fn passes(&self, to: RowId, of: RowId) -> bool {
         let is_second = matches!(self.rows[to.index()], Row::Second(_));
         self.level(of) == self.level(to) || is_second
     }
 
-    /// Whether a row is a sum that grows with time: what rounding takes from it is worth knowing.
+    /// Whether a row is a sum that grows with time, so that its rounding error is worth tracking.
     pub fn has_phase(&self, row: RowId) -> bool {
         self.exact[row.index()]
     }
@@ -288,8 +291,8 @@ impl Series {
         sum
     }
 
-    /// `Σ c x` of coefficients that were just computed. What depends on the order alone is multiplied first, so that nothing waits
-    /// for it.
+    /// `Σ c x` of coefficients that were just computed. Factors that depend on the order alone are multiplied first, so that
+    /// nothing waits for them.
     #[inline(always)]
     fn sum_of_newest<A: Arithmetic>(&self, terms: &[(Option<RowId>, RowId)], to: &mut A) -> A::X {
         let mut sum = to.zero();
@@ -314,7 +317,7 @@ impl Series {
         sum
     }
 
-    /// Whether a coefficient of a row comes multiplied by its order first.
+    /// Whether a coefficient of a row is computed multiplied by its order first.
     pub fn is_integral(&self, row: RowId) -> bool {
         matches!(
             self.rows[row.index()],
@@ -327,7 +330,7 @@ impl Series {
         )
     }
 
-    /// Coefficient `m ≥ 1` of a row that varies, those before it and those of its operands being known.
+    /// Coefficient `m ≥ 1` of a row that varies, given its earlier ones and those of its operands.
     #[inline(always)]
     pub fn coefficient<A: Arithmetic>(
         &self,
@@ -339,7 +342,7 @@ impl Series {
             plain,
             weighted: None,
         };
-        // The sum over all orders of a product of two rows whose factors are `a` and `b`.
+        // The sum over all orders of a product of two rows with factors `a` and `b`.
         macro_rules! product {
             ($a:expr, $b:expr) => {{
                 let sum = to.convolution(row, 0);
@@ -354,7 +357,7 @@ impl Series {
                 }
             }};
         }
-        // 1/m times a sum whose last term is m a_m b_0: with its multiple by m.
+        // 1/m times a sum whose last term is m a_m b_0, together with its multiple by m.
         macro_rules! integral {
             ($a:expr, $b:expr, $negative:expr) => {{
                 let sum = to.convolution(row, 0);
@@ -478,7 +481,7 @@ impl Series {
         }
     }
 
-    /// Whether a row is a product of what depends on accelerations with a position.
+    /// Whether a row is a product of a row that depends on accelerations and a position.
     pub fn is_force(&self, row: RowId) -> bool {
         match self.rows[row.index()] {
             Row::Product(a, b) if self.level(row) == Level::Acceleration => {
@@ -498,8 +501,8 @@ impl Series {
         to.multiply_add(a_0, a_m, sum)
     }
 
-    /// What a row is made from at its own level, and its derivatives by these at the start; but sums, whose coefficients are
-    /// the derivatives.
+    /// The operands of a row at its own level, with its derivatives by these at the start. Sums are excluded: their
+    /// coefficients are the derivatives.
     #[inline(always)]
     pub fn slopes<A: Arithmetic>(&self, row: RowId, to: &mut A) -> [Option<(RowId, A::X)>; 2] {
         match self.rows[row.index()] {

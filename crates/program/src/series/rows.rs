@@ -1,9 +1,9 @@
-//! What rows are made from, and what they depend on.
+//! Operands and dependencies of rows.
 
 use super::{Level, NoSeries, Row, RowId, Series, Stream};
 
 impl Series {
-    /// Without rows that nobody needs.
+    /// The series without unused rows.
     pub fn pruned(self) -> Series {
         let mut needed = vec![false; self.rows.len()];
         let mut open: Vec<RowId> = self.residuals.clone();
@@ -34,10 +34,10 @@ impl Series {
         }
     }
 
-    /// With the coordinates by which each row changes.
+    /// The series with the unknowns that change each row.
     ///
     /// # Errors
-    /// Where accelerations do not stand linearly.
+    /// If accelerations do not occur linearly.
     pub fn with_dependences(mut self) -> Result<Series, NoSeries> {
         for index in 0..self.rows.len() {
             let level = self.levels[index];
@@ -80,7 +80,8 @@ impl Series {
         Ok(self)
     }
 
-    /// With the terms of each sum in the order in which they become known: what waits longest is added last.
+    /// The series with the terms of each sum in the order in which they become known, so that the latest is
+    /// added last.
     pub fn in_time(mut self) -> Series {
         let mut ready = vec![0_u32; self.rows.len()];
         for index in 0..self.rows.len() {
@@ -99,7 +100,7 @@ impl Series {
         self
     }
 
-    /// The unknowns in groups that do not act on each other, each in the order of the unknowns.
+    /// The unknowns in groups that are not coupled, each in the order of the unknowns.
     pub fn blocks(&self) -> Vec<Vec<u32>> {
         let count = self.unknowns();
         let mut group: Vec<usize> = (0..count).collect();
@@ -131,7 +132,7 @@ impl Series {
         blocks
     }
 
-    /// The rows whose earlier coefficients are asked for by sums over orders: as they are, and multiplied by their orders.
+    /// The rows whose earlier coefficients are needed by sums over orders: as they are, and multiplied by their orders.
     pub fn streams(&self) -> Vec<[bool; 2]> {
         let mut streams = vec![[false; 2]; self.rows.len()];
         for index in 0..self.rows.len() {
@@ -146,7 +147,7 @@ impl Series {
 }
 
 impl Row {
-    /// The rows that it is made from.
+    /// Calls `visit` with every row that it is made from.
     pub fn for_each_operand(&self, mut visit: impl FnMut(RowId)) {
         match self {
             Row::Number(_)
@@ -179,7 +180,7 @@ impl Row {
         }
     }
 
-    /// This row with its operands at other places.
+    /// This row with its operands renumbered.
     fn moved(mut self, place: &[RowId]) -> Row {
         let to = |row: &mut RowId| *row = place[row.index()];
         match &mut self {

@@ -1,7 +1,7 @@
 //! The field GF(p²), p = 2⁶¹ − 1: numbers `re + i·im` with i² = −1.
 //!
 //! p is a Mersenne prime and p ≡ 3 (mod 4), so −1 has no root in GF(p) and adjoining i gives a
-//! field. Nearly every value lies in GF(p), `im = 0`; roots such as √3 and the angles π/3, π/5, …
+//! field. Nearly every value is in GF(p), `im = 0`; roots such as √3 and the angles π/3, π/5, …
 //! need the rest.
 
 use core::ops::{Add, Mul, Neg, Sub};
@@ -44,9 +44,9 @@ pub fn pow(mut a: u64, mut n: u64) -> u64 {
     result
 }
 
-/// The root of `a` in GF(p) that is a square itself, a^((p+1)/4), if `a` has a root at all.
+/// The root of `a` in GF(p) that is a square itself, a^((p+1)/4), if `a` has a root.
 ///
-/// Of r and −r exactly one is a square, since −1 is none; choosing it makes √(ab) = √a·√b for all
+/// Exactly one of r and −r is a square, since −1 is not; choosing it makes √(ab) = √a·√b for all
 /// squares a, b.
 pub fn root(a: u64) -> Option<u64> {
     // (p + 1)/4 = 2⁵⁹.
@@ -76,7 +76,7 @@ impl Field {
         if n < 0 { -magnitude } else { magnitude }
     }
 
-    /// The image of 2^n, n of either sign: 2⁶¹ = 1.
+    /// The image of 2^n for positive or negative n: 2⁶¹ = 1.
     pub fn power_of_two(n: i32) -> Field {
         Field::real(1 << n.rem_euclid(61))
     }
@@ -92,7 +92,7 @@ impl Field {
         }
     }
 
-    /// re² + im², which is zero for zero only.
+    /// re² + im², which is zero only for zero.
     pub fn norm(self) -> u64 {
         add(mul(self.re, self.re), mul(self.im, self.im))
     }
@@ -116,7 +116,7 @@ impl Field {
             return None;
         }
         if self == Field::ONE {
-            return Some(self); // Most denominators.
+            return Some(self); // most denominators
         }
         if self.im == 0 {
             return Some(Field::real(pow(self.re, P - 2)));
@@ -139,8 +139,8 @@ impl Field {
     /// A root whose real part (imaginary part, if the real part is 0) is a square in GF(p); unique.
     ///
     /// With self = a + ib = (c + id)²: c² = (a ± √(a²+b²))/2 and d = b/(2c). The product of the two
-    /// candidates for c² is −b²/4, no square, so exactly one of them is a square. No root exists if
-    /// the norm a² + b² has none.
+    /// candidates for c² is −b²/4, which is not a square, so exactly one of them is a square. No
+    /// root exists if the norm a² + b² has none.
     pub fn root(self) -> Option<Field> {
         if self.im == 0 {
             return match root(self.re) {
@@ -166,7 +166,7 @@ impl Field {
         }
     }
 
-    /// Of x and −x, always the same one, and whether that is −x.
+    /// The canonical one of x and −x, and whether that is −x.
     pub fn canonical(self) -> (Field, bool) {
         let decisive = if self.re == 0 { self.im } else { self.re };
         if decisive > P / 2 {

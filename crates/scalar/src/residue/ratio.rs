@@ -1,4 +1,4 @@
-//! Rational numbers of 64 bits: for the values that are known exactly.
+//! Rational numbers of 64 bits, for values that are known exactly.
 
 /// numerator / denominator in lowest terms, denominator > 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,7 +18,7 @@ impl Ratio {
         }
     }
 
-    /// In lowest terms; none if it does not fit or the denominator is 0.
+    /// In lowest terms; none if it does not fit or if the denominator is 0.
     pub fn new(mut numerator: i128, mut denominator: i128) -> Option<Ratio> {
         if denominator < 0 {
             numerator = numerator.checked_neg()?;
@@ -39,7 +39,7 @@ impl Ratio {
         self.numerator == 0
     }
 
-    /// −self; none for the one number whose negative does not fit.
+    /// −self; none for the only number whose negative does not fit.
     pub fn negative(self) -> Option<Ratio> {
         Some(Ratio {
             numerator: self.numerator.checked_neg()?,
@@ -74,7 +74,7 @@ impl Ratio {
 
 fn greatest_common_divisor(mut a: u128, mut b: u128) -> u128 {
     while b != 0 {
-        // Division of 128 bits is slow; most numbers are short.
+        // 128-bit division is slow, and most numbers are short.
         let remainder = match (u64::try_from(a), u64::try_from(b)) {
             (Ok(a), Ok(b)) => (a % b) as u128,
             _ => a % b,

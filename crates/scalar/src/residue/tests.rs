@@ -1,6 +1,6 @@
 use super::*;
 
-/// Points that every identity is tried at.
+/// The number of points at which every identity is tried.
 const POINTS: u64 = 20;
 
 /// Checks an identity between expressions of three symbols at random points, skipping those where a
@@ -153,7 +153,7 @@ fn three_phases_cancel() {
         )
     });
     no_identity(|x, _, _| ((x + third).cos(), (x - third).cos()));
-    // 17 does not divide p − 1: nothing is known of π/17 but that 17 of them are π.
+    // 17 does not divide p − 1: the only known property of π/17 is that 17 of them are π.
     let small = Residue::pi() / int(17);
     no_identity(|x, _, _| ((x + small).cos(), (x - small).cos()));
     no_identity(|x, _, _| ((x + small).cos(), x.cos()));
@@ -162,7 +162,7 @@ fn three_phases_cancel() {
 
 #[test]
 fn pi_times_a_symbol_is_no_multiple_of_pi() {
-    // Were π a number of half turns in the angle, sin(2πft) would be 0 at every point.
+    // If π were a number of half turns in the angle, sin(2πft) would be 0 at every point.
     let pi = Residue::pi();
     no_identity(|f, t, _| ((int(2) * pi * f * t).sin(), Residue::ZERO));
     no_identity(|x, y, _| ((pi * x).cos(), (pi * y).cos()));
@@ -211,7 +211,7 @@ fn signs() {
     identity(|x, y, _| (x.min(y), y.min(x)));
     identity(|x, y, _| (x.min(y), -(-x).max(-y)));
     identity(|x, y, _| (x.min(y) * x.max(y), x * y));
-    // A known rational has its true sign: 3 is no square modulo p, but positive.
+    // A known rational has its true sign: 3 is not a square modulo p, but it is positive.
     assert_eq!(int(-3).abs(), int(3));
     assert_eq!(int(3).sign(), int(1));
     assert_eq!(int(3).max(int(5)), int(5));

@@ -1,29 +1,29 @@
 //! 2-adic numbers with a known number of bits.
 //!
-//! A 2-adic number is a series Σ b_k 2^k that begins at some k and never ends towards larger k;
-//! what is known of one is its value modulo a power of two. Odd numbers have inverses, so every
-//! rational is a 2-adic number. F. Q. Gouvêa, *p-adic Numbers*, 3rd ed., Springer 2020, chapter 4.
+//! A 2-adic number is a series Σ b_k 2^k that begins at some k and never ends towards larger k; it
+//! is represented by its value modulo a power of two. Odd numbers have inverses, so every rational
+//! is a 2-adic number. F. Q. Gouvêa, *p-adic Numbers*, 3rd ed., Springer 2020, chapter 4.
 
 use core::ops::{Add, Div, Mul, Neg};
 
-/// Exponents beyond this are given up: no angle comes near.
+/// Exponents beyond this become undefined; no angle comes close.
 const EXPONENT_LIMIT: i64 = 1 << 24;
 
-/// A 2-adic number as far as it is known.
+/// A 2-adic number, as far as it is known.
 #[derive(Clone, Copy, Debug)]
 pub enum TwoAdic {
     /// Exactly 0.
     Zero,
-    /// A multiple of 2^precision, nothing else being known.
+    /// A multiple of 2^precision, otherwise unknown.
     Vanishing { precision: i32 },
-    /// 2^exponent · mantissa; of the mantissa, which is odd, the lowest `bits` ≤ 128 bits are
-    /// known, the others kept 0.
+    /// 2^exponent · mantissa; the mantissa is odd, and its lowest `bits` ≤ 128 bits are known, the
+    /// others are kept 0.
     Known {
         mantissa: u128,
         exponent: i32,
         bits: u32,
     },
-    /// No value: something was divided by what may be 0, or no value was ever assigned.
+    /// No value: something was divided by a number that may be 0, or no value was ever assigned.
     Undefined,
 }
 
@@ -62,9 +62,8 @@ impl TwoAdic {
         }
     }
 
-    /// 2^exponent · mantissa, with `bits` bits of the mantissa known (all, if they are 128: the
-    /// mantissa is then an integer in two's complement, and what is shifted in above it is
-    /// unknown).
+    /// 2^exponent · mantissa, with `bits` bits of the mantissa known (if 128, the mantissa is an
+    /// integer in two's complement, and the bits above are unknown).
     pub fn from_bits(mantissa: u128, exponent: i64, bits: u32) -> TwoAdic {
         let mantissa = low_bits(mantissa, bits);
         if exponent.abs() > EXPONENT_LIMIT {
@@ -186,7 +185,7 @@ impl Add for TwoAdic {
                 if other_e < e {
                     return other + self;
                 }
-                // Now e ≤ other_e. The sum is known up to where both are.
+                // Now e ≤ other_e. The sum is known as far as both are.
                 let shift = (other_e - e) as u32;
                 let shifted = other_m.checked_shl(shift).unwrap_or(0);
                 let known = bits.min(other_bits.saturating_add(shift));

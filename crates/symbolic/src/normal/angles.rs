@@ -1,15 +1,15 @@
-//! Base angles: of what all angles of an expression are multiples.
+//! Base angles, of which all angles of an expression are multiples.
 
 use std::collections::BTreeMap;
 
 use crate::normal::polynomial::Monomial;
 use crate::rational::Rational;
 
-/// Sines of higher multiples than this are not expanded: sin 50ωt is a sine and not a polynomial of
+/// Sines of higher multiples are not expanded: sin 50ωt is a sine and not a polynomial of
 /// degree 50.
 const HIGHEST_MULTIPLE: i64 = 16;
 
-/// For every monomial that angles are made of, its base angle.
+/// The base angle of every monomial that occurs in angles.
 #[derive(Default)]
 pub(super) struct Angles(BTreeMap<Monomial, Multiples>);
 
@@ -18,13 +18,13 @@ struct Multiples {
     unit: Rational,
     /// The largest coefficient so far.
     largest: Rational,
-    /// The unit is too small: every coefficient is a base angle of its own.
+    /// Whether the unit is too small, so that every coefficient is a base angle of its own.
     apart: bool,
 }
 
 impl Angles {
-    /// `coefficient = n·unit` as `(unit, n)`, n not 0; and whether what was said about this
-    /// monomial before no longer holds.
+    /// Returns `(unit, n)` with `coefficient = n·unit`, n not 0; and whether earlier results for
+    /// this monomial are no longer valid.
     pub(super) fn split(
         &mut self,
         monomial: &Monomial,

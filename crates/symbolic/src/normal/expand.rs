@@ -1,4 +1,4 @@
-//! Multiplying out.
+//! Expands expressions into polynomials.
 
 use std::rc::Rc;
 
@@ -11,24 +11,24 @@ use crate::normal::angles::Angles;
 use crate::normal::polynomial::{self, Monomial, Polynomial};
 use crate::rational::Rational;
 
-/// Products of terms that may be formed for each term of the budget; more is a sign of a hopeless
-/// case.
+/// The number of products of terms that may be formed for each term of the budget; a larger number
+/// means a hopeless case.
 const WORK_PER_TERM: usize = 50;
 
-/// Multiplies out nodes, each once.
+/// Expands nodes, each once.
 pub(super) struct Expander<'a> {
     arena: &'a mut Arena,
-    /// The most terms of a polynomial.
+    /// The largest number of terms of a polynomial.
     budget: usize,
-    /// Products of terms that may still be formed.
+    /// The number of products of terms that may still be formed.
     work: usize,
     known: FxHashMap<Id, Rc<Polynomial>>,
-    /// Sine and cosine by the argument's node.
+    /// Sine and cosine, by the node of the argument.
     circular: FxHashMap<Id, [Rc<Polynomial>; 2]>,
-    /// What the nodes of roots and absolute values are of.
+    /// The arguments of the nodes of roots and absolute values.
     radicands: FxHashMap<Id, Rc<Polynomial>>,
     angles: Angles,
-    /// A base angle turned out smaller than thought: start again.
+    /// Whether a base angle became smaller, so that expansion has to start again.
     restart: bool,
 }
 
@@ -48,7 +48,7 @@ impl<'a> Expander<'a> {
 
     pub(super) fn expand(&mut self, roots: &[Id]) -> Option<Vec<Polynomial>> {
         let needed = self.arena.reachable(roots.iter().copied(), |_| true);
-        // A base angle only ever shrinks, and only to a divisor within reach, so this ends.
+        // A base angle only ever shrinks, and only to a divisor within bounds, so this terminates.
         loop {
             self.restart = false;
             for &id in &needed {
@@ -114,7 +114,7 @@ impl<'a> Expander<'a> {
                 let value = self.arena.function(function, &rebuilt);
                 let (scale, atom) = self.split_scale(value);
                 if matches!(function, Function::Sqrt | Function::Abs) {
-                    // |−2x| came out as 2·|x|: the atom is of x.
+                    // |−2x| became 2·|x|: the argument of the atom is x.
                     let mut radicand = Polynomial::default();
                     radicand.add_multiple(self.known.get(&arguments[0])?, &scale.recip()?);
                     self.radicands.insert(atom, Rc::new(radicand));
@@ -124,7 +124,7 @@ impl<'a> Expander<'a> {
         }
     }
 
-    /// A node that came out of a constructor: a multiple of a product of atoms.
+    /// A node returned by a constructor: a multiple of a product of atoms.
     fn import(&mut self, id: Id) -> Option<Polynomial> {
         match self.arena.node(id) {
             _ if id == Arena::UNDEFINED => return None,
@@ -162,7 +162,7 @@ impl<'a> Expander<'a> {
         Some(product)
     }
 
-    /// Adds a term, squares of sines, roots and absolute values replaced by what they are.
+    /// Adds a term, with squares of sines, roots and absolute values reduced.
     fn add_reduced(
         &mut self,
         sum: &mut Polynomial,
@@ -191,8 +191,8 @@ impl<'a> Expander<'a> {
         Some(())
     }
 
-    /// The power of an atom that is not to be kept as it is; the outer `None` is the end of the
-    /// budget.
+    /// The reduced form of a power of an atom, if it has one; the outer `None` means that the
+    /// budget is exhausted.
     fn reduced_power(&mut self, id: Id, n: i32) -> Option<Option<Polynomial>> {
         let Node::Function(function, arguments) = self.arena.node(id).clone() else {
             return Some(None);
@@ -243,7 +243,7 @@ impl<'a> Expander<'a> {
             self.add_reduced(&mut power, monomial, &coefficient)?;
             return Some(power);
         }
-        // The power of a sum has more terms than the exponent says.
+        // The power of a sum has more terms than its exponent.
         if usize::try_from(n).is_ok_and(|n| n > self.budget) {
             return None;
         }
@@ -254,7 +254,8 @@ impl<'a> Expander<'a> {
         Some(power)
     }
 
-    /// 1/(c·X·S) = c⁻¹·X⁻¹·S⁻¹: coefficient and common factors come out, and the rest is one atom.
+    /// 1/(c·X·S) = c⁻¹·X⁻¹·S⁻¹: the coefficient and common factors are taken out, and the rest is
+    /// one atom.
     fn reciprocal(&mut self, base: &Polynomial) -> Option<Polynomial> {
         let mut common: Option<Monomial> = None;
         for (monomial, _) in base.iter() {
@@ -339,7 +340,7 @@ impl<'a> Expander<'a> {
     }
 }
 
-/// The common factors of two monomials: the lower power of every atom, where one that is absent has
+/// The common factors of two monomials: the lower power of every atom, where an absent atom has
 /// power 0.
 fn meet(a: &[Factor], b: &[Factor]) -> Monomial {
     let power_in = |monomial: &[Factor], id: Id| {

@@ -1,4 +1,4 @@
-//! Joining what expanding took apart: the addition theorems, read from right to left.
+//! Joins terms that expansion separated: the addition theorems, applied from right to left.
 
 use crate::arena::Arena;
 use crate::node::{Factor, Term};
@@ -10,15 +10,14 @@ use crate::rational::Rational;
 pub(super) fn fold(arena: &mut Arena, mut polynomial: Polynomial) -> Polynomial {
     loop {
         let before = polynomial.len();
-        // Squares first: cos a cos b + sin a sin b may be hidden behind a sin² that has been
-        // reduced.
+        // Squares first: cos a cos b + sin a sin b may be hidden by a sin² that was reduced.
         for rule in [fold_squares, fold_angles] {
             let monomials: Vec<Monomial> = polynomial
                 .iter()
                 .map(|(monomial, _)| monomial.clone())
                 .collect();
             for monomial in monomials {
-                // May have been joined with another one in the meantime.
+                // It may have been joined with another term in the meantime.
                 if let Some(coefficient) = polynomial.coefficient(&monomial).cloned()
                     && let Some(join) = rule(arena, &polynomial, &monomial, &coefficient)
                 {

@@ -7,10 +7,10 @@ use crate::node::Factor;
 use crate::node::Id;
 use crate::rational::Rational;
 
-/// Powers of nodes, by id, none of them 0.
+/// Powers of nodes, ordered by id, none of them 0.
 pub(super) type Monomial = Vec<Factor>;
 
-/// `Σ coefficient·monomial`, no coefficient 0.
+/// `Σ coefficient·monomial`, without zero coefficients.
 #[derive(Clone, Default, PartialEq, Debug)]
 pub(super) struct Polynomial(BTreeMap<Monomial, Rational>);
 
@@ -74,13 +74,13 @@ impl Polynomial {
         }
     }
 
-    /// The factors written out: how long it is on paper.
+    /// The number of factors when written out, the length in print.
     pub(super) fn weight(&self) -> usize {
         self.0.keys().map(|monomial| 1 + monomial.len()).sum()
     }
 
-    /// The terms by those of their factors for which `outer` holds; the remaining factors in the
-    /// polynomials.
+    /// The terms grouped by those of their factors for which `outer` holds; the remaining factors
+    /// are in the polynomials.
     pub(super) fn grouped(&self, outer: impl Fn(Id) -> bool) -> BTreeMap<Monomial, Polynomial> {
         let mut groups: BTreeMap<Monomial, Polynomial> = BTreeMap::new();
         for (monomial, coefficient) in self.iter() {

@@ -1,4 +1,4 @@
-//! LaTeX, for math mode.
+//! Prints formulas in LaTeX, for math mode.
 
 use crate::print::math::{Form, Mark, Math, Sign};
 
@@ -12,7 +12,7 @@ impl Math {
 /// The marks, written front to back.
 fn write(marks: &[Mark]) -> String {
     let mut out = String::new();
-    // The forms that are open, and how many of their arguments are behind.
+    // The open forms, with the number of their completed arguments.
     let mut open: Vec<(Form, usize)> = Vec::new();
     for (index, mark) in marks.iter().enumerate() {
         match mark {
@@ -55,7 +55,7 @@ fn write(marks: &[Mark]) -> String {
     out.trim().to_owned()
 }
 
-/// Appends; a command and a letter after it are kept apart.
+/// Appends text; a command and a following letter are separated.
 fn push(out: &mut String, text: &str) {
     let letters = |c: char| c.is_ascii_alphabetic();
     if text.starts_with(letters) {
@@ -81,7 +81,7 @@ fn opening(form: Form) -> &'static str {
     }
 }
 
-/// What ends an argument when so many are behind.
+/// The separator after an argument, given the number of completed ones.
 fn between(form: Form, done: usize) -> &'static str {
     match form {
         Form::Fraction => "}{",
@@ -134,7 +134,7 @@ fn function(name: &'static str) -> String {
     }
 }
 
-/// A letter; what LaTeX has no command for is left to the fonts of the text.
+/// A letter; those without a LaTeX command are left to the fonts of the text.
 fn symbol(letter: char) -> String {
     let command = match letter {
         '_' => r"\_",
@@ -179,7 +179,7 @@ fn symbol(letter: char) -> String {
     command.to_owned()
 }
 
-/// Words as LaTeX, for text mode or inside of `\text`: everything that it takes for its own is escaped.
+/// Words in LaTeX, for text mode or inside `\text`, with all special characters escaped.
 ///
 /// ```
 /// use lagrangian_symbolic::latex_words;

@@ -1,4 +1,4 @@
-//! What both printers share: terms with their signs, fractions, and the order of both.
+//! The common parts of both printers: terms with their signs, fractions, and the order of both.
 
 use core::cmp::Reverse;
 
@@ -21,8 +21,8 @@ pub(super) struct Fraction {
     pub(super) below: Vec<(Id, u32)>,
 }
 
-/// The terms of a sum, in the order to print. If `flat`, sums in it that are added or subtracted as
-/// a whole are opened.
+/// The terms of a sum, in printing order. If `flat`, sums in it that are added or subtracted as a
+/// whole are opened.
 pub(super) fn terms(arena: &Arena, terms: &[(Id, Rational)], flat: bool) -> Vec<Term> {
     let mut open: Vec<(Id, Rational)> = terms.iter().rev().cloned().collect();
     let mut shown = Vec::new();
@@ -35,7 +35,7 @@ pub(super) fn terms(arena: &Arena, terms: &[(Id, Rational)], flat: bool) -> Vec<
         }
     }
     if flat {
-        // What was apart in the sums that were opened may be alike.
+        // Terms from different opened sums may be alike.
         shown.sort_by_key(|(id, _)| *id);
         shown.dedup_by(|(id, coefficient), (kept, sum)| {
             let same = id == kept;
@@ -67,12 +67,12 @@ pub(super) fn terms(arena: &Arena, terms: &[(Id, Rational)], flat: bool) -> Vec<
 pub(super) enum Order {
     /// (m₁ + m₂)*l*s*cos(φ)*ṡ: by stage; sums of parameters first, other sums last.
     Stages,
-    /// (m₁ + m₂) l s ṡ cos φ: what has parentheses of its own before functions that take the next factor for a part
-    /// of their argument.
+    /// (m₁ + m₂) l s ṡ cos φ: factors with parentheses come before functions, which would take the next factor as a
+    /// part of their argument.
     FunctionsLast,
 }
 
-/// The node as a fraction, factors in the order to print; 1 has no factors.
+/// The node as a fraction, with factors in printing order; 1 has no factors.
 pub(super) fn fraction(arena: &Arena, id: Id, order: Order) -> Fraction {
     let alone = [(id, 1)];
     let factors = match arena.node(id) {

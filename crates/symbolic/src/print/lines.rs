@@ -1,28 +1,28 @@
-//! How wide a formula is, and where it is broken into lines.
+//! Measures the width of formulas, and breaks them into lines.
 
 use crate::print::math::{Form, Mark, Math, Sign};
 
-/// A place before a sign at which a line may end.
+/// A possible line break, before a sign.
 struct Break {
     /// The mark that begins the next line.
     mark: usize,
-    /// The width of all before it.
+    /// The width of everything before it.
     at: f32,
-    /// How many parentheses are open there.
+    /// The number of open parentheses there.
     depth: usize,
 }
 
 impl Math {
-    /// About how wide it is in a display, in the size of its font (em).
+    /// The approximate width in a display, in the size of its font (em).
     pub fn width(&self) -> f32 {
         measure(&self.marks).0
     }
 
-    /// In lines, the first at most so wide, the others as the second number says, in em. A line ends before `+`, `−` or
-    /// `=`, outside of parentheses rather than inside, and never in a fraction, under a root or in an exponent: what
-    /// cannot be broken may be wider.
+    /// Breaks the formula into lines, the first at most `first` wide and the others `others`, in em. A line ends before
+    /// `+`, `−` or `=`, preferably outside parentheses, and never in a fraction, under a root or in an exponent; an
+    /// unbreakable line may be wider.
     ///
-    /// Parentheses that are closed in another line are of one size ([`Sign::LeftParenthesis`]).
+    /// Parentheses that are closed on another line have a fixed size ([`Sign::LeftParenthesis`]).
     pub fn lines(&self, first: f32, others: f32) -> Vec<Math> {
         let (width, breaks) = measure(&self.marks);
         let mut cuts: Vec<usize> = Vec::new();
@@ -37,7 +37,7 @@ impl Math {
                 let is_equals = self.marks[place.mark] == Mark::Sign(Sign::Equals);
                 let score = match place.depth {
                     _ if filled > 1.0 => -filled,
-                    // Not right after the name of what is given.
+                    // Not right after the name of the quantity that is defined.
                     0 if is_equals && filled < 0.25 => filled - 1.0,
                     0 => filled,
                     depth => filled - 0.5 * depth as f32,
@@ -54,7 +54,7 @@ impl Math {
     }
 }
 
-/// The marks in lines that begin at `cuts`.
+/// Splits the marks into lines that begin at `cuts`.
 fn split(marks: &[Mark], cuts: &[usize]) -> Vec<Math> {
     let torn = torn(marks, cuts);
     let mut lines = vec![Math::default()];
@@ -64,7 +64,7 @@ fn split(marks: &[Mark], cuts: &[usize]) -> Vec<Math> {
         }
         let Some(line) = lines.last_mut() else { break };
         match (mark, torn.contains(&index)) {
-            // The exponent goes to the parenthesis that closes.
+            // The exponent belongs to the closing parenthesis.
             (Mark::Open(Form::Power), true) => {}
             (Mark::Open(_), true) => line.marks.push(Mark::Sign(Sign::LeftParenthesis)),
             (Mark::Close, true) => {
@@ -80,7 +80,7 @@ fn split(marks: &[Mark], cuts: &[usize]) -> Vec<Math> {
     lines
 }
 
-/// The marks that open and close parentheses around a cut, and open powers of such parentheses.
+/// The marks of parentheses around a cut, and the opening marks of powers of such parentheses.
 fn torn(marks: &[Mark], cuts: &[usize]) -> std::collections::BTreeSet<usize> {
     let mut torn = std::collections::BTreeSet::new();
     let mut open: Vec<usize> = Vec::new();
@@ -103,22 +103,22 @@ fn torn(marks: &[Mark], cuts: &[usize]) -> std::collections::BTreeSet<usize> {
     torn
 }
 
-/// A form that is open while marks are measured.
+/// A form that is open during measurement.
 struct Level {
     form: Form,
-    /// Whether a line may end inside: then its marks are added to the line at once.
+    /// Whether a line may end inside: then its marks are added to the line directly.
     transparent: bool,
     /// The widths of its arguments so far.
     arguments: Vec<f32>,
     /// The size of the font.
     size: f32,
-    /// How many fractions are around.
+    /// The number of enclosing fractions.
     fractions: usize,
     /// The width of a parenthesis or bar, if it has any.
     fence: f32,
 }
 
-/// The width of a row, and where it may be broken.
+/// The width of a row, and its possible line breaks.
 fn measure(marks: &[Mark]) -> (f32, Vec<Break>) {
     let mut x = 0.0;
     let mut breaks = Vec::new();
@@ -190,7 +190,7 @@ impl Level {
             && self.arguments.len() > 1;
         let is_small = self.form == Form::Fraction && self.fractions > 1;
         if is_script || is_small {
-            // Letters of 7 points are wider than seven tenths of those of 10.
+            // Letters at 7 points are wider than seven tenths of those at 10 points.
             self.size * 0.8
         } else {
             self.size
@@ -223,13 +223,13 @@ const SCRIPT: f32 = 0.05;
 
 /// For every mark that opens parentheses or bars, the width of one of them; 0 for all others.
 ///
-/// They grow with what is in them (`\left`, `\right`), and a thin space keeps each from what is outside:
-/// 1/6 em beside 0.389 em of a parenthesis, 0.458 with scripts in it, 0.597 with dots, 0.736 with a
-/// fraction, 0.875 where more is in the fraction (D. E. Knuth, *The TeXbook*, 1984, appendices F and G).
+/// They grow with their content (`\left`, `\right`), and a thin space separates each from what is
+/// outside: 1/6 em beside 0.389 em of a parenthesis, 0.458 with scripts inside, 0.597 with dots, 0.736
+/// with a fraction, 0.875 with a larger fraction (D. E. Knuth, *The TeXbook*, 1984, appendices F and G).
 fn fences(marks: &[Mark]) -> Vec<f32> {
     const WIDTHS: [f32; 5] = [0.556, 0.625, 0.764, 0.903, 1.042];
     let mut fences = vec![0.0; marks.len()];
-    // What is open, and how tall what is in it is: a place in the widths.
+    // The open marks, with the height of their content as an index into the widths.
     let mut open: Vec<(usize, Form, usize)> = Vec::new();
     for (index, mark) in marks.iter().enumerate() {
         match mark {
@@ -265,7 +265,7 @@ fn fences(marks: &[Mark]) -> Vec<f32> {
 }
 
 /// The widths of Computer Modern at 10 points (D. E. Knuth, *Computer Modern Typefaces*, 1986), in em,
-/// rounded up; those of words are about right.
+/// rounded up; those of words are approximate.
 fn width_of(mark: &Mark) -> f32 {
     let letter = |c: char| match c {
         'i' | 'l' | 't' | 'ι' => 0.36,

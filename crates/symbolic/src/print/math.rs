@@ -1,12 +1,12 @@
-//! A formula as it is set on a page, before anyone says in which language.
+//! Formulas in typeset form, independent of the output language.
 
 use std::borrow::Cow;
 
-/// A formula as it is set: what a page shows.
+/// A typeset formula, as shown on a page.
 ///
-/// A row of marks: letters, numbers and signs, and brackets around what is set in another way, `Open(Fraction)` above
-/// `Next` below `Close`. It is flat, so that a formula of any depth is built, broken into lines, written and dropped
-/// without a stack. [`Math::latex`] and [`Math::mathml`] write the same marks.
+/// It is a sequence of marks: letters, numbers and signs, and brackets around content in another form,
+/// `Open(Fraction)` above `Next` below `Close`. It is flat, so that a formula of any depth is built, broken into
+/// lines, written and dropped without recursion. [`Math::latex`] and [`Math::mathml`] write the same marks.
 ///
 /// ```
 /// use lagrangian_symbolic::Math;
@@ -24,29 +24,29 @@ pub struct Math {
 /// A piece of a formula.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// A letter that stands for a quantity: in italics, capital Greek letters upright.
+    /// A letter for a quantity: italic, capital Greek letters upright.
     Letter(char),
-    /// A letter that stands for a vector or a matrix: bold.
+    /// A letter for a vector or a matrix: bold.
     Bold(char),
     /// A name of several letters: upright.
     Word(String),
-    /// Words of a language, spaces kept.
+    /// Words of a natural language, with their spaces.
     Text(Cow<'static, str>),
-    /// A number that is not negative, in digits.
+    /// A nonnegative number, in digits.
     Number(String),
     /// The name of a function: sin.
     Function(&'static str),
-    /// What stands between quantities.
+    /// A sign between quantities.
     Sign(Sign),
-    /// What follows, up to the [`Mark::Close`] that belongs to it, is set in another way.
+    /// Begins content in another form, up to the matching [`Mark::Close`].
     Open(Form),
-    /// Ends an argument of a form that has another one.
+    /// Ends an argument of a form that is followed by another one.
     Next,
     /// Ends the last argument of a form.
     Close,
 }
 
-/// What stands between quantities.
+/// A sign between quantities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
     /// Between terms.
@@ -55,31 +55,31 @@ pub enum Sign {
     Minus,
     /// Before a quantity.
     Negative,
-    /// Between equals.
+    /// Between the sides of an equation.
     Equals,
-    /// Between factors: nothing to see.
+    /// Between factors: invisible.
     Times,
     /// Between numbers: a dot.
     Dot,
-    /// Between a function and its argument: nothing to see.
+    /// Between a function and its argument: invisible.
     Apply,
-    /// Between what is and what it becomes.
+    /// Between a quantity and its limit or replacement.
     To,
     /// Between arguments.
     Comma,
     /// Sum.
     Sum,
-    /// And so on, between commas.
+    /// An ellipsis between commas.
     Dots,
-    /// As wide as a letter m.
+    /// A space of the width of a letter m.
     Quad,
-    /// A parenthesis that is closed in another line.
+    /// A parenthesis that is closed on another line.
     LeftParenthesis,
-    /// A parenthesis that was opened in another line.
+    /// A parenthesis that was opened on another line.
     RightParenthesis,
 }
 
-/// A way of setting arguments.
+/// A form in which arguments are set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// The first above the second.
@@ -90,17 +90,17 @@ pub enum Form {
     Index,
     /// The second at the lower right of the first, the third at the upper right.
     IndexAndPower,
-    /// The second under the first, where it fits: the index of a sum.
+    /// The second below the first, if it fits: the index of a sum.
     Under,
     /// The square root of the only argument.
     Root,
-    /// So many dots over the only argument, one to three.
+    /// The given number of dots over the only argument, one to three.
     Dots(u8),
     /// The only argument, in parentheses.
     Parentheses,
-    /// The only argument between bars.
+    /// The only argument, between bars.
     Bars,
-    /// The arguments in so many columns, row by row, in large parentheses.
+    /// The arguments in the given number of columns, row by row, in large parentheses.
     Matrix(usize),
 }
 
@@ -120,7 +120,7 @@ impl Math {
         Math::mark(Mark::Bold(letter))
     }
 
-    /// Words of a language.
+    /// Words of a natural language.
     pub fn text(words: impl Into<Cow<'static, str>>) -> Math {
         Math::mark(Mark::Text(words.into()))
     }
@@ -136,7 +136,7 @@ impl Math {
         Math::mark(Mark::Sign(sign))
     }
 
-    /// Arguments set in another way.
+    /// Arguments in another form.
     pub fn form(form: Form, arguments: impl IntoIterator<Item = Math>) -> Math {
         let mut marks = vec![Mark::Open(form)];
         for (index, argument) in arguments.into_iter().enumerate() {
@@ -149,17 +149,17 @@ impl Math {
         Math { marks }
     }
 
-    /// One above the other.
+    /// A fraction.
     pub fn fraction(above: Math, below: Math) -> Math {
         Math::form(Form::Fraction, [above, below])
     }
 
-    /// With something at the lower right.
+    /// Adds a subscript.
     pub fn with_index(self, index: Math) -> Math {
         Math::form(Form::Index, [self, index])
     }
 
-    /// With an exponent; a letter with an index takes it above the index.
+    /// Adds an exponent; a letter with a subscript takes it above the subscript.
     pub fn power(mut self, exponent: Math) -> Math {
         if self.is_index() {
             self.marks[0] = Mark::Open(Form::IndexAndPower);
@@ -172,12 +172,12 @@ impl Math {
         Math::form(Form::Power, [self, exponent])
     }
 
-    /// With the exponent 2.
+    /// Adds the exponent 2.
     pub fn squared(self) -> Math {
         self.power(Math::number(2))
     }
 
-    /// With a dot above: the rate.
+    /// Adds a dot above: the rate.
     #[must_use]
     pub fn dotted(self) -> Math {
         Math::form(Form::Dots(1), [self])
@@ -189,7 +189,7 @@ impl Math {
         Math::form(Form::Parentheses, [self])
     }
 
-    /// Some formulas, one after the other.
+    /// Several formulas, one after the other.
     pub fn row(formulas: impl IntoIterator<Item = Math>) -> Math {
         let marks = formulas.into_iter().flat_map(|formula| formula.marks);
         Math {
@@ -197,7 +197,7 @@ impl Math {
         }
     }
 
-    /// Some formulas with the same sign between them.
+    /// Several formulas with the same sign between them.
     pub fn joined(formulas: impl IntoIterator<Item = Math>, sign: Sign) -> Math {
         let mut marks = Vec::new();
         for (index, formula) in formulas.into_iter().enumerate() {
@@ -209,7 +209,7 @@ impl Math {
         Math { marks }
     }
 
-    /// The formula with another after the sign.
+    /// The formula followed by the sign and another formula.
     #[must_use]
     pub fn then(mut self, sign: Sign, right: Math) -> Math {
         self.marks.push(Mark::Sign(sign));
@@ -228,12 +228,12 @@ impl Math {
         &self.marks
     }
 
-    /// Whether nothing is in it.
+    /// Whether it has no marks.
     pub fn is_empty(&self) -> bool {
         self.marks.is_empty()
     }
 
-    /// Whether it is one letter or word with an index.
+    /// Whether it is a single letter or word with a subscript.
     fn is_index(&self) -> bool {
         if self.marks.first() != Some(&Mark::Open(Form::Index)) {
             return false;
@@ -251,7 +251,8 @@ impl Math {
     }
 }
 
-/// `self + right`; where the right side begins with a sign, that sign alone: a + −b is a − b.
+/// `self + right`; if the right side begins with a sign, only that sign is written: a + −b is a
+/// − b.
 impl std::ops::Add for Math {
     type Output = Math;
     fn add(self, mut right: Math) -> Math {
@@ -279,7 +280,7 @@ impl std::ops::Mul for Math {
     }
 }
 
-/// With a sign before it.
+/// Puts a sign before it.
 impl std::ops::Neg for Math {
     type Output = Math;
     fn neg(self) -> Math {

@@ -1,16 +1,17 @@
-//! Presentation MathML: of it what MathML Core keeps, which is what browsers draw.
+//! Prints formulas in presentation MathML, restricted to MathML Core, which browsers draw.
 //!
 //! *MathML Core*, W3C: <https://www.w3.org/TR/mathml-core/>.
 
 use crate::print::math::{Form, Mark, Math, Sign};
 
 impl Math {
-    /// As presentation MathML, the part of it that browsers draw: an element `math` for a line of text.
+    /// In presentation MathML, restricted to the part that browsers draw: an element `math` for a line
+    /// of text.
     pub fn mathml(&self) -> String {
         format!("<math>{}</math>", self.mathml_row())
     }
 
-    /// The elements that stand inside of `math`, `mrow` or `mtd`.
+    /// The elements inside `math`, `mrow` or `mtd`.
     pub fn mathml_row(&self) -> String {
         write(self.marks())
     }
@@ -23,7 +24,7 @@ fn write(marks: &[Mark]) -> String {
     let mut out = String::new();
     let mut open: Vec<Level> = Vec::new();
     let mut argument = 0;
-    // Whether the next element is the first of its row: a sign there would be taken for a prefix.
+    // Whether the next element is the first of its row, where a sign would be taken for a prefix.
     let mut first = true;
     for (index, mark) in marks.iter().enumerate() {
         match mark {
@@ -45,7 +46,7 @@ fn write(marks: &[Mark]) -> String {
             }
             Mark::Sign(Sign::Times) => {
                 out.push_str("<mo>&#x2062;</mo>");
-                // As between words: 2 sin φ.
+                // Spaced like words: 2 sin φ.
                 if starts_with_function(&marks[index + 1..]) {
                     out.push_str(THIN);
                 }
@@ -101,17 +102,17 @@ fn write(marks: &[Mark]) -> String {
 const UPRIGHT: &str = "mi mathvariant=\"normal\"";
 const THIN: &str = "<mspace width=\"0.17em\"></mspace>";
 
-/// A form that is open.
+/// An open form.
 struct Level {
     form: Form,
-    /// The arguments behind.
+    /// The number of completed arguments.
     done: usize,
-    /// Whether the argument that is open needs a row of its own: it is not one element.
+    /// Whether the current argument needs a row of its own, because it is not a single element.
     row: bool,
 }
 
 impl Level {
-    /// Whether arguments have places of their own, one element each.
+    /// Whether arguments are positional, one element each.
     fn has_places(&self) -> bool {
         use Form::{Dots, Fraction, Index, IndexAndPower, Power, Under};
         matches!(
@@ -133,7 +134,7 @@ impl Level {
     }
 }
 
-/// How many elements each argument has, arguments in the order in which they begin.
+/// The number of elements of each argument, in the order in which the arguments begin.
 fn elements_of_arguments(marks: &[Mark]) -> Vec<usize> {
     let mut counts = Vec::new();
     let mut open: Vec<usize> = Vec::new();
@@ -162,8 +163,8 @@ fn elements_of_arguments(marks: &[Mark]) -> Vec<usize> {
     counts
 }
 
-/// For each mark that opens or closes a form whether something taller than a line is in it: what stretches around less than
-/// that is set with too much space by browsers.
+/// For each mark that opens or closes a form, whether its content is taller than a line: browsers add too much space around
+/// stretchy parentheses with lower content.
 fn tall(marks: &[Mark]) -> Vec<bool> {
     let mut tall = vec![false; marks.len()];
     let mut open: Vec<usize> = Vec::new();
@@ -205,7 +206,7 @@ fn opening(form: Form) -> &'static str {
         Form::IndexAndPower => "<msubsup>",
         Form::Under => "<munder>",
         Form::Root => "<msqrt>",
-        // Not marked as an accent: browsers would set the dots large, and into the letter.
+        // Not marked as an accent: browsers would set the dots large, and overlapping the letter.
         Form::Dots(_) => "<mover>",
         Form::Parentheses => "<mrow><mo stretchy=\"false\">(</mo>",
         Form::Bars => "<mrow><mo fence=\"true\" form=\"prefix\">|</mo>",
@@ -261,7 +262,8 @@ fn function(name: &'static str) -> &'static str {
     }
 }
 
-/// The bold letter of Unicode's mathematical alphabets, Greek ones slanted: the attribute is no part of MathML Core.
+/// The bold letter from Unicode's mathematical alphabets, slanted for Greek: the attribute is not part of
+/// MathML Core.
 fn bold(letter: char) -> char {
     let shifted = |from: char, to: u32| char::from_u32(to + (letter as u32 - from as u32));
     match letter {
@@ -274,7 +276,7 @@ fn bold(letter: char) -> char {
     .unwrap_or(letter)
 }
 
-/// `<name …>content</name>`, the content escaped.
+/// `<name …>content</name>`, with the content escaped.
 fn element(out: &mut String, tag: &str, content: &(impl ToString + ?Sized)) {
     let name = tag.split(' ').next().unwrap_or(tag);
     out.push_str(&format!(
@@ -283,7 +285,7 @@ fn element(out: &mut String, tag: &str, content: &(impl ToString + ?Sized)) {
     ));
 }
 
-/// Words as XML or HTML: everything that markup takes for its own is escaped.
+/// Words in XML or HTML, with all special characters escaped.
 ///
 /// ```
 /// use lagrangian_symbolic::markup_words;
@@ -298,7 +300,7 @@ pub fn markup_words(words: &str) -> String {
             '<' => escaped.push_str("&lt;"),
             '>' => escaped.push_str("&gt;"),
             '"' => escaped.push_str("&quot;"),
-            // XML has no place for them.
+            // XML does not allow them.
             '\n' | '\t' => escaped.push(letter),
             letter if letter.is_control() || matches!(letter, '\u{fffe}' | '\u{ffff}') => {
                 escaped.push(' ');

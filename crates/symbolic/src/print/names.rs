@@ -1,11 +1,11 @@
-//! Names as a person would typeset them.
+//! Typesets names as a person would.
 
 use crate::print::math::{Form, Mark, Math, Sign};
 
 /// A name as a person would typeset it.
 ///
-/// Greek letters by their names, digits and what follows an underscore or stands in brackets as
-/// subscripts, the second of two letters too; longer words upright; `der(…)` as a dot.
+/// Greek letters by their names; digits, anything after an underscore or in brackets, and the
+/// second of two letters as subscripts; longer words upright; `der(…)` as a dot.
 ///
 /// ```
 /// use lagrangian_symbolic::math_name;

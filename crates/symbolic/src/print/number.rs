@@ -1,8 +1,8 @@
-//! Positive rational numbers as a person would write them.
+//! Writes positive rational numbers as a person would.
 
 use crate::rational::Rational;
 
-/// The shape that a positive number is written in.
+/// The form in which a positive number is written.
 #[derive(Debug, PartialEq)]
 pub(super) enum Shape {
     /// `600`, `9.81`.
@@ -15,11 +15,11 @@ pub(super) enum Shape {
 
 /// Fractions with these denominators stay fractions: ½ m v², and not 0.5 m v².
 const SMALL_DENOMINATORS: [i64; 10] = [2, 3, 4, 5, 6, 7, 8, 9, 12, 16];
-/// Decimals with more digits than this after the point are fractions that somebody wrote as
-/// fractions.
+/// Decimals with more digits than this after the point are written as fractions, since they were
+/// probably written so.
 const MOST_PLACES: usize = 12;
 
-/// The shape of a number that is not negative.
+/// The form of a nonnegative number.
 pub(super) fn shape(number: &Rational) -> Shape {
     let fraction = || {
         let text = number.to_string();

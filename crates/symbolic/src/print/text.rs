@@ -1,4 +1,4 @@
-//! The spec language.
+//! Prints expressions in the spec language.
 
 use std::borrow::Cow;
 
@@ -8,7 +8,7 @@ use crate::print::layout::{self, Order, Term};
 use crate::print::number::{Shape, shape};
 use crate::rational::Rational;
 
-/// How tightly an expression holds together, and how tightly its place wants it to.
+/// The binding strength of an expression, or the one that its position requires.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Level {
     /// `a + b`, `-a`
@@ -21,7 +21,7 @@ enum Level {
     Atom,
 }
 
-/// What is still to be written.
+/// A piece that is still to be written.
 enum Piece {
     Text(Cow<'static, str>),
     Node(Id, Level),
@@ -30,7 +30,7 @@ enum Piece {
     Power(Id, u32),
 }
 
-/// Writes a graph, front to back, with a stack of what is still to be written.
+/// Writes a graph from front to back, with a stack of pieces still to be written.
 pub(super) struct Writer<'a> {
     arena: &'a Arena,
     symbols: &'a [String],

@@ -1,4 +1,4 @@
-//! From the graph to a formula on a page.
+//! Typesets expressions of the graph for a page.
 
 use crate::arena::Arena;
 use crate::node::{Function, Id, Node};
@@ -7,10 +7,10 @@ use crate::print::math::{Form, Mark, Math, Sign};
 use crate::print::number::{Shape, shape};
 use crate::rational::Rational;
 
-/// The most terms of a sum that is written above a bar.
+/// The largest number of terms of a sum that is written in a numerator.
 const LONGEST_SUM_ABOVE: usize = 3;
 
-/// The place that an expression stands in.
+/// The position of an expression.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Place {
     /// On its own, in braces or parentheses.
@@ -23,7 +23,7 @@ enum Place {
     Argument,
 }
 
-/// What is still to be written.
+/// A piece that is still to be written.
 enum Piece {
     Mark(Mark),
     Node(Id, Place),
@@ -32,7 +32,7 @@ enum Piece {
     Power(Id, u32),
 }
 
-/// Sets a graph, front to back, with a stack of what is still to be written.
+/// Typesets a graph from front to back, with a stack of pieces still to be written.
 pub(super) struct Writer<'a> {
     arena: &'a Arena,
     symbols: &'a [Math],
@@ -133,7 +133,7 @@ impl<'a> Writer<'a> {
             factors.iter().map(power).collect()
         };
         let is_fraction = !fraction.below.is_empty();
-        // A long sum stands after the fraction, where a line may end in it.
+        // A long sum is written after the fraction, where it may be broken into lines.
         let is_long = |&(id, _): &(Id, u32)| match self.arena.node(id) {
             Node::Sum(terms) => is_fraction && terms.len() > LONGEST_SUM_ABOVE,
             _ => false,
@@ -233,7 +233,7 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// Whether a function is written by its name; an exponent goes to the name then: sin²x.
+/// Whether a function is written by its name; an exponent is then attached to the name: sin²x.
 fn has_name(function: Function) -> bool {
     use Function::{Abs, Exp, Pow, Sqrt};
     !matches!(function, Sqrt | Abs | Exp | Pow)

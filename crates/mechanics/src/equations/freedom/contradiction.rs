@@ -1,9 +1,9 @@
-//! Constraints that contradict each other where a machine starts.
+//! Finds constraints that contradict each other at the start of a machine.
 //!
-//! Places are sought where the sum of the squares of all residuals is least. Where the least is not 0 and
-//! no displacement makes it less, the residuals themselves are a combination of the rows that comes to
-//! nothing, `Gᵀ r = 0` with `r ≠ 0`: what that combination holds cannot be met together. Rates contradict
-//! each other where such a combination of `G v = −b` leaves something of `b`.
+//! The sum of the squares of all residuals is minimized. If its minimum is not 0 and no displacement
+//! decreases it, the residuals are a linear combination of the rows that vanishes, `Gᵀ r = 0` with
+//! `r ≠ 0`: the constraints in that combination cannot be satisfied together. Constraints of rates
+//! contradict each other if such a combination of `G v = −b` leaves a part of `b`.
 
 use lagrangian_scalar::{DoubleDouble, Scalar};
 use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
@@ -14,22 +14,24 @@ use super::{MOST_ENTRIES, Places, Row, dot, length};
 use crate::equations::Equations;
 use crate::equations::constraints::{rates_at_rest, spans};
 
-/// The most steps towards the least sum of squares: a bit is gained in each where it is not 0.
+/// The largest number of steps of the minimization: each gains one bit if the minimum is not 0.
 const STEPS: usize = 300;
 
-/// Residuals are distances of this size at least, beside the largest coordinate or 1, to be a contradiction.
+/// Residuals at least this large, as distances relative to the largest coordinate or 1, are a contradiction.
 /// Numbers of a spec are rounded at 2e-16.
 const APART: f64 = 1e-11;
 
-/// Nothing makes residuals less where `Gᵀ r` is this share of them. At places that the constraints do meet,
-/// if only as two circles touch, it falls no faster than the root of the residuals.
+/// The residuals cannot be decreased if `Gᵀ r` is at most this fraction of them. At places that satisfy the
+/// constraints, even tangentially like two touching circles, it decreases no faster than the square root of
+/// the residuals.
 const STATIONARY: f64 = 1e-8;
 
-/// A constraint takes part in a contradiction from this share of the largest residual.
+/// A constraint takes part in a contradiction if its residual is at least this fraction of the
+/// largest one.
 const TAKES_PART: f64 = 1e-4;
 
-/// Warns where constraints contradict each other at the start, with the parameters' defaults. Machines without
-/// some default, and those whose freedom is not counted either, are not looked at.
+/// Warns if constraints contradict each other at the start, with the default parameters. Machines with a
+/// parameter without a default are skipped, and so are those too large for counting their freedom.
 pub fn contradictions<'d>(model: &Model<'d>, equations: &Equations<'d>, report: &mut Report) {
     let constraints = &equations.constraints;
     let is_known = model.parameters.iter().all(|p| p.default.is_some());
@@ -41,7 +43,7 @@ pub fn contradictions<'d>(model: &Model<'d>, equations: &Equations<'d>, report: 
     let Some(start) = places.start() else {
         return;
     };
-    // Those of places come first.
+    // Constraints of positions come first.
     let of_places = (0..constraints.len()).filter(|k| constraints[*k].position.is_some());
     let of_rates = (0..constraints.len()).filter(|k| constraints[*k].position.is_none());
     let order: Vec<usize> = of_places.chain(of_rates).collect();
@@ -100,15 +102,15 @@ pub fn contradictions<'d>(model: &Model<'d>, equations: &Equations<'d>, report: 
     report.push(warning);
 }
 
-/// What cannot be met together.
+/// Constraints that cannot be satisfied together.
 struct Contradiction {
     of_rates: bool,
-    /// Constraints, those of places first, and their residuals, each in its unit.
+    /// Constraints, those of positions first, and their residuals, each in its unit.
     misses: Vec<(usize, f64)>,
 }
 
 impl Places<'_, '_> {
-    /// Where the least sum of squares of residuals is not 0.
+    /// The contradiction at the minimum of the sum of squares, if that is not 0.
     fn contradicting_positions(&self, mut place: Row) -> Option<Contradiction> {
         let look = |place: &Row| {
             let (residuals, mut rows) = self.at(place)?;
@@ -160,13 +162,14 @@ impl Places<'_, '_> {
         None
     }
 
-    /// What rows that depend on each other leave of the rates `at_rest`, at a place that meets the constraints.
+    /// The contradiction in the rates: the part of `at_rest` that dependent rows leave, at a place that
+    /// satisfies the constraints.
     fn contradicting_rates(&self, place: &Row, at_rest: Row) -> Option<Contradiction> {
         let (_, rows) = self.at(place)?;
         let sizes: Vec<DoubleDouble> = rows.iter().map(size).collect();
         let rates: Row = at_rest.iter().zip(&sizes).map(|(&b, &s)| b / s).collect();
         let most = largest(&rates);
-        // Combinations of the rows that come to nothing are across the columns of G.
+        // Vanishing combinations of the rows are orthogonal to the columns of G.
         let width = place.len();
         let column = |j: usize| {
             let entries = rows.iter().zip(&sizes);
@@ -175,7 +178,7 @@ impl Places<'_, '_> {
         let columns: Vec<Row> = (0..width).map(column).collect();
         let left = super::free_part(&super::orthogonal(&columns), rates);
         let worst = largest(&left);
-        // Places are known to 1e-14 where rows depend on each other only there.
+        // Places are known to 1e-14 if rows depend on each other only there.
         (worst > 1e-9 * most).then(|| {
             let misses = left.iter().zip(&sizes).enumerate();
             let misses = misses.filter(|(_, (r, _))| r.to_f64().abs() > TAKES_PART * worst);
@@ -191,7 +194,7 @@ fn largest(row: &Row) -> f64 {
     row.iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max)
 }
 
-/// By what a row is divided.
+/// The divisor that normalizes a row.
 fn size(row: &Row) -> DoubleDouble {
     let length = length(row);
     DoubleDouble::from_f64(if length > 0.0 { length } else { 1.0 })
@@ -208,7 +211,7 @@ fn transposed_times(rows: &[Row], residuals: &Row) -> Row {
     (0..width).map(entry).collect()
 }
 
-/// `(Gᵀ G + μ)⁻¹ Gᵀ r`, or the same as `Gᵀ (G Gᵀ + μ)⁻¹ r` where there are fewer rows than columns.
+/// `(Gᵀ G + μ)⁻¹ Gᵀ r`, or the equal `Gᵀ (G Gᵀ + μ)⁻¹ r` if there are fewer rows than columns.
 fn damped(rows: &[Row], residuals: &Row, gradient: &Row, damping: f64) -> Option<Row> {
     if rows.len() < gradient.len() {
         let weights = solved(rows, residuals, damping)?;
@@ -219,7 +222,7 @@ fn damped(rows: &[Row], residuals: &Row, gradient: &Row, damping: f64) -> Option
     solved(&columns, gradient, damping)
 }
 
-/// `(R Rᵀ + μ)⁻¹ b`, by Cholesky's factors.
+/// `(R Rᵀ + μ)⁻¹ b`, by Cholesky factorization.
 fn solved(rows: &[Row], right: &Row, damping: f64) -> Option<Row> {
     let count = rows.len();
     let mut lower = vec![vec![DoubleDouble::from_f64(0.0); count]; count];

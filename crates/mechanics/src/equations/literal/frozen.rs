@@ -1,11 +1,11 @@
-//! Numbers along a motion whose velocity is that of a frozen coordinate.
+//! Numbers along a motion whose velocities are those of frozen coordinates.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use lagrangian_scalar::{Dual, Scalar};
 
 /// A value and its rate, eq. (E16): the rate of a sine is `cos α₀ α̇` and its value `sin α₀`, where
-/// `α₀` is the angle with the frozen coordinates at 0. All else is as in [`Dual`].
+/// `α₀` is the angle with the frozen coordinates at 0. Everything else is as in [`Dual`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Frozen<S> {
     pub moving: Dual<S>,

@@ -1,12 +1,12 @@
-//! Spheres and points that touch planes and spheres in space.
+//! Contact of spheres and points with planes and spheres in space.
 //!
-//! The point of a body that touches is carried along by its axes: with `ρ` from a centre `c` to it, and the body's axes `aₖ`,
+//! The touching point of a body is carried along by the body's axes `aₖ`; with `ρ` from a centre `c` to that point,
 //!
 //! ```text
 //! velocity = ċ + Σ ȧₖ (aₖ·ρ)
 //! ```
 //!
-//! No angular velocity is in it.
+//! The angular velocity is not needed.
 
 use lagrangian_scalar::Scalar;
 use lagrangian_spec::model::{Circle, Model, Place, PoseId, Rotation, Surface};
@@ -16,7 +16,7 @@ use super::{Moving, Varied};
 
 type Point<R> = [Moving<R>; 3];
 
-/// The gap of a sphere and what it touches, and how fast the points that touch slide past each other along both tangents.
+/// The gap between a sphere and a surface, and the slip velocity of the touching points along both tangents.
 pub(super) fn touch<'d, R: Scalar>(
     model: &Model<'d>,
     sphere: &Circle<'d>,
@@ -75,7 +75,7 @@ fn centre<'d, R: Scalar>(
     (centre, axes)
 }
 
-/// How fast a point moves that is carried along at `lever` from `origin` by these axes.
+/// The velocity of a point that is carried along at `lever` from `origin` by these axes.
 fn carried<R: Scalar>(
     origin: &Point<R>,
     axes: &[Point<R>; 3],
@@ -141,7 +141,7 @@ fn on_sphere<'d, R: Scalar>(
     let past = carried(&theirs, &other_axes, e.map(|e| large.value * e));
     let slip = [0, 1, 2].map(|k| at[k] - past[k]);
     let n = if is_inside { e.map(|e| -e) } else { e };
-    // Which of both fields of tangents: see `lagrangian_spec::model::spheres`.
+    // Selects one of the two fields of tangents: see `lagrangian_spec::model::spheres`.
     let one = Varied::<R>::ONE;
     let side = (n[2] + Varied::<R>::from_ratio(5, 16)).sign();
     let s = side + one - side.abs();
