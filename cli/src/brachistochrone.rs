@@ -1,4 +1,4 @@
-//! `lagrangian brachistochrone`: the fastest motion from rest at one place to another.
+//! `lagrangian brachistochrone`: the fastest motion from rest at one position to another.
 
 mod figures;
 mod forward;
@@ -30,7 +30,7 @@ use problem::Form;
 /// Runs the command.
 ///
 /// # Errors
-/// If the spec or the call is at fault, the machine does not meet the conditions, or there is no fastest motion.
+/// If the spec or the call is invalid, the machine does not meet the conditions, or there is no fastest motion.
 pub fn run(call: &call::Brachistochrone) -> Result<(), Failure> {
     let files = [
         Destination::of("--out", call.out.as_ref(), TABLE)?,
@@ -117,7 +117,7 @@ pub fn run(call: &call::Brachistochrone) -> Result<(), Failure> {
     }
 }
 
-/// The files that the call asks for.
+/// Writes the requested files.
 fn write(
     [out, plot, report]: &[Option<Destination>; 3],
     compiled: &Compiled<'_>,
@@ -136,8 +136,8 @@ fn write(
     Ok(())
 }
 
-/// Start and end in the machine's coordinates. What the call does not say says the spec; of an end that neither of them
-/// says, coordinates stay where they start.
+/// Start and end in the machine's coordinates. The spec provides what the call omits; if neither gives an end,
+/// coordinates keep their start values.
 fn ends(
     call: &call::Brachistochrone,
     compiled: &Compiled<'_>,
@@ -162,7 +162,7 @@ fn ends(
                 None => from,
             };
             for set in assignments {
-                // Normal coordinates are in √kg·m, which no unit says.
+                // Normal coordinates are in √kg·m, a unit that cannot be written.
                 let unit = match problem {
                     Some(_) => "1".to_owned(),
                     None => values.unit(&set.name).unwrap_or("1").to_owned(),

@@ -1,4 +1,4 @@
-//! The command line: what can be asked, and with which options.
+//! The command line: commands and options.
 
 mod orbit;
 mod runs;
@@ -70,7 +70,7 @@ pub enum Command {
 }
 
 impl Command {
-    /// The spec that it is about, if it is about one.
+    /// The spec of the call, if it has one.
     fn spec(&self) -> Option<&Spec> {
         Some(match self {
             Command::Check(call) => &call.spec,
@@ -94,7 +94,7 @@ impl Command {
         })
     }
 
-    /// The spec of the call, to be changed.
+    /// The spec of the call, for modification.
     fn spec_mut(&mut self) -> Option<&mut Spec> {
         Some(match self {
             Command::Check(call) => &mut call.spec,
@@ -118,7 +118,7 @@ impl Command {
         })
     }
 
-    /// The names that it gives values, or that it varies or seeks: a parameter of such a name does not follow from others.
+    /// The names that the call sets, varies or fits: a parameter with such a name does not follow from others.
     fn given(&self) -> Result<Vec<String>, String> {
         let sets = ["--set", "--set-second"];
         let named = self.named().into_iter();
@@ -155,7 +155,7 @@ impl Command {
         }
     }
 
-    /// How specs are run that stand where tables may.
+    /// The settings for running specs, for commands that accept specs instead of tables.
     fn runs(&self) -> Option<&Runs> {
         Some(match self {
             Command::Compare(call) => &call.runs,
@@ -166,7 +166,7 @@ impl Command {
         })
     }
 
-    /// Every name that the call gives a value, with the option that does it.
+    /// Every name that the call sets, with the option that sets it.
     fn named<'a>(&'a self) -> Vec<(&'static str, &'a str)> {
         let mut named = Vec::new();
         let mut add = |option: &'static str, list: &'a [Assignment]| {
@@ -262,15 +262,15 @@ impl Command {
 }
 
 impl Call {
-    /// Reads the words of a call, of which the first is the name of the program.
+    /// Parses the words of a call, of which the first is the name of the program.
     ///
     /// # Errors
-    /// If they are no call; the message is to be printed, and may be the help that was asked for.
+    /// If they are not a valid call; the message is to be printed, and may be the requested help.
     pub fn read<T: Into<OsString> + Clone>(
         words: impl IntoIterator<Item = T>,
     ) -> Result<Call, clap::Error> {
         let mut call = Call::try_parse_from(words)?;
-        // A list that cannot be read is refused where its names are needed.
+        // An invalid list is refused later, where its names are needed.
         let given = call.command.given().unwrap_or_default();
         if let Some(spec) = call.command.spec_mut() {
             spec.given = given;
@@ -278,10 +278,10 @@ impl Call {
         Ok(call)
     }
 
-    /// Whether nothing is said twice: neither of two values would be the one that is meant.
+    /// Checks that nothing is set twice, because it would not be clear which value is meant.
     ///
     /// # Errors
-    /// What is.
+    /// If something is set twice: what.
     pub fn check(&self) -> Result<(), String> {
         let mut named = self.command.named();
         named.sort_unstable();
@@ -516,11 +516,11 @@ pub struct Fmu {
     pub sources_only: bool,
 }
 
-/// Names with commas between them.
+/// Names separated by commas.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Names(pub Vec<String>);
 
-/// Reads names with commas between them; `der(q,2)` and what is quoted are one name.
+/// Parses names separated by commas; `der(q,2)` and quoted text are one name.
 fn names(text: &str) -> Result<Names, String> {
     let (mut names, mut depth, mut quoted) = (vec![String::new()], 0, false);
     for c in text.chars() {
@@ -558,7 +558,7 @@ pub enum UnitKind {
 }
 
 impl UnitKind {
-    /// As `--kind` has it.
+    /// The name in `--kind`.
     pub fn name(self) -> &'static str {
         match self {
             UnitKind::ModelExchange => "me",
@@ -566,7 +566,7 @@ impl UnitKind {
         }
     }
 
-    /// As the standard calls it.
+    /// The name in the standard.
     pub fn words(self) -> &'static str {
         match self {
             UnitKind::ModelExchange => "model exchange",
@@ -654,7 +654,7 @@ pub enum Ball {
     Quaternion,
 }
 
-/// What becomes of Coulomb friction.
+/// The treatment of Coulomb friction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Friction {
     /// It is left out.
@@ -880,7 +880,7 @@ pub struct Search {
 }
 
 impl Search {
-    /// Every name that it gives a value, with the option that does it.
+    /// Every name that it sets, with the option that sets it.
     fn named<'a>(&'a self, named: &mut Vec<(&'static str, &'a str)>) {
         let lists = [
             ("--set", &self.start.parameters),
@@ -954,7 +954,7 @@ fn observed(text: &str) -> Result<String, String> {
     }
 }
 
-/// The names in a list of outputs; the comma in `der(x,2)` stands within brackets.
+/// The names in a list of outputs; the comma in `der(x,2)` is inside brackets.
 pub fn names_of(lists: &[String]) -> Result<Vec<String>, String> {
     let mut names = Vec::new();
     for list in lists {
@@ -1031,9 +1031,9 @@ pub struct Fit {
 /// `name=least..greatest`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bounds {
-    /// What is bounded.
+    /// The name of the bounded number.
     pub name: String,
-    /// The least and the greatest value, where there are such.
+    /// The lower and the upper bound, if given.
     pub ends: [Option<Assignment>; 2],
 }
 
@@ -1059,12 +1059,12 @@ fn bounds(text: &str) -> Result<Bounds, String> {
     }
 }
 
-/// What `--sigma` says.
+/// A parsed `--sigma`.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SigmaOption {
     /// Standard deviations are estimated.
     Estimated,
-    /// This one is given.
+    /// One standard deviation is given.
     Given(Assignment),
 }
 
@@ -1115,15 +1115,15 @@ pub struct Brachistochrone {
 /// `name=from..to:count`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vary {
-    /// What is varied.
+    /// The name of the varied quantity.
     pub name: String,
-    /// The first value and the last.
+    /// The first and the last value.
     pub ends: [Assignment; 2],
-    /// How many there are; at least 2.
+    /// The number of values; at least 2.
     pub count: usize,
 }
 
-/// The most values along which a motion is followed: more than a drawing can show apart.
+/// The most values of a continuation: more than a drawing can resolve.
 const MOST_VALUES: f64 = 1e5;
 
 /// Reads `name=from..to:count`.
@@ -1160,11 +1160,11 @@ pub struct Steady {
 /// The rate of a coordinate that moves steadily.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SteadyRate {
-    /// That of the start.
+    /// The rate of the start.
     Start,
     /// A value.
     Given(Assignment),
-    /// Whatever balances the machine.
+    /// The rate that balances the machine, which is to be found.
     Solved,
 }
 
@@ -1190,19 +1190,19 @@ fn steady(text: &str) -> Result<Steady, String> {
 /// `name=value`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assignment {
-    /// The name, of a family member too: `q[3]`.
+    /// The name, possibly of a member of a family: `q[3]`.
     pub name: String,
-    /// The value: an expression as it may stand in a spec, made of numbers and units.
+    /// The value: an expression of numbers and units in the syntax of a spec.
     pub value: String,
 }
 
 impl Assignment {
-    /// The value in a unit, as the default of a parameter with that unit would be in a spec.
+    /// The value in a unit, interpreted like the default of a parameter with that unit in a spec.
     ///
     /// # Errors
-    /// What is wrong with it, in the words of a spec.
+    /// If the value is invalid, with the message that a spec would give.
     pub fn value(&self, option: &str, unit: &str) -> Result<f64, String> {
-        // Most are just that.
+        // Most values are plain numbers.
         if let Ok(value) = self.value.parse::<f64>()
             && value.is_finite()
         {
@@ -1262,7 +1262,7 @@ fn constant(text: &str) -> Result<(String, Rational), String> {
     }
 }
 
-/// Reads for how many states at once there is to be a function.
+/// Parses the number of states that a function evaluates at once.
 fn lanes(text: &str) -> Result<u8, String> {
     match text.trim() {
         "2" => Ok(2),
@@ -1272,7 +1272,7 @@ fn lanes(text: &str) -> Result<u8, String> {
     }
 }
 
-/// Reads a tolerance: as small as it is, rounding must be smaller.
+/// Parses a tolerance, which must be larger than round-off.
 fn tolerance(text: &str) -> Result<f64, String> {
     let tolerance = number(text)?;
     let least = LEAST_RELATIVE_TOLERANCE;
@@ -1286,7 +1286,7 @@ fn tolerance(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Reads a tolerance of numbers that may have more digits than `f64`.
+/// Parses a tolerance for numbers that may have more digits than `f64`.
 fn wide_tolerance(text: &str) -> Result<f64, String> {
     match number(text)? {
         least if least > 0.0 && least < LEAST_WIDE_TOLERANCE => Err(format!(
@@ -1300,7 +1300,7 @@ fn wide_tolerance(text: &str) -> Result<f64, String> {
 /// Ten roundings of a sum of double-doubles.
 const LEAST_WIDE_TOLERANCE: f64 = 10.0 * f64::EPSILON * f64::EPSILON;
 
-/// Reads the time from one record to the next.
+/// Parses the recording interval.
 fn interval(text: &str) -> Result<f64, String> {
     let interval = number(text)?;
     if interval > 0.0 {
@@ -1310,7 +1310,7 @@ fn interval(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Reads a number that is greater than 0.
+/// Parses a positive number.
 fn positive(text: &str) -> Result<f64, String> {
     let value = number(text)?;
     if value > 0.0 {
@@ -1320,9 +1320,9 @@ fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Reads how many steps there may be.
+/// Parses a limit of steps.
 fn steps(text: &str) -> Result<usize, String> {
-    // `1e8` is as good as all its zeros.
+    // `1e8` is accepted as an integer.
     let steps = number(text)?;
     if (1.0..=1e15).contains(&steps) && steps.fract() == 0.0 {
         Ok(steps as usize)
@@ -1331,7 +1331,7 @@ fn steps(text: &str) -> Result<usize, String> {
     }
 }
 
-/// Reads how many there are.
+/// Parses a count.
 pub fn count(text: &str) -> Result<u64, String> {
     let count = number(text)?;
     if (1.0..=(1u64 << 40) as f64).contains(&count) && count.fract() == 0.0 {
@@ -1341,7 +1341,7 @@ pub fn count(text: &str) -> Result<u64, String> {
     }
 }
 
-/// Reads a finite number, or a product or quotient of numbers and `pi`: `50*pi`, `-pi/2`.
+/// Parses a finite number, or a product or quotient of numbers and `pi`: `50*pi`, `-pi/2`.
 pub fn number(text: &str) -> Result<f64, String> {
     let text = text.trim();
     let value = product(text)
@@ -1448,7 +1448,7 @@ mod tests {
             let twice = [&once[..], &second].concat();
             assert!(checked(&twice).is_err(), "{first:?} {second:?}");
         }
-        // A coordinate and its rate are two things, and so are a family and a member.
+        // A coordinate and its rate are different, and so are a family and a member.
         let both = ["--start", "q=1", "--rate", "q=2", "--start", "q[2]=3"];
         assert_eq!(checked(&[&until[..], &both].concat()), Ok(()));
         let steady = ["modes", "a.machine", "--steady", "a=1", "--steady", "a"];
@@ -1486,7 +1486,7 @@ mod tests {
         assert!(assignment("=3").is_err());
     }
 
-    /// By the definitions of the units; `None` is an error that contains the words.
+    /// Values by the definitions of the units; `None` is an error whose message contains these words.
     #[test]
     fn a_value_has_the_unit_of_its_name() {
         use std::f64::consts::{PI, TAU};

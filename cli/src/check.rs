@@ -1,5 +1,4 @@
-//! `lagrangian check`: everything that is wrong with a spec, and printed equations against the
-//! derived ones.
+//! `lagrangian check`: all errors of a spec, and its published equations compared with the derived ones.
 
 mod accuracy;
 
@@ -27,33 +26,32 @@ struct Published {
     add: Vec<String>,
     /// Terms to drop from the print.
     drop: Vec<String>,
-    /// On which side of an equals sign each of `add` belongs, with the sign that it has there; empty
-    /// where there are no two sides.
+    /// The side of the equals sign for each of `add`, with the sign that the term has there; empty where there
+    /// are no two sides.
     add_side: Vec<&'static str>,
-    /// On which side each of `drop` stands.
+    /// The side of the equals sign for each of `drop`.
     drop_side: Vec<&'static str>,
-    /// Those of the terms to drop that become one of the terms to add by a slip.
+    /// Terms to drop that become terms to add by correcting a misprint.
     change: Vec<Change>,
-    /// Where the print adds what has different units.
+    /// Warnings about printed sums of different units.
     remarks: Vec<Entry>,
 }
 
-/// A term of the print with a slip in it.
+/// A printed term with a misprint.
 #[derive(Debug, Serialize)]
 struct Change {
-    /// The term, which is among those to drop; or a rate that is zero, where a dot is too much.
+    /// The printed term, which is among those to drop; or a superfluous dot over a constant.
     from: String,
-    /// The term as it should be, which is among those to add.
+    /// The corrected term, which is among those to add.
     to: String,
-    /// On which side of the equals sign; none where there are no two sides.
+    /// Its side of the equals sign; `None` where there are no two sides.
     side: Option<&'static str>,
 }
 
 /// Runs the command.
 ///
 /// # Errors
-/// If the spec is wrong. A print that is wrong is a result, and so are warnings: they are errors if
-/// the call says so.
+/// If the spec is invalid. Wrong published equations and warnings are results, unless the call treats them as errors.
 pub fn run(call: &call::Check) -> Result<(), Failure> {
     let dag = Dag::new();
     let mut reading = Reading::open(&call.spec)?;
@@ -65,7 +63,7 @@ pub fn run(call: &call::Check) -> Result<(), Failure> {
     let freedom = compiled.as_ref();
     let freedom = freedom.map(|compiled| {
         let mut freedom = freedom_of(&compiled.model, &compiled.equations);
-        // A state of first order is no freedom.
+        // A state of first order is not a degree of freedom.
         let states = compiled.model.coordinates.iter();
         freedom.coordinates -= states.filter(|c| c.rate.is_some()).count();
         freedom
@@ -138,7 +136,7 @@ fn summarize(compiled: &Compiled, freedom: Freedom, warnings: usize) {
 /// Constraints and degrees of freedom, where there are constraints.
 fn constrained(freedom: Freedom) -> String {
     if freedom.constraints == 0 {
-        // Four numbers that turn a frame are three freedoms.
+        // The four numbers of a quaternion are three degrees of freedom.
         return match freedom.degrees().filter(|_| freedom.lengths > 0) {
             Some(degrees) => counted(degrees, "degree", "degrees") + " of freedom, ",
             None => String::new(),
@@ -160,7 +158,7 @@ fn constrained(freedom: Freedom) -> String {
     text + ", "
 }
 
-/// The freedom of a machine, in `check --json`; null where it is not known.
+/// The degrees of freedom of a machine, in `check --json`; null where unknown.
 #[derive(Debug, Serialize)]
 struct Degrees {
     coordinates: usize,
@@ -234,7 +232,7 @@ impl Published {
         }
     }
 
-    /// Terms of a list that no change accounts for, with a word on where they stand.
+    /// Terms of a list that are not part of a change, with the side on which they are.
     fn left<'a>(
         &'a self,
         list: &'a [String],
@@ -271,12 +269,12 @@ fn print(published: &Published) {
     }
 }
 
-/// Where a term stands.
+/// The side of a term, in words.
 fn on(side: Option<&str>) -> String {
     side.map_or_else(String::new, |side| format!(" on the {side}"))
 }
 
-/// How many formulas of a block are wrong.
+/// Prints how many formulas of a block are wrong.
 fn conclude(block: &[Published]) {
     let Some(Published { block: title, .. }) = block.first() else {
         return;

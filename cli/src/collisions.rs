@@ -1,4 +1,4 @@
-//! What runs tell of unilateral contacts: impacts, what closes, lifts, slips and sticks, and where energy went.
+//! Reports on unilateral contacts: impacts, closing, lifting, slipping and sticking, and the energy taken.
 
 use lagrangian::interpreted::{InterpretedSystem, Named};
 use lagrangian::{
@@ -10,21 +10,21 @@ use serde_json::{Value, json};
 use crate::numbers::{by_name, shortest, states};
 use crate::recording::Run;
 
-/// What a run has shown of a contact.
+/// What a run has shown about a contact.
 struct Account {
     name: String,
     impacts: usize,
-    /// Where energy went in it. Without a balance of energy only impacts and layers are known.
+    /// The energy that it took. Without an energy balance only impacts and layers are known.
     energies: ContactEnergies,
     has_balance: bool,
     /// Whether it has friction.
     rubs: bool,
-    /// Whether it yields, and whether as a layer that is crushed.
+    /// Whether it is compliant, and whether it is a layer that is crushed.
     yields: bool,
     is_layer: bool,
-    /// Whether it is the rolling of another.
+    /// Whether it is the rolling friction of another contact.
     rolls: bool,
-    /// When it closed last, with by how much that time may be off, and whether it is closed at the end.
+    /// The last time it closed with the uncertainty of that time, and whether it is closed at the end.
     closed_at: Option<(f64, f64)>,
     is_closed: bool,
 }
@@ -63,7 +63,7 @@ fn accounts(run: &Run) -> Vec<Account> {
     let mut accounts: Vec<Account> = Vec::new();
     for (k, contact) in contacts {
         let account = of_contact((k, contact));
-        // What was lost along the second tangent of a contact is lost in it.
+        // The energy lost along the second tangent belongs to the same contact.
         match accounts.last_mut().filter(|_| contact.across) {
             Some(first) => add(&mut first.energies, &account.energies),
             None => accounts.push(account),
@@ -72,7 +72,7 @@ fn accounts(run: &Run) -> Vec<Account> {
     accounts
 }
 
-/// Adds what another took to what one took.
+/// Adds the energies of one account to another.
 fn add(sum: &mut ContactEnergies, other: &ContactEnergies) {
     sum.impact_loss += other.impact_loss;
     sum.friction_loss += other.friction_loss;
@@ -81,7 +81,7 @@ fn add(sum: &mut ContactEnergies, other: &ContactEnergies) {
     sum.work += other.work;
 }
 
-/// What contacts took, and how: words and J, for what each of them has.
+/// The energies taken by contacts by cause, as texts with values in J, as far as each contact has them.
 pub fn taken(system: &InterpretedSystem, energies: &[ContactEnergies]) -> Vec<(String, f64)> {
     let mut contacts: Vec<(UnilateralContact<'_>, ContactEnergies)> = Vec::new();
     for (contact, of) in system.unilateral_contacts().zip(energies) {
@@ -107,7 +107,7 @@ pub fn taken(system: &InterpretedSystem, energies: &[ContactEnergies]) -> Vec<(S
     contacts.iter().flat_map(of_contact).collect()
 }
 
-/// Whether an event is one of the contacts.
+/// Whether an event belongs to a contact.
 pub fn is_of_contact(run: &Run, event: &Event<Named>) -> bool {
     let Some((contact, word)) = event.name.rsplit_once(' ') else {
         return false;
@@ -117,9 +117,9 @@ pub fn is_of_contact(run: &Run, event: &Event<Named>) -> bool {
     kinds.any(|kind| kind.word() == word) && contacts.any(|known| known.name == contact)
 }
 
-/// Lines of the summary.
+/// The lines of the summary.
 pub fn lines(run: &Run) -> Vec<String> {
-    // Walls that do not move do no work but by rounding.
+    // Fixed walls do no work except by round-off.
     let turned_over = run
         .energy_balance()
         .map_or(0.0, |balance| balance.turned_over);
@@ -173,7 +173,7 @@ pub fn lines(run: &Run) -> Vec<String> {
     accounts(run).into_iter().map(line).collect()
 }
 
-/// What a document says of the contacts; nothing where there are none.
+/// The fields of the contacts in a JSON document; empty if there are none.
 pub fn fields(run: &Run) -> Vec<(&'static str, Value)> {
     if run.system().unilateral_contacts().len() == 0 {
         return Vec::new();
@@ -237,7 +237,7 @@ pub fn fields(run: &Run) -> Vec<(&'static str, Value)> {
         fields.push(("work", balance.work.into()));
         fields.push(("dissipated", balance.dissipated.into()));
         fields.push(("friction_loss", sum(|of| of.friction_loss).into()));
-        // What contacts have not taken otherwise, dampers of the machine have.
+        // The remainder was dissipated by the dampers of the machine.
         let otherwise = sum(|of| of.lost() - of.damping_loss);
         fields.push(("damping_loss", (balance.dissipated - otherwise).into()));
     }
@@ -247,7 +247,7 @@ pub fn fields(run: &Run) -> Vec<(&'static str, Value)> {
     fields
 }
 
-/// What is told of an event of a contact, which slips along two tangents or one.
+/// The report on an event of a contact, which has one or two tangents.
 fn event(event: &ContactEvent<Named>, slips_across: bool) -> Value {
     let mut document = json!({
         "t": event.state.t,

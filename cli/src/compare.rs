@@ -1,4 +1,4 @@
-//! `lagrangian compare`: how far two runs are apart.
+//! `lagrangian compare`: the differences of two runs.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -16,24 +16,25 @@ use crate::output::{self, Destination, SVG, TABLE, keep_apart};
 use crate::runs::{self, Columns, Looks, Options, Quantity, factor, header};
 use crate::table;
 
-/// The column that holds errors of a run, and nothing of the motion.
+/// The column of energy errors, which is not part of the motion.
 const RESIDUAL: &str = "energy residual";
 
-/// A quantity of both runs.
+/// A quantity that both runs have.
 struct Compared {
     name: String,
     unit: Option<String>,
     difference: Difference,
-    /// How values between rows are found, and what that may make of them, for each run; none where no value is needed between rows.
+    /// For each run how values between rows are interpolated, and an estimate of the error; `None` where no
+    /// interpolation is needed.
     between: [Option<(&'static str, f64)>; 2],
-    /// Values of both at all instants.
+    /// The values of both at all instants.
     values: [Vec<f64>; 2],
 }
 
 /// Runs the command.
 ///
 /// # Errors
-/// If a spec, a table or the call is at fault, or with `--within` if the runs are further apart.
+/// If a spec, a table or the call is invalid, or if the runs differ by more than `--within`.
 pub fn run(call: &call::Compare) -> Result<(), Failure> {
     let files = [
         Destination::of("--out", call.out.as_ref(), TABLE)?,
@@ -112,7 +113,7 @@ pub fn run(call: &call::Compare) -> Result<(), Failure> {
     }
 }
 
-/// Both runs. Where one is a table, a spec is looked at at its rows.
+/// Reads both runs. If one is a table, the run of a spec is evaluated at its rows.
 fn both(call: &call::Compare, files: &[&Destination]) -> Result<[Columns; 2], Failure> {
     let paths = [&call.first, &call.second];
     let are_specs = [runs::is_spec(&call.first)?, runs::is_spec(&call.second)?];
@@ -165,10 +166,10 @@ fn both(call: &call::Compare, files: &[&Destination]) -> Result<[Columns; 2], Fa
     Ok([made(0)?, made(1)?])
 }
 
-/// What only one of two runs has.
+/// Quantities that only one of two runs has.
 type LeftOut = [Vec<String>; 2];
 
-/// All quantities that are compared, and what only one run has.
+/// All quantities that are compared, and those that only one run has.
 fn compared(
     call: &call::Compare,
     first: &Columns,
@@ -200,7 +201,7 @@ fn compared(
     for one in wanted {
         let other = second.get(&one.name);
         let other = other.ok_or_else(|| runs::unknown(&one.name, second, &call.second))?;
-        // Both in the unit of the first.
+        // Both are compared in the unit of the first.
         let scale = match (&other.unit, &one.unit) {
             (Some(other_unit), Some(unit)) => factor(other_unit, unit).ok_or_else(|| {
                 Failure::Run(format!(
@@ -232,7 +233,7 @@ fn compared(
             )));
         };
         let is_dense = |curve: &lagrangian_analysis::Curve<'_>| {
-            // Rows of one that the other lacks.
+            // Rows of one run that the other lacks require interpolation.
             let rows = curve
                 .times()
                 .iter()
@@ -259,7 +260,7 @@ fn compared(
     Ok((all, left_out))
 }
 
-/// What differs by more than the call lets pass.
+/// The quantities that differ by more than the call allows.
 fn beyond<'a>(call: &call::Compare, compared: &'a [Compared]) -> Vec<&'a Compared> {
     let Some(within) = call.within else {
         return Vec::new();
@@ -441,7 +442,8 @@ fn as_json(
     document
 }
 
-/// Both runs of every unit above their differences; coordinates and rates, outputs, or what the call names.
+/// Draws for every unit both runs, with the differences below: coordinates and rates, outputs, or the columns
+/// named by the call.
 fn drawn(call: &call::Compare, times: &[f64], compared: &[Compared]) -> Result<String, String> {
     let title = [&call.first, &call.second].map(|path| {
         path.file_name()

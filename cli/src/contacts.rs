@@ -1,6 +1,6 @@
-//! Whether what rolls could roll. A rolling contact is a bilateral constraint: it pulls where its force
-//! `N` is negative, and asks for as much friction as it needs, `|T|/N` of its force. Neither changes the
-//! motion, so a run says from when on it assumes what no machine does.
+//! Checks rolling contacts for feasibility. A rolling contact is a bilateral constraint: it pulls where its force
+//! `N` is negative, and requires the friction coefficient `|T|/N`. Neither changes the computed motion, so the
+//! command reports from which time on a real contact could not roll.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -25,34 +25,34 @@ pub struct Contacts {
 /// A rolling contact.
 struct Contact {
     name: String,
-    /// Which multiplier its normal force `N` is, and which the tangential one, `T`.
+    /// The indices of the multipliers of its normal force `N` and its tangential force `T`.
     multipliers: [usize; 2],
-    /// The coefficient of friction that there is, if the spec says.
+    /// The available coefficient of friction, if the spec gives one.
     friction: Option<f64>,
 }
 
-/// What is remembered from one look at a state to the next.
+/// What is stored from one evaluated state to the next.
 #[derive(Default)]
 struct Seen {
     /// The last state, and the multipliers there.
     last: Option<(State<Named>, Vec<f64>)>,
-    /// For each contact.
+    /// The record of each contact.
     tracks: Vec<Track>,
 }
 
-/// How much friction a contact needed.
+/// The friction that a contact needed.
 #[derive(Clone, Default)]
 struct Track {
-    /// When it was looked at first, and `N` and `T` then.
+    /// The time of the first evaluation, with `N` and `T`.
     start: Option<(f64, [f64; 2])>,
-    /// When last, and `N` and `T` then.
+    /// The time of the last evaluation, with `N` and `T`.
     last: f64,
     forces: [f64; 2],
-    /// Whether inputs change, so that forces may jump.
+    /// Whether inputs vary, so that forces may jump.
     is_driven: bool,
-    /// The last two demands in a row, with their times.
+    /// The last two required coefficients with their times.
     before: [Option<(f64, f64)>; 2],
-    /// The greatest demand and its time.
+    /// The greatest required coefficient with its time.
     greatest: Option<(f64, f64)>,
 }
 
@@ -60,19 +60,19 @@ struct Track {
 pub struct Found {
     /// Its name.
     pub name: String,
-    /// The coefficient of friction that there is.
+    /// The available coefficient of friction.
     pub friction: Option<f64>,
-    /// From when on it pulls, in s.
+    /// The time from which it pulls, in s.
     pub pulls: Option<f64>,
-    /// From when on it needs more friction than there is, in s, as long as it presses.
+    /// The time, in s, from which it needs more friction than is available while it presses.
     pub slips: Option<f64>,
-    /// The greatest |T|/N while it presses, and when, in s; to about three digits, for it is looked at a
-    /// few times in every step.
+    /// The greatest |T|/N while it presses, and its time in s. It is accurate to about three digits, because it is
+    /// evaluated only a few times in each step.
     pub greatest: Option<(f64, f64)>,
 }
 
-/// Normal force, tangential force and their ratio for each rolling contact, by the names of
-/// constraints; the ratio is null where the contact does not press.
+/// Normal force, tangential force and their ratio for each rolling contact, by the names of constraints; the ratio
+/// is null where the contact does not press.
 pub fn forces(system: &InterpretedSystem, multipliers: &[f64]) -> Map<String, Value> {
     let pairs = pairs(system).into_iter().map(|(name, at)| {
         let [normal, tangential] = at.map(|k| multipliers[k]);
@@ -86,7 +86,7 @@ pub fn forces(system: &InterpretedSystem, multipliers: &[f64]) -> Map<String, Va
     pairs.collect()
 }
 
-/// The contacts among the constraints: the two of each are named after it.
+/// The pairs of constraints that are rolling contacts: both are named after the contact.
 fn pairs(system: &InterpretedSystem) -> Vec<(String, [usize; 2])> {
     let names: Vec<&str> = system.constraints().map(|c| c.name).collect();
     let place = |name: String| names.iter().position(|other| **other == name);
@@ -98,7 +98,7 @@ fn pairs(system: &InterpretedSystem) -> Vec<(String, [usize; 2])> {
     names.iter().filter_map(|name| pair(name)).collect()
 }
 
-/// |T|/N, if the contact presses.
+/// The required coefficient |T|/N, if the contact presses.
 fn demand([normal, tangential]: [f64; 2]) -> Option<f64> {
     (normal > 0.0).then(|| tangential.abs() / normal)
 }
@@ -138,7 +138,7 @@ impl Contacts {
         }
     }
 
-    /// A simulation that looks at the contacts. Without any it is as it was.
+    /// Adds observers of the contacts to a simulation; without contacts it is unchanged.
     pub fn watch<'a>(
         &'a self,
         mut simulation: Simulation<'a, InterpretedMachine, Signals>,
@@ -162,7 +162,7 @@ impl Contacts {
         simulation
     }
 
-    /// Watches a run with inputs that change, which the run knows.
+    /// Observes a run with varying inputs, whose values the run provides.
     fn watch_driven<'a>(
         &'a self,
         simulation: Simulation<'a, InterpretedMachine, Signals>,
@@ -191,8 +191,7 @@ impl Contacts {
         self.seen.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// `N` and `T` at a state. Where they have no value they count as nothing: a run must not end for
-    /// being looked at.
+    /// `N` and `T` at a state. If they are undefined they count as 0: an observer must not end a run.
     fn look(&self, index: usize, state: &State<Named>) -> [f64; 2] {
         let mut seen = self.seen();
         if seen.last.as_ref().is_none_or(|(last, _)| last != state) {
@@ -212,13 +211,13 @@ impl Contacts {
         let mut a = vec![0.0; q.len()];
         let known = self.system.multipliers(t, q, v, &u, &mut multipliers);
         if matches!(known, Err(singular) if matches!(singular.at, Pivot::Constraint(_))) {
-            // Where there are none, no force is known.
+            // If the multipliers are undefined, forces stay unknown.
             let _ = least_multipliers(&self.system, t, q, v, &u, &mut a, &mut multipliers);
         }
         multipliers
     }
 
-    /// What a run that was watched has shown.
+    /// The results for a run that was observed.
     pub fn found(&self, run: &Run) -> Vec<Found> {
         let first = |name: &str| {
             let mut events = run.events().iter();
@@ -244,17 +243,17 @@ impl Contacts {
     }
 }
 
-/// The name of the event that a contact begins to pull.
+/// The name of the event at which a contact begins to pull.
 fn pulling(contact: &str) -> String {
     format!("{contact} pulls")
 }
 
-/// The name of the event that a contact begins to need more friction than there is.
+/// The name of the event at which a contact begins to need more friction than is available.
 fn slipping(contact: &str) -> String {
     format!("{contact} would slip")
 }
 
-/// The events of a run that are not of its contacts.
+/// The events of a run that do not belong to rolling contacts.
 pub fn other_events<'r>(
     events: &'r [Event<Named>],
     contacts: &'r [Found],
@@ -266,14 +265,14 @@ pub fn other_events<'r>(
 }
 
 impl Track {
-    /// Adds a look; what has no value counts as nothing.
+    /// Records forces; undefined ones count as 0.
     fn take(&mut self, t: f64, forces: [f64; 2]) -> [f64; 2] {
         let forces = forces.map(|force| if force.is_finite() { force } else { 0.0 });
         self.add(t, forces);
         forces
     }
 
-    /// Adds a look, unless it goes back in time, as those do that search for an event.
+    /// Records forces, unless time goes backwards, as in the search for an event.
     fn add(&mut self, t: f64, forces: [f64; 2]) {
         let Some((begin, _)) = self.start else {
             self.start = Some((t, forces));
@@ -282,7 +281,7 @@ impl Track {
             return;
         };
         if self.is_driven && t == self.last && forces != self.forces {
-            // The inputs have jumped: what was before says nothing of what follows.
+            // The inputs have jumped: earlier forces must not be used for interpolation.
             self.before = [None; 2];
             self.forces = forces;
             self.follow(t, demand(forces));
@@ -331,7 +330,7 @@ fn vertex(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> (f64, f64) {
 }
 
 impl Found {
-    /// What is wrong with the contact, in words.
+    /// The violations of a contact, in words.
     pub fn warnings(&self) -> Vec<String> {
         let Found { name, .. } = self;
         let mut warnings = Vec::new();
@@ -351,7 +350,7 @@ impl Found {
         warnings
     }
 
-    /// A line of the summary.
+    /// The line of a contact in the summary.
     pub fn line(&self) -> String {
         let needs = match (self.pulls, self.greatest) {
             (Some(t), _) => format!("pulls from t = {} s on", shortest(t)),
@@ -363,7 +362,7 @@ impl Found {
         format!("{}: {needs}", self.name)
     }
 
-    /// The summary as JSON: a contact that pulls needs more friction than any coefficient gives.
+    /// The summary as JSON. A contact that pulls needs more friction than any coefficient provides.
     pub fn json(&self) -> Value {
         let greatest = self.greatest.filter(|_| self.pulls.is_none());
         json!({

@@ -19,7 +19,7 @@ use crate::reading::Reading;
 /// Runs the command.
 ///
 /// # Errors
-/// If the spec is wrong or the file cannot be written.
+/// If the spec is invalid, or the file cannot be written.
 pub fn run(call: &call::Derive) -> Result<(), Failure> {
     let out = destination(call)?;
     keep_document_apart(&out, call.spec.json)?;
@@ -47,13 +47,13 @@ pub fn run(call: &call::Derive) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What `--as` calls a form.
+/// The name of a form for `--as`.
 fn name(form: Form) -> String {
     let form = clap::ValueEnum::to_possible_value(&form);
     form.map_or_else(String::new, |form| form.get_name().to_owned())
 }
 
-/// Where the text goes. Its form is said by `--as`, and any ending will do, but for those of another form.
+/// The output file. `--as` determines the form, so any extension is accepted except those of another form.
 fn destination(call: &call::Derive) -> Result<Option<Destination>, Failure> {
     let Some(path) = &call.out else {
         return Ok(None);
@@ -74,7 +74,7 @@ fn destination(call: &call::Derive) -> Result<Option<Destination>, Failure> {
     Destination::new("--out", path, &[]).map(Some)
 }
 
-/// The endings by which the files of a form are known.
+/// The usual file extensions of a form.
 fn endings(form: Form) -> Endings {
     match form {
         Form::Markdown => &["md", "markdown"],
@@ -143,16 +143,16 @@ fn by_kind(counts: &Counts) -> Value {
     })
 }
 
-/// For each function that could be made in several ways, the ways; the one that was taken first.
+/// For each function with several candidates, all candidates, the chosen one first.
 fn choices(program: &Program) -> Value {
     let candidate = |candidate: &Candidate| {
         json!({
             "made": candidate.form.to_string(),
             "counts": by_kind(&candidate.counts),
-            // From tenths of a cycle.
+            // Costs are in tenths of a cycle.
             "cycles_alone": candidate.cost.alone() as f64 / 10.0,
             "cycles_among_others": candidate.cost.throughput as f64 / 10.0,
-            // In units of 2⁻⁵³; null where nothing is known.
+            // In units of 2⁻⁵³; null where unknown.
             "rounding": candidate.rounding.map(|rounding| rounding.units()),
         })
     };

@@ -1,4 +1,4 @@
-//! Diagnostics as the Rust compiler shows them, with the words underlined; and as JSON.
+//! Diagnostics in the style of the Rust compiler, with the source underlined; and as JSON.
 
 use std::fmt;
 use std::io::IsTerminal;
@@ -22,7 +22,7 @@ pub struct Entry {
     column: usize,
 }
 
-/// The errors and warnings of a report, in the order of their places.
+/// The errors and warnings of a report, in the order of their positions.
 pub fn entries(report: &Report, sources: &Sources) -> Vec<Entry> {
     let diagnostics = report.messages().into_iter();
     diagnostics
@@ -44,7 +44,7 @@ pub fn entry(diagnostic: &Diagnostic, sources: &Sources) -> Entry {
     }
 }
 
-/// As one line: where, and what.
+/// One line: the position and the message.
 impl fmt::Display for Entry {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Entry {
@@ -74,11 +74,10 @@ pub fn print(report: &Report, sources: &Sources) {
     }
 }
 
-/// Whether something is to be said of parameters that a call gives; the first error, in the words
-/// of the spec, is returned, and warnings are printed.
+/// Checks what the spec says about parameters given by a call. Prints warnings.
 ///
 /// # Errors
-/// What a machine cannot have: a negative mass.
+/// The first error, in the words of the spec: values that a machine cannot have, such as a negative mass.
 pub fn refused(said: &[Diagnostic]) -> Result<(), String> {
     for diagnostic in said {
         match diagnostic.code.severity() {
@@ -124,7 +123,7 @@ fn snippet<'a>(
     label: Option<&'a String>,
 ) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
     let text = sources.text(span.source);
-    // A span always lies in its text; clamping keeps a wrong one from hiding the message.
+    // A span always lies within its text; clamping ensures that an invalid one does not hide the message.
     let start = floor(text, span.start as usize);
     let end = floor(text, span.end as usize).max(start);
     let annotation = kind.span(start..end);
@@ -137,7 +136,7 @@ fn snippet<'a>(
         .annotation(annotation)
 }
 
-/// The last boundary between characters at or before `at`.
+/// The last character boundary at or before `at`.
 fn floor(text: &str, at: usize) -> usize {
     let at = at.min(text.len());
     (0..=at)

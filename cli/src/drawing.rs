@@ -1,4 +1,4 @@
-//! Drawings of curves and points over any quantity, in the style of all others.
+//! Drawings of curves and points over any quantity, in the common style of all drawings.
 
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -6,22 +6,23 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, axes, font, range, short, svg_of};
 use crate::recording::thin;
 
-/// Width of the names beside a pane, how many fit, and to how many points a curve is thinned.
+/// The width of the legend beside a pane, the number of names that fit, and the number of points to which a
+/// curve is thinned.
 const LEGEND: u32 = 150 * UNIT;
 const NAMES: usize = 11;
 const POINTS: usize = 1500;
 
 /// A rectangle with axes of its own.
 pub struct Pane {
-    /// What is along the axes, with units.
+    /// The names of the axes, with units.
     pub along: [String; 2],
-    /// What is drawn.
+    /// The curves.
     pub curves: Vec<Curve>,
-    /// Whether curves are points that nothing joins.
+    /// Whether curves are drawn as separate points.
     pub are_points: bool,
 }
 
-/// A curve, or some points.
+/// A curve, or a set of points.
 pub struct Curve {
     pub name: String,
     pub points: Vec<(f64, f64)>,
@@ -30,7 +31,7 @@ pub struct Curve {
 /// Panes from top to bottom, as SVG text.
 ///
 /// # Errors
-/// What the drawing library says.
+/// An error of the drawing library.
 pub fn svg(title: &str, panes: &[Pane]) -> Result<String, String> {
     let height = 48 * UNIT + PANEL * panes.len().max(1) as u32;
     svg_of(height, |backend| {
@@ -52,7 +53,7 @@ fn draw(area: &DrawingArea<SVGBackend<'_>, plotters::coord::Shift>, pane: &Pane)
     let upwards = range(points().map(|(_, y)| *y));
     let (area, beside) = area.split_horizontally(WIDTH - LEGEND);
     let [width, height] = [&across, &upwards].map(|range| range.end - range.start);
-    // Ticks are multiples of a step, and rounding makes 7e-18 of the one at zero.
+    // Ticks are multiples of a step, and round-off turns the one at zero into 7e-18.
     let label = |x: &f64, span: f64| short(if x.abs() < 1e-9 * span { 0.0 } else { *x });
     let mut chart = ChartBuilder::on(&area)
         .margin(6 * UNIT)

@@ -1,4 +1,4 @@
-//! `lagrangian evaluate`: numbers at given states.
+//! `lagrangian evaluate`: quantities at given states.
 
 mod points;
 
@@ -25,7 +25,7 @@ pub use crate::reading::set_start;
 use crate::reading::{self, Reading};
 use points::{Entry, Numbers, Point};
 
-/// The numbers at a state.
+/// The quantities at a state.
 #[derive(Debug, Serialize)]
 struct Numbered {
     mass_matrix: Vec<Vec<f64>>,
@@ -33,10 +33,10 @@ struct Numbered {
     applied: Vec<f64>,
     forces: Vec<f64>,
     accelerations: Vec<f64>,
-    /// The rates of states of first order, by name; machines without states have none.
+    /// The rates of states of first order, by name; left out for machines without states.
     #[serde(skip_serializing_if = "Map::is_empty")]
     state_rates: Map<String, Value>,
-    /// By the name of the constraint; machines without constraints have none.
+    /// By the name of the constraint; left out for machines without constraints.
     multipliers: Map<String, Value>,
     /// Generalized reactions of the constraints on each coordinate, Gᵀ λ.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -53,13 +53,13 @@ struct Numbered {
 /// Runs the command.
 ///
 /// # Errors
-/// If the spec is wrong or the points are no list of points. A point that is wrong, or at which the machine is singular,
-/// is a result.
+/// If the spec is invalid, or the points are not a list of points. An invalid point, or one at which the machine is
+/// singular, is reported as a result.
 pub fn run(call: &call::Evaluate) -> Result<(), Failure> {
     let dag = Dag::new();
     let compiled = Reading::open(&call.spec)?.compile(&dag)?;
     let machine = reading::machine(&compiled, &call.start)?;
-    // A wrong name is a fault of the call, not of each point.
+    // A wrong name is an error of the call, not of each point.
     let mut start = machine.start();
     set_start(&mut start, &call.start)?;
     reading::check_kept(&start, &call.keep)?;
@@ -111,7 +111,7 @@ fn at(
     if !point.parameters.is_empty() {
         diagnostics::refused(&model.refused_values(machine.parameter_values()))?;
     }
-    // The start may depend on parameters, the point's own among them.
+    // The start may depend on parameters, including those of the point.
     let mut state = machine.start();
     set_start(&mut state, &call.start).map_err(|_| "no such coordinate")?;
     state.t = point.t.unwrap_or(0.0);
@@ -127,7 +127,7 @@ fn at(
     if call.keep.names.is_empty() {
         return numbers(&machine.prepare(), &state);
     }
-    // A run without length does no more than to project its start onto the constraints.
+    // A run of length zero only projects its start onto the constraints.
     let simulation = Simulation::new(&machine).until(state.t);
     let run = reading::keep(simulation, &call.keep).run_interpreted(state);
     let state = run.map_err(|error| error.to_string())?.start().clone();
@@ -157,7 +157,7 @@ fn integrals(coordinates: &Named) -> Vec<bool> {
     names.map(|(name, _)| state_of(name).is_some()).collect()
 }
 
-/// Fills in what a point gives: coordinates, or their rates, or among the rates states of first order.
+/// Fills in the values of a point: coordinates, or their rates, which include states of first order.
 fn fill(
     numbers: &mut Named,
     given: Option<Numbers>,
@@ -238,7 +238,7 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
     let mut contacts = contacts::forces(system, &multipliers);
     contacts.extend(slips(system, &sliding));
     contacts.extend(collisions::forces(system, &unilateral));
-    // JSON has no word for what is greater than any number, and null would be read as nothing.
+    // JSON cannot represent infinity, and null would be read as a missing value.
     let all: [(&str, &[f64]); 8] = [
         ("mass matrix", &matrix),
         ("bias", &bias),
@@ -254,7 +254,8 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
             return Err(format!("the {name} is not finite here: {value}"));
         }
     }
-    // The rows of states of first order stand behind those of the coordinates, and say what their rates are.
+    // The rows of states of first order come after those of the coordinates; their accelerations are the
+    // rates of the states.
     let is_integral: Vec<bool> = system
         .coordinates()
         .map(|c| state_of(c.name).is_some())
@@ -293,7 +294,7 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
     serde_json::to_value(result).map_err(|error| error.to_string())
 }
 
-/// Slip, normal reaction and friction of each contact that sticks or slides.
+/// Slip, normal reaction and friction of each guided contact, whether sliding or sticking.
 fn slips(system: &InterpretedSystem, forces: &[ContactForce]) -> Vec<(String, Value)> {
     let entry = |(name, force): (&str, &ContactForce)| {
         let force = serde_json::json!({

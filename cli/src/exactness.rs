@@ -1,8 +1,8 @@
-//! How exact the quantities of a run are.
+//! Error bounds of the quantities of a run within a step.
 
 use crate::recording::{Recording, Run};
 
-/// How many times about the quantities are evaluated.
+/// The approximate number of evaluations of the quantities.
 const EVALUATIONS: usize = 20_000;
 
 /// A run, and the tolerance that it was made with.
@@ -14,15 +14,15 @@ pub struct Exactness {
 }
 
 impl Exactness {
-    /// By how much quantities of the run may be off within a step, in their units.
+    /// The error of the quantities of the run within a step, in their units.
     ///
-    /// A step may be off by the tolerance, and by as large a part of the number, in every coordinate and rate. Everything else is
-    /// made of these, and is off by what it changes by where they change so. The sum of its changes to both sides, which of a smooth
-    /// quantity is of second order, is the rounding of its terms, which may be more than its value where they cancel. The residual of
-    /// the energy balance is an error itself: what it is off by is 0 here.
+    /// A step may have an error of the tolerance, absolute plus relative, in every coordinate and rate. Every other quantity
+    /// depends on these, and its error is the sum of its changes where they change by so much. The sum of its changes to both
+    /// sides, which for a smooth quantity is of second order, measures the round-off of its terms; it may exceed the quantity's
+    /// value if these cancel. The residual of the energy balance is itself an error, so its own error is given as 0.
     ///
-    /// Of changes to both sides the smaller counts as that of first order, and of the instants the greatest hundredth does not count:
-    /// a jump, as of friction where sliding turns, is no error.
+    /// Of the changes to both sides the smaller one is taken as first-order change, and the largest hundredth of the instants is
+    /// ignored: a jump, such as that of friction where sliding reverses, is not an error.
     pub fn of_columns<'a>(&self, names: impl Iterator<Item = &'a str>) -> Vec<f64> {
         let run = &self.run;
         let bound = |x: f64| self.tolerance * (1.0 + x.abs());
@@ -32,7 +32,7 @@ impl Exactness {
         let stride = samples.len().div_ceil(most).max(1);
         let states: Vec<_> = samples.iter().step_by(stride).cloned().collect();
         let here = Recording::of(run, &states);
-        // Of each column and each state the sum of the changes.
+        // For each column and each state the sum of the changes.
         let mut sums = vec![vec![0.0; states.len()]; here.columns.len()];
         for place in 0..2 * n {
             let moved = |sign: f64| {

@@ -1,4 +1,4 @@
-//! How a command that failed ends: what it says, and its exit status.
+//! The end of a command that failed: its message, and its exit status.
 
 use serde_json::{Map, json};
 
@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::{diagnostics, interrupt, output};
 
 impl Failure {
-    /// Says why: for a reader on standard error, for a program on standard output. Returns the exit status.
+    /// Reports the reason: for readers on standard error, for programs on standard output. Returns the exit status.
     pub fn report(self, json: bool) -> u8 {
         let mut fields = Map::new();
         let (status, message) = match self {

@@ -1,4 +1,4 @@
-//! Why a command did not do what it was asked.
+//! The reasons why a command fails.
 
 use std::fmt::Display;
 
@@ -6,30 +6,30 @@ use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::Sources;
 use serde_json::{Map, Value};
 
-/// Why a command did not do what it was asked.
+/// Why a command failed.
 #[derive(Debug)]
 pub enum Failure {
-    /// The spec is wrong.
+    /// The spec is invalid.
     Spec(Box<(Report, Sources)>),
-    /// The machine or the run is at fault, or a file cannot be written.
+    /// The machine or the run fails, or a file cannot be written.
     Run(String),
-    /// As [`Failure::Run`], with further fields for programs.
+    /// Like [`Failure::Run`], with further fields for programs.
     Detailed(String, Map<String, Value>),
-    /// As [`Failure::Run`], but everything was said already.
+    /// Like [`Failure::Run`], but the message has been printed.
     Said,
-    /// The user ended it, and everything was said.
+    /// The user interrupted it, and the message has been printed.
     Interrupted,
-    /// The call is at fault.
+    /// The call is invalid.
     Call(String),
 }
 
 impl Failure {
-    /// The machine or the run is at fault.
+    /// A failure of the machine or the run.
     pub fn run(error: impl Display) -> Failure {
         Failure::Run(error.to_string())
     }
 
-    /// Why, in one sentence, where that was not said before.
+    /// The reason in one sentence, unless it has been printed.
     pub fn message(self) -> String {
         match self {
             Failure::Run(message) | Failure::Call(message) | Failure::Detailed(message, _) => {

@@ -32,10 +32,10 @@ use crate::reading::{self, Reading, places};
 use crate::table;
 use data::{Class, Given};
 
-/// The most searches of `--starts`.
+/// The most searches for `--starts`.
 const MOST_SEARCHES: u64 = 10_000;
 
-/// The files that a call asks for.
+/// The files that a call requests.
 struct Files {
     out: Option<Destination>,
     table: Option<Destination>,
@@ -71,7 +71,7 @@ impl Files {
     }
 }
 
-/// Everything that is told of a fit.
+/// All data for the report on a fit.
 struct Fitted<'a, 'f> {
     call: &'a call::Fit,
     machine: &'a InterpretedMachine,
@@ -81,7 +81,7 @@ struct Fitted<'a, 'f> {
     sigmas: Sigmas,
     found: Found,
     searches: Vec<Search>,
-    /// The number of the search that found it.
+    /// The index of the search that found the best minimum.
     best: usize,
     warnings: Vec<String>,
 }
@@ -89,7 +89,7 @@ struct Fitted<'a, 'f> {
 /// Runs the command.
 ///
 /// # Errors
-/// If the spec, the data or the call is at fault, or the search finds no minimum.
+/// If the spec, the data or the call is invalid, or the search finds no minimum.
 pub fn run(call: &call::Fit) -> Result<(), Failure> {
     let method = methods::named(&call.method)?;
     if std::ptr::eq(method, &lagrangian::methods::TAYLOR) {
@@ -107,7 +107,7 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
     let compiled = reading.compile_beside(&dag, files.all());
     let mut compiled = compiled.map_err(inputs::told)?;
     let machine = reading::machine(&compiled, &call.start)?;
-    // What drives an input is no output of the machine.
+    // Formulas of inputs are not reported as outputs of the machine.
     let own = compiled.model.outputs.len() - formulas;
     compiled.model.outputs.truncate(own);
     let mut start = machine.start();
@@ -219,8 +219,8 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
     }
 }
 
-/// What drives the inputs of an experiment: tables of its own, and for other inputs what drives them everywhere. The formulas
-/// of these are the outputs behind the machine's own.
+/// The signals of an experiment's inputs: its own tables, and for all other inputs the common laws, whose formulas are
+/// outputs after those of the machine.
 fn signals_of(
     given: &Given,
     everywhere: &[(String, Law)],
@@ -274,7 +274,7 @@ fn written(result: &mut Fitted<'_, '_>, files: &Files) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A motion that there is not, or an interruption, as a failure.
+/// A missing motion or an interruption, as a failure.
 fn stopped(trouble: Trouble) -> Failure {
     match trouble {
         Trouble::NoValue(why) => Failure::Run(why),
@@ -285,7 +285,7 @@ fn stopped(trouble: Trouble) -> Failure {
     }
 }
 
-/// What a call fits.
+/// The numbers that a call fits.
 fn sought(
     call: &call::Fit,
     machine: &InterpretedMachine,
@@ -437,7 +437,7 @@ fn of_parameters(
     Ok(meant.into_iter().map(sought).collect())
 }
 
-/// Starts of coordinates, in each experiment. Where one is measured at the beginning the search begins with that.
+/// The starts of coordinates, in each experiment. If a coordinate is measured at the beginning, that is its initial guess.
 fn of_starts(
     coordinates: &Named,
     places: &[usize],
@@ -502,7 +502,7 @@ fn of_starts(
     sought
 }
 
-/// The bounds of a call in a unit.
+/// The bounds of a call, in this unit.
 fn ends(bounds: &Bounds, unit: &str) -> Result<[f64; 2], Failure> {
     let end = |set: &Option<call::Assignment>, open: f64| match set {
         None => Ok(open),
@@ -529,7 +529,7 @@ fn unknown(said: &str, what: &str, name: &str, known: &[String]) -> Failure {
     Failure::Call(format!("--fit {said}: no {what} named `{name}`; {help}"))
 }
 
-/// Whether all parameters have values.
+/// Checks that all parameters have values.
 fn check_values(machine: &InterpretedMachine, sought: &[Sought]) -> Result<(), Failure> {
     let Err(missing) = machine.check_parameters() else {
         return Ok(());
@@ -549,7 +549,7 @@ fn check_values(machine: &InterpretedMachine, sought: &[Sought]) -> Result<(), F
     )))
 }
 
-/// Standard deviations of what is measured, as the call has them.
+/// The standard deviations of the measurements, as given by the call.
 fn sigmas(
     call: &call::Fit,
     classes: &[Class],

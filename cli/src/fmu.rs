@@ -1,7 +1,8 @@
-//! `lagrangian fmu`: a machine as a functional mock-up unit, for whatever imports FMI 3.0 or 2.0.
+//! `lagrangian fmu`: a machine as a functional mock-up unit, for tools that import FMI 3.0 or 2.0.
 //!
-//! The machine's own file of C is that of `derive --as c` with uniform names behind it; the interface and the integrator are
-//! texts that know no machine (`fmu/c`). All of it is compiled as one unit by the C compiler, and packed with its description.
+//! The machine's own C file is that of `derive --as c` followed by functions with uniform names. The interface and the
+//! integrator are generic texts (`fmu/c`). The C compiler compiles all of it as one translation unit, and the result is packed
+//! with its description.
 
 mod archive;
 mod compile;
@@ -33,7 +34,7 @@ use crate::reading::{self, Reading};
 use archive::Entry;
 use variables::Variables;
 
-/// A version of the interface.
+/// A version of the standard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Version {
     Two,
@@ -48,7 +49,7 @@ impl Version {
         }
     }
 
-    /// The file that is compiled; the others are parts of it.
+    /// The file that is compiled; it includes the others.
     fn source(self) -> &'static str {
         match self {
             Version::Two => "fmi2.c",
@@ -56,7 +57,7 @@ impl Version {
         }
     }
 
-    /// What this version adds to the machine's own file: the interface, and the headers of the standard.
+    /// The files that this version adds to the machine's own: the interface, and the headers of the standard.
     fn files(self) -> Vec<(&'static str, &'static str)> {
         let own: [(&str, &str); 4] = match self {
             Version::Two => [
@@ -96,7 +97,7 @@ impl Version {
 }
 
 impl UnitMethod {
-    /// Its stages and coefficients, as a file of C.
+    /// The stages and coefficients of the method, as a C file.
     fn tableau(self) -> &'static str {
         match self {
             UnitMethod::Dop853 => include_str!("fmu/c/dop853.c"),
@@ -105,7 +106,7 @@ impl UnitMethod {
     }
 }
 
-/// What the unit is made of.
+/// The data from which a unit is made.
 struct Unit<'a> {
     version: Version,
     kinds: &'a [UnitKind],
@@ -114,25 +115,26 @@ struct Unit<'a> {
     machine: &'a InterpretedMachine,
     /// The inputs with the values of the call.
     inputs: Vec<f64>,
-    /// For each state, behind the coordinates the rates, where it starts, and whether the call says so.
+    /// For each state, coordinates before rates, its start value, and whether the call gives it.
     start: Vec<(f64, bool)>,
     tolerance: f64,
     method: UnitMethod,
-    /// What the library and the archive are called, as an identifier of C.
+    /// The name of library and archive, as a C identifier.
     identifier: String,
     variables: Variables,
-    /// Events that the call watches for; their formulas are the last outputs of the program.
+    /// Events that the call requests; their formulas are the last outputs of the program.
     events: &'a [Assignment],
-    /// Whether there are derivatives in a direction, and backwards.
+    /// Whether directional derivatives are available, forward and adjoint.
     has_derivatives: bool,
-    /// Another machine, another token.
+    /// A token that differs between machines.
     token: String,
 }
 
 /// Runs the command.
 ///
 /// # Errors
-/// If the spec is wrong or has what a unit cannot have, a file cannot be written, or there is no C compiler.
+/// If the spec is invalid or uses a feature that a unit does not support, a file cannot be written, or there
+/// is no C compiler.
 pub fn run(call: &call::Fmu) -> Result<(), Failure> {
     let out = Destination::new("--out", &call.out, UNIT)?;
     keep_document_apart([&out], call.spec.json)?;
@@ -223,7 +225,7 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What is printed of a unit.
+/// Prints a summary of a unit.
 fn say(call: &call::Fmu, unit: &Unit<'_>, platforms: &[&str]) {
     let Program {
         coordinates,
@@ -275,7 +277,7 @@ fn count(n: usize, what: &str) -> String {
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
-/// Refuses machines whose motion is more than what a state and its derivatives say.
+/// Refuses machines whose motion depends on more than the state and its derivatives.
 fn check_sections(program: &Program) -> Result<(), Failure> {
     let why = if let Some(contact) = program.contacts.first() {
         format!(
@@ -294,7 +296,7 @@ fn check_sections(program: &Program) -> Result<(), Failure> {
     )))
 }
 
-/// Refuses a name that is no part of a variable's: what counts the event is `event.NAME`.
+/// Refuses a name that cannot be part of a variable name: the count of an event is `event.NAME`.
 fn check_name(name: &str) -> Result<(), Failure> {
     let is_word = name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
         && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
@@ -308,7 +310,7 @@ fn check_name(name: &str) -> Result<(), Failure> {
     }
 }
 
-/// Refuses formulas of accelerations, and those that nothing changes.
+/// Refuses formulas that depend on accelerations, and constant formulas.
 fn check_events(compiled: &Compiled<'_>, events: &[Assignment]) -> Result<(), Failure> {
     let outputs = &compiled.model.outputs;
     let formulas = &outputs[outputs.len() - events.len()..];
@@ -324,7 +326,7 @@ fn check_events(compiled: &Compiled<'_>, events: &[Assignment]) -> Result<(), Fa
     Ok(())
 }
 
-/// Refuses parameters and inputs without values: in a unit everything has a start value.
+/// Refuses parameters and inputs without values: every variable of a unit has a start value.
 fn check_defaults(program: &Program, machine: &InterpretedMachine) -> Result<(), Failure> {
     let inputs = machine.prepare().default_inputs().values;
     let slots = program.parameters.iter().zip(machine.parameter_values());
@@ -339,7 +341,7 @@ fn check_defaults(program: &Program, machine: &InterpretedMachine) -> Result<(),
     }
 }
 
-/// Refuses constraints that others imply: their multipliers are not determined, and a unit solves for all of them.
+/// Refuses dependent constraints: their multipliers are not unique, and a unit solves for all of them.
 fn check_constraints(
     machine: &InterpretedMachine,
     given: &call::Start,
@@ -351,7 +353,7 @@ fn check_constraints(
     let mut start = machine.start();
     set_start(&mut start, given)?;
     let simulation = Simulation::new(machine).until(start.t);
-    // What else is wrong at the start the unit says itself, when it is initialized.
+    // Other errors of the start are reported by the unit itself at initialization.
     let Ok(run) = simulation.run_interpreted(start) else {
         return Ok(());
     };
@@ -370,12 +372,12 @@ fn check_constraints(
     )))
 }
 
-/// Where the states start, and which of them the call says.
+/// The start values of the states, and which of them the call gives.
 fn start(machine: &InterpretedMachine, given: &call::Start) -> Result<Vec<(f64, bool)>, Failure> {
     let usual = machine.start();
     let mut start = usual.clone();
     set_start(&mut start, given)?;
-    // What is given is not known by its value, which may be the usual one: so it is set to something else.
+    // A given value may equal the default, so defaults are first replaced by a marker.
     let mut marked = usual;
     for numbers in [&mut marked.q, &mut marked.v] {
         numbers.values.fill(f64::NAN);
@@ -404,7 +406,7 @@ fn unknown_output(name: &str, known: &[&str]) -> Failure {
     ))
 }
 
-/// Derivatives, proved; `None` for a machine that is too large for them.
+/// The proved derivatives; `None` for a machine that is too large for them.
 fn derivatives(compiled: &Compiled<'_>) -> Result<Option<Derivatives>, Failure> {
     let Compiled { program, model, .. } = compiled;
     if !uniform::may_have_derivatives(program) {
@@ -419,7 +421,7 @@ fn derivatives(compiled: &Compiled<'_>) -> Result<Option<Derivatives>, Failure> 
     }))
 }
 
-/// The machine's own file.
+/// The machine's own C file.
 fn machine_text(
     compiled: &Compiled<'_>,
     derivatives: Option<&Derivatives>,
@@ -438,7 +440,7 @@ fn machine_text(
     )
 }
 
-/// Every file of C, by name.
+/// All C files, by name.
 fn sources(unit: &Unit<'_>, machine: &str) -> Vec<(&'static str, String)> {
     let own = format!(
         "{machine}\n/* Which machine this is. */\n#define TOKEN \"{}\"\n",
@@ -450,7 +452,7 @@ fn sources(unit: &Unit<'_>, machine: &str) -> Vec<(&'static str, String)> {
     [("machine.c", own)].into_iter().chain(files).collect()
 }
 
-/// The name of a file as an identifier of C.
+/// The name of a file as a C identifier.
 fn identifier(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let letters = stem
@@ -468,7 +470,7 @@ fn identifier(path: &Path) -> String {
 mod tests {
     use super::*;
 
-    /// The numbers of an array of C, rows one after the other as they are written.
+    /// The numbers of a C array, one row after the other as written.
     fn array(text: &str, name: &str) -> Vec<Vec<f64>> {
         let (_, rest) = text.split_once(&format!(" {name}[")).expect(name);
         let (_, rest) = rest.split_once("= {").expect(name);
@@ -495,8 +497,8 @@ mod tests {
         rows.into_iter().map(row).collect()
     }
 
-    /// The conditions of Butcher for tall trees and bushy ones: Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations I*,
-    /// section II.1. A wrong digit breaks one of them.
+    /// Butcher's conditions for tall and for bushy trees: Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations I*,
+    /// section II.1. A wrong digit violates one of them.
     #[test]
     fn methods_have_their_orders() {
         for (method, order) in [(UnitMethod::Dop853, 8), (UnitMethod::Dopri5, 5)] {
@@ -529,7 +531,8 @@ mod tests {
                     .map(|row| along(row, &tall))
                     .collect();
             }
-            // Errors are those of another method of this kind: they vanish for what both do exactly.
+            // Error weights are the difference to another method of this kind: they vanish for everything that both
+            // integrate exactly.
             for name in ["ERROR_WEIGHTS", "COARSE_ERROR_WEIGHTS"] {
                 let errors = array(text, name).remove(0);
                 for power in 0..3 {
@@ -542,8 +545,8 @@ mod tests {
         }
     }
 
-    /// The motion within a step is of its order: what makes it at a fraction x of the step, as weights of slopes, obeys the conditions of
-    /// bushy and of tall trees there, with x in the place of 1. *Solving Ordinary Differential Equations I*, section II.6.
+    /// The dense output has its order: the weights of slopes at a fraction x of the step satisfy the conditions of bushy and of
+    /// tall trees with x instead of 1. *Solving Ordinary Differential Equations I*, section II.6.
     #[test]
     fn dense_output_has_its_order() {
         for (method, order, end) in [(UnitMethod::Dop853, 7, 12), (UnitMethod::Dopri5, 4, 6)] {

@@ -1,8 +1,9 @@
-//! `lagrangian simulate --global-error`: how exact the end of a run is.
+//! `lagrangian simulate --global-error`: the error at the end of a run.
 //!
-//! The errors of steps add up, and a motion that amplifies makes more of them: the tolerance of a step bounds neither. So the run is held
-//! against one that is far more exact: in double-doubles by Taylor series, where the machine has one; else by the same method at a
-//! hundredth of the tolerance. What rounding has part in it is seen by a run from a start that is moved by a rounding.
+//! The errors of steps accumulate, and an unstable motion amplifies them: the tolerance of a step bounds neither effect. So the
+//! run is compared with a far more accurate one: in double-doubles by Taylor series if the machine has one, otherwise by the
+//! same method with a hundredth of the tolerance. The effect of round-off is measured by a run from a start that is perturbed
+//! by its rounding.
 
 use std::iter;
 
@@ -19,32 +20,32 @@ use crate::precise::{self, worst};
 /// The tolerance of runs in double-doubles.
 const WIDE_TOLERANCE: f64 = 1e-26;
 
-/// The finer run has a tolerance of this part.
+/// The finer run has the tolerance times this.
 const FINER: f64 = 1e-2;
 
-/// Where what a rounding at the start makes of the end is this part of the error, a finer tolerance gains little.
+/// If round-off at the start causes this fraction of the error or more, a finer tolerance gains little.
 const ROUNDING: f64 = 0.3;
 
-/// What is known of a run.
+/// A run whose error is estimated.
 pub struct Asked<'a> {
     pub machine: &'a InterpretedMachine,
-    /// None where inputs change.
+    /// `None` where inputs vary.
     pub series: Option<Result<ProvedSeries, NoSeries>>,
     pub tolerance: f64,
     pub has_fixed_steps: bool,
     pub max_steps: usize,
 }
 
-/// The error of the end of a run, as it is estimated.
+/// The estimated error of the end of a run.
 pub struct Estimate {
-    /// Of coordinates, then of rates, in their units.
+    /// For coordinates, then rates, in their units.
     errors: Vec<f64>,
-    /// What a start that is moved by a rounding makes of the end, in the same order.
+    /// The effect of perturbing the start by its rounding, in the same order.
     rounding: Option<Vec<f64>>,
     how: How,
 }
 
-/// What a run was held against.
+/// The reference of the comparison.
 enum How {
     /// A run in double-doubles.
     Wide,
@@ -52,7 +53,8 @@ enum How {
     Finer(f64),
 }
 
-/// Estimates the error of a run from a start to its end. `again` makes it at another tolerance, or from another start.
+/// Estimates the error at the end of a run from a start. `again` repeats the run with another tolerance, or
+/// from another start.
 ///
 /// # Errors
 /// Why there is no estimate.
@@ -102,7 +104,7 @@ pub fn estimate(
         ));
     };
     let mut errors = differences(&exact, end);
-    // The finer run has the rounding in it as well.
+    // The finer run is also affected by round-off.
     if let Some(rounding) = &rounding {
         for (error, rounding) in errors.iter_mut().zip(rounding) {
             *error = error.max(*rounding);
@@ -115,7 +117,7 @@ pub fn estimate(
     })
 }
 
-/// A start of which every number is moved by a rounding, up and down in turn; what is 0 stays.
+/// A start with every number perturbed by its rounding, alternately up and down; zeros stay.
 fn moved(start: &State<Named>) -> State<Named> {
     let mut moved = start.clone();
     let numbers = moved.q.values.iter_mut().chain(&mut moved.v.values);
@@ -138,7 +140,8 @@ fn differences(one: &State<Named>, other: &State<Named>) -> Vec<f64> {
     pairs.map(|(a, b)| (a - b).abs()).collect()
 }
 
-/// Names of coordinates, then of rates; of states of first order their own in place of their rates, and none for their integrals.
+/// Names of coordinates, then of rates. States of first order have their own names instead of those of rates, and
+/// their integrals have none.
 fn names(end: &State<Named>) -> Vec<Option<String>> {
     let own = |name: &str| (state_of(name).is_none()).then(|| name.to_owned());
     let rate = |name: &str| match state_of(name) {
@@ -162,7 +165,7 @@ impl Estimate {
         }
     }
 
-    /// The greatest error, relative to 1 + |y|, and the place of its number.
+    /// The index of the number with the greatest error relative to 1 + |y|, and that error.
     fn greatest(&self, end: &State<Named>) -> (usize, f64) {
         let pairs = self.errors.iter().zip(numbers(end));
         let relative: Vec<f64> = pairs.map(|(error, y)| error / (1.0 + y.abs())).collect();
@@ -175,7 +178,7 @@ impl Estimate {
         rounding.is_some_and(|rounding| rounding[at] >= ROUNDING * self.errors[at])
     }
 
-    /// For the summary.
+    /// The lines of the summary.
     pub fn lines(&self, end: &State<Named>) -> Vec<String> {
         let (at, greatest) = self.greatest(end);
         let head = format!("error at the end, {}", self.how());
@@ -194,7 +197,7 @@ impl Estimate {
             .collect()
     }
 
-    /// For programs.
+    /// The estimate as JSON.
     pub fn json(&self, end: &State<Named>) -> Value {
         let (at, greatest) = self.greatest(end);
         let names = names(end).into_iter().zip(&self.errors);

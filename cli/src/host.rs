@@ -1,8 +1,7 @@
-//! Where the command is at work: in a process of its own, or within another program, which asks it about a spec that it holds in
-//! memory.
+//! Where the command runs: in a process of its own, or inside another program that holds a spec in memory.
 //!
-//! What that program lends it (texts instead of files, a place for what is said, a flag instead of Ctrl-C) belongs to the thread that
-//! answers, and everything that leaves the command or enters it asks here first.
+//! What that program provides (texts instead of files, buffers for output, a flag instead of Ctrl-C) is thread-local, and all input
+//! and output of the command consults this module first.
 
 use std::cell::RefCell;
 use std::path::Path;
@@ -14,10 +13,10 @@ use lagrangian_sweep::plan::{Kept, SpecText};
 
 use crate::call::Call;
 
-/// What a command has answered.
+/// The result of a command.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Answer {
-    /// The exit status that it would have.
+    /// The exit status that it would have as a process.
     pub status: u8,
     /// What it would write to standard output.
     pub out: String,
@@ -25,7 +24,7 @@ pub struct Answer {
     pub err: String,
 }
 
-/// What the program around lends.
+/// What the surrounding program provides.
 struct Lent {
     spec: SpecText,
     stop: Arc<AtomicBool>,
@@ -36,8 +35,8 @@ thread_local! {
     static LENT: RefCell<Option<Lent>> = const { RefCell::new(None) };
 }
 
-/// Answers a call about a spec in memory, with its constants: the name of the command, then its options. Files that the call names are
-/// read and written; the standard streams are left alone, and so is Ctrl-C: `stop` ends what is under way.
+/// Runs a command on a spec in memory with its constants, given the name of the command and its options. Files that the call names
+/// are read and written. The standard streams and Ctrl-C are not used: `stop` interrupts the command.
 ///
 /// # Example
 ///
@@ -83,7 +82,7 @@ pub fn answer(
     Answer { status, ..answer }
 }
 
-/// Keeps what is said for the program around; whether there is one.
+/// Captures output for the surrounding program; returns whether there is one.
 pub fn keeps(text: &str, is_error: bool) -> bool {
     LENT.with_borrow_mut(|lent| {
         let Some(Lent { answer, .. }) = lent else {
@@ -98,12 +97,12 @@ pub fn keeps(text: &str, is_error: bool) -> bool {
     })
 }
 
-/// The flag that the program around ends the work by, if there is one.
+/// The flag with which the surrounding program interrupts the command, if there is one.
 pub fn stop() -> Option<Arc<AtomicBool>> {
     LENT.with_borrow(|lent| Some(lent.as_ref()?.stop.clone()))
 }
 
-/// The files that specs are read from: those on the disk, or those that the program around holds.
+/// The files from which specs are read: on disk, or held by the surrounding program.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Specs;
 
@@ -113,7 +112,7 @@ impl Files for Specs {
             let Some(Lent { spec, .. }) = lent else {
                 return Disk.read(path, from);
             };
-            // A variant that stands beside the spec calls it by the last part of its name.
+            // A variant in the same folder refers to the spec by its file name.
             let own = Path::new(&spec.name);
             let beside = |from: &str| Path::new(from).parent() == own.parent();
             let is_own = match from {

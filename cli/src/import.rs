@@ -1,4 +1,4 @@
-//! `lagrangian import`: a robot's file as a spec.
+//! `lagrangian import`: converts a robot description to a spec.
 
 mod faults;
 mod machine;
@@ -33,10 +33,10 @@ use crate::progress;
 use faults::Faults;
 use machine::Machine;
 
-/// What is read.
+/// The file extensions that are read.
 const ROBOT: Endings = &["urdf", "xml", "mjcf"];
 
-/// The ending of one of the formats.
+/// The file extension of URDF.
 const URDF: Endings = &["urdf"];
 
 /// The largest file that is read, in bytes.
@@ -45,7 +45,7 @@ const LARGEST: u64 = 16 << 20;
 /// Runs the command.
 ///
 /// # Errors
-/// If the call is at fault, or the file, or nothing can be written.
+/// If the call or the file is invalid, or the spec cannot be written.
 pub fn run(call: &call::Import) -> Result<(), Failure> {
     progress::now("reading the robot");
     let out = Destination::of("--out", call.out.as_ref(), MACHINE)?;
@@ -105,7 +105,7 @@ fn text_of(path: &Path) -> Result<String, Failure> {
     })
 }
 
-/// What is in a file.
+/// The bytes of a file.
 fn bytes_of(path: &Path) -> Result<Vec<u8>, Failure> {
     let shown = path.display();
     let cannot =
@@ -125,7 +125,7 @@ fn bytes_of(path: &Path) -> Result<Vec<u8>, Failure> {
     Ok(bytes)
 }
 
-/// Whether the text is a spec in which nothing is wrong, as every other command will read it.
+/// Checks that the text is a valid spec, as every other command will read it.
 fn check(machine: &Machine, out: Option<&Destination>) -> Result<(), Failure> {
     let mut sources = Sources::new();
     let mut report = Report::new();

@@ -1,4 +1,4 @@
-//! `--input`: what drives the inputs of a run.
+//! `--input`: the laws of inputs.
 
 use std::path::Path;
 
@@ -11,10 +11,10 @@ use lagrangian_sweep::signals::{self, Written};
 use crate::call::Assignment;
 use crate::failure::Failure;
 
-/// What each `--input` says, in their order.
+/// Parses each `--input`, in order.
 ///
 /// # Errors
-/// The call is at fault.
+/// If the call is invalid.
 pub fn written(given: &[Assignment]) -> Result<Vec<(String, Written)>, Failure> {
     let one = |input: &Assignment| {
         let written = signals::written(&input.value);
@@ -26,16 +26,16 @@ pub fn written(given: &[Assignment]) -> Result<Vec<(String, Written)>, Failure> 
     given.iter().map(one).collect()
 }
 
-/// The files that inputs are read from, which must not be written.
+/// The files from which inputs are read; they must not be overwritten.
 pub fn files(written: &[(String, Written)]) -> impl Iterator<Item = (&Path, &'static str)> {
     let files = written.iter().filter_map(|(_, written)| written.file());
     files.map(|path| (path, "the table of an input"))
 }
 
-/// What the inputs of a machine do.
+/// The laws of a machine's inputs.
 ///
 /// # Errors
-/// If there is no such input, or a table is wrong.
+/// If there is no such input, or a table is invalid.
 pub fn laws(
     written: &[(String, Written)],
     model: &Model<'_>,
@@ -43,7 +43,7 @@ pub fn laws(
     signals::laws(written, model).map_err(Failure::Call)
 }
 
-/// A failure of a spec as one of the call, where all that is wrong are formulas that the call has.
+/// Converts a failure of the spec to one of the call, if all errors are in formulas of the call.
 pub fn told(failure: Failure) -> Failure {
     match failure {
         Failure::Spec(wrong) => {
@@ -54,7 +54,7 @@ pub fn told(failure: Failure) -> Failure {
     }
 }
 
-/// What is wrong with formulas of the call, if nothing else is wrong.
+/// The errors in formulas of the call, if there are no others.
 pub fn formula(report: &Report, sources: &Sources) -> Option<Failure> {
     let said = report.diagnostics().into_iter().map(|wrong| {
         let source = wrong.span.source;

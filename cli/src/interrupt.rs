@@ -1,4 +1,4 @@
-//! Ctrl-C, which ends a run where it is: what there is of it is written, and said.
+//! Ctrl-C ends a run early; the results up to then are written and reported.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -8,25 +8,26 @@ use signal_hook::flag;
 
 use crate::host;
 
-/// The exit status of a command that was interrupted: 128 and the number of the signal.
+/// The exit status of an interrupted command: 128 plus the number of the signal.
 pub const STATUS: u8 = 128 + SIGINT as u8;
 
-/// A flag that Ctrl-C sets. A second press quits the command at once.
+/// A flag that Ctrl-C sets. A second press ends the command at once.
 pub fn flag() -> Arc<AtomicBool> {
     Interrupt::watch().0
 }
 
-/// Whether somebody pressed Ctrl-C since this was made. A second press quits the command at once.
+/// Whether Ctrl-C was pressed since this was created. A second press ends the command at once.
 pub struct Interrupt(Arc<AtomicBool>);
 
 impl Interrupt {
-    /// Begins to watch. Where that cannot be done, Ctrl-C quits as ever; within another program it is that program's.
+    /// Starts to watch. If that is not possible, Ctrl-C ends the command as usual; inside another program, that
+    /// program handles it.
     pub fn watch() -> Interrupt {
         if let Some(stop) = host::stop() {
             return Interrupt(stop);
         }
         let pressed = Arc::new(AtomicBool::new(false));
-        // In this order: the second time, not the first.
+        // In this order, so that the second press ends the command, not the first.
         let quits = flag::register_conditional_shutdown(SIGINT, STATUS.into(), pressed.clone());
         if quits.is_ok() {
             let _ = flag::register(SIGINT, pressed.clone());
@@ -34,7 +35,7 @@ impl Interrupt {
         Interrupt(pressed)
     }
 
-    /// Whether it was pressed.
+    /// Whether Ctrl-C was pressed.
     pub fn came(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }

@@ -1,10 +1,10 @@
-//! The command `lagrangian`: one command for each question about a machine.
+//! The command `lagrangian`: one subcommand for each question about a machine.
 //!
-//! It is a library beside a program, so that other programs can be it ([`command`]), ask it about a spec that they hold ([`answer`]),
-//! and make its pages of runs of their own ([`report::Report`]).
+//! It is also a library, so that other programs can run the command ([`command`]), run it on a spec in memory ([`answer`]), and
+//! make its pages from runs of their own ([`report::Report`]).
 //!
-//! Exit status 0 when all is well, 1 when the machine or the run is at fault or a file cannot be written, 2 when the call is,
-//! 130 when the user ended a run, 141 when nobody reads standard output any more.
+//! Exit status: 0 for success, 1 if the machine or the run fails or a file cannot be written, 2 if the call is invalid, 130 if the
+//! user interrupted a run, 141 if the reader of standard output has closed it.
 
 mod brachistochrone;
 mod call;
@@ -57,11 +57,11 @@ use failure::Failure;
 
 pub use host::{Answer, answer};
 
-/// 128 and the number of SIGPIPE, by which other commands end that write to a closed pipe.
+/// 128 plus the number of SIGPIPE, the status with which other commands end after writing to a closed pipe.
 const CLOSED_PIPE: u8 = 141;
 
-/// Is the command `lagrangian`, called with these arguments, of which the first is its name: it writes to the standard streams of the
-/// process and takes its Ctrl-C. The exit status.
+/// Runs the command `lagrangian` with these arguments, of which the first is its name. It writes to the standard streams of the
+/// process and handles its Ctrl-C. Returns the exit status.
 pub fn command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let status = match Call::read(arguments) {
         Ok(call) => {
@@ -72,7 +72,7 @@ pub fn command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         }
         Err(message) => {
             let printed = message.print();
-            // Help and version are results.
+            // Help and version are results, written to standard output.
             if !message.use_stderr() {
                 output::remember_result(printed);
             }
@@ -82,7 +82,7 @@ pub fn command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     progress::end();
     match output::finish() {
         Ok(()) => status,
-        // A reader that closes the pipe (`| head`) has seen enough.
+        // A reader that closes the pipe (`| head`) needs no more output.
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => match status {
             0 => CLOSED_PIPE,
             status => status,
@@ -96,7 +96,7 @@ pub fn command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     }
 }
 
-/// Does what is asked; the exit status.
+/// Executes a call; returns the exit status.
 fn status(call: &Call, json: bool) -> u8 {
     progress::now("deriving the equations");
     let result = call.check().map_err(Failure::Call);

@@ -1,7 +1,7 @@
-//! `lagrangian library`: a machine as a shared library for C, and whatever can call it.
+//! `lagrangian library`: a machine as a shared library for C and languages that can call C.
 //!
-//! One file is compiled, by one call of `rustc` and without dependencies: the module of the machine, the exports
-//! (`library/export.rs`), and the parts of the crates `lagrangian-scalar` and `lagrangian-native` that it needs, as text.
+//! A single call of `rustc` compiles one file without dependencies: the module of the machine, the exports
+//! (`library/export.rs`), and the text of the required parts of the crates `lagrangian-scalar` and `lagrangian-native`.
 
 use std::ffi::OsString;
 use std::fmt::Write as _;
@@ -27,7 +27,7 @@ use crate::output::{self, Destination, LIBRARY, RUST, keep_apart, keep_document_
 use crate::progress;
 use crate::reading::Reading;
 
-/// Says of constraints that others imply that the library has no answer there: it solves for the multipliers of all.
+/// Warns if constraints are dependent: the library solves for all multipliers and has no solution then.
 fn warn_of_constraints(program: &Proved) {
     let machine = InterpretedMachine::new(program.clone());
     let start = machine.start();
@@ -50,7 +50,7 @@ fn warn_of_constraints(program: &Proved) {
 /// Runs the command.
 ///
 /// # Errors
-/// If the spec is wrong, a file cannot be written, or `rustc` is missing.
+/// If the spec is invalid, a file cannot be written, or `rustc` is missing.
 pub fn run(call: &call::Library) -> Result<(), Failure> {
     let header = call.out.with_extension("h");
     let of_library = Destination::new("--out", &call.out, LIBRARY)?;
@@ -131,26 +131,26 @@ fn file_name(path: &Path) -> String {
         .map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
-/// The exports, and what stands beside them.
+/// The exported functions, and the definitions that they need.
 const EXPORT: &str = include_str!("library/export.rs");
 
-/// Those of machines with unilateral contacts.
+/// The additional functions of machines with unilateral contacts.
 const EXPORT_OF_CONTACTS: &str = include_str!("library/export_of_contacts.rs");
 
-/// Up to so many operations, eight states are two registers for each number where a register holds four: while one waits for
-/// the result before, the other works, which saves up to a quarter of the time of programs that mostly wait. Longer ones gain
-/// a tenth, and take rustc ever longer (a chain of 32 links 14 s instead of 3, one of 128 links more than four minutes instead of 10 s).
+/// Up to this number of operations, eight states use two registers for each number where a register holds four: one computes while
+/// the other waits for a result, which saves up to a quarter of the time of latency-bound programs. Longer programs gain a tenth,
+/// and take rustc much longer (a chain of 32 links 14 s instead of 3, one of 128 links more than four minutes instead of 10 s).
 const LONGEST_IN_PAIRS: usize = 1000;
 
-/// How a module of the machine is written.
+/// The options with which the module of the machine is written.
 fn options(is_straight: bool, is_in_pairs: bool) -> emit::rust::Options {
     let default = emit::rust::Options::default();
     emit::rust::Options {
         shortest_rolled: if is_straight {
             usize::MAX
         } else {
-            // What is in the order of time repeats little but its reads, and a loop of these would keep all from being
-            // checked at once, at the end.
+            // In the order of time little repeats except loads, and a loop of these would prevent checking all
+            // conditions together at the end.
             LONGEST_SCHEDULED + 1
         },
         shortest_packed: if is_in_pairs {
@@ -159,15 +159,15 @@ fn options(is_straight: bool, is_in_pairs: bool) -> emit::rust::Options {
             usize::MAX
         },
         runtime: "crate".into(),
-        // Nothing is described to a debugger here, and whole functions compile faster than pieces, which pass hundreds of
-        // values through memory: a chain of 32 links in half the time.
+        // There is no debug information, and whole functions compile faster than pieces, which pass hundreds of values
+        // through memory: a chain of 32 links takes half the time.
         longest_whole: 12_000,
         ..default
     }
 }
 
-/// Whether the accelerations of one state are computed in pairs. In lanes nothing is gained by it: there two limbs at once are
-/// twice the values at hand.
+/// Whether the accelerations of one state are computed in pairs. In lanes this gains nothing, because two limbs at once need
+/// twice the registers.
 fn is_in_pairs(program: &Proved) -> bool {
     let accelerations = program.function(Role::Accelerations);
     let is_long = |function| emit::rust::in_pairs(function, &options(false, true)).is_some();
@@ -186,8 +186,8 @@ fn source(
         emit::rust::library(program, &options).map_err(Failure::run)
     };
     let machine = module(false)?;
-    // Of the crate of numbers the trait, behind its list of modules; of the plain numbers `f64`, before `f32`, and with the
-    // functions of the C library.
+    // From the crate of numbers only the trait is used, which follows its list of modules; from the plain numbers `f64`,
+    // which precedes `f32`, with the functions of the C library.
     let after = |text: &'static str, mark: &str| text.find(mark).map_or(text, |at| &text[at..]);
     let before = |text: &'static str, mark: &str| text.find(mark).map_or(text, |at| &text[..at]);
     let scalar = after(LIB, "use core::fmt::Debug;");
@@ -196,7 +196,7 @@ fn source(
         "use crate::{Scalar, libm};",
         1,
     );
-    // In C, numbers side by side are aligned as numbers.
+    // Arrays of C are aligned as single numbers.
     let lanes_of_c = LANES.replacen("#[repr(C, align(16))]", "#[repr(C)]", 1);
     let mut source = String::from(
         "#![allow(dead_code, unused_imports, unused_macros)]\n\
@@ -240,7 +240,7 @@ fn source(
             "\nconst CONSTRAINTS: usize = {};",
             program.constraints.len()
         ); // cannot fail
-        // A machine without constraints has no rows of any.
+        // A machine without constraints has no constraint rows.
         source.push_str(if program.constraints.is_empty() {
             "use no_rows as constraint_rows;\n"
         } else {
@@ -259,7 +259,7 @@ fn source(
     Ok(source)
 }
 
-/// `rustc`, or what `RUSTC` names.
+/// `rustc`, or the compiler that `RUSTC` names.
 fn rustc() -> OsString {
     std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into())
 }
@@ -268,7 +268,7 @@ fn missing(error: io::Error) -> Failure {
     Failure::run(format!("cannot run {}: {error}", rustc().to_string_lossy()))
 }
 
-/// Refuses a processor that the compiler does not know: it would say so, and then compile for another.
+/// Refuses a processor that the compiler does not know: rustc would only warn, and compile for another.
 fn check_processor(call: &call::Library) -> Result<(), Failure> {
     let asked = call.target_cpu.as_str();
     if asked == "native" {
@@ -277,12 +277,12 @@ fn check_processor(call: &call::Library) -> Result<(), Failure> {
     let mut words = Command::new(rustc());
     let output = words.args(["--print", "target-cpus"]).output();
     let list = String::from_utf8_lossy(&output.map_err(missing)?.stdout).into_owned();
-    // A line for each, behind a title, with remarks behind some.
+    // After a title, one processor per line, some followed by remarks.
     let lines = list.lines().skip(1);
     let known: Vec<&str> = lines
         .filter_map(|line| line.split_whitespace().next())
         .collect();
-    // A compiler that lists none is not asked.
+    // If the compiler lists none, the name is not checked.
     if known.is_empty() || known.contains(&asked) {
         return Ok(());
     }
@@ -296,7 +296,7 @@ fn check_processor(call: &call::Library) -> Result<(), Failure> {
     )))
 }
 
-/// Of the processors that a compiler knows a few that say much: levels of an architecture, where it has them, or the first.
+/// A few representative processors: levels of an architecture if there are any, otherwise the first ones.
 fn examples<'a>(known: &[&'a str]) -> Vec<&'a str> {
     let levels = known
         .iter()
@@ -312,12 +312,12 @@ fn examples<'a>(known: &[&'a str]) -> Vec<&'a str> {
     }
 }
 
-/// Calls the compiler; the bytes of the library.
+/// Calls the compiler; returns the bytes of the library.
 fn compile(source: &str, is_in_pairs: bool, call: &call::Library) -> Result<Vec<u8>, Failure> {
     let unkept =
         |error: io::Error| Failure::run(format!("cannot keep the library for a while: {error}"));
     let folder = tempfile::tempdir().map_err(unkept)?;
-    // Under its own name, which some systems write into it.
+    // Compiled under its final name, because some systems store that name in it.
     let library = folder.path().join(file_name(&call.out));
     let mut words = Command::new(rustc());
     words.args([
@@ -326,7 +326,7 @@ fn compile(source: &str, is_in_pairs: bool, call: &call::Library) -> Result<Vec<
         "--crate-name=machine",
     ]);
     words.args(["--cfg", "feature=\"std\"", "--cap-lints=allow"]);
-    // One unit: there is one function to speak of in each arithmetic.
+    // A single codegen unit, because there is only one essential function for each arithmetic.
     for option in [
         "opt-level=3",
         "codegen-units=1",
@@ -337,7 +337,7 @@ fn compile(source: &str, is_in_pairs: bool, call: &call::Library) -> Result<Vec<
         words.args(["-C", option]);
     }
     if is_in_pairs {
-        // What is in pairs is found by how the machine is made; a compiler that looks for pairs of its own tears some of these apart.
+        // Pairs follow from the structure of the machine; a compiler that looks for its own pairs would split some of them.
         words.args(["-C", "no-vectorize-slp"]);
     }
     words.arg(format!("-Ctarget-cpu={}", call.target_cpu));
@@ -348,7 +348,7 @@ fn compile(source: &str, is_in_pairs: bool, call: &call::Library) -> Result<Vec<
         .stderr(Stdio::piped());
     let mut child = words.spawn().map_err(missing)?;
     if let Some(mut input) = child.stdin.take() {
-        // One that stops reading says why.
+        // A compiler that stops reading prints the reason.
         let _ = input.write_all(source.as_bytes());
     }
     let output = child.wait_with_output().map_err(missing)?;
@@ -445,8 +445,8 @@ fn header(program: &Program, lanes: &[u8], spec: &str) -> String {
     )
 }
 
-/// What every library exports.
+/// The interface of every library.
 const INTERFACE: &str = include_str!("library/interface.h");
 
-/// What those of machines with unilateral contacts export, too.
+/// The additional interface for machines with unilateral contacts.
 const INTERFACE_OF_CONTACTS: &str = include_str!("library/interface_of_contacts.h");

@@ -1,4 +1,4 @@
-//! `lagrangian linearize`: the linear model of a machine, and what engineers ask of it.
+//! `lagrangian linearize`: the linear model of a machine, with its poles, zeros and frequency response.
 
 mod along;
 pub mod arrays;
@@ -30,10 +30,10 @@ use crate::output;
 use crate::reading::{self, places};
 use files::Files;
 
-/// Matrices of more columns are not printed.
+/// Matrices with more columns are not printed.
 const MOST_COLUMNS: usize = 8;
 
-/// A model, and what is asked of it.
+/// A model with its evaluation.
 struct Linearization {
     model: Model,
     poles: Vec<Pole>,
@@ -43,7 +43,7 @@ struct Linearization {
 /// Runs the command.
 ///
 /// # Errors
-/// If the spec or the call is at fault, or the machine has no linear model there.
+/// If the spec or the call is invalid, or the machine has no linear model there.
 pub fn run(call: &call::Linearize) -> Result<(), Failure> {
     let files = Files::new(call)?;
     let dag = Dag::new();
@@ -87,7 +87,7 @@ fn names(machine: &InterpretedMachine) -> [Vec<String>; 2] {
     ]
 }
 
-/// The model about the start as it is, and in words where that is.
+/// The model about the start itself, and a text that describes the operating point.
 fn about_start(
     call: &call::Linearize,
     machine: &InterpretedMachine,
@@ -97,7 +97,7 @@ fn about_start(
     let mut start = machine.start();
     set_start(&mut start, &search.start)?;
     if machine.prepare().constraints().len() > 0 {
-        // A run without length does no more than to project its start onto the constraints.
+        // A run of length zero only projects its start onto the constraints.
         let simulation = Simulation::new(machine).until(start.t);
         let run = reading::keep(simulation, &search.keep).run_interpreted(start);
         start = run.map_err(Failure::run)?.start().clone();
@@ -134,7 +134,7 @@ fn about_start(
     Ok((model, text))
 }
 
-/// The model about the equilibrium, or along the steady motion, and in words where that is.
+/// The model about the equilibrium, or along the steady motion, and a text that describes it.
 fn about_motion(
     call: &call::Linearize,
     machine: &InterpretedMachine,
@@ -151,7 +151,7 @@ fn about_motion(
     Ok((model, text))
 }
 
-/// What the model of a call is to have.
+/// The inputs and outputs that a call requests.
 fn request(call: &call::Linearize, machine: &InterpretedMachine) -> Result<Request, Failure> {
     let system = machine.prepare();
     let all = system.default_inputs();
@@ -221,7 +221,7 @@ fn request(call: &call::Linearize, machine: &InterpretedMachine) -> Result<Reque
     Ok(Request { inputs, outputs })
 }
 
-/// What a name of an output means; nothing where there is none.
+/// The quantities that a name of an output stands for; empty if there are none.
 fn resolve(name: &str, q: &Named, outputs: &Named, constraints: &[String]) -> Vec<Observed> {
     let own = places(outputs, name);
     if !own.is_empty() {
@@ -273,7 +273,7 @@ fn unknown(option: &str, what: &str, name: &str, known: &[String]) -> Failure {
     Failure::Call(format!("{option} {name}: no {what} named `{name}`; {help}"))
 }
 
-/// A matrix as its rows.
+/// The rows of a matrix.
 fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
     let rows = matrix.row_iter();
     rows.map(|row| row.iter().copied().collect()).collect()
@@ -384,7 +384,7 @@ fn text(result: &Linearization) -> String {
     text
 }
 
-/// Rows of numbers in columns; of a large matrix its size.
+/// A matrix in columns; a large one is represented by its size.
 fn text_of_matrix(name: &str, matrix: &DMatrix<f64>) -> String {
     let (rows, columns) = matrix.shape();
     if rows == 0 || columns == 0 {
@@ -408,7 +408,7 @@ fn text_of_matrix(name: &str, matrix: &DMatrix<f64>) -> String {
     text
 }
 
-/// Values of λ, a line for each pair.
+/// Values of λ, with one line for each pair.
 fn text_of_values(values: &[Complex<f64>]) -> String {
     let mut text = String::new();
     for value in values.iter().filter(|value| value.im >= 0.0) {

@@ -1,4 +1,4 @@
-//! The program `lagrangian`; what it does is said in the library.
+//! The program `lagrangian`; see the library.
 
 use std::process::ExitCode;
 

@@ -1,4 +1,4 @@
-//! `lagrangian map`: a sweep as a drawing.
+//! `lagrangian map`: the results of a sweep as a drawing.
 
 mod page;
 
@@ -16,13 +16,14 @@ use crate::output::{self, Destination, PAGE, SVG, keep_apart};
 use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, axes, font, range, short, svg_of};
 use crate::report::base64;
 
-/// More cells than this would be an image of more than 16 MB.
+/// The most cells; more would give an image of more than 16 MB.
 const MOST_CELLS: usize = 1 << 24;
 
-/// Up to so many cells are rectangles, more are an image: viewers of drawings take seconds for some ten thousand shapes.
+/// Up to this number of cells are drawn as rectangles, more as an image: viewers of drawings take seconds for some
+/// ten thousand shapes.
 const MOST_RECTANGLES: usize = 20_000;
 
-/// Cells of an image that are not equally wide are shown by so many pixels.
+/// The number of pixels of an image whose cells have different widths.
 const PIXELS: usize = 2000;
 
 /// The most curves of one quantity.
@@ -31,12 +32,12 @@ const MOST_CURVES: usize = 12;
 /// The most dots of a drawing, and of a page.
 const MOST_DOTS: [usize; 2] = [200_000, 4_000_000];
 
-/// The height of a heat map, and the width of its scale.
+/// The height of a heat map, and the width of its color scale.
 const HEAT: u32 = 480 * UNIT;
 const SCALE: u32 = 120 * UNIT;
 
-/// Colours from the least value to the greatest, equally far apart to the eye, in print and for the colour-blind: viridis, by S. van
-/// der Walt and N. Smith (2015), at nine places.
+/// Colours from the least value to the greatest, perceptually uniform, in print and for colour-blind readers: viridis, by S. van
+/// der Walt and N. Smith (2015), at nine points.
 const VIRIDIS: [[u8; 3]; 9] = [
     [68, 1, 84],
     [71, 44, 122],
@@ -49,7 +50,7 @@ const VIRIDIS: [[u8; 3]; 9] = [
     [253, 231, 37],
 ];
 
-/// What is no number: a run that failed.
+/// The colour of missing values: runs that failed.
 const MISSING: RGBColor = RGBColor(190, 190, 190);
 
 /// Axes with labels, as in the drawings of runs.
@@ -64,7 +65,7 @@ macro_rules! mesh {
     };
 }
 
-/// The rows of a sweep: names of columns, which of them were varied, and the cells.
+/// The rows of a sweep: names of columns, how many of them were varied, and the cells.
 struct Rows {
     names: Vec<String>,
     varied: usize,
@@ -74,7 +75,7 @@ struct Rows {
 /// Runs the command.
 ///
 /// # Errors
-/// If the table or the call is at fault, or the drawing cannot be written.
+/// If the table or the call is invalid, or the drawing cannot be written.
 pub fn run(call: &call::Map) -> Result<(), Failure> {
     let files = [
         Destination::of("--plot", call.plot.as_ref(), SVG)?,
@@ -158,13 +159,13 @@ pub fn run(call: &call::Map) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What is drawn.
+/// The kind of drawing.
 enum Picture<'a> {
     Curves(Curves<'a>),
     Heat(Heat<'a>),
 }
 
-/// The cells of a table, its names first.
+/// The cells of a table, with the header first.
 fn table(path: &Path) -> Result<Vec<Vec<String>>, Failure> {
     let wrong = |why: String| Failure::Call(format!("{}: {why}", path.display()));
     if path.extension().is_some_and(|ending| ending == "parquet") {
@@ -199,7 +200,7 @@ impl Rows {
         })
     }
 
-    /// The samples beside these rows, with what was varied in front of each.
+    /// The samples that belong to these rows, each preceded by its varied values.
     fn with_samples(self, path: &Path) -> Result<Rows, Failure> {
         let wrong = |why: &str| Failure::Call(format!("{}: {why}", path.display()));
         let missing = |failure: Failure| {
@@ -255,7 +256,7 @@ impl Rows {
         })
     }
 
-    /// The numbers of a column; what is none is not a number.
+    /// The numbers of a column; other entries become NaN.
     fn numbers(&self, name: &str) -> Result<Vec<f64>, Failure> {
         let place = self.place(name)?;
         let cells = self.rows.iter().map(|row| row[place].as_str());
@@ -267,7 +268,7 @@ impl Rows {
         }
     }
 
-    /// Leaves out all rows with another value.
+    /// Removes all rows with a different value.
     fn keep_only(&mut self, name: &str, value: &str) -> Result<(), Failure> {
         let place = self.place(name)?;
         let wanted = call::number(value)
@@ -282,7 +283,7 @@ impl Rows {
         Ok(())
     }
 
-    /// What of the varied columns takes several values, but for some of them.
+    /// The varied columns with several values, except some of them.
     fn others(&self, but: &[&String]) -> Vec<usize> {
         let places = 1..=self.varied;
         let differs = |place: &usize| {
@@ -297,12 +298,13 @@ impl Rows {
     }
 }
 
-/// Curves over one parameter, a panel for each quantity, a curve for each set of the other parameters; dots where they are samples.
+/// Curves over one parameter, with a panel for each quantity and a curve for each set of the other parameters;
+/// dots for samples.
 struct Curves<'a> {
     x: &'a str,
     along: Vec<f64>,
     quantities: &'a [(&'a str, Vec<f64>)],
-    /// What the curves are called, and which each row belongs to.
+    /// The legends of the curves, and the curve to which each row belongs.
     legends: Vec<String>,
     set_of: Vec<usize>,
     are_dots: bool,
@@ -361,7 +363,7 @@ impl<'a> Curves<'a> {
         })
     }
 
-    /// The points of a set, those of curves in order.
+    /// The points of a set; those of curves are sorted.
     fn points(&self, set: usize, values: &[f64]) -> Vec<(f64, f64)> {
         let mut points: Vec<(f64, f64)> = (0..self.along.len())
             .filter(|row| self.set_of[*row] == set)
@@ -413,7 +415,7 @@ impl<'a> Curves<'a> {
                             colour.stroke_width(UNIT),
                         ))?;
                     }
-                    // Many samples are seen by where they are dense.
+                    // The density of many samples must be visible.
                     let radius = if self.are_dots { UNIT / 2 } else { UNIT };
                     let dots = points
                         .iter()
@@ -441,10 +443,10 @@ impl<'a> Curves<'a> {
 struct Heat<'a> {
     names: [&'a str; 2],
     name: &'a str,
-    /// The values that the parameters take, in order.
+    /// The values of the parameters, sorted.
     columns: Vec<f64>,
     lines: Vec<f64>,
-    /// Line by line; what is no number is a run that failed.
+    /// The values line by line; NaN for a run that failed.
     cells: Vec<f64>,
 }
 
@@ -485,7 +487,7 @@ impl<'a> Heat<'a> {
         })
     }
 
-    /// The least value and the greatest.
+    /// The least and the greatest value.
     fn scale(&self) -> [f64; 2] {
         let finite = self.cells.iter().copied().filter(|value| value.is_finite());
         let low = finite.clone().fold(f64::INFINITY, f64::min);
@@ -551,11 +553,11 @@ impl<'a> Heat<'a> {
         Ok(svg.replace("</svg>", &image))
     }
 
-    /// The cells as an image: a pixel for each where all are equally wide, the highest line first.
+    /// The cells as an image: one pixel for each if all are equally wide, starting with the highest line.
     fn png(&self, edges: [&[f64]; 2]) -> Result<Vec<u8>, png::EncodingError> {
         let [across, up] = edges.map(pixels);
         let [low, high] = self.scale();
-        // The last colour is that of what is no number.
+        // The last colour is that of missing values.
         const MISSING_INDEX: u8 = 255;
         let index = |value: f64| match value.is_finite() {
             true if high > low => ((value - low) / (high - low) * 254.0).round() as u8,
@@ -584,7 +586,7 @@ impl<'a> Heat<'a> {
     }
 }
 
-/// Which cell each pixel shows: one pixel a cell where all are equally wide.
+/// The cell that each pixel shows: one pixel per cell if all are equally wide.
 fn pixels(edges: &[f64]) -> Vec<usize> {
     let cells = edges.len() - 1;
     let (first, length) = (edges[0], edges[cells] - edges[0]);
@@ -599,7 +601,7 @@ fn pixels(edges: &[f64]) -> Vec<usize> {
     (0..pixels).map(|k| cell(k).min(cells - 1)).collect()
 }
 
-/// The colours with the values that they stand for.
+/// The color scale with its values.
 fn legend(
     area: &DrawingArea<SVGBackend<'_>, plotters::coord::Shift>,
     name: &str,
@@ -663,7 +665,7 @@ fn distinct(values: &[f64]) -> Vec<f64> {
     all
 }
 
-/// The edges of cells around values: half way to the next, and as far beyond the ends.
+/// The edges of cells around values: half-way to the neighbours, and as far beyond the ends.
 fn edges(values: &[f64]) -> Vec<f64> {
     let between = values.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
     let between: Vec<f64> = between.collect();
@@ -694,7 +696,7 @@ mod tests {
         assert_eq!(pixels(&[0.0, 1.0, 2.0, 3.0]), [0, 1, 2]);
         let shown = pixels(&[0.0, 1.0, 4.0]);
         assert_eq!(shown.len(), PIXELS);
-        // A quarter of the width is the first cell's.
+        // The first cell has a quarter of the width.
         assert_eq!(shown.iter().filter(|cell| **cell == 0).count(), PIXELS / 4);
     }
 
@@ -715,7 +717,7 @@ mod tests {
         let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
         reader.next_frame(&mut pixels).expect("an image");
         let shown = |pixel: usize| &palette[3 * usize::from(pixels[pixel])..][..3];
-        // The upper line first.
+        // The upper line comes first.
         assert_eq!(shown(0), [190, 190, 190]);
         assert_eq!(shown(1), [253, 231, 37]);
         assert_eq!(shown(2), [68, 1, 84]);

@@ -1,20 +1,20 @@
-//! Methods of integration by their names.
+//! Integration methods by name.
 
 use lagrangian::methods::Method;
 use lagrangian_spec::diagnostic::nearest;
 
 use crate::failure::Failure;
 
-/// The method that is chosen by the machine: the default one, implicit ones where it is stiff, and time stepping where
+/// Automatic choice of methods: the default one, implicit ones where the machine is stiff, and time stepping where
 /// contacts meet too often.
 pub const AUTO: &str = "auto";
 
-/// The method of a name.
+/// The method with this name.
 pub fn named(name: &str) -> Result<&'static Method, Failure> {
     named_or(name, &[])
 }
 
-/// The method of a name, where the call may name `others` too.
+/// The method with this name, where `others` are also valid and listed in the error message.
 pub fn named_or(name: &str, others: &[&'static str]) -> Result<&'static Method, Failure> {
     Method::named(name).ok_or_else(|| {
         let methods = || Method::all().map(|method| method.tableau.name);

@@ -1,4 +1,4 @@
-//! `lagrangian modes`: where a machine stays, and how it moves about that place.
+//! `lagrangian modes`: equilibria and steady motions, and the modes about them.
 
 mod locus;
 pub mod vary;
@@ -27,13 +27,13 @@ use crate::reading::{self, Reading};
 use crate::table;
 use vary::{Critical, Trace};
 
-/// By which options a call says where to look.
+/// The names of the options that choose the start, for messages.
 pub const OPTIONS: Options = Options {
     start: "--start",
     steady: "--steady",
 };
 
-/// The files that a call asks for.
+/// The files that a call requests.
 struct Files {
     out: Option<Destination>,
     plot: Option<Destination>,
@@ -58,7 +58,7 @@ impl Files {
 /// Runs the command.
 ///
 /// # Errors
-/// If the spec or the call is at fault, or the machine has no equilibrium near its start.
+/// If the spec or the call is invalid, or the machine has no equilibrium near its start.
 pub fn run(call: &call::Modes) -> Result<(), Failure> {
     let files = Files::new(call)?;
     let dag = Dag::new();
@@ -81,7 +81,7 @@ pub fn run(call: &call::Modes) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The machine with the parameters of a call, all of which have values.
+/// The machine with the parameters of a call, after checking that all have values.
 pub fn ready(
     compiled: &Compiled<'_>,
     search: &call::Search,
@@ -97,15 +97,15 @@ pub fn ready(
     Ok(machine)
 }
 
-/// A steady motion, and from where it was sought.
+/// A steady motion, with the start of the search.
 pub struct Reached {
-    /// Coordinates of the start.
+    /// The coordinates at the start.
     pub q: Vec<f64>,
     pub wanted: Wanted,
     pub motion: Motion,
 }
 
-/// The steady motion near the start of a call.
+/// The steady motion that the search reaches from the start of a call.
 pub fn reach(machine: &InterpretedMachine, search: &call::Search) -> Result<Reached, Failure> {
     let mut start = machine.start();
     set_start(&mut start, &search.start)?;
@@ -118,7 +118,7 @@ pub fn reach(machine: &InterpretedMachine, search: &call::Search) -> Result<Reac
     Ok(Reached { q, wanted, motion })
 }
 
-/// The pose from which to look: where something of the start is kept, the start of a run, which keeps it.
+/// The position at which the search starts: if the call keeps numbers of the start, the projected start of a run.
 fn on_constraints(
     machine: &InterpretedMachine,
     keep: &call::Keep,
@@ -137,18 +137,18 @@ fn on_constraints(
     Ok(run.map_err(Failure::run)?.start().q.values.clone())
 }
 
-/// The steady motion that is reached from `q`, and the motions near it.
+/// The steady motion that the search reaches from `q`, and the small motions about it.
 pub fn motion(machine: &InterpretedMachine, q: &[f64], wanted: &Wanted) -> Result<Motion, Failure> {
     let motion = steady::motion(machine, q, wanted);
     let motion =
         motion.map_err(|none| Failure::Run(none.in_words(&machine.prepare(), wanted, OPTIONS)))?;
-    // At a corner dual numbers take some slope between those of its sides.
+    // At a corner dual numbers take some slope between the slopes of its sides.
     let smooth = model::check_smooth(machine, &motion);
     smooth.map_err(|none| Failure::Run(none.in_words(&machine.prepare(), OPTIONS)))?;
     Ok(motion)
 }
 
-/// The program, of a machine that has what is asked for: `modes`, or a `linear model`.
+/// Compiles a spec for a purpose, `modes` or a `linear model`, and refuses machines without support for it.
 pub fn compiled<'d, 'a>(
     spec: &call::Spec,
     dag: &'d Dag,
@@ -166,7 +166,7 @@ pub fn compiled<'d, 'a>(
     compile(Reading::open(spec)?, dag, files, refused, |_| Ok(()))
 }
 
-/// Compiles a spec that was opened for what is found by derivatives of motions; its model is changed before it is derived.
+/// Compiles an opened spec for derivatives of motions; `change` modifies its model before it is derived.
 pub fn compiled_with<'d, 'a>(
     reading: Reading,
     dag: &'d Dag,
@@ -178,12 +178,12 @@ pub fn compiled_with<'d, 'a>(
         "the {what} of a machine with `sliding` would be found by derivatives of its motion, and there are none where it begins to \
          stick or to slide; take a variant without friction, with a constraint in the place of each guide"
     );
-    // Derivatives pass across impacts.
+    // Derivatives can be continued across impacts.
     compile(reading, dag, files, (with_sliding, None), change)
 }
 
-/// Compiles a spec that was opened, whose model is changed before it is derived; why it is refused with `sliding`, and, if it is,
-/// with `contacts`.
+/// Compiles an opened spec; `change` modifies its model before it is derived. The messages explain why `sliding` and, if refused,
+/// `contacts` are not supported.
 fn compile<'d, 'a>(
     mut reading: Reading,
     dag: &'d Dag,
@@ -206,7 +206,7 @@ fn compile<'d, 'a>(
     if let Some(model) = &mut model {
         let derivatives = model.derivatives.clone();
         change(model)?;
-        // Across impacts the proved program itself is differentiated.
+        // Across impacts the proved program itself is differentiated, so no derivatives need to be derived.
         if !model.contacts.is_empty() {
             model.derivatives = derivatives;
         }
@@ -227,7 +227,7 @@ fn rate_unit(coordinates: &Named, name: &str) -> String {
     format!("({unit})/s")
 }
 
-/// Which coordinates turn steadily, and with which rates.
+/// Which coordinates move steadily, and their rates.
 fn wanted(search: &call::Search, rates: &mut Named) -> Result<Wanted, Failure> {
     let mut steady = vec![false; rates.values.len()];
     let mut solved = steady.clone();
@@ -260,7 +260,7 @@ fn wanted(search: &call::Search, rates: &mut Named) -> Result<Wanted, Failure> {
     })
 }
 
-/// Refuses a machine whose equations change with time: it is at rest nowhere.
+/// Refuses a machine whose equations depend on time, because it is at rest nowhere.
 fn refuse_drives(machine: &InterpretedMachine, q: &[f64], wanted: &Wanted) -> Result<(), Failure> {
     let Err(names) = steady::drives(machine, q, wanted) else {
         return Ok(());
@@ -284,7 +284,7 @@ fn moves(names: &[&str], motion: &Motion) -> bool {
     rates.any(|(name, v)| *v != 0.0 && state_of(name).is_none())
 }
 
-/// A coordinate by its name, the integral of a state of first order by that of the state.
+/// The name of a coordinate; for the integral of a state of first order the name of the state.
 fn shown(name: &str) -> String {
     state_of(name).unwrap_or_else(|| name.to_owned())
 }
@@ -344,7 +344,7 @@ fn as_json(names: &[&str], motion: &Motion) -> Value {
     })
 }
 
-/// Prints what was found along `--vary`, and writes its files.
+/// Prints the results along `--vary`, and writes the files.
 fn show(
     call: &call::Modes,
     machine: &InterpretedMachine,
@@ -398,7 +398,7 @@ fn show(
     Ok(())
 }
 
-/// A table with a row for each mode of each value.
+/// A table with a row for each mode at each value.
 fn columns(names: &[&str], units: &[&str], trace: &Trace) -> Vec<(String, Vec<f64>)> {
     let with = |name: &str, unit: &str| match unit {
         "1" => name.to_owned(),
@@ -448,7 +448,7 @@ fn columns(names: &[&str], units: &[&str], trace: &Trace) -> Vec<(String, Vec<f6
     columns
 }
 
-/// Where motions grow along the range, where there are none, and what is critical.
+/// The ranges in which motions grow or do not exist, and the critical values.
 fn text_of_trace(trace: &Trace) -> String {
     let mut text = String::new();
     let unit = match trace.unit.as_str() {
@@ -471,7 +471,7 @@ fn text_of_trace(trace: &Trace) -> String {
         number(last),
         trace.points.len()
     );
-    // What holds of each value, in words; a stretch of values with the same words is one line.
+    // A description of each value; consecutive values with the same description are merged into one line.
     let words = |point: &vary::Point| match &point.motion {
         Ok(motion) => {
             let growing = motion
@@ -553,7 +553,7 @@ fn text_of_trace(trace: &Trace) -> String {
     text
 }
 
-/// Where a steady motion was found, a line a coordinate.
+/// The position of a steady motion, with one line for each coordinate.
 pub fn text_of_place(
     names: &[&str],
     units: &[&str],
@@ -583,7 +583,7 @@ pub fn text_of_place(
             continue;
         }
         let (moved, unit) = (q - start[k], units[k]);
-        // What is nothing but rounding, in rad or m, is not shown.
+        // Round-off, in rad or m, is not shown.
         let q = if q.abs() <= 1e-12 { 0.0 } else { q };
         let moved = if moved.abs() <= 1e-12 { 0.0 } else { moved };
         let unit = if unit == "1" {
@@ -652,13 +652,13 @@ fn text(names: &[&str], units: &[&str], start: &[f64], wanted: &Wanted, motion: 
             }
             _ => writeln!(text),
         };
-        // Of six digits that are printed, all are right.
+        // All six printed digits must be correct.
         if mode.error > 0.5e-6 * mode.lambda.norm() && mode.kind() != "free" {
             let error = number(mode.error);
             let _ = writeln!(text, "  known no better than to {error} rad/s");
         }
         for (name, x) in names.iter().zip(&mode.shape) {
-            // Beside an amplitude of 1, in rad or m, the rest is nothing to look at; with --json it is there.
+            // Amplitudes that are negligible beside 1, in rad or m, are not printed; `--json` includes them.
             if x.norm() > 1e-12 {
                 let name = shown(name);
                 let _ = writeln!(text, "  {name:width$}  {}", amplitude(*x));
@@ -683,7 +683,7 @@ fn text(names: &[&str], units: &[&str], start: &[f64], wanted: &Wanted, motion: 
     text
 }
 
-/// Six digits, or fewer where they say as much.
+/// A number with six digits, or fewer if exact.
 pub fn number(x: f64) -> String {
     let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
     match rounded.abs() {
@@ -695,7 +695,7 @@ pub fn number(x: f64) -> String {
 
 /// A real amplitude with its sign, any other with its phase in degrees.
 fn amplitude(x: Complex<f64>) -> String {
-    // Rounding leaves no phase.
+    // A phase that is round-off is dropped.
     if x.im.abs() <= 1e-9 * x.norm() {
         return number(x.re);
     }

@@ -1,11 +1,11 @@
-//! Numbers as they are printed and written down.
+//! Numbers formatted for printing and for JSON.
 
 use lagrangian::interpreted::Named;
 pub use lagrangian_sweep::shortest;
 use lagrangian_units::state_of;
 use serde_json::{Map, Value};
 
-/// States of first order by their names, of the rates of a machine; none where it has no states.
+/// The states of first order by name, from the rates of a machine; `None` if it has no states.
 pub fn states(rates: &Named) -> Option<Value> {
     let states = rates.iter();
     let states = states.filter_map(|(name, value)| Some((state_of(name)?, value.into())));
@@ -13,7 +13,7 @@ pub fn states(rates: &Named) -> Option<Value> {
     (!states.is_empty()).then_some(Value::Object(states))
 }
 
-/// Numbers that have names, as an object of JSON; without those of integrals of states, which [`states`] has.
+/// Named numbers as a JSON object, without integrals of states, which are in [`states`].
 pub fn by_name(numbers: &Named) -> Value {
     Value::Object(
         numbers

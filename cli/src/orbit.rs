@@ -1,4 +1,4 @@
-//! `lagrangian orbit`: periodic motions, their multipliers, and what becomes of them along a parameter.
+//! `lagrangian orbit`: periodic motions, their multipliers, and their continuation in a parameter.
 
 use std::fmt::Write as _;
 
@@ -28,24 +28,24 @@ use crate::recording::Run;
 use crate::runs::{self, header};
 use crate::{inputs, plot, progress, simulate, table};
 
-/// How often a period is recorded.
+/// The number of recorded samples per period.
 const SAMPLES: f64 = 400.0;
 
-/// The fewest steps that a period is recorded with.
+/// The fewest steps per period in the recorded run.
 const STEPS: f64 = 50.0;
 
-/// A machine, and where its period is.
+/// A machine with its period.
 struct Ready<'d> {
     compiled: Compiled<'d>,
     machine: InterpretedMachine,
-    /// The formula of the period, and the output that it is.
+    /// The formula of the period, and the index of its output.
     period: Option<(String, usize)>,
 }
 
 /// Runs the command.
 ///
 /// # Errors
-/// If the spec or the call is at fault, or there is no orbit near the start.
+/// If the spec or the call is invalid, or there is no orbit near the start.
 pub fn run(call: &call::Orbit) -> Result<(), Failure> {
     let endings = if call.along.is_some() { TABLE } else { ORBIT };
     let files = [
@@ -88,7 +88,7 @@ pub fn run(call: &call::Orbit) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Why there is none, with the options that help.
+/// The reason why there is no orbit, with the options that may help.
 fn said(none: &NoOrbit, call: &call::Orbit, left_in: &[String]) -> Failure {
     let help = match none {
         NoOrbit::Driven(_) if call.near.is_some() => {
@@ -118,7 +118,7 @@ fn said(none: &NoOrbit, call: &call::Orbit, left_in: &[String]) -> Failure {
     Failure::Run(format!("{none}{help}{shift}"))
 }
 
-/// The coordinates on which nothing depends and that are to come back all the same.
+/// The coordinates on which nothing depends but which must return nevertheless.
 fn left_in(machine: &InterpretedMachine, sought: &Sought) -> Vec<String> {
     let system = machine.prepare();
     let free = orbit::shifting(machine);
@@ -128,7 +128,7 @@ fn left_in(machine: &InterpretedMachine, sought: &Sought) -> Vec<String> {
         .collect()
 }
 
-/// The machine of a call, derived with the derivatives that variational equations take.
+/// The machine of a call, with the derivatives that the variational equations need.
 fn ready<'d>(
     call: &call::Orbit,
     dag: &'d Dag,
@@ -179,7 +179,7 @@ fn ready<'d>(
     })
 }
 
-/// Adds variables by which accelerations are differentiated, in the order of declarations.
+/// Adds variables of differentiation, in the order of declarations.
 pub fn differentiate(
     derivatives: &mut Vec<Variable>,
     variables: impl IntoIterator<Item = Variable>,
@@ -189,7 +189,7 @@ pub fn differentiate(
     derivatives.dedup();
 }
 
-/// Where the call says to look.
+/// The search that the call describes.
 fn sought(call: &call::Orbit, ready: &Ready<'_>) -> Result<Sought, Failure> {
     let machine = &ready.machine;
     let mut start = machine.start();
@@ -247,8 +247,7 @@ fn sought(call: &call::Orbit, ready: &Ready<'_>) -> Result<Sought, Failure> {
     Ok(sought)
 }
 
-/// Which coordinates go on as far as they do: those that `--shift` names, or, where the call says nothing of what goes on, all on which
-/// nothing depends.
+/// Which coordinates may shift: those that `--shift` names or, if the call mentions no advance, all on which nothing depends.
 fn shifts(
     call: &call::Orbit,
     machine: &InterpretedMachine,
@@ -284,7 +283,8 @@ fn shifts(
     Ok(shifts)
 }
 
-/// Lets the start run for a time, and takes the end as start, at the time of the start: the same place of a period.
+/// Integrates from the start for a time, and makes the end the new start, at the original time: the same
+/// phase of the period.
 fn settled(machine: &InterpretedMachine, sought: &mut Sought, time: f64) -> Result<(), Failure> {
     let start = sought.start.clone();
     let t = start.t;
@@ -298,7 +298,7 @@ fn settled(machine: &InterpretedMachine, sought: &mut Sought, time: f64) -> Resu
         t,
         ..run.end().clone()
     };
-    // What has gone on has come to the same place.
+    // Coordinates that have advanced are not shifted back: their positions are equivalent.
     Ok(())
 }
 
@@ -311,7 +311,8 @@ fn motion(machine: &InterpretedMachine, orbit: &Orbit, call: &call::Orbit) -> Re
         .tolerance(call.tolerance)
         .until(start.t + orbit.period)
         .every(orbit.period / SAMPLES)
-        // An orbit that is a state at rest takes steps of any length, over which the work of what drives it cannot be summed.
+        // If the orbit is a state at rest, steps would be arbitrarily long, and too coarse to integrate the work
+        // of the excitation.
         .longest_step(orbit.period / STEPS)
         .energy_balance(true)
         .forget_steps()
@@ -319,7 +320,7 @@ fn motion(machine: &InterpretedMachine, orbit: &Orbit, call: &call::Orbit) -> Re
     run.map_err(Failure::run)
 }
 
-/// Names of the coordinates and rates that the monodromy matrix is of.
+/// The names of the coordinates and rates in the monodromy matrix.
 fn states(machine: &InterpretedMachine, orbit: &Orbit) -> Vec<String> {
     let system = machine.prepare();
     let names: Vec<String> = system.coordinates().map(|q| q.name.to_owned()).collect();
@@ -371,7 +372,7 @@ fn multiplier_json(one: &Multiplier) -> Value {
     })
 }
 
-/// What goes on in a period, by name.
+/// The advance of coordinates in a period, by name.
 fn advance(orbit: &Orbit) -> Value {
     let all = orbit.start.q.iter().zip(&orbit.advance).zip(&orbit.shifts);
     let going = all.filter(|((_, by), shifts)| **by != 0.0 || **shifts);
@@ -496,7 +497,7 @@ fn text(orbit: &Orbit) -> String {
     text
 }
 
-/// Follows the orbit, and writes and tells what is found.
+/// Continues the orbit, writes the files and prints the results.
 fn along(
     call: &call::Orbit,
     ready: &Ready<'_>,
@@ -598,7 +599,7 @@ fn along(
     Ok(())
 }
 
-/// Why a range is given up.
+/// Why a continuation is stopped.
 enum Stop {
     Said(Failure),
     None(NoOrbit),
@@ -658,7 +659,7 @@ fn panes(trace: &Trace, label: &str) -> Vec<Pane> {
         .map(|(_, orbit)| orbit.multipliers.len())
         .max()
         .unwrap_or(0);
-    // Multipliers stand in the order of their moduli.
+    // Multipliers are sorted by modulus.
     let moduli = (0..most).map(|k| Curve {
         name: format!("multiplier {}", k + 1),
         points: found
@@ -680,7 +681,7 @@ fn panes(trace: &Trace, label: &str) -> Vec<Pane> {
         curves: moduli.collect(),
         are_points: false,
     }];
-    // Of a machine that is driven it is what was asked for.
+    // The period of a driven machine is given, and not plotted.
     if found.iter().any(|(_, orbit)| orbit.is_autonomous) {
         panes.push(Pane {
             along: [label.to_owned(), "period [s]".to_owned()],

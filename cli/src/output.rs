@@ -1,8 +1,7 @@
-//! What leaves the command: standard output, standard error, and files.
+//! All output of the command: standard output, standard error, and files.
 //!
-//! Every text passes through here, since all of it may fail: a pipe that nobody reads any more, a full disk. What cannot be
-//! written to standard output is remembered, and decides the exit status at the end ([`finish`]). Files are a matter of
-//! [`Destination`].
+//! Every text passes through here, because writing may fail: a closed pipe, a full disk. An error of standard output is
+//! recorded, and determines the exit status at the end ([`finish`]). [`Destination`] handles files.
 
 mod destination;
 mod ending;
@@ -19,10 +18,10 @@ pub use ending::{
     Endings, LIBRARY, MACHINE, MODEL, ORBIT, PAGE, RUST, SVG, TABLE, UNIT, ending_is_one_of,
 };
 
-/// What went wrong first with standard output.
+/// The first error of standard output.
 static FAILED: OnceLock<io::Error> = OnceLock::new();
 
-/// Whether a file of the command is standard output itself, so that what is said stands beside it.
+/// Whether an output file of the command is standard output itself, so that messages must go elsewhere.
 static IS_TAKEN: AtomicBool = AtomicBool::new(false);
 
 /// Writes a line to standard output.
@@ -30,20 +29,20 @@ pub fn line(line: impl Display) {
     text(&format!("{line}\n"));
 }
 
-/// Writes a text that ends with its own line break to standard output; to standard error where standard output is a file
-/// that was asked for.
+/// Writes a text that ends with a line break to standard output, or to standard error if standard output was
+/// requested as a file.
 pub fn text(text: &str) {
     match IS_TAKEN.load(Ordering::Relaxed) {
         _ if host::keeps(text, false) => {}
         true => complain_as_is(text),
         false => {
-            // Why it fails is told once, at the end.
+            // The error is reported once, at the end.
             let _ = bytes(text.as_bytes());
         }
     }
 }
 
-/// Writes a line to standard error. Where that fails there is nobody left to tell.
+/// Writes a line to standard error. Errors of this are ignored, because they cannot be reported.
 pub fn complain(line: impl Display) {
     complain_as_is(&format!("{line}\n"));
 }
@@ -56,7 +55,7 @@ fn complain_as_is(text: &str) {
     let _ = io::stderr().lock().write_all(text.as_bytes());
 }
 
-/// Writes to standard output, and remembers what goes wrong.
+/// Writes to standard output, and records an error.
 fn bytes(bytes: &[u8]) -> io::Result<()> {
     progress::end();
     let written = match FAILED.get() {
@@ -70,14 +69,14 @@ fn remember(error: io::Error) -> io::Error {
     same(FAILED.get_or_init(|| error))
 }
 
-/// Takes note of what somebody else wrote to standard output.
+/// Records the result of a write to standard output made elsewhere.
 pub fn remember_result(written: io::Result<()>) {
     if let Err(error) = written {
         remember(error);
     }
 }
 
-/// An error that says the same: the type cannot be copied.
+/// An equivalent error, because the type cannot be cloned.
 fn same(error: &io::Error) -> io::Error {
     match error.raw_os_error() {
         Some(code) => io::Error::from_raw_os_error(code),
@@ -85,7 +84,7 @@ fn same(error: &io::Error) -> io::Error {
     }
 }
 
-/// Standard output as a file that was asked for.
+/// Standard output that was requested as a file.
 struct Taken;
 
 impl Write for Taken {
@@ -98,10 +97,10 @@ impl Write for Taken {
     }
 }
 
-/// The end of standard output.
+/// Flushes standard output.
 ///
 /// # Errors
-/// What went wrong with it first.
+/// The first error of standard output.
 pub fn finish() -> io::Result<()> {
     let flushed = io::stdout().lock().flush().map_err(remember);
     match FAILED.get() {

@@ -1,4 +1,4 @@
-//! `lagrangian peaks`: maxima and minima of a run, with the period and the decrement of what swings.
+//! `lagrangian peaks`: maxima and minima of a run, with the period and the decrement of oscillations.
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -13,25 +13,25 @@ use crate::output::{self, Destination, TABLE};
 use crate::runs::{self, Quantity};
 use crate::table;
 
-/// How many extremes are printed.
+/// The number of extremes that are printed.
 const SHOWN: usize = 10;
 
 /// A quantity with its extremes.
 struct Found<'a> {
     quantity: &'a Quantity,
     extremes: Vec<Extreme>,
-    /// What is no more than this is a ripple, in the unit of the quantity.
+    /// Extremes up to this height are ripples, in the unit of the quantity.
     ripple: f64,
-    /// How many maxima and minima are left out as ripples.
+    /// The number of extremes left out as ripples.
     left_out: usize,
 }
 
 impl Found<'_> {
-    /// The mean time from a maximum to the next, and from a minimum to the next.
+    /// The mean time between successive maxima, and between successive minima.
     fn period(&self) -> Option<f64> {
         let count = self.extremes.len();
         match self.extremes.as_slice() {
-            // As many maxima as minima more than the first: whole periods.
+            // An odd number of extremes, so that the last is of the kind of the first: whole periods.
             [first, .., last] if count > 2 => {
                 let last = if count % 2 == 1 {
                     last
@@ -45,8 +45,8 @@ impl Found<'_> {
         }
     }
 
-    /// The logarithm of the quotient of two swings that are a period apart, in the mean of all: a swing goes from an extreme to
-    /// the next, so that it does not matter about what the quantity swings.
+    /// The logarithmic decrement: of the ratio of two swings that are one period apart, averaged over all. A swing is the
+    /// difference between successive extremes, so the centre of the oscillation does not matter.
     fn decrement(&self) -> Option<f64> {
         let swings = self.extremes.windows(2);
         let swings: Vec<f64> = swings
@@ -60,7 +60,7 @@ impl Found<'_> {
         }
     }
 
-    /// The damping ratio of a linear oscillation with that decrement.
+    /// The damping ratio of a linear oscillation with this decrement.
     fn damping(&self) -> Option<f64> {
         self.decrement()
             .map(|decrement| decrement / decrement.hypot(TAU))
@@ -70,7 +70,7 @@ impl Found<'_> {
 /// Runs the command.
 ///
 /// # Errors
-/// If the spec, the table, the call or the run is at fault.
+/// If the spec, the table or the call is invalid, or the run fails.
 pub fn run(call: &call::Peaks) -> Result<(), Failure> {
     let file = Destination::of("--out", call.out.as_ref(), TABLE)?;
     output::keep_document_apart(&file, call.part.runs.json)?;
@@ -90,7 +90,7 @@ pub fn run(call: &call::Peaks) -> Result<(), Failure> {
             let curve = columns.curve(quantity, rates.as_deref(), call::Interpolation::Cubic);
             let finite = quantity.values.iter().filter(|value| value.is_finite());
             let largest = finite.fold(0.0_f64, |most, x| most.max(x.abs()));
-            // What differs by less than the errors of both, or than rounding, does not differ.
+            // Differences below the errors of both values, or below round-off, are not significant.
             let least = (2.0 * error).max(64.0 * f64::EPSILON * largest);
             let ripple = call.ripple.unwrap_or(least);
             let all = extremes(&curve, rates.as_deref(), 0.0).len();
@@ -115,7 +115,7 @@ pub fn run(call: &call::Peaks) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A row for each extreme: of which quantity by its number, when, its value, and 1 for a maximum, −1 for a minimum.
+/// One row for each extreme: the index of the quantity, the time, the value, and 1 for a maximum or −1 for a minimum.
 fn write(found: &[Found], file: &Destination) -> Result<(), Failure> {
     let rows: Vec<(usize, &Extreme)> = found
         .iter()

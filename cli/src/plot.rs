@@ -1,4 +1,4 @@
-//! A run as a drawing that a paper can print: coordinates, energies, and the residual of the energy balance.
+//! Drawings of a run for print: coordinates, energies, and the residual of the energy balance.
 
 use plotters::prelude::*;
 use plotters::style::FontFamily;
@@ -6,21 +6,21 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use crate::recording::{Kind, Panel, Recording, extent, panels, thin};
 
-/// Units of the drawing in 1/96 inch: the library rounds to whole units, and whole 1/96 inches show as stairs.
+/// Drawing units per 1/96 inch: the library rounds to whole units, and rounding to 1/96 inch would be visible as steps.
 pub const UNIT: u32 = 8;
 
-/// Width of the drawing (a page's), of the names beside a panel, and height of a panel.
+/// The width of the drawing (that of a page), of the legend, and the height of a panel.
 pub const WIDTH: u32 = 760 * UNIT;
 const LEGEND: u32 = 130 * UNIT;
 pub const PANEL: u32 = 210 * UNIT;
 
-/// Names beside a panel: more do not fit.
+/// The number of names that fit beside a panel.
 const NAMES: usize = 12;
 
-/// Curves are thinned to so many points: more than a printer can show apart.
+/// The number of points to which curves are thinned: more than a printer can resolve.
 const POINTS: usize = 1500;
 
-/// Colours that stay apart in print and for the colour-blind: M. Okabe and K. Ito, *Color universal design* (2008).
+/// Colours that are distinct in print and for colour-blind readers: M. Okabe and K. Ito, *Color universal design* (2008).
 pub const COLOURS: [RGBColor; 8] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
@@ -32,7 +32,7 @@ pub const COLOURS: [RGBColor; 8] = [
     RGBColor(140, 140, 60),
 ];
 
-/// The axes of a chart in the style of all drawings, as an expression: what stands beside them is for the caller to add.
+/// The axes of a chart in the common style, as an expression; the caller adds their names.
 macro_rules! axes {
     ($chart:expr) => {
         $chart
@@ -47,7 +47,7 @@ macro_rules! axes {
 }
 pub(crate) use axes;
 
-/// What is drawn, from top to bottom.
+/// The quantities that are drawn, from top to bottom.
 const KINDS: [Kind; 7] = [
     Kind::Coordinate,
     Kind::Output,
@@ -61,17 +61,17 @@ const KINDS: [Kind; 7] = [
 /// The drawing as SVG text, titled with the machine's name.
 ///
 /// # Errors
-/// What the drawing library says, as a sentence.
+/// An error of the drawing library, as a sentence.
 pub fn svg(title: &str, recording: &Recording) -> Result<String, String> {
     let panels = panels(recording, &KINDS);
     let height = 48 * UNIT + PANEL * panels.len().max(1) as u32;
     svg_of(height, |backend| draw(title, recording, &panels, backend))
 }
 
-/// What is drawn on a sheet of this height, as SVG text in whole units.
+/// A drawing on a sheet of this height, as SVG text in whole units.
 ///
 /// # Errors
-/// What the drawing library says, as a sentence.
+/// An error of the drawing library, as a sentence.
 pub fn svg_of(
     height: u32,
     draw: impl FnOnce(SVGBackend<'_>) -> Drawing<()>,
@@ -83,7 +83,7 @@ pub fn svg_of(
     Ok(text.replacen(&drawn, &shown, 1))
 }
 
-/// What drawing ends with.
+/// The result of drawing.
 pub type Drawing<T> = Result<T, Box<dyn std::error::Error>>;
 
 fn draw(title: &str, recording: &Recording, panels: &[Panel], backend: SVGBackend) -> Drawing<()> {
@@ -101,7 +101,7 @@ fn draw(title: &str, recording: &Recording, panels: &[Panel], backend: SVGBacken
     Ok(())
 }
 
-/// The type of all texts.
+/// The font of all texts.
 pub fn font(size: u32) -> TextStyle<'static> {
     (FontFamily::SansSerif, size * UNIT)
         .into_font()
@@ -118,7 +118,7 @@ fn draw_panel(
     let values = columns.flat_map(|column| column.values.iter().copied());
     let values = range_beyond(panel.rounding(), values);
     let (area, beside) = area.split_horizontally(WIDTH - LEGEND);
-    // Ticks are multiples of a step, and rounding makes 7e-18 of the one at zero.
+    // Ticks are multiples of a step, and round-off turns the one at zero into 7e-18.
     let label = |x: &f64, span: f64| short(if x.abs() < 1e-9 * span { 0.0 } else { *x });
     let (across, along) = (values.end - values.start, times.end - times.start);
     let mut chart = ChartBuilder::on(&area)
@@ -161,12 +161,12 @@ fn draw_panel(
     Ok(())
 }
 
-/// The range of finite values with a margin of 1/20; a constant gets room around it.
+/// The range of finite values with a margin of 1/20; a constant is centred in a range around it.
 pub fn range(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
     range_beyond(0.0, values)
 }
 
-/// The range of finite values with a margin, where values that span no more than rounding are a constant.
+/// The range of finite values with a margin, where values that vary by round-off only are a constant.
 fn range_beyond(rounding: f64, values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
     let Some([low, high]) = extent(values) else {
         return 0.0..1.0;
@@ -180,7 +180,7 @@ fn range_beyond(rounding: f64, values: impl Iterator<Item = f64>) -> std::ops::R
     (low - margin)..(high + margin)
 }
 
-/// A tick's label: plain where that is short, with an exponent elsewhere.
+/// The label of a tick: in plain notation if short, otherwise with an exponent.
 pub fn short(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 {
@@ -221,7 +221,7 @@ mod tests {
         near(of([-1e-16, 2e-17]), (-1.0, 1.0));
         near(of([2.0, 2.0 + 1e-15]), (1.8, 2.2));
         near(of([0.0, 1.0]), (-0.05, 1.05));
-        // Without a word on rounding every number counts.
+        // Without a bound on round-off every difference counts.
         let end = range([3e-17, 3e-17].into_iter()).end;
         assert!((end / 3.3e-17 - 1.0).abs() < 1e-15, "{end:e}");
     }

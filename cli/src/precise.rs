@@ -1,4 +1,4 @@
-//! `lagrangian simulate --precision dd` and `--validated`: runs in more digits, and bounds that are proved.
+//! `lagrangian simulate --precision dd` and `--validated`: runs with more digits, and proved bounds.
 
 use lagrangian::interpreted::{Enclosure, InterpretedMachine, SeriesStepper};
 use lagrangian::methods::{Method, TAYLOR};
@@ -19,16 +19,16 @@ use crate::output;
 use crate::progress;
 use crate::reading::{self, Reading};
 
-/// Digits that are printed.
+/// The number of printed digits.
 const DIGITS: usize = 30;
 
-/// The tolerance of a step where a call says nothing: ten times the finest.
+/// The default tolerance of a step: ten times the finest.
 const TOLERANCE: f64 = 5e-30;
 
-/// The tolerance of explicit methods there, whose steps would be too many at a finer one.
+/// The default tolerance of explicit methods, which would need too many steps for a finer one.
 const EXPLICIT_TOLERANCE: f64 = 1e-24;
 
-/// The run beside it has a tolerance coarser by this.
+/// The factor by which the tolerance of the comparison run is coarser.
 const COARSER: f64 = 100.0;
 
 /// The end of a run in double-doubles.
@@ -38,13 +38,13 @@ pub struct End {
     work: Work,
 }
 
-/// A machine with its series, as far as it has one, at the start of a call.
+/// A machine with its series, if it has one, at the start of a call.
 struct Ready {
     machine: InterpretedMachine,
     start: State<lagrangian::interpreted::Named>,
 }
 
-/// Reads the machine of a call that asks for nothing but the end of its run.
+/// The machine of a call that may only request the end of its run.
 fn ready(call: &call::Simulate, option: &str) -> Result<Ready, Failure> {
     let files = [
         ("--out", call.out.is_some()),
@@ -81,10 +81,10 @@ fn ready(call: &call::Simulate, option: &str) -> Result<Ready, Failure> {
     Ok(Ready { machine, start })
 }
 
-/// Runs a machine in double-doubles, by series or by an explicit method.
+/// Runs a machine in double-doubles, by Taylor series or by an explicit method.
 ///
 /// # Errors
-/// If it has no such run.
+/// If such a run is not possible.
 pub fn run_to(
     machine: &InterpretedMachine,
     (start, until): (&State<lagrangian::interpreted::Named>, f64),
@@ -132,7 +132,7 @@ fn said(machine: &InterpretedMachine, error: lagrangian::StepError) -> Failure {
 /// `--precision dd`.
 ///
 /// # Errors
-/// If the spec, the run or the call is at fault.
+/// If the spec or the call is invalid, or the run fails.
 pub fn in_double_doubles(call: &call::Simulate) -> Result<(), Failure> {
     let asked = match call.method.as_str() {
         AUTO => None,
@@ -231,7 +231,7 @@ pub fn in_double_doubles(call: &call::Simulate) -> Result<(), Failure> {
 }
 
 impl End {
-    /// How far another end is from this, relative to 1 + |y|: coordinates, then rates.
+    /// The difference of another end from this one, relative to 1 + |y|: coordinates, then rates.
     fn differences(&self, other: &End) -> Vec<f64> {
         let of = |one: &[DoubleDouble], other: &[DoubleDouble]| -> Vec<f64> {
             let pairs = one.iter().zip(other);
@@ -241,7 +241,7 @@ impl End {
         [of(&self.q, &other.q), of(&self.v, &other.v)].concat()
     }
 
-    /// How far the end of a run in `f64` is from this: coordinates, then rates, in their units.
+    /// The error of the end of a run in `f64`: coordinates, then rates, in their units.
     pub fn errors(&self, end: &State<lagrangian::interpreted::Named>) -> Vec<f64> {
         let exact = self.q.iter().chain(&self.v);
         let found = end.q.values.iter().chain(&end.v.values);
@@ -256,7 +256,7 @@ fn relative(exact: DoubleDouble, other: DoubleDouble) -> f64 {
     ((exact - other).abs() / (DoubleDouble::ONE + exact.abs())).to_f64()
 }
 
-/// The greatest of some numbers, and its place; what is no number is greater than all.
+/// The index of the greatest number, and the number; NaN counts as greatest.
 pub fn worst(numbers: &[f64]) -> (usize, f64) {
     let start = (0, 0.0);
     let numbers = numbers.iter().enumerate();
@@ -266,8 +266,8 @@ pub fn worst(numbers: &[f64]) -> (usize, f64) {
     )
 }
 
-/// What is printed of a state: names of coordinates and of their rates, each with the width of all, and where its number stands. Integrals of
-/// states of first order are not, and their rates are the states.
+/// The printed quantities of a state: names of coordinates and of their rates padded to equal width, and the index of each number.
+/// Integrals of states of first order are left out, and their rates are the states.
 fn told(names: &[&str]) -> Vec<(String, usize, (usize, usize))> {
     let mut told: Vec<(String, (usize, usize))> = Vec::new();
     for (i, name) in names.iter().enumerate() {
@@ -289,7 +289,7 @@ fn told(names: &[&str]) -> Vec<(String, usize, (usize, usize))> {
 /// `--validated`.
 ///
 /// # Errors
-/// If the spec or the call is at fault, the machine has no enclosure, or none as far as was asked; how far it came is told first.
+/// If the spec or the call is invalid, or the enclosure does not exist or ends early; how far it came is printed first.
 pub fn validated(call: &call::Simulate) -> Result<(), Failure> {
     if call.method != AUTO && call.method != TAYLOR.tableau.name {
         return Err(Failure::Call(format!(
@@ -367,12 +367,12 @@ pub fn validated(call: &call::Simulate) -> Result<(), Failure> {
     }
 }
 
-/// A number in so many significant digits, rounded to the nearest.
+/// A number rounded to the nearest with this many significant digits.
 fn decimal(x: DoubleDouble, digits: usize) -> String {
     if !x.is_finite() {
         return "not a number".into();
     }
-    // x = n 2^e, exactly.
+    // x = n 2^e exactly.
     let parts = [x.hi(), x.lo()].map(mantissa);
     let least = parts.iter().filter(|(m, _)| *m != 0).map(|(_, e)| *e).min();
     let Some(exponent) = least else {
@@ -421,7 +421,7 @@ fn decimal(x: DoubleDouble, digits: usize) -> String {
     }
 }
 
-/// An integer and a power of two that make a finite number.
+/// An integer and an exponent of two whose product is a finite number.
 fn mantissa(x: f64) -> (i64, i32) {
     let bits = x.to_bits();
     let exponent = ((bits >> 52) & 0x7ff) as i32;
@@ -443,7 +443,7 @@ mod tests {
         assert_eq!(decimal(third, 30), "0.333333333333333333333333333333");
         let two_thirds = DoubleDouble::from_ratio(-2, 3);
         assert_eq!(decimal(two_thirds, 30), "-0.666666666666666666666666666667");
-        // Of the exact value of the nearest f64: 0.1000000000000000055511151231257827…
+        // The digits of the nearest f64: 0.1000000000000000055511151231257827…
         let tenth = DoubleDouble::from_f64(0.1);
         assert_eq!(decimal(tenth, 30), "0.100000000000000005551115123126");
         assert_eq!(

@@ -1,8 +1,7 @@
-//! What a command that takes long says meanwhile, on standard error.
+//! Progress messages of a long command, on standard error.
 //!
-//! On a terminal a line that shows how far it is appears after a second and is kept up to date. Elsewhere lines are added: the first
-//! after two seconds, each after twice the time of the one before, so that a file does not fill with them; none with
-//! `--json`, where nobody reads along.
+//! On a terminal a line appears after a second and is updated. Elsewhere lines are added: the first after two seconds, each further
+//! one after twice the previous interval, so that a log file stays small; none with `--json`, which is meant for programs.
 
 use std::io::{self, IsTerminal, Write};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -14,18 +13,18 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::numbers::shortest;
 
-/// Until the line on a terminal appears, and between two of its states.
+/// The time until the line on a terminal appears, and between its updates.
 const APPEARS: Duration = Duration::from_millis(1000);
 const BETWEEN: Duration = Duration::from_millis(200);
 
-/// Until the first line elsewhere, and the longest time between two.
+/// The time until the first line elsewhere, and the longest interval.
 const FIRST_LINE: Duration = Duration::from_secs(2);
 const LONGEST: Duration = Duration::from_secs(600);
 
-/// Ticks of the bar.
+/// The resolution of the bar.
 const TICKS: u64 = 1000;
 
-/// The thread that speaks, and what it does.
+/// The reporting thread, and the current activity.
 static SPEAKER: Mutex<Option<JoinHandle<()>>> = Mutex::new(None);
 static WORK: Mutex<Work> = Mutex::new(Work {
     what: "",
@@ -34,20 +33,20 @@ static WORK: Mutex<Work> = Mutex::new(Work {
 });
 static CHANGED: Condvar = Condvar::new();
 
-/// How far a run is: time and part of it that is done as bits, and steps.
+/// The progress of a run: time and completed fraction as bits, and steps.
 static TIME: AtomicU64 = AtomicU64::new(0);
 static PART: AtomicU64 = AtomicU64::new(0);
 static STEPS: AtomicU64 = AtomicU64::new(0);
 
-/// What is being done.
+/// The current activity.
 struct Work {
     what: &'static str,
-    /// Of a run, when it ends, in s.
+    /// The end of a run, in s.
     until: Option<f64>,
     has_ended: bool,
 }
 
-/// Starts to speak.
+/// Starts reporting.
 pub fn begin(json: bool) {
     let is_terminal = io::stderr().is_terminal();
     if json && !is_terminal {
@@ -61,45 +60,45 @@ pub fn begin(json: bool) {
             in_lines(began)
         }
     };
-    // Without a thread nothing is said.
+    // If no thread can be created, nothing is reported.
     let thread = std::thread::Builder::new().name("progress".into());
     *lock(&SPEAKER) = thread.spawn(speak).ok();
 }
 
-/// Says what is being done from now on.
+/// Sets the activity.
 pub fn now(what: &'static str) {
     lock(&WORK).what = what;
 }
 
-/// Says that a run is being made, to this time, in s.
+/// Sets the activity to a run until this time, in s.
 pub fn run(until: f64) {
     let mut work = lock(&WORK);
     (work.what, work.until) = ("simulating", Some(until));
 }
 
-/// Takes note of how far a run is; costs next to nothing.
+/// Records the progress of a run, at almost no cost.
 pub fn at(t: f64, part: f64, steps: usize) {
     TIME.store(t.to_bits(), Ordering::Relaxed);
     PART.store(part.to_bits(), Ordering::Relaxed);
     STEPS.store(steps as u64, Ordering::Relaxed);
 }
 
-/// Ends it, and takes the line away.
+/// Stops reporting, and removes the line.
 pub fn end() {
     let Some(speaker) = lock(&SPEAKER).take() else {
         return;
     };
     lock(&WORK).has_ended = true;
     CHANGED.notify_all();
-    let _ = speaker.join(); // what it had to say is no result
+    let _ = speaker.join(); // a failure of reporting is not an error
 }
 
-/// Nothing here is left half done by a panic.
+/// A panic leaves no inconsistent state here, so poisoning is ignored.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Waits, unless it ends before; then there is nothing to be said any more.
+/// Waits for a time; returns `None` if reporting has ended meanwhile.
 fn wait(time: Duration) -> Option<MutexGuard<'static, Work>> {
     let waiting = CHANGED.wait_timeout_while(lock(&WORK), time, |work| !work.has_ended);
     let (work, _) = waiting.unwrap_or_else(PoisonError::into_inner);
@@ -119,7 +118,7 @@ fn said(work: &Work, began: Instant) -> String {
     let t = f64::from_bits(TIME.load(Ordering::Relaxed));
     let steps = STEPS.load(Ordering::Relaxed);
     let percent = 100.0 * part();
-    // As many digits as two lines in a row need to differ.
+    // Enough digits that successive lines differ.
     let until = shortest(until);
     format!("{what}: t = {t:.6e} s of {until} s, {percent:.1} %, {steps} steps, {seconds} s")
 }

@@ -1,4 +1,4 @@
-//! A spec from its file to its machine.
+//! Reading of a spec: from its file to its machine.
 
 use std::path::Path;
 
@@ -21,20 +21,20 @@ use crate::host::Specs;
 use crate::inputs;
 use crate::output::{Destination, keep_apart};
 
-/// A spec that was read, and what is wrong with it.
+/// A spec that was read, with its diagnostics.
 pub struct Reading {
     name: String,
     text: String,
     constants: Vec<(String, Rational)>,
     /// The parameters to which the call gives values.
     given: Vec<String>,
-    /// Formulas of the call beside those of the spec: the option that has each, its text and the unit that it is to have, if any.
+    /// Formulas of the call besides those of the spec: the option, the text, and the required unit if any.
     formulas: Vec<(String, String, Option<String>)>,
-    /// The texts that messages point into.
+    /// The source texts for messages.
     pub sources: Sources,
-    /// What is wrong.
+    /// The diagnostics.
     pub report: Report,
-    /// Whether warnings were printed for the same spec already.
+    /// Whether the warnings of this spec have been printed.
     is_warned: bool,
 }
 
@@ -42,7 +42,7 @@ impl Reading {
     /// Reads the file of a spec.
     ///
     /// # Errors
-    /// The call is at fault if there is no such file.
+    /// If there is no such file, the call is invalid.
     pub fn open(spec: &call::Spec) -> Result<Reading, Failure> {
         let path = spec.path.to_string_lossy();
         let read = Specs.read(&path, None);
@@ -63,14 +63,14 @@ impl Reading {
     /// A variant of a spec that has an input for each of its coordinates, a generalized force on it.
     ///
     /// # Errors
-    /// As [`open`](Self::open).
+    /// Those of [`open`](Self::open).
     pub fn controlled(
         spec: &call::Spec,
         coordinates: &[Coordinate<'_>],
     ) -> Result<Reading, Failure> {
         let (mut inputs, mut forces) = (String::new(), String::new());
         for (index, coordinate) in coordinates.iter().enumerate() {
-            // Whatever the spec calls its own.
+            // A name that does not occur in the spec.
             let name = format!("control_force_on_coordinate_{index}");
             let unit = Unit::JOULE.over(coordinate.unit);
             let on = &coordinate.name;
@@ -90,7 +90,7 @@ impl Reading {
         Ok(reading)
     }
 
-    /// What the spec means, as far as nothing is wrong; the report says what is.
+    /// The model of the spec, as far as it is valid; errors are in the report.
     pub fn model<'d>(&mut self, dag: &'d Dag) -> Option<Model<'d>> {
         let Reading {
             name,
@@ -114,10 +114,10 @@ impl Reading {
         Model::resolve_with(spec, dag, constants, &asked, &mut Specs, sources, report)
     }
 
-    /// Puts the formulas that drive inputs beside those of the spec, as outputs behind its own.
+    /// Adds the formulas that drive inputs, as outputs after those of the spec.
     ///
     /// # Errors
-    /// If there is no such input, a table is wrong, or the spec.
+    /// If there is no such input, or a table or the spec is invalid.
     pub fn drive(
         &mut self,
         spec: &call::Spec,
@@ -144,30 +144,30 @@ impl Reading {
         Ok(laws)
     }
 
-    /// Puts a formula of the call beside those of the spec, as an output behind all others. `said` is the option that has it, with a
-    /// space, which keeps it out of tables.
+    /// Adds a formula of the call, as an output after all others. `said` is the option that contains it, followed by a space, so
+    /// that the output is left out of tables.
     pub fn ask(&mut self, said: &str, formula: &str, unit: Option<&str>) {
         self.formulas
             .push((said.to_owned(), formula.to_owned(), unit.map(str::to_owned)));
     }
 
-    /// How many formulas of the call are among the outputs, behind those of the spec.
+    /// The number of formulas of the call, which are the last outputs.
     pub fn formulas(&self) -> usize {
         self.formulas.len()
     }
 
-    /// The machine through every stage.
+    /// Compiles the machine through all stages.
     ///
     /// # Errors
-    /// If the spec is wrong.
+    /// If the spec is invalid.
     pub fn compile(self, dag: &Dag) -> Result<Compiled<'_>, Failure> {
         self.compile_beside(dag, [])
     }
 
-    /// Reads for a command that writes files, which must not be among those that are read.
+    /// Compiles for a command that writes files, which must not be among those that are read.
     ///
     /// # Errors
-    /// If the spec is wrong, or the call.
+    /// If the spec or the call is invalid.
     pub fn compile_beside<'d, 'a>(
         mut self,
         dag: &'d Dag,
@@ -182,18 +182,18 @@ impl Reading {
         compiled.ok_or_else(|| self.failure())
     }
 
-    /// Prints the warnings of a spec that is right.
+    /// Prints the warnings of a valid spec.
     pub fn warn(&mut self) {
         if !std::mem::replace(&mut self.is_warned, true) {
             diagnostics::print(&self.report, &self.sources);
         }
     }
 
-    /// Refuses to write a file that the spec is made from: its own, or one that it extends. To be called when the model was
-    /// made, which reads these.
+    /// Refuses to write a file from which the spec is made: its own, or one that it extends. It must be called after the
+    /// model was made, which reads these files.
     ///
     /// # Errors
-    /// The call is at fault.
+    /// If there is such a file, the call is invalid.
     pub fn keep_from<'a>(
         &self,
         destinations: impl IntoIterator<Item = &'a Destination>,
@@ -209,7 +209,7 @@ impl Reading {
         keep_apart(destinations, &read)
     }
 
-    /// What is wrong, as a failure.
+    /// The diagnostics as a failure.
     pub fn failure(self) -> Failure {
         Failure::Spec(Box::new((self.report, self.sources)))
     }
@@ -218,7 +218,7 @@ impl Reading {
 /// The machine with the parameters of a call.
 ///
 /// # Errors
-/// If the call names a parameter or a coordinate that the machine does not have, or gives a value that no machine has.
+/// If the call names a parameter or a coordinate that the machine lacks, or gives a value that the spec refuses.
 pub fn machine(
     compiled: &Compiled<'_>,
     start: &call::Start,
@@ -237,7 +237,7 @@ pub fn machine(
     for set in families_first(&start.parameters) {
         let value = match machine.unit(&set.name) {
             Some(unit) => set.value("--set", unit).map_err(Failure::Call)?,
-            None => 0.0, // there is no such name, which is said here
+            None => 0.0, // the name does not exist; the error is reported here
         };
         if let Err(unknown) = machine.set(&set.name, value) {
             let is_coordinate = is_named(&machine.start().q, &set.name);
@@ -272,7 +272,7 @@ pub fn machine(
 /// Applies `--start` and `--rate`.
 ///
 /// # Errors
-/// If one names a coordinate that the machine does not have.
+/// If a coordinate does not exist.
 pub fn set_start(start: &mut State<Named>, call: &call::Start) -> Result<(), Failure> {
     for set in families_first(&call.coordinates) {
         if let Some((integral, unit)) = state_named(&start.v, &set.name) {
@@ -293,17 +293,17 @@ pub fn set_start(start: &mut State<Named>, call: &call::Start) -> Result<(), Fai
     Ok(())
 }
 
-/// The name under which a state of first order, or a family of them, stands among rates, and its unit.
+/// The name of the rate that is a state of first order, or a family of such, and its unit.
 fn state_named(rates: &Named, name: &str) -> Option<(String, String)> {
     let integral = integral_name(name);
     let unit = rate_unit(&integral, rates.unit(&integral)?);
     Some((integral, unit))
 }
 
-/// Gives a coordinate, or its rate, what a call says, in a unit.
+/// Sets a coordinate or a rate to a value of the call, in a unit.
 ///
 /// # Errors
-/// If there is no such coordinate, or the value is none in that unit.
+/// If there is no such coordinate, or the value does not have that unit.
 pub fn assign(
     numbers: &mut Named,
     set: &Assignment,
@@ -316,7 +316,7 @@ pub fn assign(
     numbers.set(&set.name, value).map_err(unknown)
 }
 
-/// Which of some numbers a name means: one, or a family.
+/// The indices of the numbers that a name stands for: one, or a family.
 pub fn places(numbers: &Named, name: &str) -> Vec<usize> {
     let mut probe = numbers.clone();
     probe.values.fill(0.0);
@@ -328,10 +328,10 @@ pub fn places(numbers: &Named, name: &str) -> Vec<usize> {
     }
 }
 
-/// Whether everything that `--keep` names is there.
+/// Checks that everything that `--keep` names exists.
 ///
 /// # Errors
-/// The call is at fault.
+/// If a name does not exist, the call is invalid.
 pub fn check_kept(start: &State<Named>, keep: &call::Keep) -> Result<(), Failure> {
     check_kept_once(keep)?;
     for name in kept_names(keep).unwrap_or_default() {
@@ -351,10 +351,10 @@ pub fn check_kept(start: &State<Named>, keep: &call::Keep) -> Result<(), Failure
     Ok(())
 }
 
-/// Whether `--keep` names everything once.
+/// Checks that `--keep` names everything only once.
 ///
 /// # Errors
-/// The call is at fault.
+/// If a name is repeated, the call is invalid.
 pub fn check_kept_once(keep: &call::Keep) -> Result<(), Failure> {
     let names = &keep.names;
     let mut repeated = names.iter().enumerate();
@@ -366,7 +366,7 @@ pub fn check_kept_once(keep: &call::Keep) -> Result<(), Failure> {
     }
 }
 
-/// A run that keeps what a call says of its start, if it says anything.
+/// Tells a run which numbers of its start to keep, if the call says so.
 pub fn keep<'a, L: InputLaw<InterpretedSystem>>(
     simulation: Simulation<'a, InterpretedMachine, L>,
     keep: &call::Keep,
@@ -378,7 +378,7 @@ pub fn keep<'a, L: InputLaw<InterpretedSystem>>(
     names.iter().fold(simulation.keep_none(), keep)
 }
 
-/// What a call keeps; none where it says nothing.
+/// The numbers that a call keeps; `None` if it says nothing.
 pub fn kept_names(keep: &call::Keep) -> Option<&[String]> {
     match keep.names.as_slice() {
         [] => None,
@@ -387,7 +387,7 @@ pub fn kept_names(keep: &call::Keep) -> Option<&[String]> {
     }
 }
 
-/// What is set for a whole family comes before what is set for a member, wherever the call says it.
+/// Assignments sorted such that those of whole families precede those of members, wherever they are in the call.
 fn families_first(assignments: &[Assignment]) -> impl Iterator<Item = &Assignment> {
     let of = |members: bool| {
         let sets = assignments.iter();
@@ -396,17 +396,17 @@ fn families_first(assignments: &[Assignment]) -> impl Iterator<Item = &Assignmen
     of(false).chain(of(true))
 }
 
-/// Whether there is a number of this name, or a family.
+/// Whether there is a number or a family with this name.
 fn is_named(numbers: &Named, name: &str) -> bool {
     numbers.clone().set(name, 0.0).is_ok()
 }
 
-/// A name that does not exist, with the near one or all there are.
+/// The failure for a name that does not exist, with a similar name or all names.
 pub fn name_error(what: &str, unknown: &UnknownName) -> Failure {
     unknown_name(what, unknown, None)
 }
 
-/// The failure of a name that is unknown; or with what is known of the name elsewhere.
+/// The failure for an unknown name, optionally with a note about the same name elsewhere.
 fn unknown_name(what: &str, unknown: &UnknownName, other: Option<&str>) -> Failure {
     let name = &unknown.name;
     let known = || unknown.known.iter().map(String::as_str);
@@ -419,7 +419,7 @@ fn unknown_name(what: &str, unknown: &UnknownName, other: Option<&str>) -> Failu
     Failure::Call(format!("no {what} named `{name}`; {help}"))
 }
 
-/// What a file is that a spec is made from.
+/// The description of a file from which a spec is made.
 pub fn read_as(file: &Path) -> &'static str {
     if file.extension().is_some_and(|ending| ending == "machine") {
         "which the spec extends"

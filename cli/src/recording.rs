@@ -1,4 +1,4 @@
-//! What is drawn of a recording.
+//! The quantities of a recording that are drawn.
 
 use lagrangian::Solution;
 pub use lagrangian::interpreted::{Column, Kind, Recording};
@@ -7,8 +7,8 @@ use lagrangian::interpreted::{InterpretedMachine, Signals};
 /// A run of a machine read from a spec.
 pub type Run = Solution<InterpretedMachine, Signals>;
 
-/// What is drawn together: coordinates, rates, outputs and multipliers by unit, energies, the residual; of the kinds asked for,
-/// each where there is something in it.
+/// The groups that are drawn together: coordinates, rates, outputs and multipliers by unit, energies, the residual; of the
+/// requested kinds, without empty groups.
 pub fn panels<'a>(recording: &'a Recording, kinds: &[Kind]) -> Vec<Panel<'a>> {
     let mut panels: Vec<Panel> = Vec::new();
     for &kind in kinds {
@@ -28,9 +28,9 @@ pub fn panels<'a>(recording: &'a Recording, kinds: &[Kind]) -> Vec<Panel<'a>> {
     panels
 }
 
-/// Quantities that share an axis.
+/// Quantities with a common axis.
 pub struct Panel<'a> {
-    /// What they are.
+    /// The kind of quantity.
     pub kind: Kind,
     /// Their unit.
     pub unit: &'a str,
@@ -38,11 +38,11 @@ pub struct Panel<'a> {
     pub columns: Vec<&'a Column>,
 }
 
-/// What is smaller than this in its unit is rounding, beside numbers of 1 or more as a part of these: coordinates are known no
-/// better from any tolerance.
+/// Values below this in their unit are round-off; beside numbers of 1 or more it is relative. No tolerance determines
+/// coordinates more accurately.
 pub const ROUNDING: f64 = 1e-12;
 
-/// Finite numbers from the least to the greatest; None if there are none.
+/// The least and the greatest finite number; `None` if there are none.
 pub fn extent(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     let finite = values.filter(|value| value.is_finite());
     finite.fold(None, |extent, value| {
@@ -52,8 +52,8 @@ pub fn extent(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
 }
 
 impl Panel<'_> {
-    /// What all of its curves together must span to be more than rounding, and to be drawn as more than a straight line.
-    /// In the balance of energy rounding is what one looks for.
+    /// The variation of all curves together that counts as more than round-off, so that they are not drawn as straight
+    /// lines. In the energy balance round-off itself is of interest.
     pub fn rounding(&self) -> f64 {
         let values = self.columns.iter().flat_map(|column| &column.values);
         let sizes = values.map(|value| value.abs());
@@ -62,13 +62,13 @@ impl Panel<'_> {
             Kind::Residual => 0.0,
             Kind::Coordinate | Kind::Rate => ROUNDING * largest.max(1.0),
             Kind::Output | Kind::Input | Kind::Contact | Kind::Multiplier | Kind::Energy => {
-                // They may be small beside their unit, and are made of a few hundred operations.
+                // These values may be small relative to their unit, and result from a few hundred operations.
                 1e3 * f64::EPSILON * largest
             }
         }
     }
 
-    /// `coordinates [rad]`.
+    /// The label of the axis: `coordinates [rad]`.
     pub fn label(&self) -> String {
         let what = match self.kind {
             Kind::Coordinate => "coordinates",
@@ -84,7 +84,7 @@ impl Panel<'_> {
     }
 }
 
-/// The same curve without the points in the middle of stretches where it does not change.
+/// The same curve without the inner points of constant stretches.
 pub fn steady(times: &[f64], values: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let last = values.len().saturating_sub(1);
     let is_kept = |i: &usize| {
@@ -95,7 +95,8 @@ pub fn steady(times: &[f64], values: &[f64]) -> (Vec<f64>, Vec<f64>) {
     kept.map(|i| (times[i], values[i])).unzip()
 }
 
-/// About so many points that the curve looks the same: of every stretch the lowest and the highest, in order.
+/// Thins a curve to about `most` points such that it looks the same: the lowest and the highest point of each
+/// stretch, in order.
 pub fn thin(times: &[f64], values: &[f64], most: usize) -> Vec<(f64, f64)> {
     let points: Vec<(f64, f64)> = times
         .iter()
@@ -167,7 +168,7 @@ mod tests {
             };
             panel.rounding()
         };
-        // A coordinate that rests at 0 but for rounding, and one that moves by a nanometre.
+        // A coordinate at rest at 0 within round-off, and one that moves by a nanometre.
         assert!(rounding(Kind::Coordinate, &[1e-16, -3e-17]) > 1e-15);
         assert!(rounding(Kind::Coordinate, &[1.0, 1.0 + 1e-9]) < 1e-10);
         assert!(rounding(Kind::Energy, &[9.81, 9.81 + 2e-15]) > 2e-15);

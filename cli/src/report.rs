@@ -1,9 +1,9 @@
-//! A run as a page to look at: one HTML file that needs nothing else.
+//! The page of a run: a single HTML file without external references.
 //!
-//! The page holds the motion (`samples`), the geometry as a function of it (`scene` and `script`), the curves that do
-//! not follow from it, and text (`page`). So a position on the page is the model's own expression at interpolated
-//! coordinates, explicit time included, and the size of the file does not depend on how much is drawn. What draws and plays
-//! is hand-written and stands in the files beside this one, as a browser gets it.
+//! The page contains the motion (`samples`), the geometry as a function of it (`scene` and `script`), the curves that do
+//! not follow from it, and text (`page`). A position on the page is therefore the model's own expression at interpolated
+//! coordinates, including explicit time, and the file size does not depend on how much is drawn. The scripts that draw and
+//! play are hand-written files beside this one, included unchanged.
 
 pub(crate) mod html;
 pub(crate) mod live;
@@ -32,48 +32,48 @@ pub use samples::finer;
 pub(crate) use samples::{Samples, base64, encoded};
 pub(crate) use scene::Scene;
 
-/// What the curves may fill that are stored as such, in bytes before they are encoded; and the most points of one.
+/// The most bytes for stored curves, before encoding, and the most points of one curve.
 const CURVE_BYTES: usize = 320_000;
 const CURVE_POINTS: usize = 1600;
 
-/// The most impacts whose impulses are stored: those of the greatest.
+/// The most impacts whose impulses are stored; the greatest are kept.
 const IMPACTS: usize = 12_000;
 
-/// A run, and everything that a page says about it.
+/// A run with all data for its page.
 pub struct Report<'a, 'd> {
-    /// What the caller has asked for.
+    /// The settings of the caller.
     pub asked: &'a Asked,
-    /// The machine, derived.
+    /// The derived machine.
     pub compiled: &'a Compiled<'d>,
-    /// With its parameters.
+    /// The machine with its parameters.
     pub machine: &'a InterpretedMachine,
-    /// How it was integrated.
+    /// The integration method.
     pub method: &'a Method,
-    /// How it went.
+    /// The result of the run.
     pub run: Outcome<'a>,
-    /// The run, recorded as closely as [`finer`] says.
+    /// The run, recorded as densely as [`finer`] requires.
     pub recording: &'a Recording,
-    /// What it has shown of rolling contacts.
+    /// The results on rolling contacts.
     pub contacts: &'a [Found],
-    /// What ended it early.
+    /// The error that ended it early.
     pub error: Option<String>,
-    /// Whether its user did.
+    /// Whether the user interrupted it.
     pub is_interrupted: bool,
 }
 
-/// What a caller has asked for, in words.
+/// The settings of a call, as text.
 pub struct Asked {
     /// The name of the spec's file.
     pub file: String,
-    /// The tolerance of a step, relative and absolute.
+    /// The relative and absolute tolerance of a step.
     pub tolerance: String,
-    /// The names of constants that have other values than the spec gives them.
+    /// The names of constants whose values override those of the spec.
     pub constants: Vec<String>,
-    /// What drives inputs, by their names.
+    /// The laws of inputs, by name.
     pub inputs: Vec<(String, String)>,
 }
 
-/// How a run went, whatever drove it.
+/// The result of a run, whatever its type of inputs.
 pub struct Outcome<'a> {
     system: &'a InterpretedSystem,
     start: &'a State<Named>,
@@ -83,7 +83,7 @@ pub struct Outcome<'a> {
     warnings: &'a [Warning],
     statistics: Statistics,
     energy: Option<EnergyBalance>,
-    /// What each unilateral contact took, and how, in J.
+    /// The energy that each unilateral contact took, by cause, in J.
     taken_by_contacts: Vec<(String, f64)>,
 }
 
@@ -109,7 +109,7 @@ impl Report<'_, '_> {
         self.page_with(None)
     }
 
-    /// The page with the machine in it, which runs again there; see [`live::objection`] for those that cannot.
+    /// The page with a program of the machine, which can run it again; see [`live::objection`] for machines that cannot.
     pub(crate) fn page_that_runs(&self, live: &Live) -> String {
         self.page_with(Some(live))
     }
@@ -126,7 +126,7 @@ impl Report<'_, '_> {
         scene(self.compiled, self.machine, self.run.start)
     }
 
-    /// What the scripts read.
+    /// The data that the scripts read.
     fn data(&self, scene: &Scene<'_>, samples: &Samples, is_live: bool) -> Value {
         let kinds = [
             Kind::Coordinate,
@@ -166,7 +166,7 @@ impl Report<'_, '_> {
         data
     }
 
-    /// When which contact, of those that are drawn, had an impact, and its impulse along each direction of that contact.
+    /// The impacts of drawn contacts: time, contact, and the impulse along each of its directions.
     fn impacts(&self, scene: &Scene<'_>) -> Value {
         let place = |name: &str| {
             let mut drawn = scene.picture.contacts.iter();
@@ -196,7 +196,7 @@ impl Report<'_, '_> {
         })
     }
 
-    /// A curve: of a coordinate or a rate its index, since the states have it; of anything else its points.
+    /// A curve: for a coordinate or a rate its index, since the stored states contain it; for other quantities its points.
     fn curve(&self, column: &Column, points: usize, is_live: bool) -> Value {
         let of_kind = || self.recording.of_kind(column.kind);
         let index = of_kind().position(|other| std::ptr::eq(other, column));
@@ -205,7 +205,7 @@ impl Report<'_, '_> {
             Kind::Rate => json!({ "name": column.name, "rate": index }),
             kind => {
                 let points = match kind {
-                    // Most contacts are open most of the time.
+                    // Most contacts are open most of the time, so constant stretches are thinned.
                     Kind::Contact => {
                         let (times, values) = steady(&self.recording.times, &column.values);
                         thin(&times, &values, points)
@@ -216,7 +216,7 @@ impl Report<'_, '_> {
                 let values = samples::encoded(points.iter().map(|(_, value)| *value));
                 let mut curve = json!({ "name": column.name, "times": times, "values": values });
                 if is_live {
-                    // States of first order stand before the outputs of the spec.
+                    // States of first order precede the outputs of the spec.
                     let slots = self.compiled.program.coordinates.iter();
                     let states = slots.filter(|slot| state_of(&slot.name.to_string()).is_some());
                     let states = states.count();
@@ -236,7 +236,7 @@ impl Report<'_, '_> {
     }
 }
 
-/// What a machine looks like, that starts in this state.
+/// The scene of a machine that starts in this state.
 pub(crate) fn scene<'d>(
     compiled: &Compiled<'d>,
     machine: &InterpretedMachine,
@@ -260,7 +260,7 @@ pub(crate) fn scene<'d>(
     Scene::new(model, &value)
 }
 
-/// A motion as the scripts read it: its states, and what places are computed from beside them.
+/// A motion in the form that the scripts read: its states, and the other inputs of the geometry.
 pub(crate) fn motion(
     recording: &Recording,
     samples: &Samples,

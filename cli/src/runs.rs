@@ -1,4 +1,4 @@
-//! Runs that are there as tables, and those that are made of specs in their place.
+//! Runs given as tables, or made from specs instead.
 
 use std::path::{Path, PathBuf};
 
@@ -23,13 +23,13 @@ use crate::reading::{self, Reading};
 use crate::recording::{Kind, ROUNDING, Recording, Run};
 use crate::{inputs, methods, simulate};
 
-/// How often a run is recorded where the call does not say.
+/// The default number of recorded samples of a run.
 const SAMPLES: f64 = 1000.0;
 
-/// How many steps a run takes at most where the call does not say.
+/// The default limit of steps of a run.
 const STEPS: usize = 10_000_000;
 
-/// The tolerance of a run where the call does not say.
+/// The default tolerance of a run.
 const TOLERANCE: f64 = 1e-9;
 
 /// A column of a run.
@@ -37,22 +37,22 @@ const TOLERANCE: f64 = 1e-9;
 pub struct Quantity {
     /// Its name.
     pub name: String,
-    /// Its unit, where it is known.
+    /// Its unit, if known.
     pub unit: Option<String>,
     /// Its values.
     pub values: Vec<f64>,
-    /// What it is, of a run of a spec.
+    /// Its kind, for the run of a spec.
     pub kind: Option<Kind>,
 }
 
 impl Quantity {
-    /// `theta [rad]`.
+    /// The header of the column: `theta [rad]`.
     pub fn header(&self) -> String {
         header(&self.name, self.unit.as_deref())
     }
 }
 
-/// `theta [rad]`.
+/// The header of a column: `theta [rad]`.
 pub fn header(name: &str, unit: Option<&str>) -> String {
     match unit {
         None | Some("1") => name.to_owned(),
@@ -63,11 +63,11 @@ pub fn header(name: &str, unit: Option<&str>) -> String {
 /// A run, column by column.
 #[derive(Clone, Debug)]
 pub struct Columns {
-    /// The instants, in s, which increase.
+    /// The instants, in s, increasing.
     pub times: Vec<f64>,
     /// The columns; all as long as `times`.
     pub columns: Vec<Quantity>,
-    /// Whether it was made of a spec.
+    /// Whether it was made from a spec.
     pub is_spec: bool,
 }
 
@@ -111,7 +111,7 @@ impl Columns {
         self.columns.iter().find(|column| column.name == name)
     }
 
-    /// The rates of a column, in its unit per second; none where there is no such column, or its unit is another.
+    /// The rates of a column, in its unit per second; `None` if there is no such column, or it has another unit.
     pub fn rates(&self, name: &str) -> Option<Vec<f64>> {
         let own = self.get(name)?;
         let rate = self.get(&format!("der({name})"))?;
@@ -123,8 +123,8 @@ impl Columns {
         Some(rate.values.iter().map(|x| x * factor).collect())
     }
 
-    /// The columns that are asked for; where none is, the coordinates: of a table the columns that have one of rates, or all where none
-    /// has.
+    /// The requested columns. By default these are the coordinates: for a table the columns with a column of rates, or all
+    /// if there are none.
     ///
     /// # Errors
     /// If there is no such column.
@@ -156,7 +156,7 @@ impl Columns {
         Ok(chosen)
     }
 
-    /// What lies at a time or behind it.
+    /// The part of the run from a time on.
     pub fn after(mut self, t: Option<f64>) -> Columns {
         if let Some(t) = t {
             let first = self.times.partition_point(|row| *row < t);
@@ -168,7 +168,7 @@ impl Columns {
         self
     }
 
-    /// A column as a function of time, with its rates where there are any.
+    /// A column as a function of time, with its rates if available.
     pub fn curve<'a>(
         &'a self,
         column: &'a Quantity,
@@ -183,7 +183,7 @@ impl Columns {
     }
 }
 
-/// There is no such column.
+/// The failure that there is no such column.
 pub fn unknown(name: &str, columns: &Columns, run: &Path) -> Failure {
     let names = || columns.columns.iter().map(|column| column.name.as_str());
     let help = match nearest(name, names()) {
@@ -196,19 +196,19 @@ pub fn unknown(name: &str, columns: &Columns, run: &Path) -> Failure {
     ))
 }
 
-/// How many of a unit another one is; none where they do not measure the same.
+/// The factor between two units; `None` if they do not measure the same quantity.
 pub fn factor(of: &str, unit: &str) -> Option<f64> {
     if of == unit {
         return Some(1.0);
     }
     let (mut sources, mut report) = (Sources::new(), Report::new());
-    // A bare number would count as one of the other unit.
+    // A bare number would be interpreted in the other unit.
     let text = format!("1*({of})*s/s");
     let factor = value_in(&text, unit, &mut sources, &mut report);
     factor.filter(|factor| factor.is_finite() && *factor != 0.0)
 }
 
-/// Whether a path is a spec, and not a table.
+/// Whether a path is a spec instead of a table.
 ///
 /// # Errors
 /// If it is neither.
@@ -226,10 +226,10 @@ pub fn is_spec(path: &Path) -> Result<bool, Failure> {
     }
 }
 
-/// Refuses options that say how a spec is run where there is none.
+/// Refuses options for running a spec if there is none.
 ///
 /// # Errors
-/// Which of them.
+/// If there is such an option: which one.
 pub fn refuse_without_spec(runs: &call::Runs) -> Result<(), Failure> {
     let given = [
         ("--const", !runs.constants.is_empty()),
@@ -255,25 +255,25 @@ pub fn refuse_without_spec(runs: &call::Runs) -> Result<(), Failure> {
 /// Reads a table.
 ///
 /// # Errors
-/// What is wrong with it.
+/// If the table is invalid: what is wrong with it.
 pub fn table(path: &Path) -> Result<Columns, Failure> {
     let file = signals::table_file(path).map_err(Failure::Call)?;
     Columns::of_table(&file)
 }
 
-/// At which instants a run is looked at.
+/// The instants at which a run is sampled.
 pub enum Looks<'a> {
-    /// Evenly.
+    /// At equal intervals.
     Even,
     /// At these, as far as they lie within the run.
     At(&'a [f64]),
-    /// Where a formula passes 0.
+    /// Where a formula crosses 0.
     Crossing(&'a str, call::Direction),
-    /// Once in a period, a formula of parameters, in s.
+    /// Once per period, which is a formula of parameters, in s.
     Period(&'a str),
 }
 
-/// How a spec is run.
+/// The settings for running a spec.
 pub struct Options<'a> {
     pub path: &'a PathBuf,
     pub runs: &'a call::Runs,
@@ -284,10 +284,10 @@ pub struct Options<'a> {
 }
 
 impl<'a> Options<'a> {
-    /// As a call says of all specs.
+    /// The settings that a call gives for all specs.
     ///
     /// # Errors
-    /// If it does not say how long.
+    /// If the call does not give the end of the run.
     pub fn of(path: &'a PathBuf, runs: &'a call::Runs, end: Option<f64>) -> Result<Self, Failure> {
         let until = runs.until.or(end).ok_or_else(|| {
             let path = path.display();
@@ -311,7 +311,7 @@ impl<'a> Options<'a> {
     }
 }
 
-/// Assignments with others in place of those of the same names.
+/// Replaces assignments by others to the same names.
 pub fn replaced(list: &mut Vec<Assignment>, others: &[Assignment]) {
     list.retain(|own| others.iter().all(|other| other.name != own.name));
     list.extend(others.iter().cloned());
@@ -320,7 +320,7 @@ pub fn replaced(list: &mut Vec<Assignment>, others: &[Assignment]) {
 /// Runs a spec.
 ///
 /// # Errors
-/// If the spec, the call or the run is at fault.
+/// If the spec or the call is invalid, or the run fails.
 pub fn spec(
     options: &Options<'_>,
     looks: &Looks<'_>,
@@ -329,7 +329,7 @@ pub fn spec(
     made(options, looks, files).map(|(_, recording)| Columns::of(recording))
 }
 
-/// Runs a spec, for the run and what is recorded of it.
+/// Runs a spec; returns the run and its recording.
 fn made(
     options: &Options<'_>,
     looks: &Looks<'_>,
@@ -461,7 +461,7 @@ fn made(
     Ok((ran, recording))
 }
 
-/// Prints what a run warns of: facts that did not hold, energy that is missing.
+/// Prints the warnings of a run: violated assumptions, missing energy.
 pub fn warn<M: Machine, L>(run: &Solution<M, L>)
 where
     L: InputLaw<M::System>,
@@ -471,17 +471,17 @@ where
     }
 }
 
-/// The states at the events of a run that the call asked for.
+/// The states at the events of a run that the call requested.
 fn crossings(run: &Run) -> Recording {
     let events = run.events().iter().filter(|event| event.name == "crossing");
     let states: Vec<State<_>> = events.map(|event| event.state.clone()).collect();
     Recording::of(run, &states)
 }
 
-/// The value of a formula of parameters that is the output of this number: a period.
+/// The value of the output with this index, a formula of parameters that is a period.
 ///
 /// # Errors
-/// If it is no time that may be one.
+/// If the value is not a valid period.
 pub fn period_of(
     machine: &InterpretedMachine,
     start: &State<lagrangian::interpreted::Named>,
@@ -502,18 +502,19 @@ pub fn period_of(
     }
 }
 
-/// One run of a call, a table or a spec.
+/// One run of a call, from a table or a spec.
 ///
 /// # Errors
-/// If the spec, the table, the call or the run is at fault.
+/// If the spec, the table or the call is invalid, or the run fails.
 pub fn one(part: &call::Part, files: &[&Destination]) -> Result<Columns, Failure> {
     one_with_run(part, files).map(|(columns, _)| columns)
 }
 
-/// One run of a call, a table or a spec; and how exact the quantities of a spec are, for those who ask.
+/// One run of a call, from a table or a spec; for a spec with the data from which the errors of its
+/// quantities are estimated.
 ///
 /// # Errors
-/// If the spec, the table, the call or the run is at fault.
+/// If the spec, the table or the call is invalid, or the run fails.
 pub fn one_with_run(
     part: &call::Part,
     files: &[&Destination],

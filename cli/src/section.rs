@@ -1,4 +1,4 @@
-//! `lagrangian section`: a run once a period, or where something passes a value.
+//! `lagrangian section`: the states of a run once per period, or where a quantity crosses a value.
 
 use lagrangian_analysis::Curve as Function;
 use serde_json::{Value, json};
@@ -11,13 +11,13 @@ use crate::output::{self, Destination, SVG, TABLE, keep_apart};
 use crate::runs::{self, Columns, Looks, Options, Quantity};
 use crate::table;
 
-/// How many points are printed.
+/// The number of points that are printed.
 const SHOWN: usize = 10;
 
 /// Runs the command.
 ///
 /// # Errors
-/// If the spec, the table, the call or the run is at fault.
+/// If the spec, the table or the call is invalid, or the run fails.
 pub fn run(call: &call::Section) -> Result<(), Failure> {
     let files = [
         Destination::of("--out", call.out.as_ref(), TABLE)?,
@@ -71,7 +71,7 @@ pub fn run(call: &call::Section) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What is printed and drawn: what `--of` names, or the first coordinate and its rate.
+/// The quantities that are printed and drawn: those that `--of` names, or the first coordinate and its rate.
 fn shown<'a>(call: &call::Section, points: &'a Columns) -> Result<Vec<&'a Quantity>, Failure> {
     if !call.part.of.is_empty() {
         return points.chosen(&call.part.of, &call.part.run);
@@ -82,7 +82,7 @@ fn shown<'a>(call: &call::Section, points: &'a Columns) -> Result<Vec<&'a Quanti
     Ok(first.into_iter().chain(rate).collect())
 }
 
-/// All that a run has at the points of its section.
+/// All quantities of a run at the points of its section.
 fn points(call: &call::Section, files: &[&Destination]) -> Result<Columns, Failure> {
     let part = &call.part;
     let neither =
@@ -98,7 +98,7 @@ fn points(call: &call::Section, files: &[&Destination]) -> Result<Columns, Failu
         match (&call.period, &call.crossing) {
             (Some(period), _) => runs::spec(&options, &Looks::Period(period), files)?,
             (None, Some(crossing)) => {
-                // `x=0.1*m` is where x − 0.1 m passes 0.
+                // `x=0.1*m` means where x − 0.1 m crosses 0.
                 let formula = match crossing.split_once('=') {
                     Some((name, value)) => format!("({name}) - ({value})"),
                     None => crossing.clone(),
@@ -120,7 +120,7 @@ fn points(call: &call::Section, files: &[&Destination]) -> Result<Columns, Failu
     Ok(found.after(part.after))
 }
 
-/// The instants of a table's run once a period, from its first row on.
+/// The instants once per period in a table, from its first row on.
 fn periods(columns: &Columns, period: &str) -> Result<Vec<f64>, Failure> {
     let wrong = |why: String| Failure::Call(format!("--every-period {period}: {why}"));
     let period = call::number(period).map_err(wrong)?;
@@ -134,7 +134,7 @@ fn periods(columns: &Columns, period: &str) -> Result<Vec<f64>, Failure> {
         .collect())
 }
 
-/// Where a column of a table passes a value.
+/// The instants at which a column of a table crosses a value.
 fn crossings(call: &call::Section, columns: &Columns, crossing: &str) -> Result<Vec<f64>, Failure> {
     let (name, value) = crossing.split_once('=').unwrap_or((crossing, "0"));
     let name = name.trim();
@@ -164,7 +164,7 @@ fn crossings(call: &call::Section, columns: &Columns, crossing: &str) -> Result<
         .collect())
 }
 
-/// All columns of a table at some instants.
+/// All columns of a table at these instants.
 fn at(columns: &Columns, times: Vec<f64>) -> Columns {
     let value = |column: &Quantity| {
         let rates = columns.rates(&column.name);

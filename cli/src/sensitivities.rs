@@ -1,4 +1,4 @@
-//! `lagrangian sensitivities`: how a motion changes with parameters, inputs and starts.
+//! `lagrangian sensitivities`: the derivatives of a motion by parameters, inputs and starts.
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named, Signals};
 use lagrangian::methods::{Method, TAYLOR};
@@ -26,12 +26,12 @@ use crate::reading::{self, Reading, places};
 use crate::runs::{header, warn};
 use crate::{methods, progress, table};
 
-/// How often a run is recorded where the call does not say.
+/// The default number of recorded samples of a run.
 const SAMPLES: f64 = 1000.0;
 
-/// What a motion is differentiated by.
+/// A variable of differentiation.
 enum By {
-    /// A parameter, by its number.
+    /// A parameter, by its index.
     Parameter(usize),
     /// An input.
     Input(usize),
@@ -42,7 +42,7 @@ enum By {
 }
 
 impl By {
-    /// What a start depends on.
+    /// The corresponding cause of a change of the start.
     fn cause(&self) -> Cause {
         match self {
             By::Parameter(index) => Cause::Parameter(*index),
@@ -53,28 +53,28 @@ impl By {
     }
 }
 
-/// A quantity that a motion is differentiated by, with its name and unit.
+/// A variable of differentiation, with its name and unit.
 struct Variation {
     by: By,
     name: String,
     unit: String,
 }
 
-/// What is differentiated.
+/// A differentiated quantity.
 enum Of {
     Coordinate(usize),
     Rate(usize),
     Output(usize),
 }
 
-/// A quantity that is differentiated, with its name and unit.
+/// A differentiated quantity, with its name and unit.
 struct Observed {
     of: Of,
     name: String,
     unit: String,
 }
 
-/// A column of results.
+/// A column of the results.
 struct Column {
     name: String,
     unit: String,
@@ -84,7 +84,7 @@ struct Column {
 /// Runs the command.
 ///
 /// # Errors
-/// If the spec, the call or the run is at fault.
+/// If the spec or the call is invalid, or the run fails.
 pub fn run(call: &call::Sensitivities) -> Result<(), Failure> {
     let files = [
         Destination::of("--out", call.out.as_ref(), TABLE)?,
@@ -168,7 +168,7 @@ pub fn run(call: &call::Sensitivities) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What `--by` names.
+/// The variables that `--by` names.
 fn variations(
     machine: &InterpretedMachine,
     start: &State<Named>,
@@ -261,7 +261,7 @@ fn variations(
     Ok(all)
 }
 
-/// What `--of` names.
+/// The quantities that `--of` names.
 fn observed(
     machine: &InterpretedMachine,
     start: &State<Named>,
@@ -292,7 +292,7 @@ fn observed(
             rate_unit(&coordinates[k].1)
         },
     };
-    // Of a state itself, and not its integral, which nothing depends on.
+    // The state itself is shown, not its integral, on which nothing depends.
     let shown = |k: usize| {
         if is_integral(&coordinates[k].0) {
             rate(k)
@@ -365,12 +365,12 @@ fn is_integral(coordinate: &str) -> bool {
     state_of(coordinate).is_some()
 }
 
-/// What the rate of a coordinate is called: `der(x)`, or the name of a state.
+/// The name of the rate of a coordinate: `der(x)`, or the name of a state.
 fn shown_rate(coordinate: &str) -> String {
     state_of(coordinate).unwrap_or_else(|| format!("der({coordinate})"))
 }
 
-/// The unit of the rate of what is measured in a unit.
+/// The unit of the rate of a quantity with this unit.
 fn rate_unit(unit: &str) -> String {
     match unit {
         "1" => "1/s".to_owned(),
@@ -378,7 +378,7 @@ fn rate_unit(unit: &str) -> String {
     }
 }
 
-/// One unit per another.
+/// The quotient of two units.
 fn per(unit: &str, other: &str) -> String {
     let is_simple = |unit: &str| !unit.contains(['*', '/', ' ']);
     match (unit, other) {
@@ -388,7 +388,7 @@ fn per(unit: &str, other: &str) -> String {
     }
 }
 
-/// The run with its derivatives: instants, then values, then derivatives of each by each.
+/// The run with its derivatives: instants, then values, then the derivative of each value by each variable.
 fn made(
     call: &call::Sensitivities,
     machine: &InterpretedMachine,
@@ -409,7 +409,7 @@ fn made(
         .collect();
     let is_held = machine.prepare().constraints().len() > 0;
     let collides = machine.prepare().unilateral_contacts().len() > 0;
-    // Where contacts open and close there are no variational equations for a whole run.
+    // If contacts open and close, no variational equations hold for the whole run.
     let varied: &[Variation] = if collides { &[] } else { variations };
     let mut sensitive = Sensitive::new(machine);
     if is_held {
@@ -454,7 +454,7 @@ fn made(
                 change_of_start(call, machine, &start, variation)?;
             continue;
         }
-        // A start that the spec computes from a parameter changes with it, where the call does not say another.
+        // A start that the spec computes from a parameter changes with it, unless the call sets it.
         if let By::Parameter(index) = variation.by {
             let (q, v) = start_by(machine, index);
             let mut is_set = vec![false; 2 * coordinates.len()];
@@ -518,7 +518,7 @@ fn made(
     Ok((states.iter().map(|state| state.t).collect(), columns))
 }
 
-/// Empty columns: of each value, then of its derivatives.
+/// Empty columns: for each value, then for its derivatives.
 fn columns(variations: &[Variation], observed: &[Observed]) -> Vec<Column> {
     let own = observed.iter().map(|observed| Column {
         name: observed.name.clone(),
@@ -535,7 +535,8 @@ fn columns(variations: &[Variation], observed: &[Observed]) -> Vec<Column> {
     own.chain(derivatives).collect()
 }
 
-/// The run of a machine with unilateral contacts, whose derivatives are taken across each impact and each change of what is closed.
+/// The run of a machine with unilateral contacts, with derivatives continued across each impact and each change of
+/// closed contacts.
 fn across_impacts(
     call: &call::Sensitivities,
     machine: &InterpretedMachine,
@@ -545,7 +546,7 @@ fn across_impacts(
     observed: &[Observed],
 ) -> Result<(Vec<f64>, Vec<Column>), Failure> {
     let inputs = machine.prepare().default_inputs().values;
-    // Derivatives by numbers of size 1, so that one tolerance is as good for all of them.
+    // Derivatives by variables scaled to size 1, so that one tolerance suits all of them.
     let size = |variation: &Variation| {
         let size = match variation.by {
             By::Parameter(index) => machine.parameter_values()[index].abs(),
@@ -587,7 +588,7 @@ fn across_impacts(
     let failed = |error: lagrangian::Error| Failure::Run(verdict::said(&error));
     let run = across::run(&wanted, &start).map_err(|why| match why {
         NoDerivatives::Run(error) => failed(error),
-        // Runs themselves pass what their derivatives do not.
+        // The run itself may continue where its derivatives do not.
         broken => Failure::Run(format!(
             "{broken}; take differences of runs instead, by `lagrangian compare` with `--set-second`, or by `lagrangian sweep`"
         )),
@@ -664,7 +665,7 @@ fn with_values(like: &Named, values: &[f64]) -> Named {
     named
 }
 
-/// The start of a run from a state, which the constraints move.
+/// The projected start of a run from a state.
 fn start_on_constraints(
     call: &call::Sensitivities,
     machine: &InterpretedMachine,
@@ -675,7 +676,7 @@ fn start_on_constraints(
     Ok(run.map_err(Failure::run)?.start().clone())
 }
 
-/// How the start on the constraints changes with what is varied.
+/// The derivative of the projected start by a variable.
 fn change_of_start(
     call: &call::Sensitivities,
     machine: &InterpretedMachine,
@@ -684,7 +685,7 @@ fn change_of_start(
 ) -> Result<Change, Failure> {
     let from = |machine: &InterpretedMachine| {
         let mut from = machine.start();
-        // What the call says was set before, under the same names and units.
+        // The assignments of the call have been checked against the same names and units.
         let _ = set_start(&mut from, &call.start);
         from
     };
@@ -698,7 +699,7 @@ fn change_of_start(
         .map_err(|why| Failure::Run(format!("--by {}: {why}", variation.name)))
 }
 
-/// Whether steps have moved the motion or its derivatives off the constraints.
+/// Checks that integration has not moved the motion or its derivatives off the constraints.
 fn check_drift(
     machine: &InterpretedMachine,
     end: &State<Varied<Named>>,
@@ -723,7 +724,7 @@ fn check_drift(
     }
 }
 
-/// What a parameter does to the start of the spec.
+/// The derivative of the spec's start by a parameter.
 fn start_by(machine: &InterpretedMachine, index: usize) -> (Vec<f64>, Vec<f64>) {
     let parameters = duals(machine.parameter_values(), Some(index));
     let n = machine.program().dimension();
@@ -741,7 +742,7 @@ fn duals(values: &[f64], varied: Option<usize>) -> Vec<Dual<f64>> {
     duals
 }
 
-/// The program over numbers with a derivative by what is varied.
+/// The program over dual numbers, with derivatives by a variable.
 fn interpreter(machine: &InterpretedMachine, variation: &Variation) -> Interpreter<Dual<f64>> {
     let varied = match variation.by {
         By::Parameter(index) => Some(index),
@@ -753,7 +754,7 @@ fn interpreter(machine: &InterpretedMachine, variation: &Variation) -> Interpret
     )
 }
 
-/// Values at a state, then derivatives of each by each.
+/// The values at a state, then the derivative of each value by each variable.
 fn row(
     system: &InterpretedSystem,
     interpreters: &mut [Interpreter<Dual<f64>>],

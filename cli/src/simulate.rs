@@ -33,16 +33,16 @@ use crate::recording::{Recording, Run};
 use crate::report::{self, Asked, Live, Report};
 use crate::{plot, table};
 
-/// How often a run is recorded where the call does not say.
+/// The default number of recorded samples of a run.
 const SAMPLES: f64 = 1000.0;
 
-/// More rows than this are a slip of the hand: at nine coordinates they fill a gigabyte.
+/// More rows than this are assumed to be a mistake: with nine coordinates they fill a gigabyte.
 const MOST_SAMPLES: f64 = 5e6;
 
-/// The tolerance where a call says nothing.
+/// The default tolerance.
 const TOLERANCE: f64 = 1e-9;
 
-/// The files that a call asks for.
+/// The files that a call requests.
 struct Files {
     out: Option<Destination>,
     plot: Option<Destination>,
@@ -68,19 +68,19 @@ impl Files {
     }
 }
 
-/// How a run ended that did not come to its end, and what could not be written of it.
+/// Why a run ended early, and which files could not be written.
 #[derive(Default)]
 struct Trouble<'a> {
-    /// What ended it.
+    /// The error that ended it.
     error: Option<&'a Error>,
-    /// Whether the user did, by Ctrl-C.
+    /// Whether the user interrupted it by Ctrl-C.
     is_interrupted: bool,
-    /// What is wrong beside that.
+    /// Further errors.
     other: Vec<String>,
 }
 
 impl Trouble<'_> {
-    /// Everything that makes the exit status an error, each as a sentence.
+    /// All reasons for an error status, each as a sentence.
     fn errors(&self) -> Vec<String> {
         let error = self.error.map(verdict::said);
         error
@@ -89,7 +89,7 @@ impl Trouble<'_> {
             .collect()
     }
 
-    /// That the user ended the run, in words.
+    /// The message that the user interrupted the run.
     fn interruption(&self, run: &Run, until: f64) -> Option<String> {
         let (t, until) = (shortest(run.end().t), shortest(until));
         self.is_interrupted.then(|| {
@@ -103,7 +103,7 @@ impl Trouble<'_> {
 /// Runs the command.
 ///
 /// # Errors
-/// If the spec, the run or the call is at fault. What there is of a run that ends early is written and summarized first.
+/// If the spec or the call is invalid, or the run fails. The part of a run that ends early is written and summarized first.
 pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     if call.precision == call::Precision::Dd {
         return precise::in_double_doubles(call);
@@ -134,7 +134,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     let compiled = reading.compile_beside(&dag, files.all());
     let mut compiled = compiled.map_err(inputs::told)?;
     let mut machine = reading::machine(&compiled, &call.start)?;
-    // What drives an input is no output of the machine.
+    // Formulas of inputs are not outputs of the machine.
     let own = compiled.model.outputs.len() - formulas;
     compiled.model.outputs.truncate(own);
     let mut numbers = own..;
@@ -200,7 +200,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         .stop_if(|_| interrupt.came())
         .progress(|now| {
             progress::at(now.t, now.fraction, now.steps);
-            // At once, and not when the run has taken its hours.
+            // Reported at once, not after hours of running.
             if let Some(t) = now
                 .stiff_since
                 .filter(|_| !std::mem::replace(&mut is_said, true))
@@ -346,7 +346,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     }
 }
 
-/// What the page of a run says about the call.
+/// The settings of the call for the page of a run.
 fn asked(call: &call::Simulate, tolerance: f64) -> Asked {
     let file = call.spec.path.file_name();
     let inputs = call.inputs.iter();
@@ -365,7 +365,7 @@ fn asked(call: &call::Simulate, tolerance: f64) -> Asked {
     }
 }
 
-/// Settings are the fault of the call, everything else that of the machine or the run.
+/// Invalid settings are errors of the call; everything else is a failure of the machine or the run.
 fn cause(error: Error) -> Failure {
     match error {
         Error::InvalidSetting {
@@ -375,7 +375,7 @@ fn cause(error: Error) -> Failure {
         } => Failure::Call(
             "the method takes steps of a fixed length: give it, as in --longest-step 1e-3".into(),
         ),
-        // What the options have let pass.
+        // Settings that the parser of options accepted.
         Error::InvalidSetting {
             setting,
             value,
@@ -396,7 +396,7 @@ fn cause(error: Error) -> Failure {
     }
 }
 
-/// Writes table and drawing; what could not be written.
+/// Writes table and drawing; returns the errors.
 fn write(files: &Files, name: &str, recording: &Recording) -> Vec<String> {
     let table = files.out.as_ref().map(|file| table::write(recording, file));
     let drawing = files.plot.as_ref().map(|file| {
@@ -410,9 +410,9 @@ fn write(files: &Files, name: &str, recording: &Recording) -> Vec<String> {
         .collect()
 }
 
-/// The samples of a run, with what can be observed at each.
+/// The samples of a run, with all observable quantities at each.
 pub fn record(run: &Run) -> Recording {
-    // A run without length has no samples.
+    // A run of length zero has no samples.
     match run.samples() {
         [] => Recording::of(run, std::slice::from_ref(run.start())),
         states => Recording::of(run, states),
@@ -505,7 +505,7 @@ fn print_summary(
         "  {} steps, {} rejected, {} evaluations, {:.3} s",
         statistics.steps, statistics.rejected, statistics.evaluations, statistics.seconds
     ));
-    // What is plain needs no words: that nothing was found to be stiff.
+    // If stiffness was never found, the choice of methods is not mentioned.
     if run.choices().len() > 1 {
         for choice in run.choices() {
             output::line(format_args!(

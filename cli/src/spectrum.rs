@@ -1,4 +1,4 @@
-//! `lagrangian spectrum`: which frequencies are in a run.
+//! `lagrangian spectrum`: the frequencies in a run.
 
 use std::fmt::Write as _;
 
@@ -13,7 +13,7 @@ use crate::output::{self, Destination, SVG, TABLE};
 use crate::runs::{self, Columns, Quantity, header};
 use crate::table;
 
-/// A quantity, and what is in it.
+/// A quantity with its spectrum.
 struct Found<'a> {
     quantity: &'a Quantity,
     spectrum: Spectrum,
@@ -23,7 +23,7 @@ struct Found<'a> {
 /// Runs the command.
 ///
 /// # Errors
-/// If the spec, the table, the call or the run is at fault.
+/// If the spec, the table or the call is invalid, or the run fails.
 pub fn run(call: &call::Spectrum) -> Result<(), Failure> {
     let files = [
         Destination::of("--out", call.out.as_ref(), TABLE)?,
@@ -99,7 +99,7 @@ struct Samples {
     from: f64,
     step: f64,
     count: usize,
-    /// Whether rows are not evenly spaced, so that values stand between them.
+    /// Whether rows are unevenly spaced, so that samples are interpolated.
     is_resampled: bool,
 }
 
@@ -116,11 +116,11 @@ impl Samples {
             return Err(too_few());
         };
         let step = second - first;
-        // Times are rounded, too.
+        // The times are rounded too.
         let rounding = 1e-9 * step + 4.0 * f64::EPSILON * last.abs().max(first.abs());
         let is_even = |pair: &[f64]| (pair[1] - pair[0] - step).abs() <= rounding;
         let even = times.windows(2).take_while(|pair| is_even(pair)).count() + 1;
-        // An end that does not fall on a sample is none of them.
+        // An end that is not at a sampling instant is left out.
         let samples = if even + 1 >= times.len() {
             Samples {
                 from: *first,
@@ -204,7 +204,7 @@ fn as_json(one: &Found) -> Value {
     })
 }
 
-/// A pane for each unit, up to the frequencies behind which there is nothing to see.
+/// A pane for each unit, up to the highest frequency with a visible amplitude.
 fn panes(found: &[Found], frequencies: &[f64]) -> Vec<Pane> {
     let mut panes: Vec<(Option<&str>, Pane)> = Vec::new();
     let greatest = |one: &Found| one.spectrum.amplitudes.iter().copied().fold(0.0, f64::max);

@@ -32,12 +32,12 @@ use crate::reading;
 use crate::table;
 use spoken::Spoken;
 
-/// Where rows go.
+/// The destination of rows.
 struct Out {
     /// The folder of chunks.
     folder: PathBuf,
     format: Format,
-    /// The file that they are joined to, and how the call names it; nothing where chunks stay.
+    /// The file to which chunks are joined, and its name in the call; `None` if chunks stay in the folder.
     file: Option<PathBuf>,
     shown: PathBuf,
 }
@@ -45,7 +45,7 @@ struct Out {
 /// Runs the command.
 ///
 /// # Errors
-/// If the spec, the call or a file is at fault. Runs that fail are rows, and no error but with `--strict`.
+/// If the spec, the call or a file is invalid. Runs that fail are rows, and an error only with `--strict`.
 pub fn run(call: &call::Sweep) -> Result<(), Failure> {
     let is_plan = call
         .spec
@@ -127,7 +127,7 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
     all(call, &sweep, folder, &out)
 }
 
-/// Makes the chunks that are missing, and joins them.
+/// Makes the missing chunks, and joins them.
 fn all(call: &call::Sweep, sweep: &Sweep, folder: Folder, out: &Out) -> Result<(), Failure> {
     let stop = interrupt::flag();
     let threads = call.threads.map_or_else(cores, |threads| {
@@ -185,7 +185,7 @@ fn all(call: &call::Sweep, sweep: &Sweep, folder: Folder, out: &Out) -> Result<(
     }
 }
 
-/// What came of it.
+/// Prints a summary.
 fn tell(call: &call::Sweep, summary: &Summary, (seconds, now): (f64, u64), shown: &str) {
     let Summary {
         runs,
@@ -299,7 +299,7 @@ impl Out {
     }
 }
 
-/// Refuses to write a file that the sweep is made from: its spec, one that this extends, or a table.
+/// Refuses to write a file from which the sweep is made: its spec, one that it extends, or a table.
 fn keep_from<'a>(
     call: &call::Sweep,
     plan: &Plan,
@@ -318,7 +318,7 @@ fn keep_from<'a>(
     keep_apart(destinations, &read)
 }
 
-/// The plan made ready.
+/// Prepares a plan.
 fn made(plan: Plan, engine: Engine) -> Result<Sweep, Failure> {
     let sweep = Sweep::new(plan, engine).map_err(|wrong| match wrong {
         Wrong::Plan(message) => Failure::Call(message),
@@ -338,7 +338,7 @@ fn refused(trouble: Trouble) -> Failure {
     Failure::Run(trouble.to_string())
 }
 
-/// The plan in a file.
+/// Reads the plan from a file.
 fn written_plan(call: &call::Sweep) -> Result<Plan, Failure> {
     let path = &call.spec.path;
     let shown = path.display();
@@ -368,7 +368,7 @@ fn written_plan(call: &call::Sweep) -> Result<Plan, Failure> {
     Plan::from_json(&text).map_err(|why| Failure::Call(format!("{shown} is no plan: {why}")))
 }
 
-/// The plan that a call says.
+/// The plan that a call describes.
 fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
     let Some(until) = call.until else {
         return Err(Failure::Call(
@@ -460,7 +460,7 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
     })
 }
 
-/// Whether `--keep` names what is there.
+/// Checks that the numbers that `--keep` names exist.
 fn check_kept(model: &Model<'_>, keep: &call::Keep) -> Result<(), Failure> {
     reading::check_kept_once(keep)?;
     for name in reading::kept_names(keep).unwrap_or_default() {
@@ -472,7 +472,7 @@ fn check_kept(model: &Model<'_>, keep: &call::Keep) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Rows of numbers under names, from a table of runs.
+/// The named columns of numbers in a table of runs.
 fn numbers(path: &Path) -> Result<(Vec<String>, Vec<Vec<f64>>), Failure> {
     let wrong = |why: String| Failure::Call(format!("--table {}: {why}", path.display()));
     if path.extension().is_some_and(|ending| ending == "parquet") {

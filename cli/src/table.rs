@@ -6,10 +6,10 @@ use crate::failure::Failure;
 use crate::output::Destination;
 use crate::recording::Recording;
 
-/// Writes a recording in the format that the file's ending names.
+/// Writes a recording in the format of the file's extension.
 ///
 /// # Errors
-/// What the file system says.
+/// Errors of the file system.
 pub fn write(recording: &Recording, to: &Destination) -> Result<(), Failure> {
     write_columns(&columns(recording), to)
 }
@@ -17,7 +17,7 @@ pub fn write(recording: &Recording, to: &Destination) -> Result<(), Failure> {
 /// Writes columns, each with its header.
 ///
 /// # Errors
-/// What the file system says.
+/// Errors of the file system.
 pub fn write_columns(columns: &[(String, &[f64])], to: &Destination) -> Result<(), Failure> {
     to.write(|file| match to.ending() {
         "parquet" => parquet(columns, file),
@@ -35,7 +35,7 @@ fn columns(recording: &Recording) -> Vec<(String, &[f64])> {
     recording.headers().zip(all).collect()
 }
 
-/// One line for each row. Numbers are in the shortest form that reads back to the same bits.
+/// One line for each row. Numbers have the shortest form that reads back to the same bits.
 fn csv(columns: &[(String, &[f64])], to: &mut dyn Write) -> io::Result<()> {
     let headers: Vec<&str> = columns.iter().map(|(header, _)| header.as_str()).collect();
     writeln!(to, "{}", headers.join(","))?;
@@ -100,11 +100,10 @@ fn parquet(_: &[(String, &[f64])], _: &mut (dyn Write + Send)) -> io::Result<()>
     ))
 }
 
-/// The rows of comma-separated text, each with the values of the columns that have these names, whatever their units are and
-/// whatever else there is.
+/// The rows of comma-separated text, each with the values of the columns with these names; units and other columns are ignored.
 ///
 /// # Errors
-/// Which column is missing, or where what is no finite number.
+/// If a column is missing, or an entry is not a finite number: which one.
 pub fn rows(text: &str, names: &[String]) -> Result<Vec<Vec<f64>>, String> {
     let mut lines = text.lines().enumerate();
     let header = lines.next().map_or("", |(_, line)| line);

@@ -1,4 +1,4 @@
-//! What stands inside the brackets: settings, and perhaps a machine after them.
+//! The arguments of the macro: settings, optionally followed by a machine.
 
 use lagrangian_symbolic::Rational;
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
@@ -6,33 +6,33 @@ use quote::{ToTokens, quote};
 use syn::parse::{ParseStream, Parser};
 use syn::{Error, Ident, LitStr, Result, Token, ext::IdentExt};
 
-/// `file = "chain.machine", N = 64`, or a machine in braces or without.
+/// Arguments such as `file = "chain.machine", N = 64`, or a machine with or without braces.
 pub struct Arguments {
     /// The spec file.
     pub file: Option<LitStr>,
-    /// Constants with another value than the spec gives them.
+    /// Constants with values that override those of the spec.
     pub constants: Vec<(String, Rational)>,
     /// The path of the runtime.
     pub runtime: String,
-    /// What follows the settings: a machine, unless it comes from a file.
+    /// The tokens after the settings: a machine, unless it comes from a file.
     pub machine: TokenStream,
     /// Attributes before the machine.
     pub attributes: Attributes,
 }
 
-/// The attributes of a machine that are no documentation, by what they are for.
+/// The attributes of a machine other than documentation, by target.
 #[derive(Default)]
 pub struct Attributes {
     /// `cfg`: for every item.
     pub items: TokenStream,
-    /// Lints, for the module.
+    /// Lints: for the module.
     pub module: TokenStream,
-    /// All others, as `derive`: for the structs whose fields the machine names.
+    /// All others, such as `derive`: for the structs with fields named by the machine.
     pub structs: TokenStream,
 }
 
 impl Arguments {
-    /// Reads them.
+    /// Parses the arguments.
     pub fn parse(tokens: TokenStream) -> Result<Arguments> {
         arguments.parse2(tokens)
     }
@@ -82,7 +82,7 @@ fn arguments(input: ParseStream<'_>) -> Result<Arguments> {
 }
 
 impl Attributes {
-    /// Takes the attributes that come next; documentation is the answer, for it belongs to the machine.
+    /// Reads the attributes that follow; returns the documentation, which belongs to the machine.
     fn read(&mut self, input: ParseStream<'_>) -> Result<TokenStream> {
         let mut docs = TokenStream::new();
         while input.peek(Token![#]) && input.peek2(syn::token::Bracket) {
@@ -125,7 +125,7 @@ fn path(input: ParseStream<'_>) -> Result<String> {
     }
 }
 
-/// A number, perhaps negative.
+/// A number, possibly negative.
 fn number(input: ParseStream<'_>, constant: &str) -> Result<Rational> {
     let expected = || format!("a constant gets a number: `{constant} = 64`");
     let mut text = String::new();
@@ -140,7 +140,7 @@ fn number(input: ParseStream<'_>, constant: &str) -> Result<Rational> {
                 return Rational::parse_decimal(&text)
                     .ok_or_else(|| Error::new(literal.span(), expected()));
             }
-            // What a `macro_rules!` passes on comes in brackets that nobody sees.
+            // Tokens passed on by a `macro_rules!` are in invisible brackets.
             TokenTree::Group(group) if group.delimiter() == Delimiter::None => {
                 let value =
                     (|input: ParseStream<'_>| number(input, constant)).parse2(group.stream())?;

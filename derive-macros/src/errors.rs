@@ -1,11 +1,10 @@
-//! Diagnostics as errors of the Rust compiler, at the user's tokens.
+//! Diagnostics as errors of the Rust compiler, located at the user's tokens.
 
 use lagrangian_spec::diagnostic::{Diagnostic, Report};
 use lagrangian_spec::source::Sources;
 use proc_macro2::{Delimiter, Group, Ident, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
 
-/// All of them at once. `place` says where a stretch of a source begins and ends for the Rust
-/// compiler.
+/// All errors at once. `place` maps a span of a source to its first and last place for the Rust compiler.
 pub fn all(
     report: &Report,
     sources: &Sources,
@@ -27,7 +26,7 @@ pub fn all(
     errors
 }
 
-/// What is said: in a file with its place, since the Rust compiler cannot point into it.
+/// The message; for a file it includes the position, because the Rust compiler cannot point into that file.
 fn message(diagnostic: &Diagnostic, sources: &Sources) -> String {
     let Diagnostic {
         code,

@@ -1,15 +1,15 @@
-//! Files that the macro reads: the spec, and what it extends. Cargo must know them, or an edit
-//! would change nothing.
+//! Files that the macro reads: the spec, and what it extends. Cargo must track them, so that an edit
+//! triggers recompilation.
 
 use std::env;
 use std::path::{Path, PathBuf};
 
 use lagrangian_spec::source::{Disk, Files};
 
-/// Files on disk, and a list of those that were read.
+/// Files on disk, with a list of those that were read.
 #[derive(Default)]
 pub struct Tracked {
-    /// Absolute paths, each once.
+    /// Absolute paths, without duplicates.
     pub read: Vec<PathBuf>,
 }
 
@@ -25,10 +25,9 @@ impl Files for Tracked {
     }
 }
 
-/// Where `machine!(file = "…")` looks: beside the package's manifest, then beside the file that
-/// invokes the macro.
+/// Where `machine!(file = "…")` looks: beside the package's manifest, then beside the source file that invokes the macro.
 ///
-/// The first that exists; or a sentence that names both.
+/// Returns the first file that exists, or a message that names both.
 pub fn find(file: &str, invoking: Option<&Path>) -> Result<PathBuf, String> {
     let manifest = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
     let beside = invoking.and_then(Path::parent).map(absolute);
@@ -56,7 +55,7 @@ fn absolute(path: &Path) -> PathBuf {
     std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }
 
-/// A path as the compiler would show it: relative to where it runs.
+/// A path as the compiler shows it: relative to its working directory.
 fn shown(path: &Path) -> PathBuf {
     let inside = env::current_dir()
         .ok()

@@ -1,6 +1,6 @@
-//! `machine!`: a machine's description in, the Rust that simulates it out.
+//! `machine!`: compiles the spec of a machine to the Rust code that simulates it.
 //!
-//! Tokens in, tokens out, no logic: the compiler is `lagrangian-spec`.
+//! This crate only converts tokens; the compiler itself is in the crates below it.
 
 mod arguments;
 mod errors;
@@ -27,7 +27,7 @@ use arguments::{Arguments, Attributes};
 use files::Tracked;
 use tokens::Flat;
 
-/// The stack of the thread that compiles. Nothing recurses deeply, but unoptimized code has large frames.
+/// The stack size of the thread that compiles. Recursion is never deep, but unoptimized code has large frames.
 const STACK: usize = 64 << 20;
 
 /// Compiles a machine into the Rust that simulates it.
@@ -46,18 +46,19 @@ const STACK: usize = 64 << 20;
 /// lagrangian::machine!(file = "machines/chain.machine", N = 64);
 /// ```
 ///
-/// A file is looked for beside `Cargo.toml`, then beside the file that invokes the macro; an `extends` is relative to the
-/// file that says it. Cargo compiles anew when one of them is edited.
+/// A file is searched for beside `Cargo.toml`, then beside the source file that invokes the macro; the path of an
+/// `extends` is relative to the file that contains it. Cargo recompiles when one of these files is edited.
 ///
-/// What comes out for `machine Oscillator` is a module `oscillator` and a type `Oscillator`, the struct of its parameters.
-/// The module holds the functions of the machine (`oscillator::accelerations`, `mass_matrix`, …), generic over the number
-/// they compute with, and the structs `Coordinates`, `Inputs`, `Outputs` and `Prepared`, which implements `System`.
+/// For `machine Oscillator` the macro generates a module `oscillator` and a type `Oscillator`, the struct of its
+/// parameters. The module contains the functions of the machine (`oscillator::accelerations`, `mass_matrix`, …), generic
+/// over the number type, and the structs `Coordinates`, `Inputs`, `Outputs` and `Prepared`, which implements `System`.
 ///
-/// Attributes before `machine`, or before `file`, go where they belong: `#[derive(serde::Serialize)]` and whatever else is
-/// about structs to those whose fields the machine names (parameters, coordinates, inputs, outputs), lints to the module, `cfg`
-/// to everything. The structs stand in the module, so a name that is imported beside the machine is written in full there.
+/// Attributes before `machine` or before `file` are applied by kind: `#[derive(serde::Serialize)]` and other attributes of
+/// structs to the structs with fields named by the machine (parameters, coordinates, inputs, outputs), lints to the module,
+/// `cfg` to everything. The structs are in the module, so attributes must refer to items imported beside the machine by
+/// their full path.
 ///
-/// `crate = path,` in front says where the runtime is, if it is not `::lagrangian`.
+/// A leading `crate = path,` gives the path of the runtime, if it is not `::lagrangian`.
 #[proc_macro]
 pub fn machine(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     match Arguments::parse(input.into()) {
@@ -66,7 +67,7 @@ pub fn machine(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     }
 }
 
-/// What is to be compiled.
+/// The input of a compilation.
 struct Job {
     sources: Sources,
     report: Report,
@@ -80,15 +81,15 @@ enum Input {
     File(PathBuf),
 }
 
-/// What came out of it.
+/// The result of a compilation.
 struct Outcome {
     sources: Sources,
     report: Report,
-    /// Rust.
+    /// The generated Rust code.
     text: String,
-    /// The name of the machine, and where it stands.
+    /// The name of the machine, with its span.
     name: Ident,
-    /// The names of parameters, coordinates, inputs and outputs, and where they stand; in a file, nowhere.
+    /// The names of parameters, coordinates, inputs and outputs, with their spans; names in a file have none.
     fields: Vec<Ident>,
     read: Vec<PathBuf>,
 }
@@ -155,7 +156,7 @@ fn expand(arguments: Arguments) -> TokenStream {
         }
     };
     let errors = errors::all(&outcome.report, &outcome.sources, place);
-    // Cargo compiles anew when one of these files changes.
+    // Cargo recompiles when one of these files changes.
     let read = outcome
         .read
         .iter()
@@ -237,7 +238,7 @@ fn compile(job: Job) -> Result<Outcome, String> {
     })
 }
 
-/// Runs the compiler where it has room; a panic there is an error here.
+/// Runs the compiler in a thread with a large stack; a panic there becomes an error here.
 fn on_a_large_stack<T: Send + 'static>(
     job: impl FnOnce() -> Result<T, String> + Send + 'static,
 ) -> Result<T, String> {
@@ -257,7 +258,7 @@ fn on_a_large_stack<T: Send + 'static>(
     })
 }
 
-/// The machine's name, wherever it stands outside of brackets, gets its place in the user's source.
+/// Gives the machine's name its span in the user's source, wherever it occurs outside of brackets.
 fn named(tokens: TokenStream, name: &str, place: Span) -> TokenStream {
     let name = lagrangian_emit::identifier(name);
     let with_place = |mut tree: TokenTree| {
@@ -271,8 +272,8 @@ fn named(tokens: TokenStream, name: &str, place: Span) -> TokenStream {
     tokens.into_iter().map(with_place).collect()
 }
 
-/// The marked structs have the attributes of the user, and fields that stand where the user has written them: a lint, an error
-/// and an editor that looks for the definition find them there.
+/// Gives the marked structs the attributes of the user, and their fields the spans of the user's declarations, so that lints,
+/// errors and an editor's search for definitions lead there.
 fn opened(
     tokens: TokenStream,
     attributes: &Attributes,
@@ -297,7 +298,7 @@ fn opened(
     opened
 }
 
-/// The items of the module.
+/// Processes the items of the module.
 fn with_marks(
     tokens: TokenStream,
     structs: &TokenStream,
@@ -336,7 +337,7 @@ fn with_marks(
     with_marks
 }
 
-/// A group with other tokens inside.
+/// The same group with other tokens inside.
 fn regrouped(group: &Group, inside: TokenStream) -> [TokenTree; 1] {
     let mut other = Group::new(group.delimiter(), inside);
     other.set_span(group.span());

@@ -1,29 +1,28 @@
-//! The tokens of the Rust compiler as the flat tokens of a spec, and back to the places in the
-//! user's source.
+//! Converts tokens of the Rust compiler to the flat tokens of a spec, and maps them back to spans of the user's source.
 
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::{SourceId, Span};
 use lagrangian_spec::token::{self, Delimiter, Token, TokenKind};
 use proc_macro2::{Group, Spacing, TokenStream, TokenTree};
 
-/// The tokens of a macro body; token k stands at `places[k]`.
+/// The tokens of a macro body; token k has the span `places[k]`.
 #[derive(Default)]
 pub struct Flat {
     /// The tokens.
     pub tokens: Vec<Token>,
-    /// Where each of them stands.
+    /// The span of each token.
     pub places: Vec<proc_macro2::Span>,
 }
 
 impl Flat {
-    /// The first and the last place of a stretch of tokens.
+    /// The spans of the first and the last token of a range.
     pub fn ends(&self, span: Span) -> (proc_macro2::Span, proc_macro2::Span) {
         let place = |index: u32| {
             let last = self.places.len().saturating_sub(1);
             let place = self.places.get((index as usize).min(last));
             place.copied().unwrap_or_else(proc_macro2::Span::call_site)
         };
-        // What is missing is reported at the token before it.
+        // Something missing is reported at the token before it.
         let start = if span.start < span.end {
             span.start
         } else {
@@ -56,7 +55,7 @@ impl Flat {
     }
 }
 
-/// Flattens a macro body without recursion, however deep it nests.
+/// Flattens a macro body without recursion, whatever its nesting depth.
 pub fn flatten(stream: TokenStream, source: SourceId, report: &mut Report) -> Flat {
     let mut flat = Flat::default();
     let mut open: Vec<(
@@ -79,8 +78,7 @@ pub fn flatten(stream: TokenStream, source: SourceId, report: &mut Report) -> Fl
         };
         match tree {
             TokenTree::Group(group) => {
-                // Brackets that a `macro_rules!` made invisible hold an expression together all the
-                // same.
+                // Invisible brackets made by a `macro_rules!` group an expression like visible ones.
                 let delimiter = match group.delimiter() {
                     proc_macro2::Delimiter::Brace => Delimiter::Brace,
                     proc_macro2::Delimiter::Bracket => Delimiter::Bracket,
@@ -135,7 +133,7 @@ pub fn flatten(stream: TokenStream, source: SourceId, report: &mut Report) -> Fl
             TokenTree::Literal(literal) => {
                 let span = flat.next_span(source);
                 let mut text = literal.to_string();
-                // `-1` is one token where another macro made it.
+                // Another macro may produce `-1` as one token.
                 if let Some(positive) = text.strip_prefix('-') {
                     flat.push(source, TokenKind::Punct('-'), "-", false, literal.span());
                     text = positive.to_owned();
@@ -152,14 +150,14 @@ pub fn flatten(stream: TokenStream, source: SourceId, report: &mut Report) -> Fl
     }
 }
 
-/// Whether invisible brackets hold one token only, which needs no brackets.
+/// Whether invisible brackets hold a single token, which needs no brackets.
 fn is_single(group: &Group) -> bool {
     let mut tokens = group.stream().into_iter();
     tokens.next().is_some() && tokens.next().is_none()
 }
 
-/// The text of `#[doc = "…"]`, which is what `/// …` is to a macro; the `#` was read. Takes nothing
-/// if it is something else.
+/// The text of `#[doc = "…"]`, the form in which a macro receives `/// …`; the `#` has been read. Consumes nothing
+/// if the tokens are something else.
 fn documentation(
     tokens: &mut proc_macro2::token_stream::IntoIter,
 ) -> Option<(String, Option<proc_macro2::Span>)> {

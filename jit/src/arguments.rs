@@ -1,8 +1,8 @@
-//! What a function of several states reads.
+//! The arguments of a function of several states.
 
 use lagrangian_native::Lanes;
 
-/// The arguments of a call, those of N states side by side. What a function does not read may be empty.
+/// The arguments of a call for N states side by side. Arguments that the function does not read may be empty.
 #[derive(Clone, Copy, Debug)]
 pub struct SeveralArguments<'a, const N: usize> {
     /// The times.

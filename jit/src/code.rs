@@ -1,4 +1,4 @@
-//! Code in memory, and calls of it.
+//! Executable code in memory, and calls of it.
 
 use std::marker::PhantomData;
 
@@ -13,8 +13,8 @@ use super::lower::{Arithmetic, Base, Lowered};
 use super::unavailable::Unavailable;
 use super::work::Work;
 
-/// What code is called as: time, coordinates, velocities, inputs, prepared values, the workspace. A bit for each lane: whether
-/// its guards hold.
+/// The signature of the code: time, coordinates, velocities, inputs, prepared values, the workspace. The result has a bit for
+/// each lane, which is set if its guards hold.
 type Entry = unsafe extern "sysv64" fn(
     *const f64,
     *const f64,
@@ -27,11 +27,11 @@ type Entry = unsafe extern "sysv64" fn(
 /// A function as machine code.
 #[derive(Debug)]
 pub struct Code {
-    /// Never writable while it is executable.
+    /// Never writable while executable.
     pages: Mmap,
     entry: usize,
     layout: Layout,
-    /// Of each argument how many numbers it reads.
+    /// How many numbers of each argument the code reads.
     reads: [usize; READ],
     results: usize,
     workspace: usize,
@@ -39,24 +39,24 @@ pub struct Code {
     length: usize,
 }
 
-/// What a call reads: numbers of one state, or of several side by side.
+/// The arguments of a call, as rows of numbers of one state, or of several side by side.
 #[derive(Clone, Copy, Debug)]
 pub struct Rows<'a> {
-    /// In the order of `Base`, but for the results.
+    /// In the order of `Base`, without the results.
     addresses: [*const f64; READ],
-    /// How many numbers a state has there.
+    /// The length of each row, in numbers per state.
     lens: [usize; READ],
-    /// How many states lie side by side; of prepared values how many numbers stand for one.
+    /// The number of states side by side; for prepared values how many numbers there are for each.
     width: usize,
     known_width: usize,
     numbers: PhantomData<&'a [f64]>,
 }
 
-/// How many kinds of arguments there are.
+/// The number of arguments that are read.
 const READ: usize = Base::COUNT - 1;
 
 impl<'a> Rows<'a> {
-    /// Those of one state.
+    /// The arguments for one state.
     #[inline(always)]
     pub fn of_one(
         arguments: &'a Arguments<'a, f64>,
@@ -83,7 +83,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Those of N states; each prepared value is so many numbers.
+    /// The arguments for N states, with this number of values for each prepared value.
     #[inline(always)]
     pub fn of_several<const N: usize>(
         arguments: &'a SeveralArguments<'a, N>,
@@ -117,7 +117,7 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// Workspace for the results of one or several states.
+/// Memory for the results of one or several states.
 pub struct Results<'a> {
     address: *mut f64,
     len: usize,
@@ -149,7 +149,7 @@ impl<'a, const N: usize> From<&'a mut [Lanes<N>]> for Results<'a> {
     }
 }
 
-/// Where code keeps what its registers have no place for.
+/// Memory for values that do not fit into registers.
 #[derive(Clone, Debug, Default)]
 pub struct Workspace(Vec<Line>);
 
@@ -172,7 +172,7 @@ impl Code {
     /// Compiles a function.
     ///
     /// # Errors
-    /// If the system does not give pages that may be executable.
+    /// If the system provides no executable pages.
     pub fn new(function: &Function, is_fused: bool, layout: Layout) -> Result<Code, Unavailable> {
         let arithmetic = if is_fused {
             Arithmetic::Fused
@@ -203,26 +203,27 @@ impl Code {
         })
     }
 
-    /// How much work compiling was.
+    /// The amount of work of compiling it.
     pub fn work(&self) -> Work {
         self.work
     }
 
-    /// How many bytes it has, constants included.
+    /// Its length in bytes, including constants.
     pub fn length(&self) -> usize {
         self.length
     }
 
-    /// Where it is in memory.
+    /// Its addresses in memory.
     pub fn addresses(&self) -> std::ops::Range<usize> {
         let start = self.pages.as_ptr() as usize;
         start..start + self.pages.len()
     }
 
-    /// Runs the code; a bit for each lane, whether its guards hold. None if an argument is too short, there is no workspace for
-    /// exactly the results, or any of these is of another number of states than the layout: then nothing happens.
+    /// Runs the code; the result has a bit for each lane, which is set if its guards hold. Returns `None` without running if an
+    /// argument is too short, if `results` does not have exactly the number of results, or if any of these has a
+    /// different number of states than the layout.
     ///
-    /// Of states side by side as many are evaluated as the code has lanes, from `first` on.
+    /// Of the states side by side, as many as the code has lanes are evaluated, starting at `first`.
     #[inline(always)]
     pub(crate) fn run(
         &self,
@@ -249,15 +250,15 @@ impl Code {
         let workspace = workspace.at_least(self.workspace);
         let at = |base: Base| rows.addresses[base as usize].wrapping_add(first);
         let known = if known_stride < stride {
-            // One address for all lanes.
+            // All lanes share one address.
             rows.addresses[Base::Known as usize]
         } else {
             at(Base::Known)
         };
-        // SAFETY: the pages are executable and hold, from `entry` on, a function of this kind, which `assemble` wrote. Of
-        // each argument it reads as many numbers as `reads` says, a stride apart, and there are so many; it writes as many
-        // results, and there is space for so many. The workspace is as long as the code says, and aligned to its registers. The
-        // addresses of what it does not read may be any. It calls `external.rs` only.
+        // SAFETY: the pages are executable and contain a function of this signature at `entry`, written by `assemble`. It reads
+        // as many numbers of each argument as `reads` says, a stride apart, and the argument has that many; it writes as many
+        // results as there is space for. The workspace has the length that the code requires, and the alignment of its
+        // registers. Addresses of arguments that are not read may be arbitrary. It calls only functions of `external.rs`.
         unsafe {
             let entry =
                 std::mem::transmute::<*const u8, Entry>(self.pages.as_ptr().add(self.entry));

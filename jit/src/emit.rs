@@ -1,11 +1,11 @@
-//! Machine code of a function: one walk over its instructions.
+//! The code generator: machine code of a function, in one pass over its instructions.
 //!
-//! Values are kept in registers as long as there are any. Where one more is needed, the value whose next use is furthest
-//! leaves its register (L. A. Belady, *A study of replacement algorithms for a virtual-storage computer*, IBM Systems
-//! Journal 5 (1966) 78–101), and is written to memory unless it is there already. Arguments and constants are operands in
-//! memory wherever an instruction takes one.
+//! Values stay in registers as long as possible. When a register is needed and none is free, the value with the furthest
+//! next use is evicted (L. A. Belady, *A study of replacement algorithms for a virtual-storage computer*, IBM Systems
+//! Journal 5 (1966) 78–101), and written to memory unless it is already there. Arguments and constants are used as memory
+//! operands wherever an instruction allows one.
 //!
-//! What holds between instructions: a value that is still needed is in a register or has a place in memory.
+//! Invariant between instructions: a value that is still needed is in a register or in memory.
 
 use iced_x86::{Code, Encoder, IcedError, Instruction as Encoded, MemoryOperand, Register};
 use lagrangian_program::Contracted;
@@ -16,20 +16,20 @@ use super::external;
 use super::lower::{Arithmetic, Base, Id, Instruction, Lowered, Node, Place, Predicate};
 use super::work::Work;
 
-/// The bytes in front of the workspace for values: addresses of arguments.
+/// The size of the header of the workspace in bytes; it holds the addresses of arguments.
 pub const HEADER: usize = 128;
 
-/// For how many states at once code is, and how their numbers lie in memory.
+/// The number of states that code evaluates at once, and the arrangement of their numbers in memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Layout {
     /// The instructions that the processor has.
     pub level: Level,
-    /// How many states an instruction works on.
+    /// The number of states that an instruction processes.
     pub lanes: usize,
-    /// From a number of a state to its next, in numbers: as many as there are states side by side.
+    /// The distance from a number of a state to its next, in numbers: the number of states side by side.
     pub stride: usize,
-    /// From a prepared value to the next, in numbers: 1 where they are shared by all lanes, which only AVX-512 can read;
-    /// otherwise one for each lane, or more.
+    /// The distance from a prepared value to the next, in numbers: 1 where all lanes share them, which only AVX-512 can
+    /// read; otherwise one for each lane, or more.
     pub known_stride: usize,
 }
 
@@ -40,26 +40,26 @@ impl Layout {
     }
 }
 
-/// Code and what it needs.
+/// Code with its requirements.
 #[derive(Debug)]
 pub struct Assembled {
-    /// Constants, and behind them the code.
+    /// Constants, followed by the code.
     pub bytes: Vec<u8>,
-    /// Where the code starts.
+    /// The offset of the entry point.
     pub entry: usize,
-    /// How many places as long as a register it needs in the workspace.
+    /// The number of register-sized slots that it needs in the workspace.
     pub workspace: usize,
-    /// How much work it was.
+    /// The amount of work of generating it.
     pub work: Work,
 }
 
-/// Code is aligned to lines of the cache.
+/// Code is aligned to cache lines.
 const LINE: usize = 64;
 
-/// No further use.
+/// The position of a next use that does not exist.
 const NEVER: u32 = u32::MAX;
 
-/// The registers of addresses: the first five arguments of a call have theirs from the start.
+/// The registers that hold the addresses of arguments. The first five are passed by the caller.
 const ADDRESSES: [Register; Base::COUNT] = [
     Register::RDI, // time
     Register::RSI, // coordinates
@@ -67,25 +67,25 @@ const ADDRESSES: [Register; Base::COUNT] = [
     Register::RCX, // inputs
     Register::R8,  // prepared values
     Register::R9,  // accelerations
-    Register::R10, // left by the stage of time
-    Register::R11, // left by the stage of position
+    Register::R10, // results of the stage of time
+    Register::R11, // results of the stage of position
     Register::RAX, // results
 ];
 
-/// How many of [`ADDRESSES`] a call brings along; where the workspace is, it brings in R9.
+/// How many of [`ADDRESSES`] the caller passes; it passes the workspace in R9.
 const BROUGHT: usize = 5;
 
-/// The address of the workspace, in a register that calls keep.
+/// The address of the workspace, in a callee-saved register.
 const WORKSPACE: Register = Register::RBX;
 
-/// Where guards are kept in mind with AVX-512, and where comparisons go.
+/// With AVX-512: the mask of guards that hold, and the mask of the last comparison.
 const GUARDS: Register = Register::K1;
 const COMPARED: Register = Register::K2;
 
 /// Encodes a function.
 ///
 /// # Errors
-/// If an instruction has no encoding, which would be a mistake here.
+/// If an instruction has no encoding, which would be a defect of this module.
 pub fn assemble(
     lowered: &Lowered,
     arithmetic: Arithmetic,
@@ -111,33 +111,33 @@ struct Emitter<'a> {
     layout: Layout,
     table: &'static Encodings,
     encoder: Encoder,
-    /// The constants, and from one to the next in bytes.
+    /// The constants, and the distance between them in bytes.
     pool: Vec<u8>,
     constant_stride: usize,
-    /// Where the code starts, and where the next instruction stands.
+    /// The offset of the first instruction, and of the next one.
     start: usize,
     place: u64,
-    /// The uses of value i are `uses[first_use[i]..first_use[i + 1]]`, of which those before `next_use[i]` are past.
+    /// The uses of value i are `uses[first_use[i]..first_use[i + 1]]`; those before `next_use[i]` are past.
     uses: Vec<u32>,
     first_use: Vec<u32>,
     next_use: Vec<u32>,
-    /// What is in each register, and in which register a value is.
+    /// The value in each register, and the register of each value.
     held: Vec<Option<Id>>,
     register_of: Vec<Option<u8>>,
-    /// Where a value is in memory.
+    /// The memory location of each value.
     home: Vec<Option<Place>>,
-    /// Whether that is a place to be used again by others.
+    /// Whether that location is a workspace slot that can be reused afterwards.
     is_borrowed: Vec<bool>,
     free_slots: Vec<u32>,
     slots: u32,
-    /// The argument places of calls that a value goes to, and its places among the results.
+    /// Where each value must also be stored: as an argument of a call, or as a result.
     wanted: Vec<(Id, Goal)>,
-    /// Which addresses are in their registers.
+    /// Which argument addresses are in their registers.
     is_loaded: [bool; Base::COUNT],
     work: Work,
 }
 
-/// Where a value goes as soon as it is there.
+/// A location where a value is stored as soon as it is computed.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Goal {
     /// An argument of a call, in the workspace.
@@ -149,8 +149,8 @@ enum Goal {
 impl<'a> Emitter<'a> {
     fn new(lowered: &'a Lowered, arithmetic: Arithmetic, layout: Layout) -> Emitter<'a> {
         let count = lowered.nodes.len();
-        // With AVX-512 one number is an operand of all lanes; otherwise constants are as long as registers, and masks at
-        // least as long as the shortest.
+        // AVX-512 broadcasts a single number to all lanes; otherwise constants are as long as registers, at least two
+        // numbers, because bitwise instructions read at least 128 bits.
         let copies = match layout.level {
             Level::Avx512 => 1,
             Level::Avx2 => layout.lanes.max(2),
@@ -199,7 +199,7 @@ impl<'a> Emitter<'a> {
         });
         let registers = match layout.level {
             Level::Avx512 => 32,
-            // The last one keeps guards in mind.
+            // The last register is reserved for the guards.
             Level::Avx2 => 16 - usize::from(lowered.is_guarded),
         };
         let mut is_loaded = [false; Base::COUNT];
@@ -230,7 +230,7 @@ impl<'a> Emitter<'a> {
     }
 
     fn function(&mut self) -> Result<(), IcedError> {
-        // The stack is then aligned as calls want it.
+        // This also aligns the stack as calls require.
         self.put(Encoded::with1(Code::Push_r64, WORKSPACE)?)?;
         self.put(Encoded::with2(Code::Mov_r64_rm64, WORKSPACE, Register::R9)?)?;
         let lowered = self.lowered;
@@ -247,7 +247,7 @@ impl<'a> Emitter<'a> {
                 self.calls(number)?;
             }
         }
-        // Results that are arguments or constants, or of calls.
+        // Results that are arguments, constants, or results of calls.
         for (index, id) in lowered.results.iter().enumerate() {
             if let Node::Leaf(place) = lowered.nodes[*id as usize] {
                 self.copy(place, Goal::Result(index as u32))?;
@@ -269,7 +269,7 @@ impl<'a> Emitter<'a> {
         Ok(())
     }
 
-    /// A vector register of the width of a state's number or of several.
+    /// The vector register of this index in the width of the layout.
     fn register(&self, index: u8) -> Register {
         let first = match self.layout.lanes {
             1 => Register::XMM0,
@@ -279,7 +279,7 @@ impl<'a> Emitter<'a> {
         first + u32::from(index)
     }
 
-    /// The address of an argument, in its register.
+    /// The register with the address of an argument, loaded if necessary.
     fn address(&mut self, base: Base) -> Result<Register, IcedError> {
         let register = ADDRESSES[base as usize];
         if !std::mem::replace(&mut self.is_loaded[base as usize], true) {
@@ -289,7 +289,7 @@ impl<'a> Emitter<'a> {
         Ok(register)
     }
 
-    /// A place as an operand.
+    /// A location as a memory operand.
     fn operand(&mut self, place: Place) -> Result<MemoryOperand, IcedError> {
         let is_wide = self.layout.lanes > 1;
         let (base, displacement, is_broadcast) = match place {
@@ -328,7 +328,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// A register for a value, which must not be one of some others.
+    /// A free register for a value, by eviction if necessary; the registers in `but` are not evicted.
     fn take(&mut self, but: &[Option<u8>]) -> Result<u8, IcedError> {
         let mut furthest: Option<(u32, u8)> = None;
         for index in 0..self.held.len() {
@@ -348,7 +348,7 @@ impl<'a> Emitter<'a> {
                 furthest = Some((next, index));
             }
         }
-        // Instructions have three operands, and there are more registers.
+        // There are more registers than the three operands of an instruction.
         let (next, index) = furthest.unwrap_or((NEVER, 0));
         if next != NEVER {
             self.work.evictions += 1;
@@ -358,7 +358,7 @@ impl<'a> Emitter<'a> {
         Ok(index)
     }
 
-    /// Writes what is in a register to memory, unless it is there.
+    /// Stores the value of a register in memory, unless it is already there.
     fn save(&mut self, index: u8) -> Result<(), IcedError> {
         let Some(id) = self.held[index as usize] else {
             return Ok(());
@@ -373,7 +373,7 @@ impl<'a> Emitter<'a> {
         Ok(())
     }
 
-    /// Nothing is in a register any more.
+    /// Marks a register as free.
     fn release(&mut self, index: u8) {
         if let Some(id) = self.held[index as usize].take() {
             self.register_of[id as usize] = None;
@@ -401,13 +401,13 @@ impl<'a> Emitter<'a> {
         self.put(Encoded::with2(self.table.store, to, from)?)
     }
 
-    /// Reads a place into a register.
+    /// Loads a location into a register.
     fn read(&mut self, index: u8, place: Place) -> Result<(), IcedError> {
         let mut from = self.operand(place)?;
         let to = self.register(index);
         let code = match (from.is_broadcast, self.table.broadcast) {
             (true, Some(broadcast)) => {
-                // The instruction itself says so.
+                // The instruction itself broadcasts.
                 from.is_broadcast = false;
                 broadcast
             }
@@ -416,14 +416,14 @@ impl<'a> Emitter<'a> {
         self.put(Encoded::with2(code, to, from)?)
     }
 
-    /// Copies a place to where it is wanted.
+    /// Copies a location to a goal.
     fn copy(&mut self, from: Place, to: Goal) -> Result<(), IcedError> {
         let index = self.take(&[])?;
         self.read(index, from)?;
         self.store(index, to)
     }
 
-    /// The register of a value; it is read from memory if it is in none.
+    /// The register of a value, which is loaded from memory if necessary.
     fn in_register(&mut self, id: Id, but: &[Option<u8>]) -> Result<u8, IcedError> {
         if let Some(index) = self.register_of[id as usize] {
             return Ok(index);
@@ -482,7 +482,7 @@ impl<'a> Emitter<'a> {
                 let compare = self.comparison(predicate, into, a, last)?;
                 self.put(compare)?;
                 if let Some(spread) = self.table.spread {
-                    // A register of one number is as long as one of two.
+                    // A register for one number is as long as one for two.
                     self.put(Encoded::with2(spread, self.register(to), COMPARED)?)?;
                 }
                 self.done(id, to)
@@ -492,7 +492,7 @@ impl<'a> Emitter<'a> {
                 match self.layout.level {
                     Level::Avx512 => {
                         let mut compare = self.comparison(Predicate::Greater, GUARDS, a, last)?;
-                        // Those that held so far, and hold here.
+                        // The guards that held so far and hold here.
                         compare.set_op_mask(GUARDS);
                         self.put(compare)?;
                     }
@@ -544,13 +544,13 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// Whether the first of two operands is in memory and the second is not, so that they should change places.
+    /// Whether the first of two operands is in memory and the second is not, so that they should be swapped.
     fn is_better_second(&self, a: Id, b: Id) -> bool {
         let is_held = |id: Id| self.register_of[id as usize].is_some();
         !is_held(a) && is_held(b)
     }
 
-    /// The operands of an instruction: the first in a register, the second in memory if it is in none.
+    /// The operands of an instruction: the first in a register, the second in memory if it is in no register.
     fn pair(&mut self, a: Id, b: Id, is_of_bits: bool) -> Result<(u8, Last), IcedError> {
         let other = self.register_of[b as usize];
         let a = self.in_register(a, &[other])?;
@@ -563,7 +563,7 @@ impl<'a> Emitter<'a> {
             (None, Some(place)) => place,
             _ => return Ok(Last::Register(self.in_register(id, but)?)),
         };
-        // To instructions for bits one number is two.
+        // Bitwise instructions read two numbers where there is one lane.
         let is_long = is_of_bits && self.layout.lanes == 1;
         Ok(match (self.layout.level, place) {
             (Level::Avx512, _) => {
@@ -571,7 +571,7 @@ impl<'a> Emitter<'a> {
                 operand.is_broadcast |= is_long;
                 Last::Memory(operand)
             }
-            // Constants are there twice; behind others may be nothing.
+            // Constants are stored twice; after other numbers the memory may end.
             (Level::Avx2, Place::Argument(..) | Place::Workspace(_)) if is_long => {
                 Last::Register(self.in_register(id, but)?)
             }
@@ -579,8 +579,8 @@ impl<'a> Emitter<'a> {
         })
     }
 
-    /// The register of the value of an instruction, of which the operands are in theirs. It may be one of these: an
-    /// instruction reads before it writes.
+    /// The register for the result of an instruction whose operands are in registers. It may be one of theirs,
+    /// because an instruction reads before it writes.
     fn result(&mut self, id: Id) -> Result<u8, IcedError> {
         self.past(id);
         let to = self.take(&[])?;
@@ -588,7 +588,7 @@ impl<'a> Emitter<'a> {
         Ok(to)
     }
 
-    /// The operands of a value have one use less; what has none left leaves its register.
+    /// Counts the uses of the operands of a value; an operand without further uses leaves its register.
     fn past(&mut self, id: Id) {
         for operand in self.lowered.nodes[id as usize].operands() {
             let next = &mut self.next_use[operand as usize];
@@ -603,7 +603,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// Places of operands that nobody needs any more are there for others, now that the instruction is written.
+    /// Frees the slots of operands without further uses, now that the instruction is written.
     fn give_back(&mut self, id: Id) {
         for operand in self.lowered.nodes[id as usize].operands() {
             if self.next(operand) == NEVER
@@ -615,7 +615,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// A value is in its register: it goes where it is wanted.
+    /// Stores a value that is now in its register at its goals.
     fn done(&mut self, id: Id, index: u8) -> Result<(), IcedError> {
         let first = self.wanted.partition_point(|(other, _)| *other < id);
         for place in first..self.wanted.len() {
@@ -625,7 +625,7 @@ impl<'a> Emitter<'a> {
             }
             self.store(index, goal)?;
             if let Goal::Workspace(slot) = goal {
-                // Nobody else writes there, so it need not be saved.
+                // The slot belongs to this value, so it need not be stored elsewhere.
                 self.home[id as usize] = Some(Place::Workspace(slot));
             }
         }
@@ -636,7 +636,7 @@ impl<'a> Emitter<'a> {
         Ok(())
     }
 
-    /// A fused operation overwrites one of its operands. Of all ways the one that needs the fewest copies is taken.
+    /// A fused operation overwrites one of its operands. The form that needs the fewest copies is chosen.
     fn contracted(
         &mut self,
         id: Id,
@@ -645,8 +645,8 @@ impl<'a> Emitter<'a> {
         term: Id,
     ) -> Result<(), IcedError> {
         let [a, b] = factors;
-        // The overwritten operand, the one in a register, the one that may be in memory; and the form, as instructions
-        // number their operands: `first = first·third + second` is 132.
+        // The overwritten operand, the operand in a register, the operand that may be in memory; and the index of the
+        // form, in the numbering of instructions: `first = first·third + second` is 132.
         let ways = [
             (term, a, b, 2),
             (term, b, a, 2),
@@ -656,7 +656,7 @@ impl<'a> Emitter<'a> {
             (b, term, a, 0),
         ];
         let last_use = |emitter: &Emitter, id: Id| {
-            // Its uses by this instruction are the last ones.
+            // This instruction contains the last uses.
             let own = [a, b, term]
                 .into_iter()
                 .filter(|other| *other == id)
@@ -667,7 +667,8 @@ impl<'a> Emitter<'a> {
             let held = |id: Id| emitter.register_of[id as usize].is_some();
             let copy = u32::from(!(held(over) && last_use(emitter, over)));
             let load = u32::from(!held(second) && second != over);
-            // A copy from memory takes the place of an operand in memory.
+            // Copying a register while another operand is in memory is wasteful: that operand could be loaded and
+            // overwritten instead.
             let waste = u32::from(held(over) && copy == 1 && !held(third));
             2 * (copy + load) + waste
         };
@@ -715,7 +716,7 @@ impl<'a> Emitter<'a> {
 
     // Guards.
 
-    /// The register that keeps guards in mind with AVX2.
+    /// The register that accumulates guards with AVX2.
     fn guards(&self) -> Register {
         self.register(15)
     }
@@ -739,7 +740,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// Leaves a bit for each lane in EAX: whether its guards hold.
+    /// Leaves a bit for each lane in EAX, which is set if its guards hold.
     fn finish_guards(&mut self) -> Result<(), IcedError> {
         let (level, lanes) = (self.layout.level, self.layout.lanes);
         self.put(match level {
@@ -764,7 +765,7 @@ impl<'a> Emitter<'a> {
         let calls = &lowered.phases[phase].calls;
         for call in calls {
             for (index, id) in call.arguments.iter().enumerate() {
-                // What is computed went there at once.
+                // Computed values were stored at their goals already.
                 if let Node::Leaf(place) = lowered.nodes[*id as usize] {
                     self.copy(place, Goal::Workspace(call.from + index as u32))?;
                 }
@@ -787,7 +788,7 @@ impl<'a> Emitter<'a> {
             }
         }
         if self.layout.lanes > 1 {
-            // The functions called may use SSE instructions, which are slow while upper halves of registers are in use.
+            // The called functions may use SSE instructions, which are slow while the upper halves of registers are in use.
             self.put(Encoded::with(Code::VEX_Vzeroupper))?;
         }
         for call in calls {
@@ -815,12 +816,12 @@ impl<'a> Emitter<'a> {
     }
 }
 
-/// Where the address of an argument is kept, by the number of its [`Base`], from the start of the workspace.
+/// The offset from the start of the workspace at which the address of an argument is stored, by the index of its [`Base`].
 fn saved(base: usize) -> i64 {
     8 * base as i64
 }
 
-/// The last operand of an instruction.
+/// The last operand of an instruction, in a register or in memory.
 #[derive(Clone, Copy)]
 enum Last {
     Register(u8),

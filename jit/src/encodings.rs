@@ -1,4 +1,4 @@
-//! Which instructions a width and a level have: one table each.
+//! The instructions for each width and level, as one table each.
 
 use iced_x86::Code;
 
@@ -7,43 +7,43 @@ use super::Level;
 /// The instructions for numbers of one width.
 #[derive(Debug)]
 pub struct Encodings {
-    /// Numbers from memory, as many as the width has.
+    /// Load of a vector.
     pub load: Code,
-    /// Numbers to memory.
+    /// Store of a vector.
     pub store: Code,
-    /// One register to another.
+    /// Copy between registers.
     pub copy: Code,
-    /// One number from memory into all lanes, where there are several.
+    /// Load of one number into all lanes, for several lanes.
     pub broadcast: Option<Code>,
-    /// Bits of a mask register as a number of ones or zeros in each lane.
+    /// Conversion of a mask register to all ones or zeros in each lane.
     pub spread: Option<Code>,
     /// Arithmetic with two operands.
     pub add: Code,
-    /// See above.
+    /// Subtraction.
     pub sub: Code,
-    /// See above.
+    /// Multiplication.
     pub mul: Code,
-    /// See above.
+    /// Division.
     pub div: Code,
-    /// The smaller; the second operand where they are equal or one is undefined.
+    /// Minimum; the second operand where they are equal or one is NaN.
     pub min: Code,
-    /// The larger; the second operand where they are equal or one is undefined.
+    /// Maximum; the second operand where they are equal or one is NaN.
     pub max: Code,
-    /// Bits that both have.
+    /// Bitwise and.
     pub and: Code,
-    /// Bits that one of them has.
+    /// Bitwise or.
     pub or: Code,
-    /// Bits that one of them has and the other has not.
+    /// Bitwise exclusive or.
     pub xor: Code,
     /// Square root.
     pub sqrt: Code,
-    /// Comparison: into a mask register with AVX-512, otherwise into ones or zeros.
+    /// Comparison: into a mask register with AVX-512, otherwise into all ones or zeros.
     pub compare: Code,
     /// `a·b + c`, `a·b − c`, `c − a·b`, each in the forms 132, 213 and 231.
     pub fused: [[Code; 3]; 3],
 }
 
-/// The table of a level for so many lanes: 1, 4, or 8 with AVX-512.
+/// The table of a level for this number of lanes: 1, 4, or 8 with AVX-512.
 pub fn encodings(level: Level, lanes: usize) -> &'static Encodings {
     match (level, lanes) {
         (Level::Avx512, 1) => &AVX512_ONE,

@@ -1,4 +1,4 @@
-//! What compiled code calls: sines and cosines, and the functions for which there is no instruction.
+//! Functions that compiled code calls: sines and cosines, and functions without an instruction.
 
 use lagrangian_native::{Lanes, Number};
 use lagrangian_scalar::{Kernel, Scalar};
@@ -6,11 +6,11 @@ use lagrangian_symbolic::Function as Named;
 
 use super::lower::{Arithmetic, CallKind};
 
-/// A function over numbers in memory: the arguments, where the results go, and how many arguments there are, each as long
-/// as a register.
+/// A function on numbers in memory: the address of the arguments, that of the results, and the number of arguments, each
+/// as long as a register.
 type External = unsafe extern "sysv64" fn(*const f64, *mut f64, u32);
 
-/// The address of what is to be called for so many lanes and arguments.
+/// The address of the function for this number of lanes and arguments.
 pub fn address(kind: CallKind, arithmetic: Arithmetic, lanes: usize, arguments: usize) -> usize {
     let function: External = match (kind, lanes) {
         (CallKind::Circular, 4) if arithmetic == Arithmetic::Fused => rows::<4>,
@@ -34,16 +34,16 @@ pub fn address(kind: CallKind, arithmetic: Arithmetic, lanes: usize, arguments: 
     function as usize
 }
 
-/// Sines and cosines of up to eight angles of one state. They are read one by one: what was just written in pieces comes
-/// late if it is read in one, 20 to 30 ns.
+/// Sines and cosines of up to eight angles of one state. Angles are loaded one by one: a wide load of numbers that were
+/// just stored separately defeats store forwarding and takes 20 to 30 ns longer.
 ///
 /// # Safety
-/// There are K angles, and space for 2K results.
+/// `from` must hold K angles, and `to` must have space for 2K results.
 unsafe extern "sysv64" fn few<const K: usize>(from: *const f64, to: *mut f64, _: u32) {
     f64::run(Few::<K> { from, to });
 }
 
-/// No larger than two registers, in which it reaches the function that has the instructions.
+/// At most two registers large, so that it is passed in registers to the function compiled for the processor.
 struct Few<const K: usize> {
     from: *const f64,
     to: *mut f64,
@@ -56,12 +56,12 @@ impl<const K: usize> Kernel<f64> for Few<K> {
     fn run<N: Scalar<Stored = f64>>(self) {
         let mut angles = [N::ZERO; K];
         for (index, angle) in angles.iter_mut().enumerate() {
-            // SAFETY: by the caller of `few` there are K. Volatile, as reads would be joined to one.
+            // SAFETY: the caller of `few` guarantees K angles. Volatile, because the compiler would merge the loads.
             *angle = N::load(unsafe { self.from.add(index).read_volatile() });
         }
         let all = N::sin_cos_all(angles);
         for (index, (sin, cos)) in all.into_iter().enumerate() {
-            // SAFETY: by the caller of `few` there is space for K sines and K cosines behind them.
+            // SAFETY: the caller of `few` guarantees space for K sines followed by K cosines.
             unsafe {
                 self.to.add(index).write(sin.store());
                 self.to.add(K + index).write(cos.store());
@@ -70,13 +70,13 @@ impl<const K: usize> Kernel<f64> for Few<K> {
     }
 }
 
-/// Sines and cosines of many angles of one state, eight by eight.
+/// Sines and cosines of many angles of one state, eight at a time.
 ///
 /// # Safety
-/// There are `count` angles, and space for twice as many results.
+/// `from` must hold `count` angles, and `to` must have space for twice as many results.
 unsafe extern "sysv64" fn many(from: *const f64, to: *mut f64, count: u32) {
     let count = count as usize;
-    // SAFETY: the caller says so; results lie behind the angles.
+    // SAFETY: guaranteed by the caller; results are stored after the angles.
     let (angles, results) = unsafe {
         (
             std::slice::from_raw_parts(from, count),
@@ -130,13 +130,14 @@ impl Kernel<Lanes<8>> for Many<'_> {
 /// Sines and cosines of the angles of several states.
 ///
 /// # Safety
-/// There are `count` rows of angles, and space for twice as many results, at addresses that rows may have.
+/// `from` must hold `count` rows of angles, and `to` must have space for twice as many results, at addresses with
+/// the alignment of rows.
 unsafe extern "sysv64" fn rows<const N: usize>(from: *const f64, to: *mut f64, count: u32)
 where
     Lanes<N>: Number,
 {
     let count = count as usize;
-    // SAFETY: the caller says so; results lie behind the angles.
+    // SAFETY: guaranteed by the caller; results are stored after the angles.
     let (angles, results) = unsafe {
         (
             std::slice::from_raw_parts(from.cast::<Lanes<N>>(), count),
@@ -157,7 +158,7 @@ struct Rows<'a, const N: usize> {
     cosines: &'a mut [Lanes<N>],
 }
 
-/// How many angles are asked at once whether all are small.
+/// How many angles are tested together for being small.
 const AT_ONCE: usize = 4;
 
 impl<const L: usize> Kernel<Lanes<L>> for Rows<'_, L> {
@@ -181,7 +182,7 @@ impl<const L: usize> Kernel<Lanes<L>> for Rows<'_, L> {
     }
 }
 
-/// Sines and cosines of K angles, asked at once whether all are small.
+/// Sines and cosines of K angles, with one test for whether all are small.
 #[inline(always)]
 fn together<N: Scalar<Stored = Lanes<L>>, const K: usize, const L: usize>(
     angles: [Lanes<L>; K],
@@ -199,14 +200,14 @@ fn together<N: Scalar<Stored = Lanes<L>>, const K: usize, const L: usize>(
     }
 }
 
-/// `libm`'s sines and cosines.
+/// Sines and cosines of `libm`.
 ///
 /// # Safety
-/// There are `count` rows of L angles, and space for twice as many results.
+/// `from` must hold `count` rows of L angles, and `to` must have space for twice as many results.
 unsafe extern "sysv64" fn plain_sines<const L: usize>(from: *const f64, to: *mut f64, count: u32) {
     let count = L * count as usize;
     for index in 0..count {
-        // SAFETY: the caller says so.
+        // SAFETY: guaranteed by the caller.
         unsafe {
             let (sin, cos) = Scalar::sin_cos(from.add(index).read());
             to.add(index).write(sin);
@@ -215,15 +216,15 @@ unsafe extern "sysv64" fn plain_sines<const L: usize>(from: *const f64, to: *mut
     }
 }
 
-/// A function of each number of a row; of two rows those of two arguments.
+/// A function applied to each number of a row, or of two rows if it has two arguments.
 fn named<const L: usize>(function: Named) -> External {
     macro_rules! one {
         ($method:ident) => {{
             /// # Safety
-            /// There is a row, and space for a row.
+            /// `from` must hold a row, and `to` must have space for a row.
             unsafe extern "sysv64" fn each<const L: usize>(from: *const f64, to: *mut f64, _: u32) {
                 for lane in 0..L {
-                    // SAFETY: the caller says so.
+                    // SAFETY: guaranteed by the caller.
                     unsafe { to.add(lane).write(Scalar::$method(from.add(lane).read())) };
                 }
             }
@@ -233,10 +234,10 @@ fn named<const L: usize>(function: Named) -> External {
     macro_rules! two {
         ($method:ident) => {{
             /// # Safety
-            /// There are two rows, and space for a row.
+            /// `from` must hold two rows, and `to` must have space for a row.
             unsafe extern "sysv64" fn each<const L: usize>(from: *const f64, to: *mut f64, _: u32) {
                 for lane in 0..L {
-                    // SAFETY: the caller says so.
+                    // SAFETY: guaranteed by the caller.
                     unsafe {
                         let (a, b) = (from.add(lane).read(), from.add(L + lane).read());
                         to.add(lane).write(Scalar::$method(a, b));

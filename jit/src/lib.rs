@@ -1,12 +1,12 @@
-//! Programs as machine code, made while the program runs that asks for it: compiled speed without a compiler.
+//! Compiles programs to machine code at run time: compiled speed without a compiler.
 //!
-//! A [`Program`](lagrangian_program::Program) is straight-line arithmetic, so its code is written down in one walk, a fifth of a
-//! microsecond for an operation. It gives **the bits of the interpreter**, and so those of the code that rustc compiles:
-//! functions that are called often are contracted as `fusion.rs` says and take their sines from `lagrangian-native`; all
-//! others do every operation by itself and take `libm`'s. (An undefined result is undefined in both; which of the many
-//! undefined numbers it is, no arithmetic says.)
+//! A [`Program`](lagrangian_program::Program) is straight-line arithmetic, so its code is generated in one pass, which takes a
+//! fifth of a microsecond per operation. It gives **the bits of the interpreter**, and so those of the code that rustc compiles:
+//! functions that are called often are contracted by the rule of `fusion.rs` and use the sines of `lagrangian-native`; all
+//! others execute every operation separately and use those of `libm`. (A NaN is NaN in both; which of the many NaN bit patterns
+//! it has is unspecified.)
 //!
-//! # The way
+//! # How it works
 //!
 //! | file | from | to |
 //! | --- | --- | --- |
@@ -15,16 +15,16 @@
 //! | `code.rs` | bytes | pages that are written, then executable, never both |
 //! | `running.rs`, `several.rs` | calls of one state, of 4 or 8 states | calls of that code, where it pays |
 //!
-//! # Where there is none
+//! # Limits
 //!
-//! On processors other than x86-64 with AVX2 and fused multiply-add; in builds with `strict-libm`, whose arithmetic is
-//! another; and where the system does not let pages be executable. [`Level::here`] and [`Library::new`] say so, and the
-//! caller interprets: the same bits.
+//! There is no machine code on processors other than x86-64 with AVX2 and fused multiply-add, in builds with
+//! `strict-libm`, whose arithmetic is different, and where the system does not allow executable pages. [`Level::here`]
+//! and [`Library::new`] report this, and the caller interprets instead, with the same bits.
 //!
 //! # Unsafe code
 //!
-//! A call of bytes that were just written cannot be anything else. It is in `code.rs`, and in `external.rs`, which that
-//! code calls back.
+//! A call of bytes that were just written is necessarily unsafe. The unsafe code is in `code.rs`, and in `external.rs`,
+//! whose functions the generated code calls.
 
 mod arguments;
 #[cfg(target_arch = "x86_64")]
@@ -59,22 +59,22 @@ pub use work::Work;
 use lagrangian_native::Number;
 use lagrangian_scalar::{Kernel, Scalar};
 
-/// Which instructions code is made of.
+/// The instruction set of generated code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Level {
     /// AVX2 and fused multiply-add: 16 registers of four numbers.
     Avx2,
-    /// AVX-512: 32 registers of eight numbers, and one number from memory as an operand of all lanes.
+    /// AVX-512: 32 registers of eight numbers, with broadcast of one number from memory to all lanes.
     Avx512,
 }
 
 impl Level {
-    /// The best that the processor has and that gives the bits of the interpreter; none where there is none.
+    /// The best level of the processor that gives the bits of the interpreter; `None` if there is none.
     pub fn here() -> Option<Level> {
         Level::all().last()
     }
 
-    /// All that the processor has, the best last.
+    /// All levels of the processor, the best last.
     pub fn all() -> impl Iterator<Item = Level> {
         let [avx2, avx512] = if is_fused() { levels() } else { [false; 2] };
         let avx2 = avx2.then_some(Level::Avx2);
@@ -95,8 +95,7 @@ fn levels() -> [bool; 2] {
     [false; 2]
 }
 
-/// Whether functions that are called often run with fused operations here: not where the build wants the same bits
-/// everywhere.
+/// Whether functions that are called often use fused operations here; builds that want the same bits everywhere do not.
 fn is_fused() -> bool {
     struct Probe;
     impl Kernel<f64> for Probe {

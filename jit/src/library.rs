@@ -1,4 +1,4 @@
-//! The functions of a program, each compiled when it is first asked for.
+//! The functions of a program, each compiled when first needed.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, OnceLock};
@@ -9,7 +9,7 @@ use super::code::{Code, Layout};
 use super::unavailable::Unavailable;
 use super::{Level, work};
 
-/// A program's functions as machine code, for one state or several at once. It is shared by all who run it.
+/// A program's functions as machine code, for one state or several at once; shared by all that run it.
 #[derive(Debug)]
 pub struct Library {
     program: Arc<Program>,
@@ -21,14 +21,14 @@ pub struct Library {
 #[derive(Debug)]
 struct Entry {
     role: Role,
-    /// After how many calls it pays, and how many there have been without code.
+    /// The number of calls after which compiling pays off, and the number of interpreted calls so far.
     pays_after: u32,
     calls: AtomicU32,
-    /// Nothing inside where the system gave no pages.
+    /// `None` inside if the system provided no pages.
     code: OnceLock<Option<Code>>,
 }
 
-/// The places of the functions that were called last: a run calls the same few ones again and again.
+/// The indices of recently called functions: a run calls the same few again and again.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Recent {
     places: [usize; 8],
@@ -45,7 +45,7 @@ impl Default for Recent {
 }
 
 impl Recent {
-    /// The place of a function in this library, which is always the same one.
+    /// The index of a function in `library`, which must always be the same one.
     #[inline]
     pub fn place(&mut self, library: &Library, role: Role) -> Option<usize> {
         let mut known = self.places.iter();
@@ -60,11 +60,11 @@ impl Recent {
 }
 
 impl Library {
-    /// A program for one state at a time. Nothing is compiled yet, but for the shortest function there is: so it is known
-    /// whether anything can be.
+    /// A program for one state at a time. Only its shortest function is compiled at once, to find out whether
+    /// compilation is possible.
     ///
     /// # Errors
-    /// If there is no machine code here.
+    /// If machine code is not available here.
     pub fn new(program: Arc<Program>) -> Result<Library, Unavailable> {
         let level = Level::here().ok_or(Unavailable::Processor)?;
         Library::of(program, Library::one(level))
@@ -73,7 +73,7 @@ impl Library {
     /// A program for N states at once, 4 or 8, all with the same parameters or each with its own.
     ///
     /// # Errors
-    /// If there is no machine code here, or not for so many.
+    /// If machine code is not available here, or not for this number of states.
     pub fn for_lanes(
         program: Arc<Program>,
         lanes: usize,
@@ -84,10 +84,10 @@ impl Library {
         Library::of(program, layout)
     }
 
-    /// A program in a layout, as [`one`](Self::one) or [`several`](Self::several) make it.
+    /// A program in a layout that [`one`](Self::one) or [`several`](Self::several) returned.
     ///
     /// # Errors
-    /// If the processor does not have the level, or the system gives no pages.
+    /// If the processor lacks the level, or the system provides no pages.
     pub fn of(program: Arc<Program>, layout: Layout) -> Result<Library, Unavailable> {
         if !Level::all().any(|level| level == layout.level) {
             return Err(Unavailable::Processor);
@@ -115,7 +115,7 @@ impl Library {
         })
     }
 
-    /// The layout of one state.
+    /// The layout for one state.
     pub fn one(level: Level) -> Layout {
         Layout {
             level,
@@ -125,12 +125,12 @@ impl Library {
         }
     }
 
-    /// The layout of 4 or 8 states; none of other numbers.
+    /// The layout for 4 or 8 states; `None` for other numbers.
     pub fn several(level: Level, lanes: usize, is_shared: bool) -> Option<Layout> {
         if lanes != 4 && lanes != 8 {
             return None;
         }
-        // Without AVX-512 eight lanes are twice four, which lie eight apart.
+        // Without AVX-512, eight lanes are two groups of four with a stride of eight.
         let own = match level {
             Level::Avx512 => lanes,
             Level::Avx2 => 4,
@@ -153,23 +153,23 @@ impl Library {
         &self.program
     }
 
-    /// How the numbers of states lie in memory.
+    /// The arrangement of the states' numbers in memory.
     pub fn layout(&self) -> Layout {
         self.layout
     }
 
-    /// The code of a function, compiled if it is not yet; none if the program has no such function.
+    /// The code of a function, compiled if necessary; `None` if the program lacks the function.
     pub fn code(&self, role: Role) -> Option<&Code> {
         self.code_at(self.place(role)?)
     }
 
-    /// Whether a function has code already.
+    /// Whether a function has been compiled.
     pub fn is_compiled(&self, role: Role) -> bool {
         let entry = self.place(role).and_then(|place| self.functions.get(place));
         entry.is_some_and(|entry| matches!(entry.code.get(), Some(Some(_))))
     }
 
-    /// The place of a function.
+    /// The index of a function.
     pub(crate) fn place(&self, role: Role) -> Option<usize> {
         let functions = &self.functions;
         functions
@@ -177,19 +177,20 @@ impl Library {
             .ok()
     }
 
-    /// Which function is at a place.
+    /// The function at an index.
     pub(crate) fn role_at(&self, place: usize) -> Option<Role> {
         self.functions.get(place).map(|entry| entry.role)
     }
 
-    /// The code of the function at a place, one call later: none until as many calls have been as make it worth compiling.
+    /// Counts a call of the function at an index, and returns its code once enough calls have been made to make
+    /// compiling worthwhile.
     #[inline]
     pub(crate) fn code_where_it_pays(&self, place: usize) -> Option<&Code> {
         let entry = self.functions.get(place)?;
         if let Some(code) = entry.code.get() {
             return code.as_ref();
         }
-        // Counts of several threads may be lost, which only makes it later.
+        // Concurrent threads may lose counts, which only delays compilation.
         let calls = entry.calls.load(Ordering::Relaxed);
         if calls < entry.pays_after {
             entry.calls.store(calls + 1, Ordering::Relaxed);
@@ -198,7 +199,7 @@ impl Library {
         self.code_at(place)
     }
 
-    /// The code of the function at a place.
+    /// The code of the function at an index.
     pub(crate) fn code_at(&self, place: usize) -> Option<&Code> {
         let entry = self.functions.get(place)?;
         let code = entry.code.get_or_init(|| {

@@ -1,9 +1,9 @@
-//! From the operations of a program to those of a processor.
+//! Lowers the operations of a program to those of a processor.
 //!
-//! What a processor has no instruction for is a call: sines and cosines, and functions such as `atan2`. All calls whose
-//! arguments are known at the same time stand together, so code is a row of *phases*: arithmetic up to arguments of calls,
-//! the calls, arithmetic with their results, and so on; most machines have two. An operation stands in the last phase in
-//! which it is still in time for the operations that need it, so that little is to be kept across calls.
+//! Operations without an instruction are calls: sines and cosines, and functions such as `atan2`. All calls whose
+//! arguments are known at the same time are grouped, so code is a sequence of *phases*: arithmetic up to the arguments of
+//! calls, the calls, arithmetic with their results, and so on; most machines have two. An operation is placed in the last
+//! phase that is early enough for the operations that need it, so that few values must be kept across calls.
 
 use std::collections::HashMap;
 
@@ -11,23 +11,23 @@ use lagrangian_program::{Contracted, Contractions, Function, Op, Source};
 use lagrangian_scalar::Scalar;
 use lagrangian_symbolic::Function as Named;
 
-/// The number of a [`Node`].
+/// The index of a [`Node`].
 pub type Id = u32;
 
 /// A value.
 #[derive(Clone, Copy, Debug)]
 pub enum Node {
-    /// It is in memory before anything needs it.
+    /// A value that is in memory before it is needed.
     Leaf(Place),
     /// An instruction with two operands.
     Binary(Instruction, Id, Id),
-    /// A sum with the product that is contracted into it: the factors and the term.
+    /// A sum with the product contracted into it: the factors and the term.
     Contracted(Contracted, [Id; 2], Id),
     /// A square root.
     Root(Id),
-    /// Bits of ones where a comparison holds, zeros elsewhere.
+    /// All ones where a comparison holds, zeros elsewhere.
     Compare(Predicate, Id, Id),
-    /// Keeps in mind for which lanes the first exceeds the second; nobody reads it.
+    /// Records in which lanes the first operand exceeds the second; it has no value.
     Guard(Id, Id),
 }
 
@@ -46,34 +46,34 @@ pub enum Instruction {
     Min,
     /// a where a > b, otherwise b.
     Max,
-    /// Bits that both have.
+    /// Bitwise and.
     And,
-    /// Bits that one of them has.
+    /// Bitwise or.
     Or,
-    /// Bits that one has and the other has not.
+    /// Bitwise exclusive or.
     Xor,
 }
 
 impl Instruction {
-    /// Whether the operands may change places.
+    /// Whether the operands may be swapped.
     pub fn is_symmetric(self) -> bool {
         use Instruction::{Add, And, Mul, Or, Xor};
         matches!(self, Add | Mul | And | Or | Xor)
     }
 
-    /// Whether it works on bits: then an operand in memory is as long as the register.
+    /// Whether it is bitwise: then an operand in memory must be as long as the register.
     pub fn is_of_bits(self) -> bool {
         use Instruction::{And, Or, Xor};
         matches!(self, And | Or | Xor)
     }
 }
 
-/// A comparison, as instructions number it.
+/// A comparison, with the number that instructions use for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Predicate {
-    /// One of the two is undefined.
+    /// At least one of the two is NaN.
     Unordered = 0x03,
-    /// Both are defined, and they differ.
+    /// Neither is NaN, and they differ.
     Different = 0x0c,
     /// a < b
     Less = 0x11,
@@ -81,7 +81,7 @@ pub enum Predicate {
     Greater = 0x1e,
 }
 
-/// Where a value lies in memory.
+/// The memory location of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Place {
     /// Among the constants beside the code.
@@ -107,51 +107,51 @@ pub enum Base {
     Known,
     /// Accelerations.
     Accelerations,
-    /// What the stage of the time has left.
+    /// The results of the stage of time.
     AtTime,
-    /// What the stage of the position has left.
+    /// The results of the stage of position.
     AtPosition,
-    /// Where the results go.
+    /// The destination of the results.
     Results,
 }
 
 impl Base {
-    /// How many there are.
+    /// The number of arguments.
     pub const COUNT: usize = 9;
 }
 
-/// Calls of one function.
+/// Calls of the same function, grouped.
 #[derive(Clone, Debug)]
 pub struct Call {
-    /// What is called.
+    /// The function.
     pub kind: CallKind,
-    /// The arguments, of sines and cosines any number.
+    /// The arguments; any number of angles for sines and cosines.
     pub arguments: Vec<Id>,
-    /// Where in the workspace the arguments go, one after another.
+    /// The workspace slot of the first argument; the others follow.
     pub from: u32,
-    /// Where the results are: of angles all sines, then all cosines.
+    /// The workspace slot of the first result: all sines, then all cosines.
     pub to: u32,
 }
 
-/// What is called.
+/// The function of a call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CallKind {
     /// Sines and cosines of angles.
     Circular,
-    /// A function of one argument or two.
+    /// A function of one or two arguments.
     Named(Named),
 }
 
 /// How sums and sines are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Arithmetic {
-    /// Contracted, and the sines of `lagrangian-native`: what functions that are called often run in.
+    /// Contracted, with the sines of `lagrangian-native`: for functions that are called often.
     Fused,
-    /// Every operation by itself, and `libm`'s sines.
+    /// Every operation separately, with the sines of `libm`.
     Plain,
 }
 
-/// A function in terms of instructions.
+/// A function lowered to instructions.
 #[derive(Debug, Default)]
 pub struct Lowered {
     /// All values.
@@ -162,15 +162,15 @@ pub struct Lowered {
     pub results: Vec<Id>,
     /// The bits of the constants.
     pub constants: Vec<u64>,
-    /// How many places the calls need in the workspace.
+    /// The number of workspace slots that the calls need.
     pub workspace: u32,
-    /// Of each argument how many numbers are read.
+    /// The count of numbers read of each argument.
     pub reads: [u32; Base::COUNT],
     /// Whether there are guards.
     pub is_guarded: bool,
 }
 
-/// Arithmetic, and the calls behind it.
+/// Arithmetic, followed by calls.
 #[derive(Debug, Default)]
 pub struct Phase {
     /// The values to compute, in this order.
@@ -179,7 +179,7 @@ pub struct Phase {
     pub calls: Vec<Call>,
 }
 
-/// A call before it is known where its arguments and results lie.
+/// A call before slots are assigned to its arguments and results.
 struct Wanted {
     kind: CallKind,
     arguments: Vec<Id>,
@@ -188,7 +188,7 @@ struct Wanted {
 
 struct Builder {
     nodes: Vec<Node>,
-    /// The values in the order of the program, leaves left out.
+    /// The values in the order of the program, without leaves.
     order: Vec<Id>,
     leaves: HashMap<Place, Id>,
     constants: Vec<u64>,
@@ -196,7 +196,7 @@ struct Builder {
     wanted: Vec<Wanted>,
     /// The sine and cosine of an angle.
     circular: HashMap<Id, [Id; 2]>,
-    /// The call that a leaf comes from.
+    /// The call whose result a leaf is.
     call_of: HashMap<Id, usize>,
 }
 
@@ -240,7 +240,7 @@ impl Builder {
         self.bits(number.to_bits())
     }
 
-    /// The result of a call of which nothing is known yet but what it is of.
+    /// The results of a call whose slots are not yet assigned.
     fn call(&mut self, kind: CallKind, arguments: Vec<Id>, results: usize) -> Vec<Id> {
         let call = self.wanted.len();
         let place = Node::Leaf(Place::Workspace(0));
@@ -284,7 +284,7 @@ impl Builder {
         if arithmetic == Arithmetic::Fused {
             return self.add(Node::Contracted(Contracted::Sub, [a, b], product));
         }
-        // As `f64` does it, step for step: T. J. Dekker, *A floating-point technique for extending the available
+        // Step by step as for `f64`: T. J. Dekker, *A floating-point technique for extending the available
         // precision*, Numer. Math. 18 (1971) 224–242.
         let splitter = self.number(134_217_729.0); // 2²⁷ + 1
         let mut halves = |x: Id| {
@@ -302,7 +302,7 @@ impl Builder {
         }
         let lowest = self.binary(Mul, a0, b0);
         let error = self.binary(Sub, lowest, left);
-        // Numbers near the largest have no halves.
+        // Splitting overflows for numbers near the largest.
         let size = self.magnitude(error);
         let infinity = self.number(f64::INFINITY);
         let is_finite = self.add(Node::Compare(Predicate::Less, size, infinity));
@@ -324,7 +324,7 @@ impl Builder {
         self.binary(Instruction::And, a, all_but_sign)
     }
 
-    /// `otherwise`, which must be all zeros where `a` is undefined, or `a` where it is.
+    /// `otherwise`, or `a` where that is NaN; there `otherwise` must be all zeros.
     fn or_undefined(&mut self, a: Id, otherwise: Id) -> Id {
         let is_undefined = self.add(Node::Compare(Predicate::Unordered, a, a));
         let undefined = self.binary(Instruction::And, is_undefined, a);
@@ -340,9 +340,9 @@ impl Builder {
         self.or_undefined(a, of_defined)
     }
 
-    /// The smaller or the larger; an undefined operand gives an undefined result.
+    /// The minimum or maximum; NaN if an operand is NaN.
     fn extreme(&mut self, instruction: Instruction, a: Id, b: Id) -> Id {
-        // The instruction gives b where a is undefined.
+        // The instruction gives b where a is NaN.
         let extreme = self.binary(instruction, a, b);
         let ones = self.bits(u64::MAX);
         let is_undefined = self.add(Node::Compare(Predicate::Unordered, a, a));
@@ -388,7 +388,7 @@ impl Lowered {
             Arithmetic::Fused => Contractions::of(function),
             Arithmetic::Plain => Contractions::none(function),
         };
-        // Guards, by the operation behind which both of their numbers are known.
+        // Guards, ordered by the operation after which both their operands are known.
         let mut guards: Vec<(usize, usize)> = function
             .guards
             .iter()
@@ -403,7 +403,7 @@ impl Lowered {
             let value = lagrangian_program::Value(index as u32);
             let at = |value: lagrangian_program::Value| id_of[value.index()];
             let id = match *op {
-                // The sum that uses it computes it.
+                // The sum that uses the product computes it.
                 _ if contractions.is_part(value) => Id::MAX,
                 _ if let Some(sum) = contractions.sum(value) => builder.add(Node::Contracted(
                     sum.kind,
@@ -444,17 +444,17 @@ impl Lowered {
 }
 
 impl Builder {
-    /// Everything in its phase.
+    /// Assigns phases to all values.
     fn in_phases(mut self, results: Vec<Id>) -> Lowered {
         let count = self.nodes.len();
-        // From which phase on a value is there, and behind which phase a call stands.
+        // The phase in which a value becomes known, and the phase after which a call is made.
         let mut known = vec![0u32; count];
         let mut stands = vec![0u32; self.wanted.len()];
         for id in 0..count {
             known[id] = match self.nodes[id] {
                 Node::Leaf(_) => match self.call_of.get(&(id as Id)) {
                     Some(call) => {
-                        // Arguments have smaller numbers than results.
+                        // Arguments have smaller ids than results.
                         let arguments = self.wanted[*call].arguments.iter();
                         let behind = arguments.map(|id| known[*id as usize]).max();
                         stands[*call] = behind.unwrap_or(0);
@@ -469,7 +469,7 @@ impl Builder {
             };
         }
         let last = stands.iter().map(|phase| phase + 1).max().unwrap_or(0);
-        // The last phase in which a value is in time, and whether anybody needs it.
+        // The last phase in which a value is early enough, and whether it is needed.
         let mut phase = vec![u32::MAX; count];
         for id in &results {
             phase[*id as usize] = last;
@@ -484,7 +484,7 @@ impl Builder {
         for id in (0..count).rev() {
             let node = self.nodes[id];
             if matches!(node, Node::Guard(..)) {
-                // All in one phase, so that no call stands between them.
+                // All guards are in one phase, so that no call separates them.
                 phase[id] = last;
                 is_guarded = true;
             }
@@ -559,7 +559,7 @@ impl Builder {
 }
 
 impl Node {
-    /// What it is computed from.
+    /// Its operands.
     pub fn operands(self) -> impl Iterator<Item = Id> {
         let (a, b, c) = match self {
             Node::Leaf(_) => (None, None, None),

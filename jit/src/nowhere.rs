@@ -1,4 +1,4 @@
-//! What stands for code on processors for which there is none: types without values.
+//! Placeholders for machine code on unsupported processors: types without values.
 
 use std::convert::Infallible;
 use std::marker::PhantomData;
@@ -11,38 +11,38 @@ use super::arguments::SeveralArguments;
 use super::unavailable::Unavailable;
 use super::work::Work;
 
-/// A function as machine code: there is none.
+/// A function as machine code, which cannot exist here.
 #[derive(Debug)]
 pub struct Code(Infallible);
 
-/// For how many states at once code is, and how their numbers lie in memory.
+/// The number of states that code evaluates at once, and the arrangement of their numbers in memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Layout {
     /// The instructions that the processor has.
     pub level: Level,
-    /// How many states an instruction works on.
+    /// The number of states that an instruction processes.
     pub lanes: usize,
-    /// From a number of a state to its next, in numbers.
+    /// The distance from a number of a state to its next, in numbers.
     pub stride: usize,
-    /// From a prepared value to the next, in numbers.
+    /// The distance from a prepared value to the next, in numbers.
     pub known_stride: usize,
 }
 
-/// Where code keeps what its registers have no place for.
+/// Memory for values that do not fit into registers.
 #[derive(Clone, Debug, Default)]
 pub struct Workspace(());
 
-/// What a call reads.
+/// The arguments of a call.
 #[derive(Clone, Copy, Debug)]
 pub struct Rows<'a>(PhantomData<&'a f64>);
 
 impl<'a> Rows<'a> {
-    /// Those of one state.
+    /// The arguments for one state.
     pub fn of_one(_: &'a Arguments<'a, f64>, _: &'a [f64], _: [&'a [f64]; 2]) -> Rows<'a> {
         Rows(PhantomData)
     }
 
-    /// Those of N states.
+    /// The arguments for N states.
     pub fn of_several<const N: usize>(
         _: &'a SeveralArguments<'a, N>,
         _: &'a [f64],
@@ -53,7 +53,7 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// Workspace for the results of one or several states.
+/// Memory for the results of one or several states.
 pub struct Results<'a>(PhantomData<&'a mut f64>);
 
 impl<'a> From<&'a mut [f64]> for Results<'a> {
@@ -77,17 +77,17 @@ impl Code {
         Err(Unavailable::Processor)
     }
 
-    /// How much work compiling was.
+    /// The amount of work of compiling it.
     pub fn work(&self) -> Work {
         match self.0 {}
     }
 
-    /// How many bytes it has.
+    /// Its length in bytes.
     pub fn length(&self) -> usize {
         match self.0 {}
     }
 
-    /// Where it is in memory.
+    /// Its addresses in memory.
     pub fn addresses(&self) -> std::ops::Range<usize> {
         match self.0 {}
     }

@@ -13,11 +13,11 @@ use super::library::Recent;
 pub enum When {
     /// At their first call.
     Always,
-    /// When as much time went into interpreting them as compiling takes.
+    /// When interpreting them has taken as long as compiling would.
     ItPays,
 }
 
-/// A machine with the values of its parameters, run by machine code where that pays.
+/// A machine with its parameters, executed as machine code where that pays off.
 #[derive(Clone, Debug)]
 pub struct Running {
     library: Arc<Library>,
@@ -28,12 +28,12 @@ pub struct Running {
     at_time: Vec<f64>,
     at_position: Vec<f64>,
     workspace: Workspace,
-    /// The functions of the last calls.
+    /// The indices of recently called functions.
     recent: Recent,
 }
 
 impl Running {
-    /// A program with the parameters of an interpreter of it.
+    /// Takes a library and the parameters of an interpreter of the same program.
     pub fn new(library: Arc<Library>, when: When, interpreter: &Interpreter<f64>) -> Running {
         Running {
             library,
@@ -47,8 +47,8 @@ impl Running {
         }
     }
 
-    /// Runs a function, if there is code for it by now and it has a value here; otherwise says false, and the interpreter is
-    /// to be asked, for results or for the error.
+    /// Runs a function and returns true if it has been compiled and its guards hold. Otherwise returns false, and the caller
+    /// must use the interpreter, for results or for the error.
     #[inline]
     pub fn call(&mut self, role: Role, arguments: Arguments<'_, f64>, results: &mut [f64]) -> bool {
         // These two read parameters.
@@ -72,7 +72,7 @@ impl Running {
         code.run(&mut self.workspace, &rows, 0, &mut results.into()) == Some(1)
     }
 
-    /// Hands the results of [`Role::AtTime`] or [`Role::AtPosition`] to the calls of the next stage.
+    /// Stores the results of [`Role::AtTime`] or [`Role::AtPosition`] for calls of the next stage.
     pub fn stand(&mut self, role: Role, values: &[f64]) {
         let left = match role {
             Role::AtTime => &mut self.at_time,

@@ -10,20 +10,20 @@ use super::arguments::SeveralArguments;
 use super::code::{Results, Rows, Workspace};
 use super::library::Recent;
 
-/// A machine in N lanes, 4 or 8, run by machine code.
+/// A machine in N lanes, 4 or 8, executed as machine code.
 ///
-/// A lane's results are those of one state, to the last bit, whatever its neighbours hold.
+/// The results of a lane are those of a single state, bit for bit, whatever the other lanes hold.
 #[derive(Clone, Debug)]
 pub struct Several<const N: usize> {
     library: Arc<Library>,
-    /// As the layout says: one number for all lanes, or one for each.
+    /// In the arrangement of the layout: one number for all lanes, or one for each.
     known: Vec<f64>,
-    /// The lanes that have accelerations with these parameters.
+    /// A bit for each lane whose parameters allow accelerations.
     regular: u32,
     at_time: Vec<Lanes<N>>,
     at_position: Vec<Lanes<N>>,
     workspace: Workspace,
-    /// The functions of the last calls.
+    /// The indices of recently called functions.
     recent: Recent,
 }
 
@@ -34,8 +34,8 @@ impl<const N: usize> Several<N> {
         _ => panic!("there is code for 4 or 8 lanes"),
     };
 
-    /// The parameters of an interpreter of the program in every lane. None if the library is for another number of lanes, or
-    /// each with its own parameters.
+    /// All lanes have the parameters of an interpreter of the program. `None` if the library is for another number of lanes,
+    /// or for separate parameters.
     pub fn shared(library: Arc<Library>, interpreter: &Interpreter<f64>) -> Option<Self> {
         let layout = library.layout();
         if layout.stride != N || layout.known_stride == layout.stride && layout.lanes != N {
@@ -54,8 +54,8 @@ impl<const N: usize> Several<N> {
         })
     }
 
-    /// Each lane with its own parameters: computes what depends on these alone. None if the library is for another number of
-    /// lanes or for shared parameters, or there are not as many as the program has.
+    /// Each lane has its own parameters; computes the values that depend on these alone. `None` if the library is for
+    /// another number of lanes or for shared parameters, or if the number of parameters is not that of the program.
     pub fn each(library: Arc<Library>, parameters: &[Lanes<N>]) -> Option<Self> {
         let layout = library.layout();
         if layout.stride != N || layout.known_stride != N {
@@ -80,8 +80,8 @@ impl<const N: usize> Several<N> {
         Some(several)
     }
 
-    /// Each lane with its own parameters: those of this interpreter of the program in all of them, until [`put`](Self::put)
-    /// puts others there. None if the library is for another number of lanes or for shared parameters.
+    /// Each lane has its own parameters, at first those of this interpreter of the program, until [`put`](Self::put)
+    /// replaces them. `None` if the library is for another number of lanes or for shared parameters.
     pub fn each_from(library: Arc<Library>, interpreter: &Interpreter<f64>) -> Option<Self> {
         let layout = library.layout();
         if layout.stride != N || layout.known_stride != N {
@@ -95,10 +95,11 @@ impl<const N: usize> Several<N> {
         Some(several)
     }
 
-    /// Puts the parameters of an interpreter of the program into a lane of those that [`each_from`](Self::each_from) made.
+    /// Replaces the parameters of a lane by those of an interpreter of the program; for values made
+    /// by [`each_from`](Self::each_from).
     ///
     /// # Panics
-    /// If there is no such lane, or lanes share their parameters.
+    /// If there is no such lane, or if lanes share their parameters.
     pub fn put(&mut self, lane: usize, interpreter: &Interpreter<f64>) {
         assert!(lane < N && self.library.layout().known_stride == N);
         for (known, value) in self.known.chunks_exact_mut(N).zip(interpreter.prepared()) {
@@ -122,9 +123,9 @@ impl<const N: usize> Several<N> {
         }
     }
 
-    /// Runs a function in all lanes; a bit for each lane, the lowest of the first: whether it has a value there. (What the
-    /// results of other lanes are means nothing; alone, such a state has its error.) None if the program has no such
-    /// function, the system gave no pages for it, or numbers are missing.
+    /// Runs a function in all lanes. The result has a bit for each lane, the lowest for the first, which is set if the
+    /// lane has a value. (Other lanes have meaningless results; evaluating such a state alone gives its error.) `None` if
+    /// the program lacks the function, the system provided no pages for it, or an argument is too short.
     pub fn call(
         &mut self,
         role: Role,
@@ -162,7 +163,7 @@ impl<const N: usize> Several<N> {
         Some(held)
     }
 
-    /// Hands the results of [`Role::AtTime`] or [`Role::AtPosition`] to the calls of the next stage.
+    /// Stores the results of [`Role::AtTime`] or [`Role::AtPosition`] for calls of the next stage.
     pub fn stand(&mut self, role: Role, values: &[Lanes<N>]) {
         let left = match role {
             Role::AtTime => &mut self.at_time,

@@ -6,11 +6,11 @@ use std::io;
 /// Why there is no machine code.
 #[derive(Debug)]
 pub enum Unavailable {
-    /// The processor is none that code is made for, or the build wants the same bits everywhere.
+    /// No code can be generated for this processor, or the build requires the same bits everywhere.
     Processor,
-    /// The system gives no pages that may be executable.
+    /// The system provides no executable pages.
     Pages(io::Error),
-    /// An instruction has no encoding: a mistake in this crate.
+    /// An instruction has no encoding: a defect of this crate.
     Encoding(String),
 }
 

@@ -1,30 +1,29 @@
-//! What compiling is worth.
+//! When compiling pays off.
 
 use lagrangian_program::Function;
 
-/// How much work compiling was, in what does not depend on the processor's mood.
+/// The amount of work of compiling a function, in counts that do not depend on the processor.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
     /// Instructions written.
     pub instructions: usize,
-    /// Values that had to leave a register before their last use.
+    /// Values that were evicted from a register before their last use.
     pub evictions: usize,
-    /// Registers looked at while looking for one.
+    /// Registers examined in the search for one to evict.
     pub looks: usize,
 }
 
-/// What an operation takes to interpret, in ns: 1 to 2 are measured (`cargo bench -p lagrangian-jit --bench engines`).
+/// The time to interpret an operation, in ns: 1 to 2 are measured (`cargo bench -p lagrangian-jit --bench engines`).
 const INTERPRETING: f64 = 1.0;
-/// What an operation takes to compile, and a function beyond its operations, in ns: pages are asked of the system.
+/// The time to compile an operation, and the additional time per function for allocating pages, in ns.
 const COMPILING: f64 = 200.0;
 const PAGES: f64 = 10_000.0;
 
-/// After how many calls compiling pays.
+/// The number of calls after which compiling pays off.
 ///
-/// How many calls will come nobody knows. As many as there have been are expected: so a function is compiled when
-/// interpreting it has cost as much as compiling it will, and however many calls come, the whole takes no more than twice as long as
-/// by the better of the two ways (A. R. Karlin, M. S. Manasse, L. Rudolph, D. D. Sleator, *Competitive snoopy caching*,
-/// Algorithmica 3 (1988) 79–119).
+/// The number of future calls is unknown, so it is assumed to equal that of past calls: a function is compiled when interpreting it
+/// has cost as much as compiling it will. Whatever the number of calls, the total time is then at most twice that of the better
+/// choice (A. R. Karlin, M. S. Manasse, L. Rudolph, D. D. Sleator, *Competitive snoopy caching*, Algorithmica 3 (1988) 79–119).
 pub fn calls_until_it_pays(function: &Function) -> u32 {
     let operations = function.code.len().max(1) as f64;
     ((PAGES + COMPILING * operations) / (INTERPRETING * operations)).ceil() as u32

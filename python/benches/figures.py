@@ -28,7 +28,7 @@ def main():
     print("| --- | --: | --: | --: | --: | --: |")
     for name in ("double_pendulum", "crusher9"):
         text = (MACHINES / f"{name}.machine").read_text()
-        # Another text each time, since a process derives each once.
+        # The text must differ each time, because a process derives equal texts only once.
         texts = iter(f"{text}\n// {number}" for number in range(100))
         load = least(lambda: lg.loads(next(texts)))
         machine = lg.loads(text)

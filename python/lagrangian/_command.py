@@ -351,7 +351,7 @@ class Campbell:
         self.values = values
         self.eigenvalues = np.full((len(values), count), complex(math.nan, math.nan))
         for row in rows:
-            # The command's values are those of the range, but for a rounding.
+            # The command's values are those of the range up to round-off.
             place = int(np.argmin(np.abs(values - row["value"])))
             self.eigenvalues[place, row["mode"] - 1] = complex(row["re"], row["im"])
         self.values.flags.writeable = False
@@ -421,7 +421,7 @@ def campbell(
     import tempfile
 
     with tempfile.TemporaryDirectory() as folder:
-        # The command makes the table in any case.
+        # The command writes the table in any case.
         options.append(f"--out={os.path.join(folder, 'along.csv')}")
         options.append(f"--along={parameter}={float(values[0])!r}..{float(values[-1])!r}:{len(values)}")
         return Campbell(values, answer(self, "linearize", options))

@@ -6,7 +6,7 @@ import re
 from types import MappingProxyType
 from typing import Any, Mapping, Optional
 
-#: Longer formulas no page typesets in reasonable time.
+#: Browsers typeset longer formulas too slowly.
 _LONGEST = 3000
 
 

@@ -333,7 +333,7 @@ def _outputs(machine: Any, wanted: Optional[Sequence[str]]) -> List[Tuple[str, i
         return [("coordinate" if state_of(name) is None else "rate", k) for k, name in enumerate(names)]
     if isinstance(wanted, str):
         wanted = [wanted]
-    # States at the places of their integrals, and nothing at those of coordinates.
+    # The names of states at the indices of their integrals, and empty names at those of coordinates.
     held_states = tuple(state_of(q) or "" for q in names)
     found: List[Tuple[str, int]] = []
     for name in wanted:

@@ -218,7 +218,7 @@ class Machine(_native.Machine):
         formulas = self.derived_parameters
         followers = [formulas[k] for name in values for k in _batch.of_name(name, formulas)]
         if followers:
-            # Derived again, with parameters in the places of formulas.
+            # Derives again, with parameters instead of formulas.
             program = self._program.with_given(followers)
             free = type(self)._of(program)
             known, held = self.parameters, self.inputs
@@ -374,7 +374,7 @@ class Machine(_native.Machine):
                 units[name] = unit
                 state = state_of(name)
                 if state is not None:
-                    # The integral of a state is in the unit of the state times s.
+                    # The unit of the integral is that of the state times s.
                     units[state] = unit = "1" if unit == "s" else unit[: -len("*s")] if unit.endswith("*s") else unit
                     name = state
                 units[f"der({name})"] = "1/s" if unit == "1" else f"{unit}/s"
@@ -398,7 +398,7 @@ class Machine(_native.Machine):
             elements = dict(program.elements)
 
             def of_element(name: str) -> str:
-                # One that binds several numbers is several, `hinge.x` and `hinge.y`.
+                # A constraint on several numbers has several names, `hinge.x` and `hinge.y`.
                 return elements.get(name) or elements.get(re.split(r"[.\[]", name)[0], "")
 
             for name in self.constraints:
@@ -552,7 +552,7 @@ class Machine(_native.Machine):
 
     def _key(self) -> Tuple[Any, ...]:
         parameters, inputs = self._values
-        # NaN is a parameter without a value, and equal to itself.
+        # NaN marks a parameter without a value; here it must compare equal to itself.
         given = tuple("none" if math.isnan(x) else x for x in parameters)
         return (self._program.state(), given, tuple(inputs))
 

@@ -58,7 +58,7 @@ class Named(np.ndarray):
             if own not in self.names:
                 raise unknown("coordinate", key, self.names)
             return np.asarray(self)[..., self.names.index(own)][()]
-        # Rows of named arrays are named, and columns are arrays.
+        # Rows of named arrays keep their names; columns become plain arrays.
         found = super().__getitem__(key)
         if isinstance(found, Named) and (
             not found.ndim or found.shape[-1] != len(self.names)
@@ -67,7 +67,7 @@ class Named(np.ndarray):
         return found
 
     def __array_wrap__(self, array: Any, context: Any = None, return_scalar: bool = False) -> Any:
-        # What is computed from named numbers has other names, or none.
+        # The results of computations on named numbers have no names.
         array = np.asarray(array)
         return array[()] if return_scalar or array.ndim == 0 else array
 

@@ -42,7 +42,7 @@ class Orbit:
     def __init__(self, machine: Any, document: Mapping[str, Any]) -> None:
         names = tuple(machine.coordinates)
         at, found = document["at"], document["multipliers"]
-        # The integral of a state over time starts where the spec says: at 0.
+        # The integral of a state over time starts as in the spec: at 0.
         q = [at["q"].get(name, 0.0) for name in names]
         v = [at["v"][name] if state_of(name) is None else at["states"][state_of(name)] for name in names]
         self.period = float(document["period"])

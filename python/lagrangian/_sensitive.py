@@ -34,7 +34,7 @@ class Sensitivities:
         q, v, by_q, by_v = arrays
         self.t, self.by = t, by
         self.q, self.v = Named(q.reshape(k, n), names), rates(v.reshape(k, n), names)
-        # The native half has all coordinates for each variable.
+        # The native module returns all coordinates for each variable.
         both = np.concatenate([by_q.reshape(k, s, n), by_v.reshape(k, s, n)], axis=2)
         self.sensitivities = np.ascontiguousarray(np.swapaxes(both, 1, 2))
         for array in (self.t, self.sensitivities):
@@ -133,7 +133,7 @@ def _variant(machine: Any, names: Sequence[str]) -> str:
     name = os.path.join(os.path.dirname(own), "differentiated.machine")
     path = os.path.basename(own)
     quoted = path.replace("\\", "\\\\").replace('"', '\\"')
-    # A family is named as a whole, and so are the inputs.
+    # The spec can only name a whole family, and all inputs together.
     families = dict.fromkeys("inputs" if name in machine.inputs else name.split("[")[0] for name in names)
     asked = ", ".join(["coordinates", "rates", *families])
     text = f'machine Differentiated extends "{quoted}" {{ derivatives {{ {asked} }} }}'

@@ -63,7 +63,7 @@ class Sampled:
         return f"Sampled({self.what!r}, every={self.every!r}, delay={self.delay!r})"
 
 
-#: What drives an input: a formula, a function or rows of a table, and period and delay of what is sampled.
+#: The law of an input: a formula, a function or the rows of a table, and for sampled laws period and delay.
 Driven = Tuple[
     Optional[str],
     Optional[Callable[..., Any]],

@@ -309,7 +309,7 @@ class Run:
         def mat(file: Any) -> None:
             import scipy.io
 
-            # Names of MATLAB are letters, digits and underlines.
+            # Names in MATLAB consist of letters, digits and underscores.
             names = {name: _identifier(name) for name in data}
             if len(set(names.values())) < len(names):
                 raise ValueError("two columns would have one name in MATLAB")
@@ -357,11 +357,11 @@ class Run:
         if window not in ("hann", "none"):
             raise ValueError(f"window={window!r}: must be 'hann' or 'none'")
         values = self[name]
-        # An end that does not fall on a sample is none of them.
+        # An end that is not at a sampling instant is left out.
         if abs(steps[-1] - steps[0]) > 1e-9 * abs(steps[0]):
             values = values[:-1]
         count = len(values)
-        # A window of a period, whose last sample would be the first of the next.
+        # A periodic window, whose next sample would equal the first.
         weights = np.hanning(count + 1)[:-1] if window == "hann" else np.ones(count)
         transformed = np.fft.rfft((values - values.mean()) * weights)
         amplitudes = 2.0 * np.abs(transformed) / weights.sum()
@@ -404,7 +404,7 @@ class Run:
         return figure
 
     def __reduce__(self) -> Any:
-        # A run is made again from what it was made of, to the same bits.
+        # A pickled run is made again from its arguments, with the same bits.
         return (_run_again, (self.machine, self._keywords["arguments"]))
 
     def __len__(self) -> int:
@@ -439,7 +439,7 @@ class Report:
     def _repr_html_(self) -> str:
         from html import escape
 
-        # Its scripts run, but cannot reach the notebook.
+        # The frame's scripts run but cannot access the notebook.
         return (
             f'<iframe sandbox="allow-scripts allow-downloads" srcdoc="{escape(self.html)}" '
             'style="width:100%;height:44em;border:1px solid #ccc"></iframe>'
@@ -449,7 +449,7 @@ class Report:
         return f"<Report of {self._run!r}: .html, .save(path)>"
 
 
-#: Columns of formulas that were asked for beside the spec.
+#: Columns of formulas that were added to those of the spec.
 _HIDDEN = ("input formula ", "event formula ", "stop formula")
 
 
@@ -471,7 +471,7 @@ def _written_beside(path: str, write: Callable[[Any], None]) -> None:
     file = tempfile.NamedTemporaryFile(dir=folder, prefix=".", suffix=os.path.splitext(path)[1], delete=False)
     try:
         with file:
-            # The file itself: SciPy looks for methods that the wrapper around it does not list.
+            # Passes the file itself: SciPy needs methods that the wrapper lacks.
             write(file.file)
         mode = os.stat(path).st_mode & 0o777 if os.path.exists(path) else 0o666 & ~_umask()
         os.chmod(file.name, mode)
@@ -593,7 +593,7 @@ def simulate(
         if outside.any():
             raise ValueError(f"at={instants[outside][0]} is outside of the run, from {t0} s to {until} s")
 
-    # Formulas are derived beside the spec, as outputs that nothing shows.
+    # Formulas are derived together with the spec, as hidden outputs.
     formulas: List[Tuple[str, str, str, Optional[str]]] = []
 
     def formula(kind: str, said: str, text: str, unit: Optional[str]) -> int:
@@ -601,7 +601,7 @@ def simulate(
         return len(formulas) - 1
 
     driven: Dict[str, Any] = {}
-    # What sets an input, what is watched: the number of a formula, or a function.
+    # The laws of inputs and the observed functions: the index of a formula, or a function.
     rules: List[Tuple[int, str, Optional[int], Optional[Callable[..., Any]], Any, Any]] = []
     watched: List[Tuple[str, Optional[int], Optional[Callable[..., Any]], int, Optional[int]]] = []
     stops: Optional[Tuple[Optional[int], Optional[Callable[..., Any]]]] = None
@@ -697,7 +697,7 @@ def simulate(
         "dense": bool(dense),
         "event_names": event_names,
         "engine": _native.engine(),
-        # Of a run that chose, the last one.
+        # The last method of a run that chose its own.
         "method": native.choices[-1][1] if native.choices else method,
         "tolerance": (float(relative), float(absolute)),
         "driven": _driven(inputs, known_inputs),

@@ -213,7 +213,7 @@ class Sweep:
         if samples:
             options.append("--samples")
         with tempfile.TemporaryDirectory() as folder:
-            # The command reads tables, with the samples in one beside that of the rows.
+            # The command reads tables, with the samples in a second one beside that of the rows.
             table = os.path.join(folder, "rows.csv")
             self.save(table)
             if self.samples is not None:
@@ -602,7 +602,7 @@ def _threads(asked: Optional[int]) -> int:
     return count
 
 
-#: Something that does work for chunks of a plan, in any order: numbers of chunks with what came of it.
+#: Applies a function to chunks of a plan, in any order; yields the index of each chunk with its result.
 _Engine = Callable[[_Work, str, Iterable[int], Optional[int]], Iterator[Tuple[int, Any]]]
 
 
@@ -626,7 +626,7 @@ def _on_threads(work: _Work, plan: str, chunks: Iterable[int], threads: Optional
     todo, running = iter(chunks), {}  # type: ignore[var-annotated]
     try:
         while True:
-            # No more than there is work for, so that results are not kept waiting.
+            # Only as many as are worked on, so that results are returned soon.
             for chunk in itertools.islice(todo, 2 * count - len(running)):
                 running[pool.submit(_native.run_chunk, plan, chunk, stop)] = chunk
             if not running:

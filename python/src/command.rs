@@ -1,4 +1,4 @@
-//! The command `lagrangian`, in this process.
+//! The command `lagrangian`, run in this process.
 
 use std::ffi::OsString;
 use std::sync::Arc;
@@ -13,18 +13,18 @@ use pyo3::prelude::*;
 
 use crate::program::{Program, STACK};
 
-/// How often an answer looks whether it is to be interrupted.
+/// How often a running command checks for interruption.
 const BETWEEN: Duration = Duration::from_millis(50);
 
-/// Is the command, with these arguments behind its name, on the standard streams of this process; the exit status.
+/// Runs the command with these arguments on the standard streams of this process; returns the exit status.
 #[pyfunction]
 pub fn command(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
     let name = OsString::from("lagrangian");
     py.detach(|| lagrangian_cli::command(std::iter::once(name).chain(arguments)))
 }
 
-/// What a command answers about a file that holds no spec, a robot's or the rows of a sweep: the exit status, what it prints, and
-/// what it complains of.
+/// Runs a command on a file other than a spec, such as a robot description or the rows of a sweep; returns the exit status, the
+/// output and the error output.
 #[pyfunction]
 pub fn answer_of_file(
     py: Python<'_>,
@@ -42,7 +42,7 @@ pub fn answer_of_file(
     (status, out, err)
 }
 
-/// What a command answers about a machine that is in memory: the exit status, what it prints, and what it complains of.
+/// Runs a command on a machine in memory; returns the exit status, the output and the error output.
 #[pyfunction]
 pub fn answer(
     py: Python<'_>,
@@ -65,7 +65,7 @@ pub fn answer(
             loop {
                 match told.recv_timeout(BETWEEN) {
                     Ok(answer) => return Ok(Some(answer)),
-                    // The thread has panicked, which its scope passes on.
+                    // The thread has panicked; its scope propagates the panic.
                     Err(RecvTimeoutError::Disconnected) => return Ok(None),
                     Err(RecvTimeoutError::Timeout) => {}
                 }

@@ -1,4 +1,4 @@
-//! Exceptions: those of `lagrangian.errors`, with what they tell as attributes.
+//! Exceptions of `lagrangian.errors`, with details as attributes.
 
 use lagrangian::{Pivot, Singular, System};
 use lagrangian_spec::diagnostic::{Diagnostic, Report};
@@ -6,10 +6,10 @@ use lagrangian_spec::source::Sources;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-/// A mistake of a spec: severity, code, message, help, file, line, column.
+/// An error of a spec: severity, code, message, help, file, line, column.
 pub type Told = (String, String, String, Option<String>, String, usize, usize);
 
-/// An exception of `lagrangian.errors`.
+/// Makes an exception of `lagrangian.errors`.
 pub fn raise<'py>(
     py: Python<'py>,
     class: &str,
@@ -30,7 +30,7 @@ pub fn raise<'py>(
     }
 }
 
-/// What a report says, with errors or with warnings alone.
+/// The diagnostics of a report, whether errors or warnings.
 pub fn told(report: &Report, sources: &Sources) -> Vec<Told> {
     let one = |diagnostic: &Diagnostic| {
         let (line, column) = sources.line_column(diagnostic.span);
@@ -47,7 +47,7 @@ pub fn told(report: &Report, sources: &Sources) -> Vec<Told> {
     report.messages().into_iter().map(one).collect()
 }
 
-/// The errors of a report as text, with the words underlined.
+/// The errors of a report as text, with the source underlined.
 pub fn shown(report: &Report, sources: &Sources) -> String {
     let errors = report.diagnostics().into_iter();
     let mut all: Vec<String> = errors.map(|error| error.render(sources)).collect();
@@ -62,7 +62,7 @@ pub fn of_spec(py: Python<'_>, text: String, told: Vec<Told>) -> PyErr {
     raise(py, "SpecError", (text, told))
 }
 
-/// `SingularError`, at a place of a batch.
+/// `SingularError`, with an index into the batch.
 pub fn of_singular<S: System>(
     py: Python<'_>,
     system: &S,

@@ -1,4 +1,4 @@
-//! Batches of states, each as one state alone is evaluated.
+//! Evaluates batches of states, with the same bits as each state alone.
 
 use std::num::NonZero;
 use std::sync::Mutex;
@@ -19,20 +19,21 @@ use lagrangian_program::{Interpreter, Role};
 use crate::errors;
 use crate::machine::Machine;
 
-/// So many states are not worth a thread of their own: at some tenths of a microsecond each they take less than what
-/// starting it does.
+/// The number of states that justifies a thread: at some tenths of a microsecond each, fewer take less time
+/// than starting one.
 const ROWS_A_THREAD: usize = 4096;
 
-/// States that are evaluated side by side.
+/// The number of states evaluated side by side.
 const LANES: usize = 8;
 
-/// Fewer states are not worth code for several: it is made in a fifth of a microsecond for an operation.
+/// The number of states that justifies compiling code for several at once, which takes a fifth of a
+/// microsecond per operation.
 const WORTH_LANES: usize = 1024;
 
-/// How many threads evaluate a batch; 0 where nobody has said it: as many as there are cores.
+/// The number of threads that evaluate a batch; 0, the default, for as many as there are cores.
 static THREADS: AtomicUsize = AtomicUsize::new(0);
 
-/// Sets how many threads evaluate a batch; 0 for all cores.
+/// Sets the number of threads that evaluate a batch; 0 for all cores.
 #[pyfunction]
 pub fn set_threads(count: usize) {
     THREADS.store(count, Ordering::Relaxed);
@@ -45,17 +46,17 @@ fn threads() -> usize {
     }
 }
 
-/// The arguments of K states: coordinates, rates and inputs a row each, and values of parameters that differ.
+/// The arguments of K states: a row each of coordinates, rates and inputs, and the values of parameters that vary.
 pub struct Batch<'a> {
     pub t: &'a [f64],
     pub q: &'a [f64],
     pub v: &'a [f64],
     pub u: &'a [f64],
-    /// Names of parameters with K values each.
+    /// The names of parameters, with K values each.
     pub varied: &'a [(String, Vec<f64>)],
 }
 
-/// A state for a call.
+/// Buffers for one state.
 struct Scratch {
     q: Vec<f64>,
     v: Vec<f64>,
@@ -64,7 +65,7 @@ struct Scratch {
 }
 
 impl Batch<'_> {
-    /// Does something with the system of each row, in order, and its state.
+    /// Calls a function with the system and the state of each row, in order.
     fn each(
         &self,
         machine: &Machine,
@@ -89,13 +90,13 @@ impl Batch<'_> {
                 continue;
             }
             for (name, values) in self.varied {
-                let _ = other.set(name, values[k]); // it was looked up
+                let _ = other.set(name, values[k]); // the name was checked
             }
             work(k, &other.prepare(), &mut scratch);
         }
     }
 
-    /// Accelerations of the rows in lanes, whose bits are those of one state alone; the rows that it leaves out.
+    /// Evaluates accelerations of rows in lanes, with the bits of a single state; returns the rows that have none.
     fn side_by_side(
         &self,
         lanes: &mut Several<LANES>,
@@ -146,7 +147,7 @@ impl Batch<'_> {
         alone
     }
 
-    /// Raises `ValueError` where the values of a row are none that a machine can have.
+    /// Raises `ValueError` if a row has parameters that the spec refuses.
     fn check(&self, py: Python<'_>, machine: &Machine) -> PyResult<()> {
         if self.varied.is_empty() {
             return machine.check_parameters(py);
@@ -183,7 +184,7 @@ fn slice<'a>(array: &'a PyReadonlyArray2<'_, f64>) -> PyResult<&'a [f64]> {
         .map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
-/// Accelerations of K states into `out`, (K, n). Whether each has any; those that have none are NaN.
+/// Accelerations of K states into `out`, (K, n), with whether each has any; rows without are NaN.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "they are arrays")]
 pub fn accelerations<'py>(
@@ -219,7 +220,7 @@ None
 };
         let part = |first: usize, out: &mut [f64]| {
             let count = out.len().checked_div(n).unwrap_or(0);
-            // What has no accelerations is asked alone, which says why.
+            // Rows without accelerations are evaluated alone, to obtain the reason.
             let alone: Vec<usize> = match lanes.clone() {
                 Some(mut lanes) => batch.side_by_side(&mut lanes, first..first + count, out),
                 None => (first..first + count).collect(),
@@ -262,7 +263,7 @@ None
     }
 }
 
-/// Everything at K states: arrays by name, flat, a row each; and which rows have it.
+/// All quantities at K states: flat arrays by name, with a row for each state, and which rows are valid.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "they are arrays")]
 pub fn evaluate<'py>(
@@ -362,10 +363,10 @@ evaluation.reactions
     Ok((by_name, found))
 }
 
-/// By coordinates, and by rates.
+/// Derivatives by coordinates, and by rates.
 type Derivatives<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 
-/// Derivatives of the accelerations at a state: by coordinates and by rates, (n, n) flat.
+/// Derivatives of the accelerations at a state: by coordinates and by rates, (n, n), flat.
 #[pyfunction]
 pub fn linearize<'py>(
     machine: &Machine,
@@ -394,8 +395,8 @@ pub fn linearize<'py>(
 }
 
 impl Machine {
-    /// Code for several states of this machine, where there is any: not of one with friction, whose accelerations are no function
-    /// alone.
+    /// Code for several states of this machine, if available. Machines with friction have none, because their accelerations also
+    /// depend on the contact state.
     fn in_lanes(&self) -> Option<Several<LANES>> {
         let program = self.machine.program();
         if self.is_interpreted || !program.contacts.is_empty() || self.dimension() == 0 {

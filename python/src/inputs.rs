@@ -1,4 +1,4 @@
-//! What sets the inputs of a run: formulas, tables, controllers that are sampled, and functions in Python.
+//! The inputs of a run: formulas, tables, sampled controllers, and Python functions.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -10,11 +10,11 @@ use numpy::PyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// A table: its name, times, values, what is between its rows and what beyond.
+/// A table: its name, times, values, interpolation and extrapolation.
 pub type Rows = (String, Vec<f64>, Vec<f64>, String, String);
 
-/// What drives an input: its number, its name, and the number of a formula, a function, or a table; and of what is sampled period
-/// and delay.
+/// The law of an input: its index, its name, and the index of a formula, a function, or a table; for sampled laws the
+/// period and the delay.
 pub type Ruled = (
     usize,
     String,
@@ -24,20 +24,20 @@ pub type Ruled = (
     Option<[f64; 2]>,
 );
 
-/// All inputs of a run.
+/// The laws of all inputs of a run.
 pub struct Law {
-    /// What drives them.
+    /// The signals that drive them.
     pub signals: Signals,
-    /// A function that gives all of them.
+    /// A function that returns all of them.
     pub all: Option<Py<PyAny>>,
-    /// The first exception of a function.
+    /// The first exception that a function raised.
     pub raised: Raised,
 }
 
 /// The signals of a run.
 ///
 /// # Errors
-/// Which of them cannot be.
+/// If a signal is not possible.
 pub fn driven(
     machine: &InterpretedMachine,
     rules: Vec<Ruled>,
@@ -74,7 +74,7 @@ pub fn driven(
     }
 }
 
-/// A function in Python as a signal.
+/// A Python function as a signal.
 fn called_as_signal(function: Py<PyAny>, name: &str, raised: &Raised) -> Signal {
     let (name, raised) = (format!("input {name}"), raised.clone());
     Signal::Function(Arc::new(move |t, q, v| {
@@ -114,7 +114,7 @@ fn table((name, times, values, between, beyond): Rows) -> PyResult<Table> {
     Ok(table.named(name))
 }
 
-/// What stands behind an input as the command reads it, as a plan of a sweep holds it: JSON.
+/// The law of an input from the syntax of the command's option, as JSON in the form of a sweep plan.
 #[pyfunction]
 pub fn written(text: &str, input: &str, unit: &str) -> PyResult<String> {
     let law: Result<Written, String> =
@@ -123,12 +123,12 @@ pub fn written(text: &str, input: &str, unit: &str) -> PyResult<String> {
     serde_json::to_string(&law).map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
-/// An exception that waits for the end of a run.
+/// An exception that is raised at the end of a run.
 #[derive(Clone, Default)]
 pub struct Raised(Arc<Mutex<Option<PyErr>>>);
 
 impl Raised {
-    /// Keeps the first.
+    /// Keeps the first exception.
     pub fn keep(&self, py: Python<'_>, error: PyErr, t: f64) {
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if kept.is_none() {
@@ -163,7 +163,7 @@ pub fn called<'py>(
     function.bind(py).call1((t, q, v))
 }
 
-/// A number that a function returns.
+/// The number that a function returned.
 pub fn number(
     py: Python<'_>,
     function: &Py<PyAny>,
@@ -182,7 +182,7 @@ pub fn number(
     })
 }
 
-/// The inputs of a run, which what watches it asks as well.
+/// The inputs of a run, shared with its observers.
 #[derive(Clone)]
 pub struct SharedLaw(pub Arc<Law>);
 

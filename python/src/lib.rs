@@ -1,5 +1,4 @@
-//! The native half of the Python package: specs are derived, evaluated and run here; how that looks in Python is said in
-//! `lagrangian/`.
+//! The native half of the Python package, which derives, evaluates and runs specs; `lagrangian/` contains the Python interface.
 
 mod command;
 mod errors;

@@ -17,14 +17,14 @@ use pyo3::types::PyDict;
 
 use crate::machine::Machine;
 
-/// What callers call where to look.
+/// The names of the arguments, for messages.
 const OPTIONS: Options = Options {
     start: "start",
     steady: "steady",
 };
 
-/// A start, and which coordinates are to move steadily, which of them at rates that are sought; none of a model about the
-/// start as it is.
+/// A start, and which coordinates move steadily, and which of these have rates to be found; `None` for a model about
+/// the start itself.
 type Start = (f64, Vec<f64>, Vec<f64>);
 type Steady = (Vec<bool>, Vec<bool>);
 
@@ -32,7 +32,8 @@ type Steady = (Vec<bool>, Vec<bool>);
 type Labels = Vec<(String, String)>;
 
 impl Machine {
-    /// The machine with other values of its inputs; friction and contacts are refused, which have no linearization.
+    /// The machine with these values of its inputs. Machines with friction or contacts are refused, because they
+    /// have no linearization.
     fn linear(&self, py: Python<'_>, inputs: &[f64]) -> PyResult<InterpretedMachine> {
         self.check_parameters(py)?;
         let system = self.system();
@@ -61,7 +62,7 @@ impl Machine {
     }
 }
 
-/// The start on the constraints, as a run would begin.
+/// The start projected onto the constraints, as a run would do.
 fn on_constraints(
     machine: &InterpretedMachine,
     (t, q, v): Start,
@@ -79,7 +80,7 @@ fn on_constraints(
     Ok((start.q.values.clone(), start.v.values.clone()))
 }
 
-/// The steady motion near a start.
+/// The steady motion that the search finds from a start.
 fn found(
     machine: &InterpretedMachine,
     (_, q, v): Start,
@@ -112,7 +113,7 @@ fn array<'py>(py: Python<'py>, values: &[f64]) -> Bound<'py, PyArray1<f64>> {
     PyArray1::from_slice(py, values)
 }
 
-/// Row after row.
+/// The entries row by row.
 fn flat(matrix: &DMatrix<f64>) -> Vec<f64> {
     matrix.transpose().iter().copied().collect()
 }
@@ -124,7 +125,7 @@ fn parts(values: &[Complex<f64>]) -> [Vec<f64>; 2] {
     ]
 }
 
-/// The modes about the equilibrium or the steady motion near a start, by name.
+/// The modes about the equilibrium or the steady motion near a start, as a dictionary.
 #[pyfunction]
 pub fn modes<'py>(
     machine: &Machine,
@@ -158,8 +159,8 @@ pub fn modes<'py>(
     Ok(all)
 }
 
-/// The linear model about the start as it is, or about the equilibrium or the steady motion near it, by name. Outputs are kinds
-/// with numbers.
+/// The linear model about the start itself, or about the equilibrium or the steady motion near it, as a dictionary. Outputs are
+/// given by kind and index.
 #[pyfunction]
 pub fn linear_model<'py>(
     machine: &Machine,

@@ -14,7 +14,7 @@ use pyo3::types::PyDict;
 use crate::errors;
 use crate::program::{Derived, Program};
 
-/// What runs machines that are made from now on: 0 whichever pays, 1 the interpreter, 2 machine code.
+/// The engine of machines that are created from now on: 0 for automatic, 1 for the interpreter, 2 for machine code.
 static ENGINE: AtomicU8 = AtomicU8::new(0);
 
 /// The names of engines.
@@ -24,7 +24,7 @@ const ENGINES: [(&str, Engine); 3] = [
     ("jit", Engine::Jit),
 ];
 
-/// Sets what runs machines that are made from now on.
+/// Sets the engine of machines that are created from now on.
 #[pyfunction]
 pub fn set_engine(name: &str) -> PyResult<()> {
     let place = ENGINES.iter().position(|(known, _)| *known == name);
@@ -37,26 +37,26 @@ pub fn set_engine(name: &str) -> PyResult<()> {
     Ok(())
 }
 
-/// What runs machines that are made from now on.
+/// The engine of machines that are created from now on.
 #[pyfunction]
 pub fn engine() -> &'static str {
     ENGINES[usize::from(ENGINE.load(Ordering::Relaxed))].0
 }
 
-/// A program with values of its parameters and inputs; the base of `lagrangian.Machine`.
+/// A program with values of its parameters and inputs; the base class of `lagrangian.Machine`.
 #[pyclass(frozen, subclass, module = "lagrangian._native")]
 pub struct Machine {
     pub derived: Arc<Derived>,
     pub machine: InterpretedMachine,
-    /// Whether machine code is not wanted.
+    /// Whether machine code is disabled.
     pub is_interpreted: bool,
-    /// Inputs where nobody sets them.
+    /// The default inputs.
     pub inputs: Named,
-    /// Systems that nobody uses: making one for each call would take longer than the call.
+    /// Unused systems, kept because creating one for each call would take longer than the call.
     systems: Mutex<Vec<InterpretedSystem>>,
 }
 
-/// A system for a while.
+/// A system on loan; it is returned when this is dropped.
 pub struct Lent<'a> {
     system: Option<InterpretedSystem>,
     of: &'a Mutex<Vec<InterpretedSystem>>,
@@ -66,7 +66,7 @@ impl std::ops::Deref for Lent<'_> {
     type Target = InterpretedSystem;
 
     fn deref(&self) -> &InterpretedSystem {
-        // It is there until it is dropped.
+        // It is present until this is dropped.
         self.system.as_ref().unwrap_or_else(|| unreachable!())
     }
 }
@@ -79,7 +79,7 @@ impl Drop for Lent<'_> {
 }
 
 impl Machine {
-    /// A system of this machine that nobody else uses meanwhile.
+    /// A system of this machine for exclusive use.
     pub fn system(&self) -> Lent<'_> {
         let free = self
             .systems
@@ -109,10 +109,10 @@ impl Machine {
     }
 }
 
-/// What evaluates batches: the Python half knows how arguments broadcast.
+/// The Python function that evaluates batches, because the Python half broadcasts arguments.
 static BATCH: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
 
-/// A vector of n numbers as it lies in memory; none where it is anything else.
+/// A contiguous vector of n numbers, without a copy; `None` for anything else.
 fn vector<'py>(given: Option<&Bound<'py, PyAny>>, n: usize) -> Option<PyReadonlyArray1<'py, f64>> {
     let array = given?.cast::<PyArray1<f64>>().ok()?;
     let array = array.try_readonly().ok()?;
@@ -166,7 +166,7 @@ impl Machine {
         )
     }
 
-    /// The start of the spec under these parameters: coordinates and rates.
+    /// The start of the spec for these parameters: coordinates and rates.
     fn _start<'py>(
         &self,
         py: Python<'py>,
@@ -178,7 +178,7 @@ impl Machine {
         )
     }
 
-    /// Accelerations; one state in arrays as they lie in memory is evaluated at once, everything else as a batch.
+    /// Accelerations. One state given as contiguous arrays is evaluated directly, everything else as a batch.
     #[pyo3(signature = (q=None, v=None, t=None, *, u=None, parameters=None, singular="raise", out=None))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords")]
     fn accelerations<'py>(

@@ -1,4 +1,4 @@
-//! From text to a program, which all machines with the same text share.
+//! From text to a program, which is shared by all machines with the same text.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -20,19 +20,19 @@ use pyo3::prelude::*;
 
 use crate::errors::{self, Told};
 
-/// The stack of the thread that derives, as the command's.
+/// The stack size of the thread that derives, which is that of the command.
 pub const STACK: usize = 64 << 20;
 
-/// How many programs are remembered.
+/// The size of the cache of programs.
 const REMEMBERED: usize = 64;
 
-/// A formula beside those of the spec: its name, what messages call it, its text and its unit.
+/// A formula besides those of the spec: its name, its name in messages, its text and its unit.
 pub type Asked = (String, String, String, Option<String>);
 
-/// A quantity: name, unit, what the spec says of it.
+/// A quantity: name, unit, documentation.
 type Described = (String, String, String);
 
-/// A spec, derived.
+/// A derived spec.
 pub struct Derived {
     pub text: SpecText,
     pub formulas: Vec<Asked>,
@@ -40,17 +40,17 @@ pub struct Derived {
     pub docs: String,
     pub parameters: Vec<(String, String, String, Option<f64>)>,
     pub inputs: Vec<(String, String, String, f64)>,
-    /// Those that follow from others.
+    /// Parameters that follow from others.
     pub derived_parameters: Vec<Described>,
     pub coordinates: Vec<Described>,
     pub outputs: Vec<Described>,
-    /// Names and units of multipliers.
+    /// The names of constraints with the units of their multipliers.
     pub constraints: Vec<(String, String)>,
     pub contacts: Vec<String>,
-    /// What the spec says of the elements that have names: constraints and contacts among them.
+    /// The documentation of named elements, including constraints and contacts.
     pub elements: Vec<(String, String)>,
     pub warnings: Vec<Told>,
-    /// For each formula the number of its output.
+    /// For each formula the index of its output.
     pub numbers: Vec<usize>,
     series: OnceLock<Result<ProvedSeries, String>>,
     library: OnceLock<Option<Arc<Library>>>,
@@ -58,11 +58,11 @@ pub struct Derived {
 
 /// Why there is no program.
 pub enum Trouble {
-    /// The spec has mistakes: as text, and each.
+    /// The spec has errors: as text, and one by one.
     Spec(String, Vec<Told>),
-    /// A constant is no number.
+    /// A constant is not a number.
     Constant(String),
-    /// Something of the system's.
+    /// An error of the operating system.
     System(String),
 }
 
@@ -76,13 +76,13 @@ impl Trouble {
     }
 }
 
-/// Where the texts that a spec extends come from.
+/// The source of the texts that a spec extends.
 pub enum Bases {
-    /// These, by the names by which the spec calls them.
+    /// These texts, by the names that the spec uses.
     Given(Vec<(String, String)>),
     /// Files on disk.
     Disk,
-    /// Those of a spec that was read before.
+    /// The recorded texts of a spec that was read before.
     Kept,
 }
 
@@ -96,7 +96,7 @@ impl Files for Given {
     }
 }
 
-/// Programs that were derived, the last one used at the end.
+/// The cache of derived programs, the most recently used last.
 static KNOWN: Mutex<VecDeque<(String, Arc<Derived>)>> = Mutex::new(VecDeque::new());
 
 fn known(key: &str) -> Option<Arc<Derived>> {
@@ -117,7 +117,7 @@ fn remember(key: String, derived: &Arc<Derived>) {
 }
 
 impl Derived {
-    /// Reads a text, and derives its program unless that is known.
+    /// Reads a text, and derives its program unless it is in the cache.
     pub fn new(
         mut text: SpecText,
         bases: Bases,
@@ -238,7 +238,7 @@ impl Derived {
         }
     }
 
-    /// Does something with the model of this text, which belongs to one thread.
+    /// Calls a function with the model of this text. A model belongs to one thread, so it is built for the call.
     pub fn with_model<T: Send>(
         &self,
         work: impl FnOnce(Model<'_>, &mut Report) -> T + Send,
@@ -282,7 +282,7 @@ impl Derived {
         }
     }
 
-    /// The Taylor series of the motion, derived when it is first asked for; or why there is none.
+    /// The Taylor series of the motion, derived on first use; or why there is none.
     pub fn series(&self) -> Result<ProvedSeries, String> {
         let derive = || {
             let derived = self.with_model(|model, _| {
@@ -293,7 +293,7 @@ impl Derived {
         self.series.get_or_init(derive).clone()
     }
 
-    /// Machine code for so many states at once, made when it is first asked for; none where there is none.
+    /// Machine code for this number of states, compiled on first use; `None` if it is not available.
     pub fn library(&self, lanes: usize) -> Option<Arc<Library>> {
         let make = || {
             let program = Arc::new(self.machine.program().clone());
@@ -302,7 +302,7 @@ impl Derived {
         self.library.get_or_init(make).clone()
     }
 
-    /// What is wrong with values of the parameters: a negative mass.
+    /// Why the spec refuses these parameters, for example a negative mass.
     pub fn refused(&self, values: &[f64]) -> Result<Option<String>, Trouble> {
         self.with_model(|model, _| {
             let said = model.refused_values(values);
@@ -311,7 +311,7 @@ impl Derived {
         })
     }
 
-    /// The first of many values that is refused, by its index, and why.
+    /// The first of many sets of parameters that is refused: its index and the reason.
     pub fn first_refused(&self, all: &[Vec<f64>]) -> Result<Option<(usize, String)>, Trouble> {
         self.with_model(|model, _| {
             for (place, values) in all.iter().enumerate() {
@@ -341,8 +341,8 @@ pub struct Program {
     pub derived: Arc<Derived>,
 }
 
-/// Derives a spec: a file where there is no text, else the text under a name, with the bases that it extends given, or read
-/// beside that name.
+/// Derives a spec: from a file if there is no text, otherwise from the text under a name. The bases that it extends are
+/// given, or read beside that name.
 #[pyfunction]
 pub fn derive(
     py: Python<'_>,
@@ -374,7 +374,7 @@ fn made(py: Python<'_>, text: SpecText, bases: Bases, formulas: Vec<Asked>) -> P
     Ok(Program { derived })
 }
 
-/// The program of what [`Program::state`] gave.
+/// The program for a state from [`Program::state`].
 #[pyfunction]
 pub fn rebuild(py: Python<'_>, state: &str) -> PyResult<Program> {
     let text: SpecText = serde_json::from_str(state)
@@ -384,7 +384,7 @@ pub fn rebuild(py: Python<'_>, state: &str) -> PyResult<Program> {
 
 #[pymethods]
 impl Program {
-    /// Texts and constants, from which it can be made again.
+    /// Texts and constants, from which the program can be rebuilt.
     fn state(&self) -> String {
         serde_json::to_string(&self.derived.text).unwrap_or_default()
     }
@@ -467,13 +467,13 @@ impl Program {
         self.derived.warnings.clone()
     }
 
-    /// The numbers of the outputs that formulas are.
+    /// The indices of the outputs that formulas became.
     #[getter]
     fn formulas(&self) -> Vec<usize> {
         self.derived.numbers.clone()
     }
 
-    /// This program with formulas beside its outputs.
+    /// This program with formulas as additional outputs.
     fn with_formulas(&self, py: Python<'_>, formulas: Vec<Asked>) -> PyResult<Program> {
         made(py, self.derived.text.clone(), Bases::Kept, formulas)
     }
@@ -495,7 +495,7 @@ impl Program {
         self.derived.derived_parameters.clone()
     }
 
-    /// This program with values of their own for parameters that follow from others.
+    /// This program with derived parameters made independent.
     fn with_given(&self, py: Python<'_>, names: Vec<String>) -> PyResult<Program> {
         let mut text = self.derived.text.clone();
         text.given.extend(names);
@@ -504,7 +504,7 @@ impl Program {
         made(py, text, Bases::Kept, Vec::new())
     }
 
-    /// What is wrong with values of the parameters, in the words of the spec.
+    /// Why the spec refuses these parameters.
     fn refused(&self, py: Python<'_>, values: Vec<f64>) -> PyResult<Option<String>> {
         let refused = py.detach(|| self.derived.refused(&values));
         refused.map_err(|trouble| trouble.raise(py))

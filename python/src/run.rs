@@ -1,4 +1,4 @@
-//! A run that was made.
+//! A finished run.
 
 use lagrangian::interpreted::{InterpretedMachine, Named, Recording};
 use lagrangian::methods::Method;
@@ -14,14 +14,14 @@ use pyo3::types::PyDict;
 use crate::inputs::SharedLaw;
 use crate::machine::Machine;
 
-/// A run, with the states that were asked for.
+/// A run with the requested states.
 #[pyclass(frozen, module = "lagrangian._native")]
 pub struct Run {
     solution: Solution<InterpretedMachine, SharedLaw>,
     states: Vec<State<Named>>,
 }
 
-/// Time, coordinates and rates, of k states in a row.
+/// Time, coordinates and rates of k states, flat.
 type States<'py> = (
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<f64>>,
@@ -59,7 +59,7 @@ impl Run {
 
 #[pymethods]
 impl Run {
-    /// The states that were asked for.
+    /// The requested states.
     fn samples<'py>(&self, py: Python<'py>) -> States<'py> {
         arrays(py, &self.states)
     }
@@ -69,7 +69,7 @@ impl Run {
         Ok(arrays(py, &self.states_at(py, times)?))
     }
 
-    /// Names, units and values of everything that can be observed, at the states that were asked for, or at times.
+    /// Names, units and values of all observable quantities, at the requested states or at these times.
     #[pyo3(signature = (times=None))]
     fn columns<'py>(&self, py: Python<'py>, times: Option<Vec<f64>>) -> PyResult<Vec<Column<'py>>> {
         let made;
@@ -93,7 +93,8 @@ impl Run {
             .collect())
     }
 
-    /// The page that shows the run, of a machine; what is asked for are the name of the file, the tolerance, and what drives inputs.
+    /// The page that shows the run of a machine; the arguments give the name of the file, the tolerance, and
+    /// the laws of inputs.
     fn page(
         &self,
         py: Python<'_>,
@@ -202,7 +203,7 @@ start.t + duration * (k as f64 / parts as f64)
         (names, directions.collect(), arrays(py, &states))
     }
 
-    /// The balance of energy, if it was kept.
+    /// The energy balance, if it was recorded.
     fn energy<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         let Some(balance) = self.solution.energy_balance() else {
             return Ok(None);
@@ -241,7 +242,7 @@ start.t + duration * (k as f64 / parts as f64)
         warnings.map(ToString::to_string).collect()
     }
 
-    /// Which methods a run chose, where that was left to it: since when, which, and why.
+    /// The methods that an automatic run chose: start time, name, reason.
     #[getter]
     fn choices(&self) -> Vec<(f64, &'static str, String)> {
         let choices = self.solution.choices().iter();
@@ -250,7 +251,7 @@ start.t + duration * (k as f64 / parts as f64)
             .collect()
     }
 
-    /// What is wrong with a run that came to its end: more energy is missing than may be.
+    /// What is wrong with a run that reached its end: too much energy is missing.
     fn objection(&self) -> Option<String> {
         verdict::objection(&self.solution)
     }

@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use crate::errors;
 use crate::machine::Machine;
 
-/// How often a run looks whether it is to be interrupted.
+/// How often a run checks for interruption.
 const BETWEEN: std::time::Duration = std::time::Duration::from_millis(50);
 
 /// Coordinates, rates, and their derivatives, flat: for each instant, by each variable.
@@ -20,9 +20,9 @@ type Motions<'py> = [Bound<'py, PyArray1<f64>>; 4];
 
 /// Why there are no derivatives.
 enum Lost {
-    /// Those of the run.
+    /// An error of the run.
     Run(Error),
-    /// Something about constraints.
+    /// An error about constraints.
     Held(String),
 }
 
@@ -32,8 +32,8 @@ impl From<Error> for Lost {
     }
 }
 
-/// The motion from a start at instants, and its derivatives by variables: kinds (`start`, `rate`, anything else) with names; `keep`
-/// names what constraints do not move of the start.
+/// The motion from a start at these instants, and its derivatives by variables, given by kind (`start`, `rate`, or other) and name;
+/// `keep` names the numbers of the start that the constraints do not move.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "they are settings")]
 pub fn sensitivities<'py>(
@@ -149,7 +149,7 @@ Ok(Vec::new())
     ])
 }
 
-/// What a start depends on, of a kind with a name.
+/// The cause for a kind and a name.
 fn cause(machine: &Machine, (kind, name): &(String, String)) -> Cause {
     let coordinates = &machine.derived.coordinates;
     let place = coordinates.iter().position(|(own, ..)| own == name);
@@ -164,7 +164,7 @@ fn cause(machine: &Machine, (kind, name): &(String, String)) -> Cause {
     }
 }
 
-/// A start on the constraints.
+/// The start projected onto the constraints.
 fn brought(
     machine: &InterpretedMachine,
     start: State<Named>,
@@ -181,7 +181,7 @@ fn brought(
     Ok(run.start().clone())
 }
 
-/// Whether steps have moved the motion or its derivatives off the constraints.
+/// Checks that integration has not moved the motion or its derivatives off the constraints.
 fn check_drift(
     machine: &InterpretedMachine,
     end: &State<Varied<Named>>,

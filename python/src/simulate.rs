@@ -1,4 +1,4 @@
-//! A run, made.
+//! Makes a run.
 
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -18,13 +18,13 @@ use crate::inputs::{self, Law, Raised, Ruled, SharedLaw};
 use crate::machine::Machine;
 use crate::run::Run;
 
-/// How often a run looks whether it is to be interrupted, and says how far it is.
+/// How often a run checks for interruption and reports progress.
 const BETWEEN: Duration = Duration::from_millis(50);
 
-/// More instants than this are a slip of the hand.
+/// More instants than this are assumed to be a mistake.
 const MOST_SAMPLES: f64 = 5e6;
 
-/// What leaves the method to the run.
+/// The method name for automatic choice.
 const AUTO: &str = "auto";
 
 /// The names of methods.
@@ -33,13 +33,13 @@ pub fn methods() -> Vec<&'static str> {
     Method::all().map(|method| method.tableau.name).collect()
 }
 
-/// A number made of a state: the output that a formula is, or what a function returns.
+/// A function of the state: the output that a formula became, or a Python function.
 enum Watched {
     Output(usize),
     Function(Py<PyAny>),
 }
 
-/// An event that is looked for: name, number of a formula or function, direction (−1, 0, 1), and at which one the run ends.
+/// An event: name, index of a formula or function, direction (−1, 0, 1), and the occurrence that ends the run.
 type Watch = (String, Option<usize>, Option<Py<PyAny>>, i32, Option<usize>);
 
 /// The settings of a run.
@@ -65,19 +65,19 @@ pub struct Settings {
     rules: Vec<Ruled>,
     all_inputs: Option<Py<PyAny>>,
     events: Vec<Watch>,
-    /// The number of a formula, or a function, which ends the run where it is true.
+    /// The index of a formula, or a function, which ends the run when true.
     stop: Option<(Option<usize>, Option<Py<PyAny>>)>,
     progress: Option<Py<PyAny>>,
 }
 
-/// The instants that are kept of a run.
+/// The instants at which states are recorded.
 #[derive(Clone)]
 struct Samples {
     at: Option<Vec<f64>>,
     every: f64,
     t0: f64,
     until: f64,
-    /// How many were passed.
+    /// How many instants have been passed.
     passed: usize,
     states: Vec<State<Named>>,
 }
@@ -88,7 +88,7 @@ impl Samples {
             Some(times) => times.get(self.passed).copied(),
             None => {
                 let t = self.t0 + self.passed as f64 * self.every.copysign(self.until - self.t0);
-                // The end is kept when it is there.
+                // The end is recorded when the run reaches it.
                 let left = (self.until - t) * (self.until - self.t0).signum();
                 (left > 4.0 * f64::EPSILON * self.until.abs().max(self.t0.abs())).then_some(t)
             }
@@ -111,7 +111,7 @@ impl Samples {
         Ok(())
     }
 
-    /// Adds the end where no instants were named. A start that constraints have moved is the one that was run.
+    /// Records the end if no instants were requested. A recorded start is replaced by the projected one that was run.
     fn end(&mut self, start: &State<Named>, end: &State<Named>) {
         for state in self
             .states
@@ -136,7 +136,7 @@ impl Watched {
     }
 }
 
-/// Makes a run; and what ended it early, if something did.
+/// Makes a run; returns it with the error that ended it early, if any.
 #[pyfunction]
 pub fn simulate(
     py: Python<'_>,
@@ -250,7 +250,7 @@ Method::named(&settings.method)
     }
 }
 
-/// The exception of a run that cannot begin.
+/// The exception for a run that cannot start.
 fn of_error(py: Python<'_>, error: &Error) -> PyErr {
     match error {
         Error::UnknownCoordinate { .. }
@@ -264,7 +264,7 @@ fn of_error(py: Python<'_>, error: &Error) -> PyErr {
     }
 }
 
-/// A run to be made.
+/// The settings of a run.
 struct Task {
     law: SharedLaw,
     raised: Raised,
@@ -277,7 +277,7 @@ struct Task {
     is_automatic: bool,
     start: State<Named>,
     until: f64,
-    /// Relative and absolute.
+    /// Relative and absolute tolerance.
     tolerance: [f64; 2],
     absolute_of: Vec<(String, f64)>,
     first_step: Option<f64>,
@@ -288,7 +288,7 @@ struct Task {
     keep: Option<Vec<String>>,
 }
 
-/// A run, the states that were asked for, and what ended it early.
+/// A run, the requested states, and the error that ended it early, if any.
 type Made = (
     Solution<InterpretedMachine, SharedLaw>,
     Vec<State<Named>>,
@@ -297,7 +297,7 @@ type Made = (
 
 impl Task {
     fn run(&self, machine: &InterpretedMachine) -> Result<Made, Error> {
-        // Formulas are asked for while the run has its own system.
+        // Formulas are evaluated while the run uses its own system.
         let system = machine.prepare();
         let value = |watched: &Watched, name: &str, state: &State<Named>| -> f64 {
             let State { t, q, v } = state;
@@ -318,7 +318,7 @@ impl Task {
             }
         };
         let value = &value;
-        // What a controller holds is known to the run: at the end of its last step.
+        // The run knows the values that a controller holds at the end of its last step.
         let is_sampled = self.law.0.signals.is_sampled();
         let held: Mutex<Option<Named>> = Mutex::new(None);
         let held = &held;
@@ -411,7 +411,7 @@ simulation.relative(relative).absolute(absolute)
         Ok((solution, samples.states, error))
     }
 
-    /// Lets Python look for Ctrl-C, and says how far the run is.
+    /// Lets Python handle Ctrl-C, and reports progress.
     fn tell(&self, now: Progress) {
         Python::attach(|py| {
             let told = py.check_signals().and_then(|()| match &self.progress {

@@ -1,4 +1,4 @@
-//! Sweeps: a plan is text, and a chunk of it a pure function of both.
+//! Sweeps: a plan is a text, and a chunk is a pure function of the plan and its index.
 
 use std::collections::VecDeque;
 use std::path::PathBuf;
@@ -20,13 +20,13 @@ use pyo3::types::{PyBytes, PyList};
 
 use crate::errors;
 
-/// How often a chunk looks whether it is to be interrupted.
+/// How often a chunk checks for interruption.
 const BETWEEN: Duration = Duration::from_millis(50);
 
-/// How many plans are remembered.
+/// The size of the cache of plans.
 const REMEMBERED: usize = 8;
 
-/// Plans that were made ready, the last one used at the end.
+/// The cache of prepared plans, the most recently used last.
 static KNOWN: Mutex<VecDeque<(String, Arc<Sweep>)>> = Mutex::new(VecDeque::new());
 
 fn read(text: &str) -> PyResult<Plan> {
@@ -60,7 +60,8 @@ fn made(py: Python<'_>, text: &str) -> PyResult<Arc<Sweep>> {
     Ok(sweep)
 }
 
-/// A plan checked and cut into chunks of about a second: its text, its chunks, its runs, and what it warns of.
+/// Checks a plan and cuts it into chunks of about a second; returns its text, the number of chunks, the number of
+/// runs, and a warning.
 #[pyfunction]
 pub fn plan(py: Python<'_>, text: &str) -> PyResult<(String, u64, u64, Option<String>)> {
     let sweep = made(py, text)?;
@@ -70,7 +71,7 @@ pub fn plan(py: Python<'_>, text: &str) -> PyResult<(String, u64, u64, Option<St
     Ok((plan.to_json(), plan.chunks(), plan.runs(), warning))
 }
 
-/// What the files of a chunk hold that is kept by another process: of its rows, and of its samples.
+/// The contents of the files of a chunk that another process stores: rows and samples.
 #[pyfunction]
 pub fn chunk_file<'py>(
     py: Python<'py>,
@@ -91,12 +92,12 @@ fn format(ending: &str) -> Format {
     }
 }
 
-/// A sweep whose chunks are kept on a disk, so that it goes on after any interruption.
+/// A sweep whose chunks are stored on disk, so that it can be resumed after any interruption.
 #[pyclass(frozen, module = "lagrangian._native")]
 pub struct Kept {
     sweep: Arc<Sweep>,
     folder: Mutex<Option<Folder>>,
-    /// Where chunks are joined at the end; none where they stay in their folder.
+    /// The file to which chunks are joined at the end; `None` if they stay in their folder.
     file: Option<PathBuf>,
     format: Format,
 }
@@ -126,7 +127,8 @@ impl Kept {
 
 #[pymethods]
 impl Kept {
-    /// Opens the folder of a plan, or begins it; `file` is where chunks are joined, none where they stay.
+    /// Opens or creates the folder of a plan. Chunks are joined to `file` at the end; if it is `None` they
+    /// stay in the folder.
     #[new]
     fn new(
         py: Python<'_>,
@@ -164,7 +166,7 @@ impl Kept {
         })
     }
 
-    /// The plan, with the length of the chunks that are there.
+    /// The plan, with the length of the stored chunks.
     #[getter]
     fn plan(&self) -> String {
         self.sweep.plan().to_json()
@@ -176,7 +178,7 @@ impl Kept {
         self.format.ending()
     }
 
-    /// The chunks that are not there yet.
+    /// The missing chunks.
     fn missing(&self, py: Python<'_>) -> PyResult<Vec<u64>> {
         let chunks = 0..self.sweep.plan().chunks();
         py.detach(|| {
@@ -184,7 +186,7 @@ impl Kept {
         })
     }
 
-    /// Keeps a chunk that was made elsewhere.
+    /// Stores a chunk that was made elsewhere.
     fn keep(
         &self,
         py: Python<'_>,
@@ -196,8 +198,8 @@ impl Kept {
         py.detach(|| self.folder(|folder| folder.keep_contents(chunk, &contents)))
     }
 
-    /// Makes the chunks that are not there, on so many threads; `tell` is called ten times a second with the number of runs that are
-    /// done. Ctrl-C ends it, and loses the chunks under way.
+    /// Makes the missing chunks with this number of threads; `tell` is called ten times a second with the number of finished runs.
+    /// Ctrl-C stops it and loses the chunks under way.
     fn run(&self, py: Python<'_>, threads: usize, tell: Option<Py<PyAny>>) -> PyResult<()> {
         let stop = AtomicBool::new(false);
         let mut raised = None;
@@ -219,7 +221,7 @@ impl Kept {
         raised.map_or(Ok(()), Err)
     }
 
-    /// The rows, and the samples where the plan asks for them. Chunks are joined and taken away before, where there is a file for them.
+    /// The rows, and the samples if the plan asks for them. If there is a file, chunks are joined to it and removed first.
     fn end<'py>(
         &self,
         py: Python<'py>,
@@ -245,7 +247,7 @@ impl Kept {
     }
 }
 
-/// What ends chunks that are under way.
+/// Stops chunks that are under way.
 #[pyclass(frozen, module = "lagrangian._native")]
 pub struct Stop(Arc<AtomicBool>);
 
@@ -261,7 +263,7 @@ impl Stop {
     }
 }
 
-/// The sweep of a plan that has a chunk of this number.
+/// The prepared plan, after checking that it has a chunk with this index.
 fn checked(py: Python<'_>, text: &str, chunk: u64) -> PyResult<Arc<Sweep>> {
     let sweep = made(py, text)?;
     let chunks = sweep.plan().chunks();
@@ -274,7 +276,7 @@ Err(PyValueError::new_err(format!(
 }
 }
 
-/// A chunk, which Ctrl-C ends.
+/// Makes a chunk; Ctrl-C interrupts it.
 fn one_chunk(py: Python<'_>, sweep: &Sweep, chunk: u64, stop: Option<&Stop>) -> PyResult<Chunk> {
     let own = Arc::new(AtomicBool::new(false));
     let stop = stop.map_or(own, |stop| stop.0.clone());
@@ -288,7 +290,7 @@ fn one_chunk(py: Python<'_>, sweep: &Sweep, chunk: u64, stop: Option<&Stop>) -> 
             loop {
                 match told.recv_timeout(BETWEEN) {
                     Ok(made) => return Ok(made),
-                    // The thread has panicked, which its scope passes on.
+                    // The thread has panicked; its scope propagates the panic.
                     Err(RecvTimeoutError::Disconnected) => return Ok(None),
                     Err(RecvTimeoutError::Timeout) => {}
                 }
@@ -302,7 +304,7 @@ fn one_chunk(py: Python<'_>, sweep: &Sweep, chunk: u64, stop: Option<&Stop>) -> 
     made?.ok_or_else(|| PyRuntimeError::new_err("the chunk was stopped"))
 }
 
-/// The rows of a chunk, and the samples of its runs where the plan asks for them: lists of name, unit and values.
+/// The rows of a chunk, and the samples of its runs if the plan asks for them: lists of name, unit and values.
 #[pyfunction]
 #[pyo3(signature = (text, chunk, stop=None))]
 pub fn run_chunk<'py>(

@@ -1,4 +1,4 @@
-//! The equations as expressions, for a program that knows algebra.
+//! The equations as expressions, for computer algebra systems.
 
 use lagrangian_mechanics::Equations;
 use lagrangian_spec::model::Model;
@@ -8,14 +8,13 @@ use pyo3::prelude::*;
 
 use crate::program::Program;
 
-/// A node: its kind, what it is called, and the places of its operands, each with a number that belongs to it: the coefficient of a
-/// term, the power of a factor.
+/// A node: its kind, its name, and the indices of its operands, each with a number: the coefficient of a term or the exponent of a factor.
 type Shown = (&'static str, String, Vec<(usize, String)>);
 
-/// A quantity: its name, and the places of its entries among the nodes.
+/// A quantity: its name, and the indices of its entries among the nodes.
 type Quantity = (&'static str, Vec<usize>);
 
-/// The nodes of the equations, operands first, and what is made of them: names of quantities with the places of their entries.
+/// The nodes of the equations, operands first, and the quantities: names with the indices of their entries.
 #[pyfunction]
 pub fn symbolic(py: Python<'_>, program: &Program) -> PyResult<(Vec<Shown>, Vec<Quantity>)> {
     let made = py.detach(|| {
@@ -84,7 +83,7 @@ fn shown<'d>(model: &Model<'d>, equations: &Equations<'d>) -> (Vec<Shown>, Vec<Q
     (nodes, quantities.collect())
 }
 
-/// What a symbol stands for, and its name there.
+/// The kind of a symbol, and its name.
 fn symbol_of(model: &Model<'_>, symbol: Symbol) -> Shown {
     let is = |expression: Expr<'_>| expression.as_symbol() == Some(symbol);
     let shown = |kind, name: String| (kind, name, Vec::new());

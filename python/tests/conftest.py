@@ -5,7 +5,7 @@ import pytest
 
 import lagrangian as lg
 
-# Ray gives up on a machine that is busy with other tests after half a minute.
+# Under the load of other tests Ray needs more than its default of half a minute to start.
 os.environ.setdefault("RAY_raylet_start_wait_time_s", "180")
 
 ROOT = Path(__file__).resolve().parents[2]

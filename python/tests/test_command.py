@@ -23,7 +23,7 @@ def lagrangian(*arguments, **settings):
     return subprocess.run(call, capture_output=True, text=True, cwd=ROOT, **settings)
 
 
-# Where the package has what a command does.
+# Where the package implements what each command does.
 IN_PYTHON = {
     "check": (lg.Machine, "check"),
     "derive": (lg.Machine, "derive"),
@@ -75,14 +75,14 @@ def test_the_package_is_the_command():
 
 def test_degrees_of_freedom_and_printed_formulas(machines):
     found = lg.load(machines / "four_bar.machine").check()
-    # Three bars with three numbers each, or angles with two equations: one degree of freedom in any case.
+    # Three bars with three numbers each, or angles with two equations: either has one degree of freedom.
     assert found.degrees_of_freedom == 1 and found.coordinates - found.independent == 1
     plain = lg.loads(OSCILLATOR).check()
     assert plain.ok and plain.degrees_of_freedom == plain.coordinates == 1
     text = OSCILLATOR.replace("gravity none;", 'gravity none; published "a print" { kinetic_energy = m*der(x)^2 }')
     printed = lg.loads(text).check()
     (formula,) = printed.published
-    # Half of it is too much.
+    # The published energy is twice the correct one.
     assert (formula.block, formula.agrees) == ("a print", False) and not printed.ok
     assert formula.drop and formula.add
 
@@ -104,7 +104,7 @@ def test_the_fastest_way_is_a_cycloid():
     found = bead.brachistochrone({"x": math.pi * r, "y": 2 * r})
     assert found.is_motion
     assert found.time == pytest.approx(math.pi * math.sqrt(r / 9.81), rel=1e-9)
-    # On the way x = r (phi - sin phi), y = r (1 - cos phi), with phi = t sqrt(g/r).
+    # The cycloid is x = r (phi - sin phi), y = r (1 - cos phi), with phi = t sqrt(g/r).
     phi = found.t * math.sqrt(9.81 / r)
     np.testing.assert_allclose(found.q["x"], r * (phi - np.sin(phi)), atol=1e-9)
     np.testing.assert_allclose(found.q["y"], r * (1 - np.cos(phi)), atol=1e-9)
@@ -142,7 +142,7 @@ def test_a_campbell_diagram_follows_modes():
     # In the turning frame: w = 10 ± omega.
     expected = np.stack([10 - found.values, 10 + found.values], axis=1) / (2 * np.pi)
     np.testing.assert_allclose(np.sort(found.frequencies, axis=1), expected, rtol=1e-9)
-    # A mode goes on as itself: each is a straight line.
+    # Each mode is followed continuously, so each is a straight line.
     assert np.abs(np.diff(found.frequencies, 2, axis=0)).max() < 1e-9
     with pytest.raises(ValueError, match="equally spaced"):
         rotor.campbell("omega", [1.0, 2.0, 4.0])
@@ -155,7 +155,7 @@ def test_the_page_of_a_run(double, tmp_path):
     page = run.report()
     assert page.html.startswith("<!doctype html>") and "DoublePendulum" in page.html
     shown = page._repr_html_()
-    # In a frame that reaches nothing around it.
+    # The frame has no access to its page.
     assert 'sandbox="allow-scripts allow-downloads"' in shown and "allow-same-origin" not in shown
     page.save(tmp_path / "run.html")
     assert (tmp_path / "run.html").read_text() == page.html
@@ -238,7 +238,7 @@ def test_a_unit_has_the_values_of_the_machine(double, tmp_path):
     made = double.with_parameters(l2=0.25).fmu(
         tmp_path / "double.fmu", start={"theta1": 0.5}, outputs=["theta2"], events={"low": "theta1"}
     )
-    # The count of events is an output as well.
+    # The number of events is an output too.
     assert (made.fmi, made.states, made.outputs, made.events) == ("3.0", 4, 2, 1) and len(made.platforms) == 1
     with zipfile.ZipFile(made.path) as unit:
         assert unit.testzip() is None

@@ -20,7 +20,7 @@ def test_programs_run_as_printed(path, monkeypatch, tmp_path):
         pytest.importorskip(needed)
     blocks = re.findall(r"^```python\n(.*?)^```", path.read_text(), re.S | re.M)
     assert len(blocks) >= 3
-    # Paths are those of a clone; what is written goes elsewhere.
+    # Paths are those of a clone; outputs are written elsewhere.
     for folder in ("machines", "cli"):
         (tmp_path / folder).symlink_to(ROOT / folder)
     monkeypatch.chdir(tmp_path)

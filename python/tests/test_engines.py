@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-#: Runs of some milliseconds each, in eight chunks or more.
+#: Runs of a few milliseconds each, in at least eight chunks.
 VARY = {"start(theta1)": (-3.0, 3.0, 400)}
 
 

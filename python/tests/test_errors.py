@@ -142,6 +142,6 @@ def test_exceptions_pickle():
     for error in errors:
         again = pickle.loads(pickle.dumps(error))
         assert type(again) is type(error) and str(again) == str(error)
-    # The last one is of a run, and has what there is of it.
+    # The last error belongs to a run, and holds its part up to the error.
     np.testing.assert_array_equal(again.run["x"], errors[-1].run["x"])
     assert again.t == errors[-1].t == again.run.end.t and again.run.error == errors[-1].run.error

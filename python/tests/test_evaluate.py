@@ -93,7 +93,7 @@ def test_lanes_have_the_bits_of_single_states(machines, name):
     seed = np.random.SeedSequence().entropy
     print(f"seed {seed}")
     random = np.random.default_rng(seed)
-    # A number of states that is no multiple of lanes, with some that are undefined among them.
+    # A number of states that is not a multiple of lanes, some of them NaN.
     q = np.asarray(machine.start.q) + random.uniform(0.01, 0.2, (2051, n))
     v, t, u = random.uniform(-1, 1, (2051, n)), random.uniform(0, 1, 2051), random.uniform(-1, 1, (2051, m))
     q[17, 0] = np.nan
@@ -128,7 +128,7 @@ def test_the_jacobian_is_that_of_the_right_hand_side(double):
         y = random.uniform(-1, 1, 4)
         h = 1e-6
         differences = np.stack([(f(0, y + e) - f(0, y - e)) / (2 * h) for e in h * np.eye(4)], axis=1)
-        # Central differences: third derivatives of some 1e3 times h²/6, and rounding of some 1e-14/h.
+        # Central differences: third derivatives of about 1e3 times h²/6, and round-off of about 1e-14/h.
         np.testing.assert_allclose(jacobian(0, y), differences, atol=1e-7)
     many = random.uniform(-1, 1, (4, 7))
     np.testing.assert_array_equal(f(0, many), np.stack([f(0, y) for y in many.T.copy()], axis=1))

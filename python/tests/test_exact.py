@@ -17,7 +17,7 @@ def test_a_global_error_is_near_the_true_one(oscillator):
     found = oscillator.global_error(1, tolerance=1e-6)
     assert set(found.errors) == {"x", "der(x)"} and found.kind == "estimate" and not found.is_rounding
     true = abs(run.end.q["x"] - float(COS2))
-    # The reference has all digits, so that the estimate is the error itself, to a rounding of each end.
+    # The reference is exact, so the estimate equals the true error up to the rounding of both ends.
     assert abs(found.errors["x"] - true) <= 4 * 2**-53
     assert true <= 1e-6
 
@@ -25,7 +25,7 @@ def test_a_global_error_is_near_the_true_one(oscillator):
 def test_an_end_in_double_double(oscillator):
     found = oscillator.precise(1)
     for name, values, exact in (("q", found.q, COS2), ("v", found.v, RATE)):
-        # One step, whose error is at most the tolerance, and what the thirtieth digit is rounded by.
+        # One step, whose error is at most the tolerance, plus the rounding of the thirtieth digit.
         with localcontext(Context(prec=50)):
             assert abs(values["x"] - exact) <= Decimal(found.tolerance) + Decimal("5e-30"), name
     assert found.steps == 1

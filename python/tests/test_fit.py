@@ -45,7 +45,7 @@ def test_a_fit_is_that_of_scipy():
     assert np.allclose(fit.covariance, covariance, rtol=1e-4, atol=1e-4 * np.min(np.diag(covariance)))
     assert fit.converged and fit.derivatives == "integrated" and fit.measurements == kept.sum()
     assert fit.machine.parameters["k"] == fit["k"]
-    # The residuals are those of the closed form at the estimates, to the tolerance of runs.
+    # The residuals agree with the closed form at the estimates to the tolerance of runs.
     k, c, x0 = found
     assert np.allclose(fit.residuals["x"], (x - swung(t, 2.0, k, c, x0))[kept], rtol=0, atol=1e-7)
 
@@ -56,7 +56,7 @@ def test_several_experiments_have_settings_and_starts_of_their_own():
     assert fit.names == ("k", "c", "start(x) in 1", "start(x) in 2")
     truth = [30.0, 0.6, 0.1, 0.2]
     for name, value in zip(fit.names, truth):
-        # Five standard errors: once in a million seeds, and these are fixed.
+        # Five standard errors are exceeded by one seed in a million, and these seeds are fixed.
         assert abs(fit[name] - value) < 5 * fit.standard_errors[name]
     assert set(fit.experiment) == {1, 2}
 

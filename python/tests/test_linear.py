@@ -101,7 +101,7 @@ def test_plots_show_the_response():
     model = lg.loads(OSCILLATOR).linearize(steady={}, outputs=["x"])
     omega = np.array([0.1, np.sqrt(2.0), 10.0])
     gain, phase = (axes.lines[0].get_ydata() for axes in model.bode(omega).axes)
-    # At resonance of 2 x'' + x' + 4 x only the damper acts: 1/ω, a quarter of a turn late.
+    # At resonance of 2 x'' + x' + 4 x only the damper acts: the gain is 1/ω, with a lag of a quarter turn.
     assert gain[1] == pytest.approx(-20 * np.log10(np.sqrt(2.0)), abs=1e-12)
     assert phase[1] == pytest.approx(-90.0, abs=1e-12)
     upper, lower, mark = model.nyquist(omega).axes[0].lines
@@ -109,7 +109,7 @@ def test_plots_show_the_response():
     np.testing.assert_allclose(upper.get_xdata() + 1j * upper.get_ydata(), exact, rtol=1e-13)
     np.testing.assert_allclose(lower.get_ydata(), -exact.imag, rtol=1e-13)
     assert (mark.get_xdata()[0], mark.get_ydata()[0]) == (-1.0, 0.0)
-    # Where nothing is said, poles are within what is shown.
+    # By default the plot covers the poles.
     (line, *_) = model.bode().axes[0].lines
     assert line.get_xdata()[0] < np.sqrt(2.0) < line.get_xdata()[-1]
     plt.close("all")

@@ -27,7 +27,7 @@ def block():
 def test_the_line_of_an_oscillation(block):
     found = block.spectrum(100, every=0.05)
     line = found.lines["x"][0]
-    # Far from other lines: the error of a line under Hann's window falls with the cube of the periods in the run, of which there are 32.
+    # Isolated line: under Hann's window its error falls with the cube of the number of periods in the run, which is 32.
     assert line.frequency == pytest.approx(1 / math.pi, rel=1e-5)
     assert line.amplitude == pytest.approx(1, rel=1e-3)
     assert found["x"].shape == found.frequencies.shape
@@ -38,7 +38,7 @@ def test_the_line_of_an_oscillation(block):
 
 def test_peaks_are_half_a_period_apart(block):
     found = block.peaks(10, "x", tolerance=1e-11)["x"]
-    # Cubics with rates through rows 0.01 s apart.
+    # Hermite cubics through rows 0.01 s apart.
     assert np.allclose(found.t, np.arange(1, 7) * math.pi / 2, atol=1e-6)
     assert np.allclose(found.values, [-1, 1, -1, 1, -1, 1], atol=1e-8)
     assert list(found.maximum) == [False, True] * 3

@@ -108,7 +108,7 @@ def test_parameters_without_a_value_are_missed_when_numbers_are_needed():
             needs()
         assert missing.value.names == ["m"]
     assert lg.loads(text, m=2.0).accelerations() == pytest.approx([-4.0])
-    # Without a value in every run of a sweep it is missed as well; with one, not.
+    # A sweep that leaves it without a value raises the same error; one that sets it in every run does not.
     sweep = machine.sweep({"m": [1.0, 2.0]}, until=0.1)
     assert len(sweep) == 2 and not len(sweep.failed)
 

@@ -20,7 +20,7 @@ machine Circle in plane {
 
 def test_a_limit_cycle_in_closed_form():
     found = lg.loads(CIRCLE).orbit(near=6)
-    # Steps err by 1e-11, some hundred times in a period.
+    # Each step errs by 1e-11, and a period has about a hundred.
     assert found.period == pytest.approx(2 * math.pi, rel=1e-8)
     assert found.stability == "stable" and found.autonomous and found.family == 0
     assert np.allclose(found.multipliers, [1, math.exp(-2 * math.pi)], rtol=0, atol=1e-8)

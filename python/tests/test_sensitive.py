@@ -21,7 +21,7 @@ def test_derivatives_of_an_oscillation_are_those_of_its_closed_form(oscillator):
         "rate(x)": np.sin(w * t) / w,
         "force": (1 - np.cos(w * t)) / k,
     }
-    # A hundred steps, each to 1e-12 of numbers of up to 5, and as much again by the growth of the derivatives with t.
+    # A hundred steps with errors of 1e-12 in numbers of up to 5, and as much again because the derivatives grow with t.
     for name, values in expected.items():
         np.testing.assert_allclose(found.sensitivity("x", name), values, atol=1e-9)
     assert found.sensitivities.shape == (51, 2, 5)
@@ -37,7 +37,7 @@ def test_derivatives_are_those_of_neighbours(double):
         "start(theta1)": lambda x: double.simulate(2, start={"theta1": 1 + x}, tolerance=1e-13),
     }.items():
         difference = (changed(h).end.y - changed(-h).end.y) / (2 * h)
-        # Third derivatives of some 1e3 times h²/6, and runs to 1e-12 over h.
+        # The truncation error is a third derivative of about 1e3 times h²/6; runs have errors of 1e-12, divided by h.
         np.testing.assert_allclose(found.sensitivities[-1, :, found.by.index(name)], difference, atol=1e-5)
 
 
@@ -54,7 +54,7 @@ def test_what_has_no_derivatives_is_refused(double, machines):
         lg.load(machines / "bricard.machine").sensitivities(0.1, "g")
 
 
-#: A pendulum by its angle, and by the place of its ball on a rod.
+#: A pendulum described by its angle, and by the position of its ball on a rod.
 SWING = """
 machine Swing in plane {
     parameters { l: m = 0.5, g: m/s^2 = 9.81 }
@@ -81,7 +81,7 @@ def test_derivatives_on_constraints_are_those_of_the_free_coordinate():
     held = lg.loads(TIED).sensitivities(1.5, by, tolerance=1e-12, every=0.1, keep=["theta", "der(theta)"])
     theta, omega = free.q["theta"], free.v["theta"]
     for name in by:
-        # Steps err by 1e-12 some hundred times; nothing is projected, and what is off the constraints grows with time.
+        # About a hundred steps err by 1e-12 each; without projection the distance from the constraints grows with time.
         np.testing.assert_allclose(held.sensitivity("theta", name), free.sensitivity("theta", name), atol=1e-8)
         np.testing.assert_allclose(held.sensitivity("der(theta)", name), free.sensitivity("der(theta)", name), atol=1e-8)
         # y = −l cos θ.

@@ -19,7 +19,7 @@ from test_evaluate import command
 
 def test_an_oscillator_moves_as_its_closed_form(oscillator):
     run = oscillator.simulate(10, tolerance=1e-12)
-    # x = cos(ω t), ω = √(8/2). A tolerance of 1e-12 a step, some 200 steps.
+    # x = cos(ω t), ω = √(8/2). About 200 steps with a tolerance of 1e-12 each.
     np.testing.assert_allclose(run["x"], np.cos(2 * run.t), atol=1e-9)
     np.testing.assert_allclose(run["der(x)"], -2 * np.sin(2 * run.t), atol=1e-9)
     np.testing.assert_allclose(run["pull"], 8 * np.cos(2 * run.t), atol=1e-8)
@@ -104,7 +104,7 @@ def test_inputs_are_formulas_or_functions(oscillator, force):
 
 
 def test_tables_drive_inputs_to_the_bits_of_the_command(oscillator, tmp_path):
-    # From rest at x = 1 under 8 N for a second, whose equilibrium is x = 1, and free from there on.
+    # From rest at x = 1, held there by 8 N for a second, whose equilibrium is x = 1, then released.
     times, values = [0.0, 1.0], [8.0, 0.0]
     path = tmp_path / "push.csv"
     path.write_text("t [ms];force [kN]\n0;0.008\n1000;0\n")
@@ -150,13 +150,13 @@ def test_sampled_controllers_hold_what_they_set(oscillator):
     assert np.allclose(looks, 0.05 * np.arange(len(looks))) and len(looks) > 3
     assert runs[0].end.t == runs[1].end.t
     np.testing.assert_allclose(runs[0].end.y, runs[1].end.y, atol=1e-13)
-    # The force passes 2 N in a jump, which is an event, and the run stops where a step ends with more than 3 N.
+    # The force jumps across 2 N, which is an event, and the run stops where a step ends with more than 3 N.
     for run in runs:
         assert run.ending == "stop" and run["force"][-1] > 3 and run.end.t < 0.5
         assert [event.name for event in run.events] == ["strong"]
         jump = run.events[0].t
         assert (jump - 0.01) / 0.05 == pytest.approx(round((jump - 0.01) / 0.05), abs=1e-9)
-    # By hand: between two changes the mass swings about force/k.
+    # Computed by hand: between two changes the mass oscillates about force/k.
     x, v, force = 1.0, 0.0, 0.0
     for _ in range(40):
         look = -4 * v
@@ -223,7 +223,7 @@ def test_taylor_and_stiff_methods(oscillator):
 
 
 def test_a_run_chooses_its_methods():
-    # x = cos t beside a mass that creeps back in a thick oil, y'' + 2e4 y' + 1e4 y = 0: what is fast dies away at once.
+    # x = cos t beside a mass that returns slowly in thick oil, y'' + 2e4 y' + 1e4 y = 0: the fast component decays at once.
     stiff = lg.loads(
         """machine Damped in plane {
             parameters { k: N/m = 1, c: N*s/m = 2e4 }
@@ -248,7 +248,7 @@ def test_scipy_integrates_the_same_machine(double):
     scipy = pytest.importorskip("scipy.integrate")
     solved = scipy.solve_ivp(double.rhs(), (0, 2), double.start.y, method="DOP853", rtol=1e-12, atol=1e-12, vectorized=True)
     run = double.simulate(2, tolerance=1e-13)
-    # Both within their tolerance, amplified by the motion by some 1e2.
+    # Both runs are within their tolerance, which the motion amplifies by about 1e2.
     np.testing.assert_allclose(solved.y[:, -1], run.end.y, atol=1e-9)
     ivp = double.simulate(2, events={"down": "theta1"}, tolerance=1e-12).as_ivp()
     assert ivp.success and ivp.status == 0 and ivp.y.shape == (4, 1001)
@@ -344,7 +344,7 @@ def test_progress_is_told_and_may_end_the_run(double):
         told.append(now)
         raise RuntimeError("enough")
 
-    # Longer than any machine needs until something is told.
+    # Longer than any machine would need; the callback stops it.
     with pytest.raises(RuntimeError, match="enough"):
         double.simulate(1e6, progress=enough, dense=False, energy=False)
     ((fraction, t, steps),) = told

@@ -8,7 +8,7 @@ import pytest
 
 import lagrangian as lg
 
-#: A current that dies away through a resistance, i = i₀ e^{−Rt/L}, beside a block that is at rest, and a family of states.
+#: A current that decays through a resistance, i = i₀ e^{−Rt/L}, with a block at rest, and a family of states.
 WINDING = """
 machine Winding in plane {
     parameters { R: ohm = 2, L: H = 0.5, first: A = 3, tau: s = 1 }
@@ -51,7 +51,7 @@ def test_a_state_goes_by_its_name(winding):
 def test_runs_start_with_states_and_have_them(winding):
     run = winding.simulate(0.5, start={"i": 4.0, "T": 8.0, "T[2]": 9.0}, tolerance=1e-12)
     known = 4 * np.exp(-4 * run.t)
-    # A tolerance of 1e-12 in each of some ten steps.
+    # A tolerance of 1e-12 in each of about ten steps.
     np.testing.assert_allclose(run["i"], known, atol=1e-10)
     np.testing.assert_array_equal(run.v["i"], run["i"])
     np.testing.assert_allclose([run.end.v["T[1]"], run.end.v["T[2]"]], [8 * math.exp(-0.5), 9 * math.exp(-0.5)], atol=1e-10)
@@ -79,7 +79,7 @@ def test_models_and_derivatives_know_states(winding):
 
 
 def test_orbits_have_states():
-    # τ u′ = U sin Ωt − u, beside a block that comes to rest.
+    # τ u′ = U sin Ωt − u, with a block that comes to rest.
     circuit = lg.loads(
         """machine Filter in plane {
             parameters { tau: s = 0.5, Omega: rad/s = 4 }
@@ -93,7 +93,7 @@ def test_orbits_have_states():
     )
     orbit = circuit.orbit(period="2*pi/Omega", start={"u": 0.3})
     assert orbit.states == ("x", "der(x)", "u")
-    # Steps err by 1e-11 some ten times.
+    # About ten steps err by 1e-11 each.
     assert abs(orbit.start.v["u"] + 2 * 2 / (1 + 4)) < 1e-9
     assert np.abs(orbit.multipliers - math.exp(-orbit.period / 0.5)).min() < 1e-9
     run = orbit.simulate(tolerance=1e-11)
@@ -121,7 +121,7 @@ def test_a_derived_parameter_is_given_a_value(tmp_path):
     assert disc.derived_parameters == ("J", "K", "w[1]", "w[2]") and "J" not in disc.parameters
     assert disc.units["J"] == "kg*m^2"
     assert abs(_omega(disc) - 4.0) < 1e-14
-    # By the formula, with another mass; by a value of its own, which no longer follows; K follows still.
+    # J follows from another mass by its formula, and no longer once it has a value of its own; K still follows.
     assert abs(_omega(disc.with_parameters(m=8)) - 2.0) < 1e-14
     given = disc.with_parameters(m=8, J=1.0)
     assert given.parameters["J"] == 1.0 and given.derived_parameters == ("K", "w[1]", "w[2]")

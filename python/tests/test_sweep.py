@@ -118,7 +118,7 @@ def test_files(oscillator, tmp_path):
     sweep.save(tmp_path / "rows.csv")
     lines = (tmp_path / "rows.csv").read_text().splitlines()
     assert lines[0].startswith("run,k,status,error,t,x,der(x)") and len(lines) == 3
-    # What a sweep keeps as it goes is the same file.
+    # A sweep that stores its rows on the way writes the same file.
     oscillator.sweep({"k": [1.0, 2.0]}, until=0.1, out=tmp_path / "kept.csv")
     assert (tmp_path / "kept.csv").read_bytes() == (tmp_path / "rows.csv").read_bytes()
     parquet = pytest.importorskip("pyarrow.parquet")
@@ -135,11 +135,11 @@ def test_clusters_make_the_same_rows(double, engine):
     np.testing.assert_array_equal(here["theta2"], there["theta2"])
 
 
-#: How many runs a sweep has that is killed, and how often; `LAGRANGIAN_KILLED_RUNS=100000 LAGRANGIAN_KILLS=20` is the long test.
+#: The runs of a sweep that is killed, and the number of kills; `LAGRANGIAN_KILLED_RUNS=100000 LAGRANGIAN_KILLS=20` is the long test.
 KILLED_RUNS = int(os.environ.get("LAGRANGIAN_KILLED_RUNS", "4000"))
 KILLS = int(os.environ.get("LAGRANGIAN_KILLS", "4"))
 
-#: A sweep that is kept, as a program: where, and how many runs.
+#: A program that runs a stored sweep; its arguments are the path and the number of runs.
 KEPT = """
 import sys
 import lagrangian as lg
@@ -164,7 +164,7 @@ def test_kept_rows_are_those_in_memory(oscillator, tmp_path, ending):
     for name in here.columns:
         np.testing.assert_array_equal(kept[name], here[name])
     np.testing.assert_array_equal(kept.samples["x"], here.samples["x"])
-    # A folder keeps its chunks, and nothing is made twice.
+    # A folder keeps its chunks, and no chunk is made twice.
     folder = str(tmp_path / "chunks") + "/"
     first = oscillator.sweep(vary, out=folder, **settings)
     stamps = {name: os.stat(folder + name).st_mtime_ns for name in os.listdir(folder) if name != "lock"}
@@ -201,7 +201,7 @@ def test_a_sweep_that_is_killed_goes_on_and_has_the_same_bytes(tmp_path):
     instants, killed, ended = random.Random(seed), 0, 0
     while killed < KILLS:
         process = begun("killed.parquet")
-        # What is kept makes the next try shorter, so that the instants of later kills come sooner.
+        # Stored chunks shorten the next attempt, so later kills come sooner.
         time.sleep(instants.uniform(0.1, 1.0) * took / (1 + killed) ** 0.5)
         if process.poll() is None:
             process.send_signal(signal.SIGKILL)
@@ -210,7 +210,7 @@ def test_a_sweep_that_is_killed_goes_on_and_has_the_same_bytes(tmp_path):
             continue
         _, said = process.communicate()
         assert process.returncode == 0, said
-        # It came to its end before it was killed: from the beginning, so that there is something to kill.
+        # It finished before it was killed: start again from the beginning.
         ended += 1
         assert ended < 10 * KILLS, "it is too fast to be killed"
         assert (tmp_path / "killed.parquet").read_bytes() == (tmp_path / "whole.parquet").read_bytes()
@@ -223,7 +223,7 @@ def test_a_sweep_that_is_killed_goes_on_and_has_the_same_bytes(tmp_path):
 
 
 def test_a_full_disk_is_told_and_the_sweep_goes_on(tmp_path):
-    # A process that may write files of 2 kB only.
+    # A process that may only write files of up to 2 kB.
     limited = "import resource, signal\nsignal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
     limited += "resource.setrlimit(resource.RLIMIT_FSIZE, (2000, resource.RLIM_INFINITY))\n"
     path = tmp_path / "rows.csv"
@@ -263,7 +263,7 @@ def test_a_sweep_is_drawn(oscillator, tmp_path):
     sweep.map(tmp_path / "peak.html", ["peak", "x"], over="k", only={"m": 2.0})
     assert (tmp_path / "peak.svg").read_text().startswith("<svg")
     assert (tmp_path / "peak.html").read_text().startswith("<!doctype html>")
-    # The command draws the same from the table that the sweep keeps.
+    # The command draws the same from the table that the sweep saves.
     sweep.save(tmp_path / "rows.csv")
     call = [sys.executable, "-m", "lagrangian", "map", "rows.csv", "--of", "peak", "--plot", "told.svg"]
     assert subprocess.run(call, cwd=tmp_path, capture_output=True).returncode == 0

@@ -10,7 +10,7 @@ from conftest import ROOT
 
 sympy = pytest.importorskip("sympy")
 
-#: As many coordinates as lambdified expressions are compared with.
+#: The most coordinates of machines whose lambdified expressions are compared.
 MOST = 12
 
 LIBRARY = sorted(path.relative_to(ROOT / "machines") for path in (ROOT / "machines").glob("**/*.machine"))
@@ -23,7 +23,7 @@ def test_the_equations_of_a_pendulum_are_those_of_a_textbook(pendulum):
     assert sympy.simplify(of.mass_matrix[0] - m * l**2) == 0
     assert sympy.simplify(of.forces[0] + m * g * l * sympy.sin(theta)) == 0
     assert sympy.simplify(of.kinetic_energy - m * l**2 * rate**2 / 2) == 0
-    # The potential energy is known up to a constant.
+    # The potential energy is unique up to a constant.
     assert sympy.simplify(of.potential_energy.diff(theta) - m * g * l * sympy.sin(theta)) == 0
 
 
@@ -56,7 +56,7 @@ def test_lambdified_expressions_are_the_numbers_of_the_machine(name):
     if any(math.isnan(x) for x in machine.parameters.values()):
         pytest.skip("parameters without values")
     of = machine.sympy()
-    # Where the machine starts, moved by a little: there its own coordinates are away from the corners of its equations.
+    # A state slightly off the start, where the machine is away from corners of its equations.
     random = np.random.default_rng(19)
     n = len(machine.coordinates)
     symbols = [of.t, *of.q.values(), *of.v.values(), *of.parameters.values(), *of.inputs.values()]
@@ -71,7 +71,7 @@ def test_lambdified_expressions_are_the_numbers_of_the_machine(name):
         if not found.ok:
             continue
         mass, forces, bias, applied, energies = function(t, *q, *v, *machine.parameters.values(), *machine.inputs.values())
-        # The same formulas in another order: roundings of 2^-53 of the greatest of a few thousand terms.
+        # The same formulas in another order: rounding errors of 2^-53 of the largest of a few thousand terms.
         size = max(1.0, *(np.abs(x).max() for x in (forces, bias, applied)))
         np.testing.assert_allclose(found.mass_matrix, mass, rtol=1e-11, atol=1e-11 * np.abs(mass).max())
         np.testing.assert_allclose(found.forces, forces.ravel(), rtol=1e-11, atol=1e-11 * size)

@@ -1,4 +1,5 @@
-//! The paper's figures: the way in normal coordinates, and the power of friction over the direction; and what drives it.
+//! The paper's figures: the path in normal coordinates, and the power of friction over the direction; and
+//! the control forces.
 
 use plotters::prelude::*;
 
@@ -15,7 +16,7 @@ struct Figure {
 /// The drawing as SVG text.
 ///
 /// # Errors
-/// What the drawing library says, as a sentence.
+/// An error of the drawing library, as a sentence.
 pub fn svg(title: &str, found: &Found<'_, '_>) -> Result<String, String> {
     let figures = figures(found);
     let height = 48 * UNIT + PANEL * figures.len() as u32;
@@ -95,7 +96,7 @@ fn draw_figure(
     let points = || figure.curves.iter().flat_map(|(_, points)| points);
     let across = range(points().map(|(x, _)| *x));
     let along = range(points().map(|(_, y)| *y));
-    // Ticks are multiples of a step, and rounding makes 6e-17 of the one at zero.
+    // Ticks are multiples of a step, and round-off turns the one at zero into 6e-17.
     let label = |x: f64, span: f64| short(if x.abs() < 1e-9 * span { 0.0 } else { x });
     let (width, height) = (across.end - across.start, along.end - along.start);
     let mut chart = ChartBuilder::on(area)

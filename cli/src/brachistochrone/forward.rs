@@ -1,4 +1,4 @@
-//! The machine itself under the control forces: simulated with its own law of friction, it must arrive.
+//! Verifies the result: simulated with its own law of friction under the control forces, the machine must arrive.
 
 use std::f64::consts::PI;
 
@@ -12,10 +12,10 @@ use crate::call;
 use crate::failure::Failure;
 use crate::reading::{self, Reading};
 
-/// Error of a step of the simulation.
+/// The tolerance of the simulation.
 const TOLERANCE: f64 = 1e-11;
 
-/// Control forces are smooth in time: the polynomial through so many of Chebyshev's points has all digits of the run.
+/// Control forces are smooth in time: interpolation at this number of Chebyshev points is as accurate as the run.
 const POINTS: u32 = 48;
 
 /// Simulates the machine from rest under the control forces for the computed time.
@@ -53,7 +53,7 @@ pub fn arrival(
     let far = pairs.map(|(q, to)| (q - to).abs()).fold(0.0, f64::max);
     let way = from.iter().zip(to).map(|(from, to)| (to - from).abs());
     let off = far / way.fold(f64::MIN_POSITIVE, f64::max);
-    // What sticks or lifts off is elsewhere altogether.
+    // A machine that sticks or lifts off ends far away.
     if off < 1e-3 {
         Ok(Arrival { off })
     } else {
@@ -63,7 +63,7 @@ pub fn arrival(
     }
 }
 
-/// That there is no machine with inputs for the control forces, and why, as the end of a sentence.
+/// The message that the machine with inputs for the control forces cannot be derived, as the end of a sentence.
 fn underived(failure: &Failure) -> String {
     let said = "the machine with inputs for the control forces cannot be derived";
     let why = match failure {
@@ -76,7 +76,7 @@ fn underived(failure: &Failure) -> String {
     why.map_or_else(|| said.to_owned(), |why| format!("{said}: {why}"))
 }
 
-/// The polynomial through values at Chebyshev's points of the second kind. J.-P. Berrut and L. N. Trefethen, *Barycentric
+/// The interpolating polynomial at Chebyshev points of the second kind. J.-P. Berrut and L. N. Trefethen, *Barycentric
 /// Lagrange interpolation*, SIAM Review 46 (2004) 501, eq. (5.4).
 struct Chebyshev {
     values: Vec<(f64, Vec<f64>)>,

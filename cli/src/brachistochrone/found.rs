@@ -1,4 +1,4 @@
-//! What was found, and what it is told in.
+//! The result, and the coordinates in which it is reported.
 
 use std::f64::consts::{PI, TAU};
 
@@ -12,19 +12,19 @@ use crate::numbers::shortest;
 use crate::output;
 use crate::recording::{Column, Kind, Recording};
 
-/// The motion is told at so many moments after the start, after equal parts of the turn of its direction, or of the time.
+/// The number of intervals in which the motion is reported: equal parts of the turn of its direction, or of the time.
 const MOMENTS: u32 = 200;
 
-/// A fastest motion, by whichever way it was found.
+/// A fastest motion, from either method.
 pub enum Motion<'a, 'd> {
-    /// Under the conditions (17).
+    /// In closed form, under the conditions (17).
     Closed(Box<Brachistochrone>),
-    /// Outside of them.
+    /// By the direct method, if these are not met.
     Direct(Box<Sought<Landscape<'a, 'd>>>),
 }
 
 impl Motion<'_, '_> {
-    /// The time that it takes, in s.
+    /// The duration, in s.
     pub fn time(&self) -> f64 {
         match self {
             Self::Closed(motion) => motion.time(),
@@ -47,7 +47,7 @@ impl Motion<'_, '_> {
         }
     }
 
-    /// The problem, where its coefficients are constant.
+    /// The problem, if its coefficients are constant.
     pub fn problem(&self) -> Option<&Problem> {
         match self {
             Self::Closed(motion) => Some(motion.problem()),
@@ -81,18 +81,18 @@ impl Motion<'_, '_> {
     }
 }
 
-/// Where the machine arrives, simulated.
+/// The end of the simulated motion.
 #[derive(Clone, Debug)]
 pub struct Arrival {
-    /// How far from the end, relative to the way, of the coordinate that is farthest.
+    /// The distance from the end, relative to the displacement, of the coordinate that is furthest off.
     pub off: f64,
 }
 
-/// What was found, and what it is told in.
+/// The result, and the coordinates in which it is reported.
 pub struct Found<'a, 'd> {
     pub motion: Motion<'a, 'd>,
     pub moments: Vec<Moment>,
-    /// ε of (30), in rad, at each moment; of two normal coordinates.
+    /// ε of (30), in rad, at each moment, for two normal coordinates.
     pub angles: Option<Vec<f64>>,
     pub names: Vec<String>,
     units: Vec<String>,
@@ -101,7 +101,7 @@ pub struct Found<'a, 'd> {
     best_among_turns: [f64; 2],
     /// Why there is no closed form.
     pub because: Vec<String>,
-    /// Where the machine arrives under the control forces.
+    /// The end of the motion simulated under the control forces.
     pub arrival: Result<Arrival, String>,
 }
 
@@ -130,7 +130,7 @@ impl<'a, 'd> Found<'a, 'd> {
         }
     }
 
-    /// From what the search started, and what came of each.
+    /// The trials of the search.
     fn tried(&self) -> &[Trial] {
         match &self.motion {
             Motion::Closed(_) => &[],
@@ -138,8 +138,7 @@ impl<'a, 'd> Found<'a, 'd> {
         }
     }
 
-    /// The constants C* of (22), in normal coordinates; or by how much longer it takes from beside the start, for each
-    /// coordinate.
+    /// The constants C* of (22), in normal coordinates; otherwise the multipliers of the coordinates at the start.
     fn constants(&self) -> Vec<f64> {
         match &self.motion {
             Motion::Closed(motion) => {
@@ -152,7 +151,7 @@ impl<'a, 'd> Found<'a, 'd> {
         }
     }
 
-    /// What friction is in the closed form, and how far the direction turns.
+    /// The friction constant of the closed form, and the total turn of the direction.
     fn turn(&self) -> Option<[f64; 2]> {
         match &self.motion {
             Motion::Closed(motion) => Some([motion.kappa(), motion.turn()]),
@@ -160,7 +159,7 @@ impl<'a, 'd> Found<'a, 'd> {
         }
     }
 
-    /// What control forces do together, in W, at most: rounding.
+    /// The largest power of all control forces together, in W, which should be round-off.
     fn power(&self) -> f64 {
         let power = |moment: &Moment| {
             let parts = moment.control.iter().zip(&moment.v);
@@ -169,7 +168,7 @@ impl<'a, 'd> Found<'a, 'd> {
         self.moments.iter().map(power).fold(0.0, f64::max)
     }
 
-    /// The least normal reaction of a guide, in N, and when.
+    /// The least normal reaction of a guide, in N, and its time.
     fn least_reaction(&self, guide: usize) -> (f64, f64) {
         let values = self.moments.iter();
         let values = values.map(|moment| (moment.contacts[guide].reaction, moment.time));
@@ -214,13 +213,13 @@ impl<'a, 'd> Found<'a, 'd> {
         numbers
     }
 
-    /// Whether it is a motion of the machine: the guides do nothing that Coulomb's law does not allow, and the machine
-    /// arrives under the control forces. Of what is none, no time is the least.
+    /// Whether it is a motion of the machine: the guides obey Coulomb's law, and the machine arrives under the control
+    /// forces. Otherwise the computed time means nothing.
     pub fn is_motion(&self) -> bool {
         self.motion.lapses().is_empty() && self.arrival.is_ok()
     }
 
-    /// What the guides do that Coulomb's law does not allow, and what may be better than this.
+    /// Warnings about guides that violate Coulomb's law, and about motions that may be faster.
     pub fn warnings(&self) -> Vec<String> {
         let told = |lapse: &Lapse| {
             if lapse.backwards {
@@ -245,7 +244,7 @@ impl<'a, 'd> Found<'a, 'd> {
         lapses.chain(self.doubt()).collect()
     }
 
-    /// What may be faster, and was not followed to a motion.
+    /// A warning about candidates that may be faster but were not continued to a motion.
     fn doubt(&self) -> Option<String> {
         let Motion::Direct(motion) = &self.motion else {
             return None;
@@ -258,7 +257,7 @@ impl<'a, 'd> Found<'a, 'd> {
     }
 
     fn by_name(&self, values: &[f64]) -> Value {
-        let values = values.iter().map(|x| x + 0.0); // No −0 for who stands still.
+        let values = values.iter().map(|x| x + 0.0); // avoids −0 for coordinates at rest
         let pairs = self.names.iter().zip(values);
         pairs
             .map(|(name, x)| (name.clone(), json!(x)))
@@ -326,12 +325,12 @@ impl<'a, 'd> Found<'a, 'd> {
         document
     }
 
-    /// One row for each moment.
+    /// A table with one row for each moment.
     pub fn recording(&self) -> Recording {
         self.recorded(&self.moments, self.angles.as_deref())
     }
 
-    /// The motion at a number of equal times after the start.
+    /// The motion at equal intervals of time after the start.
     pub fn at_equal_times(&self, count: u32) -> Recording {
         let time = |k: u32| self.motion.time() * f64::from(k) / f64::from(count);
         let moments: Vec<Moment> = (0..=count).map(|k| self.motion.at(time(k))).collect();
@@ -494,7 +493,7 @@ impl<'a, 'd> Found<'a, 'd> {
     }
 }
 
-/// With what the motion was compared.
+/// The alternatives with which the motion was compared.
 fn compared<T: Terrain>(motion: &Sought<T>) -> String {
     let starts = motion.tried().len();
     let starts = match starts {
@@ -512,7 +511,7 @@ fn compared<T: Terrain>(motion: &Sought<T>) -> String {
     }
 }
 
-/// ε at each moment, without jumps, the first from −π to π.
+/// ε at each moment, without jumps; the first is between −π and π.
 fn angles(problem: &Problem, moments: &[Moment]) -> Vec<f64> {
     let mut before = 0.0;
     let angle = |moment: &Moment| {

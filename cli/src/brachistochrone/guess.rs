@@ -1,14 +1,14 @@
-//! A way to start from, as a table that the user gives.
+//! A starting path for the search, from a table of the user.
 
 use std::path::Path;
 
 use crate::failure::Failure;
 use crate::table;
 
-/// The places of a table, one for each row: the columns that are named after coordinates.
+/// The positions in a table, one for each row, from the columns named after coordinates.
 ///
 /// # Errors
-/// If it cannot be read, lacks a coordinate, or holds what is no number.
+/// If the table cannot be read, lacks a coordinate, or contains an entry that is not a number.
 pub fn read(path: &Path, names: &[String]) -> Result<Vec<Vec<f64>>, Failure> {
     let wrong = |why: String| Failure::Call(format!("--guess {}: {why}", path.display()));
     let text = std::fs::read_to_string(path).map_err(|error| wrong(error.to_string()))?;

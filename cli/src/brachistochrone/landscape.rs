@@ -1,4 +1,4 @@
-//! A machine outside of the conditions (17), as the direct method sees it: its own expressions over any numbers.
+//! A machine outside of the conditions (17) in the form of the direct method: its own expressions for any number type.
 
 use lagrangian::Scalar;
 use lagrangian_brachistochrone::Contact;
@@ -7,34 +7,34 @@ use lagrangian_mechanics::Brachistochronic;
 use lagrangian_spec::model::Model;
 use lagrangian_symbolic::{Evaluation, Expr, Symbol};
 
-/// Masses, forces and guides where the machine is.
+/// Masses, forces and guides as functions of position and velocity.
 #[derive(Clone)]
 pub struct Landscape<'a, 'd> {
     model: &'a Model<'d>,
     form: Brachistochronic<'d>,
-    /// Parameters by their symbols, sorted.
+    /// Parameter values by symbol, sorted.
     parameters: Vec<(Symbol, f64)>,
     coordinates: Vec<(Symbol, usize)>,
     rates: Vec<(Symbol, usize)>,
     mass: Evaluation<'a>,
     slope: Evaluation<'a>,
-    /// Of each guide, with its reaction by accelerations, and by loads.
+    /// For each guide the reaction caused by accelerations, and that caused by loads.
     guides: Vec<[Evaluation<'a>; 2]>,
-    /// What coefficients of friction are multiplied by.
+    /// The factor of all friction coefficients.
     friction: f64,
 }
 
-/// What a guide is at one place, with every number of one kind.
+/// The quantities of a guide at one position, in one number type.
 struct Local<N> {
     along: Vec<N>,
     by_friction_forces: Vec<N>,
     friction: N,
-    /// What the reaction consists of: columns of numbers, one after the other.
+    /// The parts of the reaction: columns of numbers, one after the other.
     parts: Vec<N>,
 }
 
 impl<'a, 'd> Landscape<'a, 'd> {
-    /// The machine at these values of its parameters.
+    /// The machine with these parameter values.
     pub fn new(model: &'a Model<'d>, form: Brachistochronic<'d>, parameters: &[f64]) -> Self {
         let known = model.parameters.iter().zip(parameters);
         let known = known.filter_map(|(p, value)| Some((p.symbol.as_symbol()?, *value)));
@@ -86,7 +86,7 @@ impl<'a, 'd> Landscape<'a, 'd> {
         })
     }
 
-    /// The guides at a place, each with its reaction by accelerations or by loads.
+    /// The guides at a position, each with its reaction to accelerations or to loads.
     fn locals<N: Scalar>(&self, q: &[N], v: &[N], loads: bool) -> Vec<Local<N>> {
         let n = self.model.coordinates.len();
         let count = self.form.guides.len();
@@ -110,7 +110,7 @@ impl<'a, 'd> Landscape<'a, 'd> {
     }
 }
 
-/// `(1 + κ μ) N = ν + ρ·a`, solved for N: by elimination, as friction forces change reactions little.
+/// Solves `(1 + κ μ) N = ν + ρ·a` for N, by elimination without pivoting, because friction forces change reactions little.
 fn eliminate<N: Scalar>(guides: &mut [Local<N>]) {
     let count = guides.len();
     let friction_forces: Vec<N> = guides.iter().map(|guide| guide.friction).collect();

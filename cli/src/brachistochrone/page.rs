@@ -1,4 +1,4 @@
-//! The page of the fastest motion: the machine on the fastest way beside the machine that is left to itself.
+//! The page of the fastest motion: the machine on its fastest path beside the machine without control.
 
 use lagrangian::interpreted::{InterpretedMachine, Signals};
 use lagrangian::{Machine, Simulation};
@@ -17,13 +17,13 @@ use crate::simulate::record;
 const PAGE: &str = include_str!("page.html");
 const RACE: &str = include_str!("race.js");
 
-/// So many equal parts of the time are recorded for a page; of smooth motions it keeps every few.
+/// The number of equal time intervals that are recorded for a page; where motions are smooth the page keeps only some.
 const INSTANTS: u32 = 1024;
 
 /// The page as one HTML file.
 ///
 /// # Errors
-/// What the drawing library says.
+/// An error of the drawing library.
 pub fn page(
     found: &Found<'_, '_>,
     compiled: &Compiled<'_>,
@@ -66,7 +66,7 @@ pub fn page(
     }))
 }
 
-/// The machine from rest at the same place, for as long, without control forces; and why not to the end.
+/// The motion from rest at the same position for the same time without control forces; and why it ended early, if it did.
 fn left_to_itself(
     found: &Found<'_, '_>,
     machine: &InterpretedMachine,
@@ -89,7 +89,7 @@ fn left_to_itself(
     }
 }
 
-/// What is plotted over time: coordinates of both, then what belongs to the fastest motion alone.
+/// The plots over time: coordinates of both motions, then the quantities of the fastest motion alone.
 fn panels(fastest: &Recording, free: Option<&Recording>) -> Vec<Value> {
     let curve = |column: &Column, name: String, times: &[f64]| {
         json!({
@@ -149,7 +149,7 @@ fn figure(x: f64) -> Cell {
     Cell::Figure(shortest(rounded(x)).replace('-', "−"))
 }
 
-/// A number to look at, in twelve digits.
+/// A number with twelve digits, for display.
 fn rounded(x: f64) -> f64 {
     format!("{:.11e}", x + 0.0).parse().unwrap_or(x)
 }

@@ -10,18 +10,18 @@ use nalgebra::DMatrix;
 use super::landscape::Landscape;
 use crate::failure::Failure;
 
-/// How the machine depends on its motion.
+/// Whether the coefficients are constant.
 pub enum Form<'a, 'd> {
-    /// The conditions (17) hold.
+    /// The conditions (17) are met.
     Constant(Problem),
-    /// They do not, and why.
+    /// They are not met, for these reasons.
     Varying(Box<Landscape<'a, 'd>>, Vec<String>),
 }
 
-/// The problem of the machine's fastest motion, at the parameters of the call.
+/// The problem of the machine's fastest motion, with the parameters of the call.
 ///
 /// # Errors
-/// If the machine has constraints or changes by itself, or its masses are no masses.
+/// If the machine has constraints or depends on time, or its mass matrix is invalid.
 pub fn form<'a, 'd>(
     compiled: &'a Compiled<'d>,
     machine: &InterpretedMachine,
@@ -65,7 +65,7 @@ fn problem<'d>(
     guides.into_iter().try_fold(problem, add).map_err(refused)
 }
 
-/// Values of what depends on parameters alone.
+/// Values of expressions that depend on parameters alone.
 pub fn at_parameters(
     compiled: &Compiled,
     machine: &InterpretedMachine,
@@ -81,14 +81,14 @@ pub fn at_parameters(
     })
 }
 
-/// The guides, each reaction by accelerations alone: `(1 + κ μ) N = ν + ρ·a` for all of them.
+/// The guides, with reactions that depend on accelerations alone: solves `(1 + κ μ) N = ν + ρ·a` for all of them.
 fn guides<'d>(
     form: &Brachistochronic<'d>,
     values: impl Fn(&[Expr<'d>]) -> Vec<f64>,
 ) -> Result<Vec<Guide>, Failure> {
     let (count, n) = (form.guides.len(), form.slope.len());
     if count == 0 {
-        return Ok(Vec::new()); // An empty matrix has no factors.
+        return Ok(Vec::new()); // An empty matrix cannot be factored.
     }
     let list = |of: &dyn Fn(&Guided<'d>) -> Vec<Expr<'d>>| -> Vec<Vec<f64>> {
         form.guides.iter().map(|guide| values(&of(guide))).collect()
@@ -119,7 +119,7 @@ fn guides<'d>(
     Ok(form.guides.iter().enumerate().map(guide).collect())
 }
 
-/// Why there is no fastest motion, with the names of coordinates where there are numbers.
+/// Why there is no fastest motion, with the names of coordinates instead of indices.
 pub fn explained(unsolved: &Unsolved, names: &[String]) -> String {
     let name = |index: usize| names.get(index).map_or("?", String::as_str);
     match unsolved {

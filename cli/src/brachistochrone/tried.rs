@@ -1,4 +1,4 @@
-//! What a search tried, in words and in JSON.
+//! The trials of a search, as text and as JSON.
 
 use lagrangian_brachistochrone::Unsolved;
 use lagrangian_brachistochrone::direct::{Outcome, Start, Trial};
@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 use super::problem::explained;
 use crate::failure::Failure;
 
-/// Why there is no fastest motion, with what was tried.
+/// The failure that there is no fastest motion, with all trials.
 pub fn failure(unsolved: &Unsolved, names: &[String]) -> Failure {
     let Unsolved::NotFound { tried } = unsolved else {
         return Failure::Run(explained(unsolved, names));
@@ -37,7 +37,7 @@ pub fn line(trial: &Trial, names: &[String]) -> String {
     }
 }
 
-/// For programs.
+/// All trials as JSON.
 pub fn document(tried: &[Trial], names: &[String]) -> Value {
     tried.iter().map(|trial| entry(trial, names)).collect()
 }

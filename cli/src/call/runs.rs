@@ -1,4 +1,4 @@
-//! Arguments of what is asked of runs that are there, or are made for it.
+//! Arguments of commands that analyse runs, existing ones or runs made for the analysis.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! `lagrangian check --accuracy`: how exact the program of a machine is, held against double-doubles.
+//! `lagrangian check --accuracy`: the rounding errors of a machine's program, compared with double-doubles.
 
 use lagrangian::Machine;
 use lagrangian::interpreted::InterpretedMachine;
@@ -10,16 +10,16 @@ use serde_json::{Map, Value, json};
 
 use crate::output;
 
-/// How many states are drawn around the start.
+/// The number of states sampled around the start.
 const AROUND: usize = 256;
 
-/// How many of them are stretched to extremes, once more.
+/// The number of these from which extreme states are made.
 const EXTREME: usize = 128;
 
-/// From how many of them a search leads towards singular states.
+/// The number of these from which a search leads towards singular states.
 const SINGULAR: usize = 16;
 
-/// What was found.
+/// The result.
 pub struct Found {
     quantities: Vec<Accuracy>,
     states: Vec<(Kind, State)>,
@@ -43,14 +43,14 @@ impl Kind {
     }
 }
 
-/// Looks at a machine around its start, at extreme and at nearly singular states.
+/// Evaluates a machine around its start, at extreme and at nearly singular states.
 pub fn look(compiled: &Compiled<'_>) -> Found {
     let program: &Program = &compiled.program;
     let machine = InterpretedMachine::new(compiled.program.clone());
     let drawn = around_start(&compiled.model, 3, AROUND);
     let mut with_parameters = machine.clone();
     for (index, value) in drawn.parameters.iter().enumerate() {
-        // What has no default was drawn as well.
+        // Parameters without a default were sampled too.
         if let Some(parameter) = with_parameters.parameter_mut(index) {
             *parameter = *value;
         }
@@ -85,7 +85,7 @@ pub fn look(compiled: &Compiled<'_>) -> Found {
     }
 }
 
-/// A state with angles of many turns, and great rates, late.
+/// An extreme state: angles of many turns, large rates, late time.
 fn stretched(program: &Program, state: &State, random: &mut SplitMix) -> State {
     let mut stretched = state.clone();
     stretched.t *= 10_f64.powf(random.uniform(0.0, 6.0));
@@ -97,7 +97,7 @@ fn stretched(program: &Program, state: &State, random: &mut SplitMix) -> State {
         stretched.v[i] *= by;
         stretched.a[i] *= by;
     }
-    // Four numbers that turn a frame stay as long as a run keeps them.
+    // Quaternions keep the length that a run would give them.
     for &four in &program.quaternions {
         let length = four
             .map(|i| stretched.q[i].powi(2))
@@ -110,7 +110,7 @@ fn stretched(program: &Program, state: &State, random: &mut SplitMix) -> State {
 }
 
 impl Found {
-    /// As a table, with the worst state behind it.
+    /// Prints a table, followed by the worst state.
     pub fn print(&self, program: &Program) {
         let count = |kind| self.states.iter().filter(|(k, _)| *k == kind).count();
         output::line(format_args!(
@@ -152,7 +152,7 @@ impl Found {
         }
     }
 
-    /// As JSON: a list of quantities.
+    /// The result as JSON: a list of quantities.
     pub fn json(&self, program: &Program) -> Value {
         let quantity = |found: &Accuracy| {
             let (kind, state) = &self.states[found.worst.state];
@@ -172,7 +172,7 @@ impl Found {
     }
 }
 
-/// To two digits behind the point, or, where it is large, in powers of ten.
+/// Rounds to two decimals or, if large, to a power of ten.
 fn rounded(number: f64) -> String {
     if number < 1e4 {
         format!("{number:.2}")
@@ -181,7 +181,7 @@ fn rounded(number: f64) -> String {
     }
 }
 
-/// A state as `evaluate --at` reads it.
+/// A state in the form that `evaluate --at` reads.
 fn numbers(program: &Program, state: &State) -> Map<String, Value> {
     let named = |slots: &[Slot], values: &[f64]| -> Value {
         let pairs = slots.iter().zip(values);

@@ -1,6 +1,6 @@
-//! The points at which numbers are asked for, from their JSON; with the line and the column of what is wrong.
+//! Parses the points at which quantities are evaluated from JSON, and reports line and column of errors.
 //!
-//! The text is taken apart level by level, each value still being a piece of the text, so that its place is known.
+//! The text is parsed level by level, with each value kept as a slice of the text, so that its position is known.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -10,7 +10,7 @@ use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, Visitor};
 use serde_json::value::RawValue;
 
-/// A state at which numbers are asked for; whatever is left out takes its default.
+/// A state at which quantities are evaluated; fields that are left out take their defaults.
 #[derive(Debug, Default, PartialEq)]
 pub struct Point {
     /// The time, in s.
@@ -27,31 +27,31 @@ pub struct Point {
     pub inputs: Vec<(String, Entry)>,
 }
 
-/// Coordinates in their order, or by name.
+/// Coordinates in order, or by name.
 #[derive(Debug, PartialEq)]
 pub enum Numbers {
-    /// All of them, in their order.
+    /// All coordinates, in order.
     List(Vec<f64>),
-    /// Some of them, in the order of the text.
+    /// Some coordinates, in the order of the text.
     ByName(Vec<(String, Entry)>),
 }
 
-/// A number, or those of a family.
+/// A number, or the numbers of a family.
 #[derive(Debug, PartialEq)]
 pub enum Entry {
-    /// One number; under the name of a family that of all its members.
+    /// One number; under the name of a family it applies to all its members.
     One(f64),
     /// A number for each member.
     Family(Vec<f64>),
 }
 
-/// The names that a point may have.
+/// The fields that a point may have.
 const FIELDS: [&str; 6] = ["t", "q", "v", "states", "parameters", "inputs"];
 
-/// Reads a list of points from a text, whose name is for messages. A point that is wrong does not stop the others.
+/// Reads a list of points from a text; `name` is the name of the text in messages. Invalid points do not affect the others.
 ///
 /// # Errors
-/// If the text is no list of values.
+/// If the text is not a list of values.
 pub fn read(name: &str, text: &str) -> Result<Vec<Result<Point, String>>, String> {
     let reader = Reader { name, text };
     let list: Vec<&RawValue> = match serde_json::from_str(text) {
@@ -73,7 +73,7 @@ pub fn read(name: &str, text: &str) -> Result<Vec<Result<Point, String>>, String
     Ok(points.collect())
 }
 
-/// What is wrong, and at which byte.
+/// The byte offset of an error, and its message.
 type Wrong = (usize, String);
 
 struct Reader<'a> {
@@ -82,7 +82,7 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// The place of a byte, and what is wrong there.
+    /// A message with the line and column of a byte offset.
     fn wrong(&self, at: usize, what: &str) -> String {
         let before = self.text.get(..at).unwrap_or(self.text);
         let line = before.matches('\n').count() + 1;
@@ -94,9 +94,9 @@ impl<'a> Reader<'a> {
         format!("{}: line {line}, column {column}: {what}", self.name)
     }
 
-    /// What hinders the text from being JSON, in the words of those who write it.
+    /// The message for invalid JSON, in words for its author.
     fn no_json(&self, error: &serde_json::Error) -> String {
-        // A column counts bytes there, and is 0 before the first.
+        // This column counts bytes, and is 0 before the first.
         let line = self.text.split('\n').nth(error.line().saturating_sub(1));
         let line = line.unwrap_or("");
         let at = error.column().saturating_sub(1).min(line.len());
@@ -123,12 +123,12 @@ impl<'a> Reader<'a> {
                 "a name in quotation marks must end in its line"
             }
             "recursion limit exceeded" => "brackets are nested too deep",
-            said => said, // `expected `:``, and the like
+            said => said, // such as `expected `:``
         };
         self.placed(error.line().max(1), before.chars().count() + 1, what)
     }
 
-    /// Where a piece of the text stands in it.
+    /// The offset of a slice within the text.
     fn place(&self, piece: &str) -> usize {
         (piece.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize)
     }
@@ -171,11 +171,11 @@ impl<'a> Reader<'a> {
         Ok(point)
     }
 
-    /// What stands in an object, in its order; every name once.
+    /// The entries of an object in their order, with unique names.
     fn pairs(&self, value: &'a RawValue, what: &str) -> Result<Vec<(String, &'a RawValue)>, Wrong> {
         let pairs: Result<Pairs, _> = serde_json::from_str(value.get());
         let Pairs(mut pairs) = pairs.map_err(|_| self.expected(value, what))?;
-        // As the names of a spec are: two spellings of é are one name.
+        // Names are normalized like those of a spec: two encodings of é are the same name.
         for (name, _) in &mut pairs {
             if let Cow::Owned(composed) = normalized(name) {
                 *name = composed;
@@ -235,7 +235,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// An object as it is written.
+/// An object with its entries in the order of the text.
 struct Pairs<'a>(Vec<(String, &'a RawValue)>);
 
 impl<'de> Deserialize<'de> for Pairs<'de> {
@@ -291,7 +291,7 @@ mod tests {
         assert_eq!(read("points.json", " [ ] "), Ok(Vec::new()));
     }
 
-    /// Line and column of what is wrong, counted by hand, and words that must be there.
+    /// Line and column of errors, counted by hand, and words that the message must contain.
     #[test]
     fn what_is_wrong_is_told_where_it_is() {
         for (text, place, words) in [
@@ -326,7 +326,7 @@ mod tests {
                 (1, 22),
                 "\"a\" is given more than once",
             ),
-            // é, and e with an accent.
+            // é as one character, and as e with a combining accent.
             (
                 "[{\"q\": {\"\u{e9}\": 1, \"e\u{301}\": 2}}]",
                 (1, 23),

@@ -1,4 +1,4 @@
-//! What was measured: tables in files, and what a call says of each.
+//! The measurements: tables in files, and the settings that a call gives for each.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -15,28 +15,28 @@ use lagrangian_sweep::signals::{self, Written};
 use crate::call::{self, Assignment};
 use crate::failure::Failure;
 
-/// A file of measurements with what the call says of it: `run.csv,start(phi)=0.3,m=2,torque=run.csv:u`.
+/// A file of measurements with the settings of the call: `run.csv,start(phi)=0.3,m=2,torque=run.csv:u`.
 pub struct Given {
     /// The file.
     pub path: PathBuf,
-    /// What messages call it.
+    /// Its name in messages.
     pub label: String,
-    /// Parameters and inputs that have other values in this experiment.
+    /// Parameters and inputs that differ in this experiment.
     pub sets: Vec<Assignment>,
-    /// Coordinates and rates that start elsewhere.
+    /// Starts of coordinates and rates that differ in this experiment.
     pub starts: [Vec<Assignment>; 2],
     /// Tables that drive inputs.
     pub inputs: Vec<(String, Written)>,
 }
 
-/// What is measured under one name, in all experiments.
+/// The measurements with the same name, in all experiments.
 pub struct Class {
     pub name: String,
     pub unit: String,
     pub quantity: Quantity,
 }
 
-/// The unit of the rate of a coordinate, as the header of a run's table has it.
+/// The unit of the rate of a coordinate, in the notation of the header of a run's table.
 pub fn rate_unit(unit: &str) -> String {
     match unit {
         "1" => "1/s".into(),
@@ -47,7 +47,7 @@ pub fn rate_unit(unit: &str) -> String {
 /// The files of a call.
 ///
 /// # Errors
-/// The call is at fault.
+/// If the call is invalid.
 pub fn given(call: &call::Fit) -> Result<Vec<Given>, Failure> {
     let mut all: Vec<Given> = Vec::new();
     for text in &call.data {
@@ -99,7 +99,7 @@ fn read(text: &str) -> Result<Given, String> {
         .enumerate()
     {
         let name = part.split_once('=').map(|(name, _)| name.trim());
-        // Options of a table or of a controller stand behind it.
+        // Options of a table or of a controller follow it.
         let is_option = !matches!(name, Some(name) if !["end", "every", "delay"].contains(&name));
         match said.last_mut() {
             _ if place == 0 => {}
@@ -145,10 +145,10 @@ fn read(text: &str) -> Result<Given, String> {
 }
 
 impl Given {
-    /// The experiment, so far without measurements. `start` has what the call says of all starts, and no numbers elsewhere.
+    /// The experiment without measurements. `start` holds the starts that the call gives for all experiments, and NaN elsewhere.
     ///
     /// # Errors
-    /// If a name or a value is wrong.
+    /// If a name or a value is invalid.
     pub fn experiment(
         &self,
         machine: &InterpretedMachine,
@@ -224,12 +224,12 @@ impl Given {
     }
 }
 
-/// Everything that can be measured of a machine.
+/// All measurable quantities of a machine.
 fn measurable(machine: &InterpretedMachine, compiled: &Compiled<'_>) -> Vec<Class> {
     let system = machine.prepare();
     let mut all = Vec::new();
     for (i, of) in system.coordinates().enumerate() {
-        // A state of first order is the rate of its integral, which nobody measures.
+        // A state of first order is the rate of its integral, which is not measurable.
         if let Some(state) = state_of(of.name) {
             all.push(Class {
                 name: state,
@@ -260,10 +260,10 @@ fn measurable(machine: &InterpretedMachine, compiled: &Compiled<'_>) -> Vec<Clas
     all
 }
 
-/// Reads the measurements into the experiments; what is measured, and what is to be said of columns that are not used.
+/// Reads the measurements into the experiments; returns the measured quantities, and notes on unused columns.
 ///
 /// # Errors
-/// What is wrong with a table, or with `--columns`.
+/// If a table or `--columns` is invalid.
 pub fn measure(
     call: &call::Fit,
     machine: &InterpretedMachine,
@@ -357,7 +357,7 @@ pub fn measure(
     Ok((classes, notes))
 }
 
-/// Whether an experiment can be run along its measurements.
+/// Checks that an experiment can be run over the times of its measurements.
 fn check_times(
     given: &Given,
     experiment: &mut Experiment,
@@ -384,7 +384,7 @@ fn check_times(
             shown.join(", ")
         )));
     }
-    // Rows in which nothing is measured are none.
+    // Rows without measurements are ignored.
     let rows: Vec<usize> = (0..experiment.times.len())
         .filter(|row| {
             experiment
@@ -413,7 +413,7 @@ fn check_times(
     }
 }
 
-/// How many measurements there are.
+/// The number of measurements.
 pub fn count(experiments: &[Experiment]) -> usize {
     let columns = experiments
         .iter()
@@ -423,7 +423,7 @@ pub fn count(experiments: &[Experiment]) -> usize {
         .sum()
 }
 
-/// The root of the mean square of what is measured under one name, about its mean; 1 where it is always the same.
+/// The root mean square of the measurements under one name about their mean; 1 if they are constant.
 pub fn spread(experiments: &[Experiment], class: usize) -> f64 {
     let columns = experiments
         .iter()
@@ -437,7 +437,7 @@ pub fn spread(experiments: &[Experiment], class: usize) -> f64 {
     if square > 0.0 { square.sqrt() } else { 1.0 }
 }
 
-/// Measured, computed, and by how much the first is more: a row a time, NaN where nothing was measured.
+/// Measured and computed values and their differences: one row for each time, NaN where nothing was measured.
 ///
 /// # Errors
 /// If there is no motion.

@@ -1,4 +1,4 @@
-//! Measured against computed: for each quantity the motion with its measurements, and below it the residuals.
+//! Measured against computed values: for each quantity the motion with its measurements, and the residuals below it.
 
 use lagrangian_fit::motion::{Experiment, Fit, Held};
 use plotters::coord::Shift;
@@ -8,19 +8,19 @@ use super::{Fitted, stopped};
 use crate::failure::Failure;
 use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, axes, font, range, short, svg_of};
 
-/// Height of the residuals below a panel.
+/// The height of the residuals below a panel.
 const BELOW: u32 = 130 * UNIT;
 
-/// Room for the names of the files.
+/// The width of the legend with the names of the files.
 const LEGEND: u32 = 130 * UNIT;
 
-/// Radius of a measurement.
+/// The radius of a measurement's dot.
 const POINT: u32 = UNIT * 5 / 4;
 
-/// Points of a curve.
+/// The number of points of a curve.
 const POINTS: usize = 800;
 
-/// One experiment of a quantity.
+/// A quantity in one experiment.
 struct Curve {
     name: String,
     measured: Vec<(f64, f64)>,
@@ -31,7 +31,7 @@ struct Curve {
 /// The drawing as SVG text.
 ///
 /// # Errors
-/// If there is no motion, or what the drawing library says.
+/// If there is no motion, or the drawing library fails.
 pub fn svg(result: &mut Fitted<'_, '_>, x: &[f64]) -> Result<String, Failure> {
     let figures = figures(result, x)?;
     let count = figures.len() as u32;
@@ -73,7 +73,7 @@ fn figures(result: &mut Fitted<'_, '_>, x: &[f64]) -> Result<Vec<(String, Vec<Cu
     Ok(figures)
 }
 
-/// The motion of an experiment at times that lie close, and at those of its measurements.
+/// The motion of an experiment at closely spaced times, and at those of its measurements.
 fn densely(fit: &Fit<'_>, e: usize, x: &[f64]) -> Result<Vec<(f64, Vec<f64>)>, Failure> {
     let own = &fit.experiments[e];
     let last = own.times.last().copied().unwrap_or(0.0);
@@ -92,7 +92,7 @@ fn densely(fit: &Fit<'_>, e: usize, x: &[f64]) -> Result<Vec<(f64, Vec<f64>)>, F
         one.from = *x;
         one
     });
-    // Starts of an experiment are known by its number: the others stay, and are not run.
+    // Starts refer to experiments by index, so the others stay in the list, but are not run.
     let mut experiments = fit.experiments.clone();
     experiments[e] = experiment;
     let mut dense = Fit {
@@ -129,7 +129,7 @@ fn draw(title: &str, figures: &[(String, Vec<Curve>)], backend: SVGBackend<'_>) 
 }
 
 fn label(x: &f64, span: f64) -> String {
-    // Ticks are multiples of a step, and rounding makes 7e-18 of the one at zero.
+    // Ticks are multiples of a step, and round-off turns the one at zero into 7e-18.
     short(if x.abs() < 1e-9 * span { 0.0 } else { *x })
 }
 

@@ -1,4 +1,4 @@
-//! What is said of a fit: text, JSON, warnings.
+//! Reports on a fit: text, JSON, warnings.
 
 use std::fmt::Write as _;
 
@@ -12,16 +12,16 @@ use serde_json::{Value, json};
 use super::Fitted;
 use crate::numbers::shortest;
 
-/// Numbers with a greater correlation than that are hardly told apart.
+/// Numbers with a greater correlation than this can hardly be distinguished.
 const STRONG: f64 = 0.99;
 
-/// A sum of squares that is as improbable as one this many standard deviations off is worth a word.
+/// A sum of squares as improbable as a deviation of this many standard deviations is reported.
 const IMPROBABLE: f64 = 5.0;
 
-/// More correlations than these are not printed.
+/// The most columns of correlations that are printed.
 const MOST_COLUMNS: usize = 8;
 
-/// What is to be said although there is a result.
+/// Warnings about a result.
 pub fn warnings(result: &Fitted<'_, '_>) -> Vec<String> {
     let statistics = &result.found.statistics;
     let names: Vec<&str> = result
@@ -100,14 +100,14 @@ pub fn warnings(result: &Fitted<'_, '_>) -> Vec<String> {
     warnings
 }
 
-/// A number with as many digits as its standard error allows: two of the error's own.
+/// A number with as many digits as its standard error justifies: up to two digits of the error.
 fn rounded(value: f64, error: Option<f64>) -> (String, String) {
     let Some(error) = error.filter(|error| error.is_finite() && *error > 0.0) else {
         return (significant(value), String::new());
     };
     let place = error.log10().floor() as i32 - 1;
     let size = value.abs().max(error);
-    // Beside an error that is nearly nothing not all digits are shown.
+    // If the error is nearly zero, the number of digits is limited.
     let place = place.max(size.log10().floor() as i32 - 12);
     if (-6..=6).contains(&(size.log10().floor() as i32)) {
         let digits = usize::try_from(-place).unwrap_or(0);
@@ -129,7 +129,7 @@ fn rounded(value: f64, error: Option<f64>) -> (String, String) {
     }
 }
 
-/// Seven digits.
+/// A number with seven digits.
 fn significant(value: f64) -> String {
     let text = format!("{value:.6e}");
     text.parse::<f64>().map_or(text, shortest)
@@ -331,7 +331,7 @@ fn combinations(result: &Fitted<'_, '_>) -> String {
     text
 }
 
-/// The root of the mean square of the residuals of each column, in its unit.
+/// The root mean square of the residuals of each column, in its unit.
 fn roots(result: &Fitted<'_, '_>) -> Vec<f64> {
     let mut sums = vec![(0.0, 0.0_f64); result.classes.len()];
     let mut residuals = result.found.minimum.residuals.iter();
@@ -416,7 +416,7 @@ fn correlations(result: &Fitted<'_, '_>) -> String {
     text
 }
 
-/// The result for programs.
+/// The result as JSON.
 pub fn document(result: &Fitted<'_, '_>) -> Value {
     let statistics = &result.found.statistics;
     let minimum = &result.found.minimum;

@@ -1,4 +1,4 @@
-//! What was fitted as a variant of the spec, which every command and the macro takes.
+//! The fitted numbers as a variant of the spec, which every command and the macro accepts.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ use crate::output::Destination;
 /// The text of the variant.
 ///
 /// # Errors
-/// If the spec cannot be found any more.
+/// If the spec can no longer be found.
 pub fn spec(result: &Fitted<'_, '_>, file: &Destination) -> Result<String, Failure> {
     let program = result.machine.program();
     let minimum = &result.found.minimum;
@@ -28,7 +28,7 @@ pub fn spec(result: &Fitted<'_, '_>, file: &Destination) -> Result<String, Failu
             None => "Not told by the measurements.".to_owned(),
         };
         let value = shortest(*x);
-        // A failure to write to a String there is not.
+        // Writing to a String cannot fail.
         let _ = match one.subject {
             Subject::Parameter(index) => {
                 let unit = &program.parameters[index].unit_text;
@@ -87,7 +87,7 @@ pub fn spec(result: &Fitted<'_, '_>, file: &Destination) -> Result<String, Failu
     let name = lagrangian::Machine::name(result.machine);
     let _ = writeln!(text, "machine {name}Fitted extends \"{base}\" {{");
     for (name, value) in &result.call.spec.constants {
-        // What would be derived otherwise is a parameter with this value.
+        // A derived parameter that was fitted becomes a parameter with this value.
         let mut known = program.parameters.iter();
         let known = known.find(|slot| slot.name.to_string() == *name);
         if let Some(slot) = known {
@@ -110,10 +110,10 @@ pub fn spec(result: &Fitted<'_, '_>, file: &Destination) -> Result<String, Failu
     Ok(text)
 }
 
-/// Whether what is fitted can be said in a variant: a member of a family has no declaration of its own.
+/// Checks that the fitted numbers can be expressed in a variant: a member of a family has no declaration of its own.
 ///
 /// # Errors
-/// The call is at fault.
+/// If the call is invalid.
 pub fn check(sought: &[Sought], experiments: usize) -> Result<(), Failure> {
     let is_said = |one: &&Sought| matches!(one.subject, Subject::Parameter(_)) || experiments == 1;
     let mut said = sought.iter().filter(is_said);
@@ -126,7 +126,7 @@ pub fn check(sought: &[Sought], experiments: usize) -> Result<(), Failure> {
     }
 }
 
-/// The path to a spec from the folder of a file.
+/// The relative path of a spec from the folder of a file.
 fn relative(spec: &Path, file: Option<&Path>) -> Result<String, Failure> {
     let whole = |path: &Path| {
         path.canonicalize()

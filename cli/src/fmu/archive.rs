@@ -1,5 +1,5 @@
-//! The archive of a unit. Its files are stored as they are: a unit has some tens of kilobytes, and what compresses these would
-//! be four more crates.
+//! The archive of a unit. Its files are stored uncompressed: a unit has some tens of kilobytes, and compression would need
+//! four more crates.
 
 use std::io::{self, Cursor, Write};
 
@@ -27,10 +27,10 @@ impl Entry {
 /// The archive.
 ///
 /// # Errors
-/// If it becomes larger than an archive may be.
+/// If it exceeds the size limit of an archive.
 pub fn bytes(entries: &[Entry]) -> io::Result<Vec<u8>> {
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
-    // One machine gives one sequence of bytes: no clock.
+    // No time stamps, so that one machine always gives the same bytes.
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Stored)
         .last_modified_time(DateTime::default());

@@ -1,4 +1,4 @@
-//! The C compiler, and the platforms that a unit may have binaries for.
+//! Calls the C compiler, for the platforms of a unit.
 
 use std::env::consts::{ARCH, OS};
 use std::io;
@@ -7,15 +7,15 @@ use std::process::{Command, Stdio};
 use super::{Unit, Version};
 use crate::failure::Failure;
 
-/// Where a library is for.
+/// The platform of a library.
 pub struct Platform {
     /// The folder in `binaries/`.
     pub folder: &'static str,
-    /// What its libraries end with.
+    /// The file extension of its libraries.
     pub ending: &'static str,
 }
 
-/// The platforms of both versions: what a triple calls the processor and the system, and the folders.
+/// The platforms of both versions: processor and system as named in a target triple, and the folders.
 const PLATFORMS: [(&str, &[&str], [&str; 2], &str); 5] = [
     ("x86_64", &["linux"], ["linux64", "x86_64-linux"], "so"),
     (
@@ -44,7 +44,7 @@ const PLATFORMS: [(&str, &[&str], [&str; 2], &str); 5] = [
     ),
 ];
 
-/// The platform of a triple such as `x86_64-linux-gnu`, or of the processor and the system that the command runs on.
+/// The platform of a triple such as `x86_64-linux-gnu`, or by default that of the command itself.
 fn platform(version: Version, triple: &str) -> Option<Platform> {
     let mut words = triple.split('-');
     let arch = words.next().map(|arch| match arch {
@@ -69,10 +69,10 @@ fn platform(version: Version, triple: &str) -> Option<Platform> {
     })
 }
 
-/// Compiles the unit for each of the targets, or where there are none, for this platform; the bytes of the libraries.
+/// Compiles the unit for each target, or for this platform if there are none; returns the bytes of the libraries.
 ///
 /// # Errors
-/// If there is no compiler, it does not compile the unit, or the interface has no folder for a target.
+/// If there is no compiler, it fails to compile the unit, or the standard defines no folder for a target.
 pub fn libraries(
     unit: &Unit<'_>,
     sources: &[(&'static str, String)],
@@ -121,7 +121,7 @@ fn library(
         Some(named) => named.to_owned(),
         None => std::env::var("CC").unwrap_or_else(|_| "cc".into()),
     };
-    // A compiler of its own for each target, or one that is told which.
+    // Either a separate compiler for each target, or one that takes the target as an option.
     let option = target.map(|target| format!("--target={target}"));
     let is_named = compiler.contains("{}");
     let compiler = compiler.replace("{}", target.unwrap_or_default());
@@ -139,7 +139,7 @@ fn library(
     let mut command = Command::new(program);
     command.args(words);
     command.args(option.filter(|_| !is_named));
-    // Paths are relative, so that no name of the folder is in the library.
+    // Paths are relative, so that the library does not contain the name of the folder.
     command.current_dir(folder.path());
     command.args(["-std=c99", "-O2", "-fPIC", "-shared", "-s"]);
     command.args(["-ffp-contract=off", "-fvisibility=hidden", "-w"]);

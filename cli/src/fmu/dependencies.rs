@@ -1,5 +1,4 @@
-//! What each variable that is calculated depends on, by what the program reads: results that read nothing of a number do not
-//! depend on it.
+//! The dependencies of computed variables, from what the program reads: a result that does not read a number does not depend on it.
 
 use std::collections::BTreeSet;
 
@@ -8,20 +7,20 @@ use lagrangian_program::{Function, Op, Program, Role, Source, Value};
 use super::Unit;
 use super::variables::{Kind, Variables};
 
-/// The functions of a machine by what they read.
+/// The dependencies of the functions of a machine.
 pub struct Dependencies<'a> {
     program: &'a Program,
     variables: &'a Variables,
-    /// For each prepared value the parameters.
+    /// For each prepared value the parameters on which it depends.
     prepared: Vec<BTreeSet<Source>>,
-    /// For each acceleration what it is a function of.
+    /// For each acceleration its dependencies.
     accelerations: Vec<BTreeSet<Source>>,
-    /// How many outputs stand before the formulas of events.
+    /// The number of outputs before the formulas of events.
     shown: usize,
 }
 
 impl<'a> Dependencies<'a> {
-    /// Of the machine of a unit.
+    /// Analyses the machine of a unit.
     pub fn new(unit: &'a Unit<'_>) -> Dependencies<'a> {
         let program = unit.program;
         let mut dependencies = Dependencies {
@@ -36,12 +35,12 @@ impl<'a> Dependencies<'a> {
         dependencies
     }
 
-    /// The references of what a variable depends on, with the kind of the dependency; `at_start` of what initialization knows:
-    /// parameters, too.
+    /// The references of the variables on which a variable depends, with the kind of dependency; with `at_start` the
+    /// dependencies at initialization, which include parameters.
     pub fn of(&self, reference: usize, at_start: bool) -> Vec<(usize, &'static str)> {
         let n = self.program.dimension();
         let kind = self.variables.all[reference].kind;
-        // A rate is the derivative of its coordinate, and a state itself.
+        // A rate is the derivative of its coordinate, and itself a state.
         let state = match kind {
             Kind::Coordinate(i) => Some(1 + i),
             Kind::Rate(i) => Some(1 + n + i),
@@ -62,7 +61,7 @@ impl<'a> Dependencies<'a> {
             Kind::PotentialEnergy => whole(Role::PotentialEnergy),
             Kind::Fact(i) => whole(Role::Assumption(i)),
             Kind::Event(i) => whole(Role::Output(self.shown + i)),
-            // What was counted before stays, whatever else changes.
+            // A count does not change while other variables change.
             Kind::Count(_)
             | Kind::Time
             | Kind::Parameter(_)
@@ -85,7 +84,7 @@ impl<'a> Dependencies<'a> {
         references.into_iter().map(|k| (k, "dependent")).collect()
     }
 
-    /// For each result of a function what it is a function of: accelerations and prepared values by what they are made of.
+    /// For each result of a function its dependencies, where accelerations and prepared values are replaced by their own.
     fn results(&self, role: Role) -> Vec<BTreeSet<Source>> {
         let Some(function) = self.program.function(role) else {
             return Vec::new();

@@ -9,16 +9,16 @@ use super::xml::Document;
 use super::{Unit, Version};
 use crate::call::{Assignment, UnitKind};
 
-/// Where the default experiment ends, in s.
+/// The stop time of the default experiment, in s.
 const STOP: &str = "5";
 
-/// What the description says of one variable.
+/// The attributes of one variable.
 struct Row {
     causality: &'static str,
     variability: &'static str,
     initial: &'static str,
     start: String,
-    /// The reference of what it is the derivative of.
+    /// The reference of the variable of which it is the derivative.
     derivative: Option<usize>,
     unit: String,
     docs: String,
@@ -117,7 +117,7 @@ fn of_kind(document: &mut Document, unit: &Unit<'_>, kind: UnitKind) {
             "providesDirectionalDerivative",
         ),
     };
-    // In 2.0 there is no function for these.
+    // Version 2.0 has no function for adjoint derivatives.
     let adjoint = match unit.version {
         Version::Three => derivatives,
         Version::Two => "",
@@ -159,7 +159,7 @@ fn of_kind(document: &mut Document, unit: &Unit<'_>, kind: UnitKind) {
     }
 }
 
-/// What is to be said of a variable.
+/// The attributes of a variable.
 fn row(unit: &Unit<'_>, variable: &Variable, units: &mut Units) -> Row {
     let program = unit.program;
     let n = program.coordinates.len();
@@ -232,7 +232,7 @@ fn row(unit: &Unit<'_>, variable: &Variable, units: &mut Units) -> Row {
             let value = unit.inputs[i];
             Row {
                 causality: "input",
-                // Said by the causality alone.
+                // The causality implies it.
                 initial: "",
                 ..exact(value, units.of_slot(slot), words(&slot.docs))
             }
@@ -307,7 +307,7 @@ fn of_two(document: &mut Document, reference: usize, variable: &Variable, row: &
             ("initial", row.initial),
         ],
     );
-    // Variables are counted from 1, in their order.
+    // The description counts variables from 1, in their order.
     let derivative = row.derivative.map(|k| (k + 1).to_string());
     let derivative = derivative.unwrap_or_default();
     let of_type = match variable.kind {
@@ -325,8 +325,7 @@ fn of_two(document: &mut Document, reference: usize, variable: &Variable, row: &
     document.close();
 }
 
-/// Which variables are outputs, derivatives of states, unknown at the start, and indicators of events; and what each depends
-/// on.
+/// The model structure: outputs, derivatives of states, initial unknowns, and event indicators, with their dependencies.
 fn structure(document: &mut Document, unit: &Unit<'_>) {
     let outputs: Vec<usize> = unit.variables.outputs().map(|(k, _)| k).collect();
     let of = |is_wanted| unit.variables.of(is_wanted).map(|(k, _)| k);
@@ -404,7 +403,7 @@ fn joined(words: impl Iterator<Item = String>) -> String {
     words.collect::<Vec<_>>().join(" ")
 }
 
-/// How an importer of 3.0 compiles the sources.
+/// The build description, with which an importer of 3.0 compiles the sources.
 pub fn of_build(unit: &Unit<'_>) -> String {
     let mut document = Document::new();
     document.open(

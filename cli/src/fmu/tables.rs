@@ -1,4 +1,4 @@
-//! What the C runtime reads of a machine beside its equations: defaults, names, the start.
+//! The tables that the C runtime reads besides the equations: defaults, names, the start.
 
 use std::fmt::Write as _;
 
@@ -8,7 +8,7 @@ use lagrangian_units::rate_name;
 use super::Unit;
 use crate::call::UnitKind;
 
-/// The tables, behind the machine's own file.
+/// The tables, which follow the machine's own file.
 pub fn text(unit: &Unit<'_>) -> String {
     let program = unit.program;
     let starts: Vec<f64> = unit.start.iter().map(|(x, _)| *x).collect();
@@ -84,7 +84,7 @@ pub fn text(unit: &Unit<'_>) -> String {
     text
 }
 
-/// For each state whether the spec keeps its start.
+/// For each state whether the projection onto the constraints keeps its start.
 fn kept(program: &Program) -> Vec<bool> {
     let coordinates = program.coordinates.iter();
     let names = coordinates.map(|slot| slot.name.to_string());
@@ -104,7 +104,7 @@ fn numbers(text: &mut String, name: &str, values: &[f64]) {
     );
 }
 
-/// An array with one entry more than it needs: C has none without entries.
+/// An array with one extra entry, because C has no empty arrays.
 fn list(
     text: &mut String,
     of: &str,
@@ -120,7 +120,7 @@ fn list(
     ); // writing to a String cannot fail
 }
 
-/// A literal of C, in letters that every compiler takes.
+/// A C string literal in ASCII.
 fn quoted(text: &str) -> String {
     let mut quoted = String::from("\"");
     for byte in text.bytes() {
@@ -130,19 +130,19 @@ fn quoted(text: &str) -> String {
                 quoted.push(char::from(byte));
             }
             b' '..=b'~' => quoted.push(char::from(byte)),
-            // Three digits, so that none behind it belongs to it.
+            // Always three digits, so that a digit after the escape is not taken as part of it.
             byte => {
                 let _ = write!(quoted, "\\{byte:03o}"); // writing to a String cannot fail
             }
         }
     }
-    // No trigraphs.
+    // Prevents trigraphs.
     quoted.push('"');
     quoted.replace("??", "?\\?")
 }
 
-/// A token of a machine, from its text: the hash FNV-1a of 128 bits, in the form of a GUID (G. Fowler, L. C. Noll, K.-P. Vo,
-/// D. Eastlake, *The FNV Non-Cryptographic Hash Algorithm*).
+/// The token of a machine: the 128-bit FNV-1a hash of its text, formatted as a GUID (G. Fowler, L. C. Noll, K.-P. Vo, D.
+/// Eastlake, *The FNV Non-Cryptographic Hash Algorithm*).
 pub fn token(texts: &[&str]) -> String {
     const BASIS: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
     const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
@@ -164,7 +164,7 @@ pub fn token(texts: &[&str]) -> String {
 mod tests {
     use super::*;
 
-    /// The vector of the authors for "a", of 128 bits.
+    /// The authors' 128-bit test vector for "a".
     #[test]
     fn the_hash_is_that_of_its_authors() {
         assert_eq!(token(&["a"]), "{d228cb69-6f1a-8caf-7891-2b704e4a8964}");

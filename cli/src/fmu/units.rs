@@ -1,4 +1,4 @@
-//! Units in the words of FMI: a name, the powers of the base units, and how many of these it is.
+//! Units in the form of FMI: a name, the powers of the base units, and the factor to SI units.
 
 use std::collections::BTreeMap;
 
@@ -10,18 +10,18 @@ use lagrangian_units::Unit;
 
 use super::xml::Document;
 
-/// Units by name, in the order of names; none of a pure number.
+/// Units by name, in alphabetical order; pure numbers have none.
 #[derive(Default)]
 pub struct Units(BTreeMap<String, (Unit, f64)>);
 
 impl Units {
-    /// Takes a unit in, and gives its name.
+    /// Registers the unit of a slot, and returns its name.
     pub fn of_slot(&mut self, slot: &Slot) -> String {
         let unit = slot.unit;
         if !unit.is_scaled() {
             return self.of(unit);
         }
-        // How many SI units one of these is, as a spec would have it.
+        // The factor to SI units, as the spec's language defines it.
         let (mut sources, mut report) = (Sources::new(), Report::new());
         let one = format!("1*{}", slot.unit_text);
         let factor = value_in(&one, &unit.to_string(), &mut sources, &mut report);
@@ -31,7 +31,7 @@ impl Units {
         name
     }
 
-    /// The name of an SI unit, declared if it is new.
+    /// Registers an SI unit, and returns its name.
     pub fn of(&mut self, unit: Unit) -> String {
         let name = unit.to_string();
         if name == "1" {
@@ -66,14 +66,14 @@ impl Units {
     }
 }
 
-/// The powers of base units, where all of them are whole.
+/// The powers of base units, if all of them are integers.
 fn base(document: &mut Document, unit: Unit, factor: f64, is_angle: bool) {
     let powers = unit.twice_the_powers();
     if powers.iter().any(|(_, twice)| twice % 2 != 0) || !factor.is_finite() {
         return;
     }
     let radian = is_angle.then_some(("rad", "1".to_owned()));
-    // FMI counts no cycles.
+    // FMI has no unit for cycles.
     let powers = powers
         .into_iter()
         .filter(|(name, twice)| *twice != 0 && *name != "cycle");

@@ -1,4 +1,4 @@
-//! The variables of a unit, in the order of their references: `fmu/c/runtime.c` counts them the same way.
+//! The variables of a unit, in the order of their references; `fmu/c/runtime.c` counts them in the same way.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +8,7 @@ use lagrangian_units::state_of;
 use crate::call::Assignment;
 use crate::failure::Failure;
 
-/// What a variable is.
+/// The kind of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     Time,
@@ -24,30 +24,30 @@ pub enum Kind {
     Fact(usize),
     /// The formula of an event.
     Event(usize),
-    /// How often it happened.
+    /// The number of occurrences of an event.
     Count(usize),
 }
 
-/// A variable; its reference is its place.
+/// A variable; its reference is its index.
 #[derive(Clone, Debug)]
 pub struct Variable {
     pub kind: Kind,
-    /// In the letters of the convention.
+    /// The name by the naming convention.
     pub name: String,
-    /// Whether the unit shows it to what it is connected with.
+    /// Whether it is an output of the unit.
     pub is_output: bool,
 }
 
-/// All of them.
+/// All variables of a unit.
 pub struct Variables {
     pub all: Vec<Variable>,
-    /// Whether every name is one of the structured convention.
+    /// Whether every name follows the structured naming convention.
     pub is_structured: bool,
 }
 
 impl Variables {
-    /// Those of a machine; outputs are those of its spec, or its coordinates. The last outputs of the program are the formulas of
-    /// events.
+    /// The variables of a machine. The outputs are those of its spec or, if there are none, its coordinates. The last outputs of
+    /// the program are the formulas of events.
     pub fn new(program: &Program, events: &[Assignment]) -> Variables {
         let names = |slots: &[lagrangian_program::Slot]| -> Vec<String> {
             let names = slots.iter().map(|slot| slot.name.to_string());
@@ -122,10 +122,10 @@ impl Variables {
         Variables { all, is_structured }
     }
 
-    /// These variables with others as outputs.
+    /// These variables with other outputs.
     ///
     /// # Errors
-    /// What `unknown` makes of a name that there is not, beside those there are.
+    /// For an unknown name, the failure that `unknown` makes of it and the known names.
     pub fn with_outputs(
         mut self,
         names: &[String],
@@ -146,27 +146,27 @@ impl Variables {
             }
         }
         for variable in &mut self.all {
-            // What counts an event is there for nothing else.
+            // The count of an event is always an output.
             let is_count = matches!(variable.kind, Kind::Count(_));
             variable.is_output = is_count || may_be(variable) && names.contains(&variable.name);
         }
         Ok(self)
     }
 
-    /// Those that are outputs, with their references.
+    /// The outputs, with their references.
     pub fn outputs(&self) -> impl Iterator<Item = (usize, &Variable)> {
         let all = self.all.iter().enumerate();
         all.filter(|(_, variable)| variable.is_output)
     }
 
-    /// Those of a kind, with their references.
+    /// The variables of a kind, with their references.
     pub fn of(&self, is_wanted: fn(&Kind) -> bool) -> impl Iterator<Item = (usize, &Variable)> {
         let all = self.all.iter().enumerate();
         all.filter(move |(_, variable)| is_wanted(&variable.kind))
     }
 }
 
-/// A name as the structured convention takes it: an identifier with an index, or what is quoted.
+/// A name by the structured naming convention: an identifier with an index, or a quoted name.
 fn structured(name: &str) -> String {
     let (base, index) = match name.split_once('[') {
         Some((base, rest)) => (base, rest.strip_suffix(']')),
@@ -183,7 +183,7 @@ fn structured(name: &str) -> String {
     }
 }
 
-/// A name that nobody has yet.
+/// A name that is not taken yet.
 fn free(name: String, taken: &mut BTreeSet<String>) -> String {
     let mut found = name.clone();
     let mut count = 2;

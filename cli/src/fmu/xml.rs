@@ -1,18 +1,18 @@
-//! Elements of XML with attributes, which is all that a description has.
+//! A writer of XML elements with attributes, which is all that a description needs.
 
 use std::fmt::Write as _;
 
-/// A document that grows.
+/// A document under construction.
 pub struct Document {
     text: String,
     open: Vec<&'static str>,
 }
 
-/// Names and values, in their order.
+/// Names and values, in order.
 pub type Attributes<'a> = &'a [(&'a str, &'a str)];
 
 impl Document {
-    /// One without elements.
+    /// An empty document.
     pub fn new() -> Document {
         Document {
             text: "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".to_owned(),
@@ -20,7 +20,7 @@ impl Document {
         }
     }
 
-    /// Opens an element; what follows is in it.
+    /// Opens an element, which contains what follows.
     pub fn open(&mut self, name: &'static str, attributes: Attributes<'_>) {
         self.element(name, attributes, ">");
         self.open.push(name);
@@ -31,12 +31,12 @@ impl Document {
         self.element(name, attributes, "/>");
     }
 
-    /// An element without content, whose attributes stand there even where they say nothing.
+    /// An element without content, whose empty attributes are written too.
     pub fn element_with_empty(&mut self, name: &str, attributes: Attributes<'_>) {
         self.write(name, attributes.iter(), "/>");
     }
 
-    /// Closes the element that was opened last.
+    /// Closes the innermost open element.
     pub fn close(&mut self) {
         if let Some(name) = self.open.pop() {
             self.text.push_str(&"  ".repeat(self.open.len()));
@@ -44,7 +44,7 @@ impl Document {
         }
     }
 
-    /// The text, with everything closed.
+    /// The text, with all elements closed.
     pub fn finish(mut self) -> String {
         while !self.open.is_empty() {
             self.close();
@@ -73,7 +73,7 @@ impl Document {
     }
 }
 
-/// The value of an attribute.
+/// The escaped value of an attribute.
 fn escaped(text: &str) -> String {
     let mut escaped = String::new();
     for c in text.chars() {
@@ -84,7 +84,7 @@ fn escaped(text: &str) -> String {
             '"' => escaped.push_str("&quot;"),
             '\n' => escaped.push_str("&#10;"),
             '\t' => escaped.push_str("&#9;"),
-            // What no document may have.
+            // Characters that XML does not allow.
             c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => escaped.push('\u{fffd}'),
             c => escaped.push(c),
         }

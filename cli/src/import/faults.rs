@@ -1,12 +1,12 @@
-//! What is wrong with a robot's file, and with those that it includes: each fault with its file, line and column.
+//! Errors of a robot description and of the files that it includes, with file, line and column.
 
-/// What is wrong with a file.
+/// The errors found so far.
 pub struct Faults {
     sources: Vec<Source>,
     found: Vec<(usize, String)>,
 }
 
-/// A text that is read. Places in it are counted from `start`, so that a number alone says which text it is about.
+/// A source text. Positions in it are counted from `start`, so that a position alone identifies the text.
 struct Source {
     shown: String,
     text: String,
@@ -23,7 +23,7 @@ impl Faults {
         faults
     }
 
-    /// One more text; where its places begin.
+    /// Adds a text; returns the position of its beginning.
     pub fn include(&mut self, shown: &str, text: &str) -> usize {
         let end = |source: &Source| source.start + source.text.len() + 1;
         let start = self.sources.last().map_or(0, end);
@@ -35,7 +35,7 @@ impl Faults {
         start
     }
 
-    /// Something is wrong at a place in the text.
+    /// Records an error at a position.
     pub fn add(&mut self, at: usize, message: impl Into<String>) {
         self.found.push((at, message.into()));
     }
@@ -44,7 +44,7 @@ impl Faults {
         self.found.is_empty()
     }
 
-    /// All of it in the order of the file, a line each, as `file:line:column: message`.
+    /// All errors in the order of the file, one per line, as `file:line:column: message`.
     pub fn told(mut self) -> String {
         const MOST: usize = 20;
         self.found.sort();

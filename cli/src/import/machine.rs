@@ -1,4 +1,4 @@
-//! A robot as a machine: coordinates for joints, frames and bodies for links.
+//! Converts a robot to a machine: joints become coordinates, links become frames and bodies.
 
 use nalgebra::Matrix3;
 
@@ -13,7 +13,7 @@ use super::tree::{self, Tree};
 use crate::call::{Ball, Base, Friction, Import, Limits};
 use crate::diagnostics::counted;
 
-/// The sections in the order in which a reader wants them. Gravity stands behind the bodies.
+/// The sections in the order in which they are written. Gravity comes after the bodies.
 const SECTIONS: [&str; 14] = [
     "parameters",
     "coordinates",
@@ -31,16 +31,16 @@ const SECTIONS: [&str; 14] = [
     "contacts",
 ];
 
-/// A spec, and what is to be said of it.
+/// The spec, with notes.
 pub struct Machine {
     pub name: String,
     pub text: String,
-    /// How many coordinates, bodies and parameters it has.
+    /// The numbers of its coordinates, bodies and parameters.
     pub counts: [usize; 3],
     pub warnings: Vec<String>,
 }
 
-/// Writes the machine of a robot, unless something is wrong.
+/// Writes the machine of a robot, unless there are errors.
 pub fn written(robot: &Robot, file: &str, call: &Import, faults: &mut Faults) -> Option<Machine> {
     let tree = tree::plant(robot, faults)?;
     let mut writer = Writer::new(robot, &tree, call);
@@ -70,24 +70,25 @@ struct Writer<'a> {
     tree: &'a Tree,
     call: &'a Import,
     text: Text,
-    /// Parameters, coordinates and definitions.
+    /// The names of parameters, coordinates and definitions.
     values: Names,
     gravity: String,
-    /// What each joint with one coordinate is called in formulas: the coordinate, or what follows it.
+    /// For each joint with one coordinate its value in formulas: the coordinate, or the expression that follows it.
     value_of: Vec<String>,
-    /// What each of these is where the joint moves nothing; empty where that is 0.
+    /// Its value at which the joint does not displace its link; empty if that is 0.
     reference_of: Vec<String>,
-    /// The coordinate that each of these follows, and the factor by which; its own and an empty one where it follows none.
+    /// The coordinate that it follows, and the factor; for a joint that follows none its own coordinate and
+    /// an empty factor.
     coordinate_of: Vec<(usize, String)>,
-    /// How a joint moves its link: steps from frame to frame, the origin not among them.
+    /// The steps by which a joint moves its link, from frame to frame, without the joint's origin.
     motion: Vec<Vec<String>>,
-    /// How the root moves.
+    /// The motion of the root.
     root_motion: Vec<String>,
-    /// The links, by what they are called here.
+    /// The names of the links in the spec.
     link_names: Vec<String>,
-    /// The frame in which each link is at rest, by name.
+    /// The name of the frame in which each link is at rest.
     frame_of: Vec<String>,
-    /// Joints that are left out, with all that hangs on them.
+    /// Joints that are left out, together with everything attached to them.
     is_dropped: Vec<bool>,
     /// Whether a link moves.
     is_moving: Vec<bool>,
@@ -119,7 +120,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// The joints that are written, each behind the one that it hangs on.
+    /// The joints that are written, each after its parent.
     fn joints(&self) -> impl Iterator<Item = (usize, &'a Joint)> + use<'a> {
         let (order, joints) = (&self.tree.order, &self.robot.joints);
         let is_kept = |joint: &&usize| !self.is_dropped[**joint];
@@ -127,7 +128,7 @@ impl<'a> Writer<'a> {
         kept.into_iter().map(move |joint| (joint, &joints[joint]))
     }
 
-    /// Coordinates that move no mass have no acceleration: they are refused, or left out with what hangs on them.
+    /// Coordinates that move no mass have no acceleration: they are refused, or left out with everything attached to them.
     fn drop_massless(&mut self, faults: &mut Faults) {
         let (robot, tree) = (self.robot, self.tree);
         let heavy = tree.is_heavy(&robot.links);
@@ -162,7 +163,7 @@ impl<'a> Writer<'a> {
                 );
             }
         }
-        // Without a joint everything beyond it is left out as well.
+        // Without a joint everything beyond it is left out too.
         let mut is_gone = vec![false; robot.links.len()];
         for &joint in &tree.order {
             self.is_dropped[joint] |= is_gone[tree.parent[joint]];
@@ -189,7 +190,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Stick does not follow from coordinates and rates alone, so Coulomb friction is not left out without a word.
+    /// Sticking is not a function of coordinates and rates alone, so Coulomb friction is not left out silently.
     fn check_friction(&self, faults: &mut Faults) {
         if self.call.friction.is_some() {
             return;
@@ -208,7 +209,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// A parameter; its name in formulas.
+    /// Adds a parameter; returns its name in formulas.
     fn parameter(
         &mut self,
         entries: &mut Vec<String>,
@@ -221,7 +222,7 @@ impl<'a> Writer<'a> {
         name
     }
 
-    /// A vector of lengths: parameters where they are not 0.
+    /// A vector of lengths; nonzero entries become parameters.
     fn lengths(&mut self, entries: &mut Vec<String>, name: &str, xyz: &[Number; 3]) -> [String; 3] {
         std::array::from_fn(|axis| {
             if xyz[axis].is_zero() {
@@ -233,7 +234,7 @@ impl<'a> Writer<'a> {
         })
     }
 
-    /// Coordinates and definitions, and the motions that they make.
+    /// Adds coordinates and definitions, and the motions that they cause.
     fn coordinates(&mut self, faults: &mut Faults) {
         if self.call.base == Base::Floating {
             let link = &self.robot.links[self.tree.root].name;
@@ -279,7 +280,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Adds coordinates of a joint.
+    /// Adds the coordinates of a joint with several.
     fn several(
         &mut self,
         name: &str,
@@ -325,7 +326,7 @@ impl<'a> Writer<'a> {
         steps
     }
 
-    /// Three angles about axes of which the second and third are turned by those before, or a quaternion.
+    /// Three successive angles, the second and third about axes turned by those before, or a quaternion.
     fn ball(
         &mut self,
         name: &str,
@@ -363,7 +364,7 @@ impl<'a> Writer<'a> {
         list.iter().zip(&q).map(step).collect()
     }
 
-    /// Four numbers, which are singular nowhere.
+    /// A quaternion, which has no singularity.
     fn quaternion(&mut self, name: &str, comment: String, start: Option<&Start>) -> Vec<String> {
         let list = [("e0", "1"), ("e1", "1"), ("e2", "1"), ("e3", "1")];
         let unturned = ["1", "0", "0", "0"].map(str::to_owned);
@@ -374,7 +375,7 @@ impl<'a> Writer<'a> {
         vec![format!(".turn({})", e.join(", "))]
     }
 
-    /// Two shifts in the plane across the axis, and the turn about it.
+    /// Two displacements in the plane orthogonal to the axis, and the rotation about it.
     fn planar(&mut self, joint: &Joint, comment: String) -> Vec<String> {
         let (there, axis, sign) = straightened(&joint.axis);
         let across = match axis {
@@ -385,7 +386,7 @@ impl<'a> Writer<'a> {
         let [first, second] = if there.is_empty() {
             across.map(|axis| AXES[axis])
         } else {
-            // Along axes of a frame that is turned towards the plane.
+            // Along the axes of a frame that is aligned with the plane.
             ["u", "v"]
         };
         let list = [(first, "m"), (second, "m"), ("angle", "rad")];
@@ -398,7 +399,7 @@ impl<'a> Writer<'a> {
         conjugated(&there, vec![shift, turn])
     }
 
-    /// The coordinate of a joint that has one, unless it follows another.
+    /// The coordinate of a joint with one, unless it follows another.
     fn single(&mut self, index: usize, joint: &Joint, comment: String, faults: &mut Faults) {
         let unit = unit_of(joint);
         self.value_of[index] = self.values.take(&joint.name, "joint");
@@ -437,7 +438,7 @@ impl<'a> Writer<'a> {
             _ => None,
         };
         let reference = (from != 0.0).then(|| measured(joint, &joint.reference));
-        // What the file says of its start goes before.
+        // A start given by the file takes precedence.
         let home = joint.home.as_ref().map(|home| measured(joint, home));
         let start = home.or(start).or(reference);
         let start = start.map(|start| format!(" = {start}"));
@@ -451,7 +452,7 @@ impl<'a> Writer<'a> {
         self.text.add("coordinates", Some(comment), vec![entry]);
     }
 
-    /// What follows a coordinate.
+    /// Adds definitions for joints that follow a coordinate.
     fn followers(&mut self) {
         for (index, joint) in self.joints() {
             let (Some(mimic), Some(leader)) = (&joint.mimic, self.tree.leader[index]) else {
@@ -502,11 +503,11 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// A frame for each link that is turned or shifted against its parent.
+    /// Adds a frame for each link that is turned or displaced relative to its parent.
     fn frames(&mut self) {
         let links = &self.robot.links;
         let mut names = Names::default();
-        // What other frames and bodies stand on; what nothing stands on is marked by an underscore.
+        // Links on which other frames and bodies are based; others are marked by an underscore.
         let mut own = vec![false; links.len()];
         let mut stands_on: Vec<usize> = (0..links.len()).collect();
         let mut is_used = vec![false; links.len()];
@@ -516,7 +517,7 @@ impl<'a> Writer<'a> {
         let root = self.tree.root;
         own[root] = !self.root_motion.is_empty();
         is_used[root] = is_body(self, root);
-        // Whether steps lead to what stands between two joints.
+        // Whether any steps lead to an intermediate link between two joints.
         let mut is_moved = vec![false; links.len()];
         for (index, joint) in self.joints() {
             let (parent, child) = (self.tree.parent[index], self.tree.child[index]);
@@ -551,7 +552,7 @@ impl<'a> Writer<'a> {
             let frame = text::frame(&self.link_names[root], "ground", &self.root_motion);
             self.text.add("frames", None, vec![frame]);
         }
-        // The steps from the frame of a link to what stands between joints behind it.
+        // The steps from the frame of a link to the intermediate links after it.
         let mut leading = vec![Vec::new(); links.len()];
         for (index, joint) in self.joints() {
             let (parent, child) = (self.tree.parent[index], self.tree.child[index]);
@@ -584,7 +585,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// What has mass and moves.
+    /// Adds the bodies: links with mass that move.
     fn bodies(&mut self) {
         let mut links = vec![(self.tree.root, None)];
         links.extend(
@@ -696,7 +697,7 @@ impl<'a> Writer<'a> {
             .add("bodies", Some(comment), vec![text::body(&name, &parts)]);
     }
 
-    /// Dampers, friction and stops.
+    /// Adds dampers, friction and stops.
     fn along_joints(&mut self, faults: &mut Faults) {
         let mut left_out = Vec::new();
         let mut limited = 0;
@@ -797,7 +798,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// What becomes of the limits of a joint.
+    /// Handles the limits of a joint.
     fn range(
         &mut self,
         joint: &Joint,
@@ -836,7 +837,7 @@ impl<'a> Writer<'a> {
             ("upper", format!("{upper} - {value}")),
         ];
         for (end, gap) in gaps {
-            // A gap is a length: that of the arc at a radius of 1 m, on which nothing depends where nothing yields.
+            // A gap is a length: for a rotation that of the arc with a radius of 1 m, which has no effect for rigid stops.
             let gap = match joint.kind {
                 Kind::Prismatic => gap,
                 _ => format!("1*m*({gap})"),
@@ -846,7 +847,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Inputs, and the forces that follow from them.
+    /// Adds inputs, and the forces that depend on them.
     fn drives(&mut self) {
         for drive in &self.robot.drives {
             self.drive(drive);
@@ -962,7 +963,7 @@ impl<'a> Writer<'a> {
         self.text.add("inputs", Some(comment), vec![entry]);
     }
 
-    /// Equations between coordinates.
+    /// Adds equations between coordinates.
     fn ties(&mut self) {
         let mut names = Names::default();
         for tie in &self.robot.ties {
@@ -1028,7 +1029,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// A point of a link that is one of another, and axes that are the other's.
+    /// A closed loop: a point of a link coincides with one of another, and optionally their axes do.
     fn closing(
         &mut self,
         name: &str,
@@ -1089,7 +1090,7 @@ impl<'a> Writer<'a> {
                     frame => format!("{frame}.vector({x}, {y}, {z})"),
                 }
             };
-            // About each axis: two others stay across.
+            // One condition for each axis: that the two others stay orthogonal.
             for (about, axis) in AXES.iter().enumerate() {
                 let (next, last) = ((about + 1) % 3, (about + 2) % 3);
                 let held = vector(&one, axes.column(next).into_owned().into());
@@ -1103,7 +1104,7 @@ impl<'a> Writer<'a> {
         self.text.add("constraints", Some(comment), lines);
     }
 
-    /// Gravity, as a vector or as what says that there is none.
+    /// Gravity as a vector, or a comment that there is none.
     fn gravity(&mut self) -> String {
         let numbers = match &self.robot.gravity {
             None => [Number::zero(), Number::zero(), Number::computed(-9.81)],
@@ -1172,14 +1173,14 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// A word with a capital letter, at the beginning of a sentence.
+/// A word with an initial capital, for the beginning of a sentence.
 fn capital(word: &str) -> String {
     let mut letters = word.chars();
     let first = letters.next().into_iter().flat_map(char::to_uppercase);
     first.chain(letters).collect()
 }
 
-/// The unit of what a joint moves by.
+/// The unit of a joint's coordinate.
 fn unit_of(joint: &Joint) -> &'static str {
     match joint.kind {
         Kind::Prismatic => "m",
@@ -1187,7 +1188,7 @@ fn unit_of(joint: &Joint) -> &'static str {
     }
 }
 
-/// A value of a joint as a spec has it.
+/// A joint value in the notation of a spec.
 fn measured(joint: &Joint, value: &Number) -> String {
     match joint.kind {
         Kind::Prismatic => value.to_string(),
@@ -1195,7 +1196,7 @@ fn measured(joint: &Joint, value: &Number) -> String {
     }
 }
 
-/// What a comment says of a joint: its range, and bounds of velocity and effort.
+/// The text of a joint's comment: its range, and limits of velocity and effort.
 fn said(joint: &Joint) -> String {
     let (angle, force) = match joint.kind {
         Kind::Prismatic => ("m", "N"),

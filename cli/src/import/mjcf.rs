@@ -1,4 +1,4 @@
-//! A file of MJCF, MuJoCo's format: bodies in bodies, their joints, and what acts along these.
+//! Reader of MJCF, the format of MuJoCo: nested bodies, their joints, and forces along these.
 //!
 //! Format: <https://mujoco.readthedocs.io/en/stable/XMLreference.html>.
 
@@ -23,10 +23,10 @@ use super::tensor;
 use scene::{Attribute, Classes, Element};
 use solid::{Shape, Solid};
 
-/// Mass for each volume where a file says nothing, in kg/m³.
+/// The default density, in kg/m³.
 const DENSITY: f64 = 1000.0;
 
-/// Sections that change nothing in how bodies move.
+/// Sections that do not affect the motion of bodies.
 const WITHOUT_PART: [&str; 9] = [
     "size",
     "visual",
@@ -39,10 +39,10 @@ const WITHOUT_PART: [&str; 9] = [
     "keyframe",
 ];
 
-/// What may turn a frame, of which a file says one.
+/// The alternative attributes for an orientation; a file uses one of them.
 const ORIENTATIONS: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
 
-/// What is read of each element, and what of it changes no motion of a tree without contacts.
+/// For each element the attributes that are read, and those that do not affect the motion of a tree without contacts.
 const ATTRIBUTES: [(&str, &[&str]); 17] = [
     (
         "compiler",
@@ -292,7 +292,7 @@ const ATTRIBUTES: [(&str, &[&str]); 17] = [
     ("flag", &[]),
 ];
 
-/// What is said of every drive.
+/// The attributes of every actuator.
 const OF_DRIVES: [&str; 12] = [
     "name",
     "class",
@@ -308,7 +308,7 @@ const OF_DRIVES: [&str; 12] = [
     "user",
 ];
 
-/// The kinds of drives that are read; a class says of all what it says of one.
+/// The kinds of actuators that are read; in a class, an attribute of one kind applies to all.
 const DRIVES: [&str; 4] = ["motor", "position", "velocity", "general"];
 
 /// Forces that a file can switch off.
@@ -323,21 +323,21 @@ const SWITCHES: [&str; 8] = [
     "actuation",
 ];
 
-/// What a file says of all of its elements.
+/// The global settings of a file.
 struct Compiler {
     is_in_degrees: bool,
     sequence: String,
-    /// Whether inertia follows from geometry: never, where nothing else says it, or wherever there is geometry.
+    /// Whether inertia is computed from geometry: never, where it is not given, or wherever there is geometry.
     from_geometry: Option<bool>,
     groups: [f64; 2],
     total_mass: Option<f64>,
     finds_limits: bool,
-    /// Where meshes are, from the folder of the model.
+    /// The folder of meshes, relative to that of the model.
     meshes: String,
     strips_paths: bool,
 }
 
-/// How a frame stands in another.
+/// The pose of a frame in another frame.
 #[derive(Clone, Debug, Default)]
 struct Pose {
     xyz: [Number; 3],
@@ -349,7 +349,7 @@ impl Pose {
         Vector3::from(self.xyz.each_ref().map(|number| number.value))
     }
 
-    /// A pose in a frame that has this one.
+    /// Composes this pose with one relative to it.
     fn then(&self, next: &Pose) -> Pose {
         let turned = steps::axes(&self.turns) * next.centre();
         let xyz = if self.turns.is_empty() {
@@ -364,7 +364,7 @@ impl Pose {
     }
 }
 
-/// A sum; the other where one is zero.
+/// A sum, which keeps the digits of the other term where one is zero.
 fn added(a: &Number, b: &Number) -> Number {
     match (a.is_zero(), b.is_zero()) {
         (true, _) => b.clone(),
@@ -373,7 +373,7 @@ fn added(a: &Number, b: &Number) -> Number {
     }
 }
 
-/// An element with its class and what messages call it.
+/// An element with its class and its name in messages.
 #[derive(Clone)]
 struct Item<'e> {
     element: &'e Element,
@@ -453,18 +453,18 @@ struct Reader<'r, 'f, 'e> {
     classes: Classes<'e>,
     compiler: Compiler,
     robot: Robot,
-    /// Where each joint with a name stands among all.
+    /// The index of each named joint.
     joints: HashMap<String, usize>,
     /// Meshes by name.
     meshes: HashMap<String, Item<'e>>,
-    /// Where the model is, and what reads a file.
+    /// The folder of the model, and the function that reads files.
     folder: &'r Path,
     file: &'r dyn Fn(&Path) -> Result<Vec<u8>, String>,
-    /// Names that are given, or that the file has somewhere.
+    /// Names in use, or that occur in the file.
     given: HashSet<String>,
-    /// The kinds of elements that are left out, with their numbers.
+    /// The kinds of elements that are left out, with their counts.
     counts: Vec<(String, usize)>,
-    /// How many actuators there are, those that are left out too.
+    /// The number of actuators, including those that are left out.
     actuators: usize,
 }
 
@@ -481,7 +481,7 @@ fn names(root: &Element) -> HashSet<String> {
     names
 }
 
-/// An element as messages name it.
+/// The name of an element in messages.
 fn called(element: &Element) -> String {
     let kind = &element.name;
     match element.own("name") {
@@ -548,7 +548,7 @@ impl<'e> Reader<'_, '_, 'e> {
         }
     }
 
-    /// What may change the motion, for all that is known, and is refused unless the call says to leave it out.
+    /// Refuses an element that may affect the motion, unless the call says to ignore it.
     fn refuse(&mut self, at: usize, name: &str, message: &str) {
         if self.ignored.iter().any(|ignored| ignored == name) {
             return self.count(name);
@@ -563,7 +563,7 @@ impl<'e> Reader<'_, '_, 'e> {
         self.refuse(element.at, name, &message);
     }
 
-    /// Refuses attributes that are not known: they could say anything.
+    /// Refuses unknown attributes, because they could have any effect.
     fn only(&mut self, element: &Element, owner: &str, key: &str) {
         let known = ATTRIBUTES.iter().find(|(name, _)| *name == key);
         let known = known.map_or(&[][..], |(_, list)| list);
@@ -598,7 +598,7 @@ impl<'e> Reader<'_, '_, 'e> {
         }
     }
 
-    /// An element with the class that it names, or else the one that holds where it stands.
+    /// An element with the class that it names, or the default class at its place.
     fn item(&mut self, element: &'e Element, class: usize) -> Item<'e> {
         let owner = called(element);
         let class = self.class(element, "class", class);
@@ -636,7 +636,7 @@ impl<'e> Reader<'_, '_, 'e> {
             .map(|attribute| attribute.value.as_str())
     }
 
-    /// Whether an attribute says so; None where it leaves that to what else is said.
+    /// The value of a Boolean attribute; `None` for `auto`.
     fn flag(&mut self, item: &Item<'e>, name: &str) -> Option<bool> {
         let attribute = self.said(item, name)?;
         match attribute.value.as_str() {
@@ -655,7 +655,7 @@ impl<'e> Reader<'_, '_, 'e> {
         }
     }
 
-    /// As many numbers as there are.
+    /// A list of any length.
     fn list(&mut self, item: &Item<'e>, name: &str) -> Option<(Vec<Number>, usize)> {
         let attribute = self.said(item, name)?;
         let numbers = attribute.value.split_whitespace().map(Number::read);
@@ -692,8 +692,7 @@ impl<'e> Reader<'_, '_, 'e> {
         self.numbers::<1>(item, name).map(|[number]| number)
     }
 
-    /// A number that is not negative, zero where it is left out. Of a polynomial, whose other coefficients are to be zero, it is the
-    /// first coefficient.
+    /// A nonnegative number, 0 by default. For a polynomial it is the first coefficient; the others must be zero.
     fn coefficient(&mut self, item: &Item<'e>, name: &str) -> Number {
         let Some((numbers, at)) = self.list(item, name) else {
             return Number::zero();
@@ -714,7 +713,7 @@ impl<'e> Reader<'_, '_, 'e> {
         first
     }
 
-    /// An angle of the file in radians.
+    /// An angle of the file, in radians.
     fn radians(&self, number: Number) -> Number {
         if self.compiler.is_in_degrees {
             Number::computed(number.value.to_radians())
@@ -825,7 +824,7 @@ impl<'e> Reader<'_, '_, 'e> {
         }
     }
 
-    /// Where something stands, and how it is turned.
+    /// The position and orientation of an element.
     fn pose(&mut self, item: &Item<'e>) -> Pose {
         Pose {
             xyz: self.numbers::<3>(item, "pos").unwrap_or_default(),
@@ -912,14 +911,14 @@ impl<'e> Reader<'_, '_, 'e> {
     }
 }
 
-/// The axes of a frame that a quaternion of any length turns.
+/// The axes of a frame rotated by a quaternion of any length.
 fn matrix(quaternion: &Quaternion<f64>) -> Matrix3<f64> {
     *UnitQuaternion::new_normalize(*quaternion)
         .to_rotation_matrix()
         .matrix()
 }
 
-/// Axes of which the third points along a unit vector: turned there on the shortest way from z.
+/// Axes whose third one points along a unit vector, by the smallest rotation from z.
 fn towards(z: &Vector3<f64>) -> Matrix3<f64> {
     let axis = Vector3::z().cross(z);
     let sine = axis.norm();
@@ -934,23 +933,23 @@ fn towards(z: &Vector3<f64>) -> Matrix3<f64> {
     }
 }
 
-/// A vector of length 1, without an overflow on the way.
+/// A unit vector, computed without overflow.
 fn unit(axis: &Vector3<f64>) -> [f64; 3] {
     let axis = axis / axis.amax();
     (axis / axis.norm()).into()
 }
 
-/// What a body hangs on.
+/// The parent of a body.
 struct Parent {
     name: String,
     is_world: bool,
 }
 
-/// What stands in a body.
+/// The contents of a body.
 #[derive(Default)]
 struct Found<'e> {
     inertial: Option<&'e Element>,
     solids: Vec<Solid>,
-    /// Geometry whose mass is not known, and why.
+    /// Geometry with unknown mass, and the reason.
     unknown: Vec<(&'e Element, String)>,
 }

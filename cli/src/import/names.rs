@@ -1,11 +1,11 @@
-//! Names of a file as names of a spec: letters, digits and underscores, each but once.
+//! Converts names of a file to names of a spec: letters, digits and underscores, without duplicates.
 
 use std::collections::HashSet;
 
 use lagrangian_spec::token::normalized;
 use lagrangian_spec::unit::Measure;
 
-/// What means something else in a spec or in Rust.
+/// Words with another meaning in a spec or in Rust.
 const TAKEN: [&str; 35] = [
     "_",
     "self",
@@ -44,21 +44,21 @@ const TAKEN: [&str; 35] = [
     "origin",
 ];
 
-/// The names of one kind that are given.
+/// The names of one kind that are in use.
 #[derive(Default)]
 pub struct Names {
     given: HashSet<String>,
 }
 
 impl Names {
-    /// A name that is meant as it is, and is not given yet.
+    /// Registers a name that is used as it is.
     pub fn keep(&mut self, name: &str) -> String {
         self.given.insert(name.to_owned());
         name.to_owned()
     }
 
-    /// A name that nothing else has, as near as can be to that of the file. `kind` is what it is the name of, in one word, for
-    /// those that cannot stand alone.
+    /// A unique name, as close as possible to that of the file. `kind` is a word for the named thing; it precedes names that
+    /// cannot stand alone.
     pub fn take(&mut self, name: &str, kind: &str) -> String {
         let name = identifier(name, kind);
         if self.given.insert(name.clone()) {
@@ -75,7 +75,7 @@ impl Names {
     }
 }
 
-/// A name that a spec can have.
+/// A valid name for a spec.
 fn identifier(name: &str, kind: &str) -> String {
     let letter = |c: char| if c.is_alphanumeric() { c } else { '_' };
     let name: String = normalized(name).chars().map(letter).collect();
@@ -88,7 +88,7 @@ fn identifier(name: &str, kind: &str) -> String {
     }
 }
 
-/// The name of a machine, like `VibratingCrusher`.
+/// A name for a machine, such as `VibratingCrusher`.
 pub fn machine(name: &str) -> String {
     let name = normalized(name);
     let words = name.split(|c: char| !c.is_alphanumeric());
@@ -104,7 +104,7 @@ pub fn machine(name: &str) -> String {
     }
 }
 
-/// A text of the file in a line of a comment.
+/// A text of the file, quoted for a comment on one line.
 pub fn quoted(text: &str) -> String {
     let visible = |c: char| {
         if c.is_control() || "\u{2028}\u{2029}".contains(c) {

@@ -1,33 +1,33 @@
-//! Numbers with the digits that a file gives them.
+//! Numbers with the digits with which a file gives them.
 
 use std::f64::consts::PI;
 use std::fmt;
 
-/// An angle is looked for among the multiples of π/12.
+/// Angles are compared with multiples of π/12.
 const TWELFTH: f64 = PI / 12.0;
 
-/// Beyond this many of them there is no name for an angle.
+/// Larger multiples are not recognized.
 const MOST_TWELFTHS: f64 = 24.0;
 
-/// Fewer digits than these may be those of π by chance, or rounded where the rest is missed.
+/// With fewer digits than these, an agreement with π may be accidental.
 const DIGITS_OF_PI: i32 = 13;
 
 /// The longest number that keeps its digits.
 const LONGEST: usize = 40;
 
-/// A number as a spec writes it.
+/// A number as written in a spec.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Number {
     /// Its value, rounded once.
     pub value: f64,
     text: String,
-    /// How many digits count, and the power of ten of the last of them.
+    /// The number of significant digits, and the exponent of the last one.
     digits: i32,
     last: i32,
 }
 
 impl Number {
-    /// Nothing.
+    /// Zero.
     pub fn zero() -> Number {
         Number {
             value: 0.0,
@@ -51,17 +51,17 @@ impl Number {
         }
     }
 
-    /// A number that was computed, with the fewest digits that read back to it.
+    /// A computed number, with the fewest digits that read back to it.
     pub fn computed(value: f64) -> Number {
         let text = format!("{value:?}");
         let short = text.strip_suffix(".0").unwrap_or(&text);
         Number::read(short).unwrap_or_else(|_| Number::zero())
     }
 
-    /// Reads what files of XML write: a sign, decimal digits with a point among them or none, and an exponent.
+    /// Reads a number as XML files write it: a sign, decimal digits with an optional point, and an exponent.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// If the text is not a number: what is wrong with it.
     pub fn read(text: &str) -> Result<Number, String> {
         let malformed = || format!("`{text}` is no number: write it like -0.25 or 2.5e-3");
         let (is_negative, unsigned) = match text.as_bytes().first() {
@@ -119,13 +119,13 @@ impl Number {
         })
     }
 
-    /// Whether it is nothing.
+    /// Whether it is zero.
     pub fn is_zero(&self) -> bool {
         self.value == 0.0
     }
 
-    /// How it is written as an angle that a coordinate, a limit or an offset has: beyond a turn with its unit, since a bare
-    /// number of that size may be meant in degrees.
+    /// Its text as the angle of a coordinate, a limit or an offset. Beyond a turn the unit is written, since a bare number
+    /// of that size might be taken for degrees.
     pub fn in_radians(&self) -> String {
         if self.value.abs() > 2.0 * PI {
             format!("{}*rad", self.text)
@@ -150,17 +150,18 @@ impl fmt::Display for Number {
 /// A constant angle.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Angle {
-    /// So many twelfths of π, exactly.
+    /// An exact multiple of π/12.
     Twelfths(i32),
     /// Any other.
     Radians(Number),
 }
 
 impl Angle {
-    /// The angle that a file gives. One with 13 digits or more, which are those of a multiple of 15°, is that multiple.
+    /// The angle that a file gives. If it agrees with a multiple of 15° in 13 digits or more, it is taken to
+    /// be that multiple.
     pub fn of(number: &Number) -> Angle {
         let unit = 10_f64.powi(number.last);
-        // The last digit may be rounded or cut off; the double that stands for it is rounded, too.
+        // The last digit may be rounded or truncated, and the double that represents it is rounded too.
         let tolerance = unit.max(2.0 * f64::EPSILON * number.value.abs());
         if number.digits >= DIGITS_OF_PI || number.is_zero() {
             Angle::named(number, tolerance)
@@ -169,7 +170,7 @@ impl Angle {
         }
     }
 
-    /// An angle that was computed in a few roundings.
+    /// An angle that was computed with a few roundings.
     pub fn computed(value: f64) -> Angle {
         Angle::named(&Number::computed(value), 4.0 * f64::EPSILON * value.abs())
     }
@@ -193,7 +194,7 @@ impl Angle {
         }
     }
 
-    /// So many degrees; multiples of 15 exactly.
+    /// An angle in degrees; multiples of 15 are exact.
     pub fn of_degrees(number: &Number) -> Angle {
         let twelfths = number.value / 15.0;
         let is_whole = twelfths.fract() == 0.0 && twelfths.abs() <= MOST_TWELFTHS;
@@ -204,12 +205,12 @@ impl Angle {
         }
     }
 
-    /// Whether it turns nothing.
+    /// Whether it is zero.
     pub fn is_zero(&self) -> bool {
         *self == Angle::Twelfths(0)
     }
 
-    /// The angle back.
+    /// The opposite angle.
     pub fn negated(&self) -> Angle {
         match self {
             Angle::Twelfths(k) => Angle::Twelfths(-k),
@@ -296,7 +297,7 @@ mod tests {
             ("0.78539816339744830961", "pi/4"),
             ("-2.0943951023931953", "-2*pi/3"),
             ("6.283185307179586", "2*pi"),
-            // Too few digits, or other ones.
+            // Too few digits, or different ones.
             ("1.5708", "1.5708"),
             ("1.570796327", "1.570796327"),
             ("1.57079632679", "1.57079632679"),

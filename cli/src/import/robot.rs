@@ -1,4 +1,4 @@
-//! A robot as its file has it, whatever the format: links on joints, and what acts along these.
+//! A robot, independent of the file format: links on joints, and forces along these.
 
 use super::number::Number;
 use super::steps::Turns;
@@ -8,22 +8,22 @@ use super::tensor::Tensor;
 #[derive(Debug, Default)]
 pub struct Robot {
     pub name: String,
-    /// What the format is called, and what it calls a rigid part.
+    /// The name of the format, and its word for a rigid part.
     pub format: &'static str,
     pub part: &'static str,
     pub links: Vec<Link>,
     pub joints: Vec<Joint>,
-    /// What moves joints, from outside.
+    /// The actuators of joints.
     pub drives: Vec<Drive>,
-    /// What holds coordinates together, beyond the tree.
+    /// Constraints between coordinates besides the tree.
     pub ties: Vec<Tie>,
-    /// The acceleration of gravity, where the file has one.
+    /// The acceleration of gravity, if the file gives one.
     pub gravity: Option<[Number; 3]>,
-    /// What was left out because the call says so, and what has no part in the motion but is no geometry.
+    /// What was left out because the call says so, and other elements without effect on the motion except geometry.
     pub left_out: Vec<String>,
-    /// What the call wants to be left out, and is not there.
+    /// Names that the call ignores but that do not occur.
     pub unneeded: Vec<String>,
-    /// What a user should know besides.
+    /// Other notes for the user.
     pub warnings: Vec<String>,
 }
 
@@ -31,26 +31,26 @@ pub struct Robot {
 #[derive(Debug, Default)]
 pub struct Link {
     pub name: String,
-    /// None where there is no mass.
+    /// `None` for a link without mass.
     pub inertial: Option<Inertial>,
-    /// Whether it only stands between two joints of one part, and has no frame of its own.
+    /// Whether it is only an intermediate frame between two joints of one part.
     pub is_between: bool,
-    /// Where it stands in the text.
+    /// Its position in the text.
     pub at: usize,
 }
 
-/// Mass, mass centre in the link's frame, and the tensor about it in axes that are turned.
+/// The mass, the mass centre in the link's frame, and the tensor about it in rotated axes.
 #[derive(Debug)]
 pub struct Inertial {
     pub mass: Number,
     pub xyz: [Number; 3],
     pub turns: Turns,
     pub tensor: Tensor,
-    /// What a comment says of where the numbers are from.
+    /// The source of the numbers, for a comment.
     pub source: &'static str,
 }
 
-/// How a joint moves.
+/// The kind of motion of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Kind {
     Revolute,
@@ -64,50 +64,50 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Whether it has one coordinate, which limits, damping and others are about.
+    /// Whether it has one coordinate, so that limits, damping and the like apply.
     pub fn is_single(self) -> bool {
         matches!(self, Kind::Revolute | Kind::Continuous | Kind::Prismatic)
     }
 }
 
-/// What joins a link to its parent. The frame of the child is that of the parent, shifted by `xyz`, turned by `turns`, and moved by
-/// the joint.
+/// A joint between a link and its parent. The frame of the child is that of the parent, displaced by `xyz`, rotated by `turns`, and
+/// moved by the joint.
 #[derive(Debug, Default)]
 pub struct Joint {
     pub name: String,
     pub kind: Kind,
-    /// What the format calls its kind.
+    /// The name of its kind in the format.
     pub label: &'static str,
     pub parent: String,
     pub child: String,
-    /// The parts on both sides as a comment names them.
+    /// The names of the parts on both sides, for a comment.
     pub shown: [String; 2],
     pub xyz: [Number; 3],
     pub turns: Turns,
     pub axis: [f64; 3],
     pub damping: Number,
     pub friction: Number,
-    /// The stiffness of a spring in the joint, and the value at which it is free.
+    /// The stiffness of a spring in the joint, and the value at which it is relaxed.
     pub stiffness: Number,
     pub free_at: Number,
-    /// The inertia that turns or slides with the joint's coordinate alone.
+    /// The inertia that moves with the joint's coordinate alone.
     pub armature: Number,
-    /// The value at which the joint moves nothing, and with which it starts.
+    /// The value at which the joint does not displace its link, and at which it starts.
     pub reference: Number,
-    /// Where a floating joint starts: a place, and three angles for given axes; of a spherical one the axes.
+    /// The start of a floating joint: a position, and three angles about given axes; for a spherical joint the axes.
     pub start: Option<Start>,
-    /// The value and the rate with which the file lets a joint with one coordinate start.
+    /// The start value and rate that the file gives for a joint with one coordinate.
     pub home: Option<Number>,
     pub home_rate: Option<Number>,
     /// The least and the greatest value.
     pub range: Option<[Number; 2]>,
-    /// Bounds of velocity and effort, soft limits: what a comment says.
+    /// Limits of velocity and effort, and soft limits, for a comment.
     pub remarks: Vec<(&'static str, Number)>,
     pub mimic: Option<Mimic>,
     pub at: usize,
 }
 
-/// A pose in numbers.
+/// A numerical pose.
 #[derive(Clone, Debug)]
 pub struct Start {
     pub xyz: [Number; 3],
@@ -115,7 +115,7 @@ pub struct Start {
     pub axes: nalgebra::Matrix3<f64>,
 }
 
-/// A joint that follows another: multiplier times its value and offset.
+/// A joint that follows another: its value is multiplier times the other's value plus offset.
 #[derive(Debug)]
 pub struct Mimic {
     pub joint: String,
@@ -124,23 +124,23 @@ pub struct Mimic {
     pub at: usize,
 }
 
-/// What moves a joint, by an input.
+/// An actuator, which moves a joint by an input.
 #[derive(Debug)]
 pub struct Drive {
     pub name: String,
-    /// The joint, by its place among all.
+    /// The index of the joint.
     pub joint: usize,
-    /// How far the drive goes for each unit of the joint.
+    /// The transmission ratio: the motion of the actuator per unit of the joint.
     pub gear: Number,
     pub law: Law,
-    /// The inertia of what turns with the drive.
+    /// The inertia of the parts that turn with the actuator.
     pub inertia: Number,
-    /// Its place among all actuators of the file, and what its input is as long as nobody sets it.
+    /// Its index among all actuators of the file, and the default value of its input.
     pub number: usize,
     pub usual: Number,
 }
 
-/// The force of a drive, by its input u, and by s, which is the gear times the joint's value.
+/// The force of an actuator as a function of its input u and of s, which is the gear times the joint's value.
 #[derive(Clone, Debug)]
 pub enum Law {
     /// The input is the force.
@@ -158,23 +158,24 @@ pub enum Law {
     },
 }
 
-/// What holds coordinates together.
+/// A constraint between coordinates.
 #[derive(Debug)]
 pub struct Tie {
     pub name: String,
     pub kind: TieKind,
 }
 
-/// How.
+/// The kind of a constraint.
 #[derive(Debug)]
 pub enum TieKind {
-    /// q₁ − r₁ = Σ cᵢ (q₂ − r₂)ⁱ, with r what the coordinates are where the joints move nothing.
+    /// q₁ − r₁ = Σ cᵢ (q₂ − r₂)ⁱ, where r are the values of the coordinates in the reference configuration.
     Polynomial {
         follower: usize,
         leader: Option<usize>,
         coefficients: Vec<Number>,
     },
-    /// A point of a link is one of another; with `axes` the second link's axes are these, as columns, in those of the first.
+    /// A point of a link coincides with one of another; with `axes`, the axes of the second link, as columns in
+    /// those of the first, are these.
     Closing {
         anchors: Box<[Anchor; 2]>,
         axes: Option<nalgebra::Matrix3<f64>>,

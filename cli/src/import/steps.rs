@@ -1,22 +1,22 @@
-//! Steps from frame to frame: shifts along axes, and turns about them.
+//! Steps between frames: displacements along axes, and rotations about them.
 
 use nalgebra::Matrix3;
 
 use super::number::{Angle, Number};
 
-/// Below this sine or cosine of the middle one of three angles the others are not told apart.
+/// If the sine or cosine of the middle one of three angles is below this, the other two cannot be separated.
 const SINGULAR: f64 = 1e-12;
 
-/// Angles that are this small come from rounding.
+/// Angles this small are round-off.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// Turns about axes of the frame itself, 0 to 2, one after the other.
+/// Successive rotations about axes of the frame itself, 0 to 2.
 pub type Turns = Vec<(usize, Angle)>;
 
 /// The axes of a frame.
 pub const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// A product that a person would not write out: nothing, the thing itself, or its negative.
+/// A product in the shortest form: empty for 0, the value itself, or its negative.
 fn scaled(factor: f64, value: &str) -> String {
     match factor {
         0.0 => "0".to_owned(),
@@ -26,7 +26,7 @@ fn scaled(factor: f64, value: &str) -> String {
     }
 }
 
-/// A value without the brackets that it would need behind a sign or a factor.
+/// A value without its brackets, which it needs only after a sign or a factor.
 fn bare(value: &str) -> &str {
     let inner = value
         .strip_prefix('(')
@@ -34,13 +34,13 @@ fn bare(value: &str) -> &str {
     inner.unwrap_or(value)
 }
 
-/// The step along an axis.
+/// A displacement along an axis.
 pub fn slide(axis: &[f64; 3], value: &str) -> String {
     let [x, y, z] = axis.map(|factor| scaled(factor, value));
     format!(".shift({x}, {y}, {z})")
 }
 
-/// The turn about any axis: about one of the frame's own, between turns that lead there and back.
+/// A rotation about any axis: one about an axis of the frame, between rotations there and back.
 pub fn turn(axis: &[f64; 3], value: &str) -> Vec<String> {
     let (there, own, sign) = straightened(axis);
     let value = match sign {
@@ -50,7 +50,7 @@ pub fn turn(axis: &[f64; 3], value: &str) -> Vec<String> {
     conjugated(&there, vec![format!(".turn({}, {value})", AXES[own])])
 }
 
-/// Steps between constant turns and those back.
+/// Steps between constant rotations and their inverses.
 pub fn conjugated(there: &[(usize, Angle)], steps: Vec<String>) -> Vec<String> {
     let step = |axis: usize, angle: &Angle| format!(".turn({}, {angle})", AXES[axis]);
     let lead = there.iter().map(|(axis, angle)| step(*axis, angle));
@@ -61,7 +61,7 @@ pub fn conjugated(there: &[(usize, Angle)], steps: Vec<String>) -> Vec<String> {
     lead.chain(steps).chain(back).collect()
 }
 
-/// The turn by a constant angle about any axis.
+/// The rotation by a constant angle about any axis.
 pub fn conjugating(axis: &[f64; 3], angle: Angle) -> Turns {
     let (there, own, sign) = straightened(axis);
     let angle = if sign.is_empty() {
@@ -77,8 +77,8 @@ pub fn conjugating(axis: &[f64; 3], angle: Angle) -> Turns {
     lead.chain(back).collect()
 }
 
-/// Constant turns that lead one of a frame's own axes to a unit vector: the turns, the axis, and `-` where it leads to its
-/// opposite.
+/// Constant rotations that bring one of a frame's axes to a unit vector: the rotations, the axis, and `-` if it is brought
+/// to the opposite vector.
 pub fn straightened(axis: &[f64; 3]) -> (Turns, usize, &'static str) {
     let [x, y, z] = *axis;
     let of = Angle::computed;
@@ -88,24 +88,24 @@ pub fn straightened(axis: &[f64; 3]) -> (Turns, usize, &'static str) {
         }
     }
     let (there, own) = match (x == 0.0, y == 0.0, z == 0.0) {
-        // The turn about x takes z to (0, -sin, cos).
+        // The rotation about x takes z to (0, -sin, cos).
         (true, ..) => (vec![(0, of((-y).atan2(z)))], 2),
         (_, true, _) => (vec![(1, of(x.atan2(z)))], 2),
         (.., true) => (vec![(2, of(y.atan2(x)))], 0),
-        // First about z, then about y, take z to (sin β cos α, sin β sin α, cos β).
+        // Rotations about z, then y, take z to (sin β cos α, sin β sin α, cos β).
         _ => (vec![(2, of(y.atan2(x))), (1, of(x.hypot(y).atan2(z)))], 2),
     };
     (there, own, "")
 }
 
-/// The angles of three turns, one after the other, about axes of the frame itself, that lead to a frame with these axes as columns.
-/// Where the middle one leaves the others undetermined, the last is 0.
+/// The angles of three successive rotations about axes of the frame itself that lead to a frame with these axes as columns. Where
+/// the middle one leaves the other two undetermined, the last is 0.
 pub fn angles(rotation: &Matrix3<f64>, sequence: [usize; 3]) -> [Angle; 3] {
     let [first, middle, last] = sequence;
     let r = |i: usize, j: usize| rotation[(i, j)];
     let is_proper = first == last;
     let third = 3 - first - middle;
-    // 1 where first, middle and the third axis follow each other as x, y and z do.
+    // 1 if first, middle and the third axis are in cyclic order, as x, y and z are.
     let order = if (middle + 3 - first) % 3 == 1 {
         1.0
     } else {
@@ -136,9 +136,9 @@ pub fn angles(rotation: &Matrix3<f64>, sequence: [usize; 3]) -> [Angle; 3] {
     [start, middle_angle, end].map(Angle::computed)
 }
 
-/// Turns that lead to a frame with these axes as columns: none, one, or three.
+/// Rotations that lead to a frame with these axes as columns: none, one, or three.
 pub fn turns(rotation: &Matrix3<f64>) -> Turns {
-    // Of Cardan's angles and Euler's not both are singular.
+    // Cardan angles and Euler angles are never both singular.
     let is_steep = rotation[(2, 0)].abs() > 0.9;
     let sequence = if is_steep { [2, 0, 2] } else { [2, 1, 0] };
     let angles = angles(rotation, sequence);
@@ -148,7 +148,7 @@ pub fn turns(rotation: &Matrix3<f64>) -> Turns {
         .collect()
 }
 
-/// The axes, as columns, of a frame that is turned.
+/// The axes, as columns, of a rotated frame.
 pub fn axes(turns: &Turns) -> Matrix3<f64> {
     turns
         .iter()
@@ -170,12 +170,12 @@ pub fn axes(turns: &Turns) -> Matrix3<f64> {
         })
 }
 
-/// The quaternion of length 1 that leads to a frame with these axes as columns, its largest number positive (S. W. Shepperd, *Quaternion
-/// from rotation matrix*, J. Guidance and Control 1 (1978) 223–224).
+/// The unit quaternion that leads to a frame with these axes as columns, with a positive largest component (S. W. Shepperd,
+/// *Quaternion from rotation matrix*, J. Guidance and Control 1 (1978) 223–224).
 pub fn quaternion(rotation: &Matrix3<f64>) -> [f64; 4] {
     let r = |i: usize, j: usize| rotation[(i, j)];
     let trace = rotation.trace();
-    // 4 times the squares of the four, of which the largest is taken by a root and the others by products with it.
+    // 4 times the squares of the components; the largest follows from a root, and the others from products with it.
     let squares = [
         1.0 + trace,
         1.0 - trace + 2.0 * r(0, 0),
@@ -226,7 +226,7 @@ mod tests {
 
     use super::*;
 
-    /// Every sequence of a file leads back to the axes that it came from.
+    /// Every sequence of angles that a file may use reproduces the axes from which it was computed.
     #[test]
     fn angles_lead_to_the_axes_that_they_are_of() {
         let turned = |list: [(usize, f64); 3]| {
@@ -257,7 +257,7 @@ mod tests {
                 let found = angles(&goal, sequence);
                 let place = |i: usize| (sequence[i], found[i].value());
                 let again = turned([place(0), place(1), place(2)]);
-                // Some ten roundings of numbers up to 1, and of angles up to pi.
+                // About ten roundings of numbers up to 1, and of angles up to pi.
                 assert!((again - goal).amax() <= 1e-14, "{angles_of:?} {sequence:?}");
                 assert!(
                     (axes(&turns(&goal)) - goal).amax() <= 1e-14,

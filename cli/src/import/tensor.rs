@@ -1,4 +1,4 @@
-//! Tensors of inertia: turned into other axes, and looked at whether a body can have them.
+//! Inertia tensors: rotation to other axes, and a check that a body can have them.
 
 use lagrangian_scalar::{DoubleDouble, Scalar};
 use nalgebra::{Matrix3, SymmetricEigen};
@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, SymmetricEigen};
 use super::number::{Angle, Number};
 use super::steps::Turns;
 
-/// By how much of the largest entry a tensor may miss what a body obeys: files give few digits.
+/// How far a tensor may violate the conditions on a body, relative to its largest entry: files give few digits.
 const SLACK: f64 = 1e-6;
 
 type Rotation = [[DoubleDouble; 3]; 3];
@@ -14,7 +14,7 @@ type Rotation = [[DoubleDouble; 3]; 3];
 /// The entries Ixx, Iyy, Izz, Ixy, Ixz, Iyz.
 pub type Tensor = [Number; 6];
 
-/// Where these stand.
+/// The matrix positions of these entries.
 const PLACES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
 
 fn matrix<T: Copy>(entries: [T; 6]) -> [[T; 3]; 3] {
@@ -22,14 +22,14 @@ fn matrix<T: Copy>(entries: [T; 6]) -> [[T; 3]; 3] {
     [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
 }
 
-/// What keeps a body from having a tensor, if anything does.
+/// Why no body can have this tensor, if so.
 pub fn flaw(tensor: &Tensor) -> Option<String> {
     let rows = matrix(tensor.each_ref().map(|entry| entry.value));
     let largest = rows.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
     if largest == 0.0 {
         return None;
     }
-    // Entries near 1, whatever the units.
+    // Scaled to entries near 1, whatever the units.
     let scaled = Matrix3::from_fn(|i, j| rows[i][j] / largest);
     let mut moments: Vec<f64> = SymmetricEigen::new(scaled)
         .eigenvalues
@@ -53,8 +53,8 @@ pub fn flaw(tensor: &Tensor) -> Option<String> {
         .then(|| format!("{shown}, and of no body is one greater than the sum of the others"))
 }
 
-/// The tensor in the axes of a frame, given in axes that are turned from these: R I Rᵀ. Computed with 106 bits and rounded once; what
-/// is not turned keeps its digits.
+/// The tensor in the axes of a frame, from one in rotated axes: R I Rᵀ. Computed with 106 bits and rounded once; without rotation
+/// the digits are kept.
 pub fn turned(tensor: &Tensor, turns: &Turns) -> Tensor {
     if turns.iter().all(|(_, angle)| angle.is_zero()) {
         return tensor.clone();
@@ -135,7 +135,7 @@ mod tests {
     fn quarter_turns_change_places_and_signs() {
         let tensor = numbers(["1", "2.5", "3", "0.1", "0.2", "0.3"]);
         let half_pi = "1.5707963267948966";
-        // About z, x becomes y and y becomes -x.
+        // A rotation about z takes x to y and y to -x.
         let about_z = turned(&tensor, &turns(["0", "0", half_pi]));
         assert_eq!(texts(&about_z), ["2.5", "1", "3", "-0.1", "-0.3", "0.2"]);
         let about_x = turned(&tensor, &turns([half_pi, "0", "0"]));
@@ -143,7 +143,7 @@ mod tests {
         assert_eq!(turned(&tensor, &turns(["0", "0", "0"])), tensor);
     }
 
-    /// A rod along its own z, whose tensor is m l²/12 (1 - u uᵀ) where u is where z points.
+    /// A rod along its own z axis has the tensor m l²/12 (1 - u uᵀ), where u is the direction of z.
     #[test]
     fn a_rod_in_any_direction() {
         let (roll, pitch, yaw): (f64, f64, f64) = (0.3, -0.7, 1.9);
@@ -158,7 +158,7 @@ mod tests {
         for (entry, (i, j)) in turned.iter().zip(PLACES) {
             let unit = if i == j { 1.0 } else { 0.0 };
             let exact = 0.25 * (unit - u[i] * u[j]);
-            // Some ten roundings of numbers below 0.25.
+            // About ten roundings of numbers below 0.25.
             assert!((entry.value - exact).abs() <= 10.0 * 0.25 * f64::EPSILON);
         }
     }

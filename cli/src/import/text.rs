@@ -1,24 +1,24 @@
-//! The text of a spec, section by section, as a person would break its lines.
+//! The text of a spec, section by section, with lines broken as a person would.
 
 use std::fmt::Write as _;
 
 /// Lines are broken before this column.
 const WIDTH: usize = 108;
 
-/// A machine that is being written.
+/// A machine under construction.
 #[derive(Default)]
 pub struct Text {
     sections: Vec<(&'static str, Vec<Item>)>,
 }
 
-/// Entries that stand together, below a comment.
+/// Entries below a common comment.
 struct Item {
     comment: Option<String>,
     entries: Vec<String>,
 }
 
 impl Text {
-    /// The sections in the order in which they are to stand. Those without entries are left out.
+    /// Sections in the order in which they are written. Empty ones are left out.
     pub fn new(sections: &[&'static str]) -> Text {
         Text {
             sections: sections.iter().map(|name| (*name, Vec::new())).collect(),
@@ -33,7 +33,7 @@ impl Text {
         }
     }
 
-    /// How many entries a section has.
+    /// The number of entries of a section.
     pub fn count(&self, section: &str) -> usize {
         let place = self.sections.iter().find(|(name, _)| *name == section);
         place.map_or(0, |(_, items)| {
@@ -41,7 +41,7 @@ impl Text {
         })
     }
 
-    /// The whole machine. `gravity` stands behind the bodies.
+    /// The whole machine. `gravity` is written after the bodies.
     pub fn written(&self, name: &str, comment: &[String], gravity: &str) -> String {
         let mut text = String::new();
         for paragraph in comment {
@@ -84,7 +84,7 @@ impl Item {
     }
 }
 
-/// A comment that documents, in as many lines as it takes.
+/// A doc comment, wrapped to as many lines as needed.
 fn wrap(text: &mut String, indent: &str, comment: &str) {
     let mut line = format!("{indent}///");
     for word in comment.split(' ').filter(|word| !word.is_empty()) {
@@ -98,7 +98,7 @@ fn wrap(text: &mut String, indent: &str, comment: &str) {
     let _ = writeln!(text, "{line}");
 }
 
-/// A frame from another, with its steps on further lines where one is too short for them.
+/// The definition of a frame relative to another, with its steps on further lines if they do not fit on one.
 pub fn frame(name: &str, base: &str, steps: &[String]) -> String {
     let line = format!("{name} = {base}{}", steps.concat());
     if line.chars().count() + 9 <= WIDTH {
@@ -111,7 +111,7 @@ pub fn frame(name: &str, base: &str, steps: &[String]) -> String {
     text
 }
 
-/// A body with its fields, on lines of their own where one is too short for them.
+/// A body with its fields, on separate lines if they do not fit on one.
 pub fn body(name: &str, fields: &[String]) -> String {
     let line = format!("{name} {{ {} }}", fields.join(", "));
     if line.chars().count() + 9 <= WIDTH {

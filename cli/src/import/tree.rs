@@ -1,4 +1,4 @@
-//! How links hang on each other, which joints follow which, and what has mass.
+//! The tree of links, the joints that follow others, and the links with mass.
 
 use std::collections::HashMap;
 
@@ -9,9 +9,9 @@ use super::robot::{Joint, Link, Robot};
 /// The joints of a robot as a tree.
 #[derive(Debug)]
 pub struct Tree {
-    /// The link that hangs on no other.
+    /// The link without a parent.
     pub root: usize,
-    /// The joints, each behind the one that it hangs on; otherwise in the order of the file.
+    /// The joints, each after its parent, otherwise in the order of the file.
     pub order: Vec<usize>,
     /// The links at both ends of each joint.
     pub parent: Vec<usize>,
@@ -20,7 +20,7 @@ pub struct Tree {
     pub leader: Vec<Option<usize>>,
 }
 
-/// Where each name stands; names that stand twice are faults.
+/// The index of each name; duplicates are errors.
 fn index<'r>(
     names: impl Iterator<Item = (&'r str, usize)>,
     kind: &str,
@@ -163,7 +163,7 @@ fn leaders(
             format!("joint {follower} mimics {leader}, and {told}"),
         );
     }
-    // A walk along leaders that is longer than there are joints goes in a circle; each joint is walked once.
+    // A path along leaders with more links than there are joints is a cycle; each joint is visited once.
     let mut is_led = vec![false; joints.len()];
     for start in 0..joints.len() {
         let mut walked = Vec::new();
@@ -188,7 +188,7 @@ fn leaders(
 }
 
 impl Tree {
-    /// The joint whose coordinate a joint has, at the end of what it mimics.
+    /// The joint whose coordinate a joint uses, at the end of its chain of leaders.
     pub fn first_leader(&self, joint: usize) -> usize {
         let mut at = joint;
         while let Some(next) = self.leader[at] {
@@ -197,7 +197,7 @@ impl Tree {
         at
     }
 
-    /// Whether each link, with all that hangs on it, has mass.
+    /// Whether each link has mass, alone or in its descendants.
     pub fn is_heavy(&self, links: &[Link]) -> Vec<bool> {
         let mut heavy: Vec<bool> = links.iter().map(|link| link.inertial.is_some()).collect();
         for &joint in self.order.iter().rev() {

@@ -1,4 +1,4 @@
-//! A file of URDF: links, joints, and what is wrong with them, each with its line.
+//! Reader of URDF: links, joints, and errors with their lines.
 //!
 //! Formats: <https://wiki.ros.org/urdf/XML>.
 
@@ -12,7 +12,7 @@ use super::steps::Turns;
 use super::tensor;
 use super::xml;
 
-/// The types by name.
+/// The joint types by name.
 const KINDS: [(&str, Kind); 7] = [
     ("revolute", Kind::Revolute),
     ("continuous", Kind::Continuous),
@@ -23,20 +23,20 @@ const KINDS: [(&str, Kind); 7] = [
     ("spherical", Kind::Spherical),
 ];
 
-/// What a type is called.
+/// The name of a joint type.
 fn label(kind: Kind) -> &'static str {
     let named = KINDS.iter().find(|(_, known)| *known == kind);
     named.map_or("", |(name, _)| name)
 }
 
-/// Roll, pitch and yaw as turns: yaw about z, then pitch about y, then roll about x.
+/// Roll, pitch and yaw as rotations: yaw about z, then pitch about y, then roll about x.
 fn turns(rpy: &[Number; 3]) -> Turns {
     let angle = |axis: usize| (axis, Angle::of(&rpy[axis]));
     let is_some = |(_, angle): &(usize, Angle)| !angle.is_zero();
     [2, 1, 0].map(angle).into_iter().filter(is_some).collect()
 }
 
-/// Elements below a link or a joint that do not change how it moves.
+/// Elements of a link or a joint that do not affect its motion.
 const WITHOUT_PART: [&str; 6] = [
     "visual",
     "collision",
@@ -46,7 +46,7 @@ const WITHOUT_PART: [&str; 6] = [
     "hardwareInterface",
 ];
 
-/// What Gazebo adds to a model and changes its motion.
+/// Gazebo extensions that affect the motion.
 const MOTION_OF_GAZEBO: [&str; 7] = [
     "springStiffness",
     "springReference",
@@ -91,13 +91,13 @@ struct Reader<'r, 'f> {
     ignored: &'r [String],
     faults: &'f mut Faults,
     robot: Robot,
-    /// What moves joints, with the names of these and where each stands in the text.
+    /// Actuators with the names of their joints and their positions in the text.
     motors: Vec<(String, usize, Drive)>,
-    /// Elements that are left out, with how many there are.
+    /// Elements that are left out, with their counts.
     counts: Vec<(String, usize)>,
 }
 
-/// A link or a joint as messages name it.
+/// The name of a link or a joint in messages.
 fn called(node: Node<'_, '_>) -> String {
     let kind = node.tag_name().name();
     match node.attribute("name") {
@@ -106,7 +106,7 @@ fn called(node: Node<'_, '_>) -> String {
     }
 }
 
-/// Where a value stands.
+/// The position of a value.
 fn place(attribute: &Attribute<'_, '_>) -> usize {
     attribute.range_value().start
 }
@@ -137,14 +137,14 @@ impl Reader<'_, '_> {
                 "material" => {}
                 "transmission" => self.transmission(node),
                 "gazebo" => self.gazebo(node),
-                // Sensors see, and `mujoco` has settings of its compiler.
+                // Sensors have no effect on the motion, and `mujoco` contains compiler settings.
                 name @ ("sensor" | "mujoco" | "ros2_control") => self.leave_out(name),
                 _ => self.unknown(node, "a robot"),
             }
         }
     }
 
-    /// Whether an element is one of another language; macros are refused, others as what is not known.
+    /// Whether an element belongs to another language; macros are refused, others are treated as unknown.
     fn is_foreign(&mut self, node: Node<'_, '_>, root: Node<'_, '_>) -> bool {
         let space = node.tag_name().namespace();
         if space.is_none() || space == root.tag_name().namespace() {
@@ -170,7 +170,7 @@ impl Reader<'_, '_> {
         self.ignored.iter().any(|ignored| ignored == name)
     }
 
-    /// What may change the motion, for all that is known, and is refused unless the call says to leave it out.
+    /// Refuses an element that may affect the motion, unless the call says to ignore it.
     fn unknown(&mut self, node: Node<'_, '_>, owner: &str) {
         let name = node.tag_name().name();
         if self.is_ignored(name) {
@@ -182,7 +182,8 @@ impl Reader<'_, '_> {
         );
     }
 
-    /// A motor behind a gear: one joint and one actuator. What joins several of them is left out, unless rotors turn in it.
+    /// A motor with a gear, for one joint and one actuator. Transmissions of several are left out, unless they
+    /// contain rotor inertias.
     fn transmission(&mut self, node: Node<'_, '_>) {
         const ROTORS: [&str; 4] = [
             "motorInertia",
@@ -265,7 +266,7 @@ impl Reader<'_, '_> {
         ));
     }
 
-    /// Puts motors to the joints that they name.
+    /// Assigns motors to the joints that they name.
     fn place_motors(&mut self) {
         for (name, at, drive) in std::mem::take(&mut self.motors) {
             let mut joints = self.robot.joints.iter();
@@ -317,7 +318,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// The name that an element has to have.
+    /// The required name of an element.
     fn name(&mut self, node: Node<'_, '_>) -> String {
         match node.attribute("name") {
             Some(name) => name.to_owned(),
@@ -330,7 +331,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// The elements below one, each of the expected ones once at most; others are refused.
+    /// The children of an element, each of the expected ones at most once; others are refused.
     fn parts<'n, const N: usize>(
         &mut self,
         node: Node<'n, 'n>,
@@ -356,7 +357,7 @@ impl Reader<'_, '_> {
         found
     }
 
-    /// Refuses attributes that are not known: they could say anything.
+    /// Refuses unknown attributes, because they could have any effect.
     fn only(&mut self, node: Node<'_, '_>, owner: &str, known: &[&str]) {
         let element = node.tag_name().name();
         for attribute in node.attributes() {
@@ -381,7 +382,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// A number that may be left out.
+    /// An optional number.
     fn number(&mut self, node: Node<'_, '_>, owner: &str, name: &str) -> Option<Number> {
         let attribute = node.attribute_node(name)?;
         match Number::read(attribute.value().trim()) {
@@ -394,7 +395,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// A number that must be there.
+    /// A required number.
     fn needed(&mut self, node: Node<'_, '_>, owner: &str, name: &str) -> Number {
         self.number(node, owner, name).unwrap_or_else(|| {
             let element = node.tag_name().name();
@@ -404,7 +405,7 @@ impl Reader<'_, '_> {
         })
     }
 
-    /// Three numbers, zero where they are left out.
+    /// Three numbers, zero by default.
     fn triple(&mut self, node: Node<'_, '_>, owner: &str, name: &str) -> [Number; 3] {
         let zero = [(); 3].map(|()| Number::zero());
         let Some(attribute) = node.attribute_node(name) else {
@@ -427,7 +428,7 @@ impl Reader<'_, '_> {
         })
     }
 
-    /// Position and angles of an `origin`.
+    /// The position and angles of an `origin`.
     fn origin(&mut self, node: Option<Node<'_, '_>>, owner: &str) -> [[Number; 3]; 2] {
         let Some(node) = node else {
             return [(); 2].map(|()| [(); 3].map(|()| Number::zero()));
@@ -451,7 +452,7 @@ impl Reader<'_, '_> {
         });
     }
 
-    /// What a link weighs, if it weighs anything.
+    /// The inertia of a link, if it has mass.
     fn inertial(&mut self, node: Node<'_, '_>, owner: &str) -> Option<Inertial> {
         let [origin, mass, inertia] = self.parts(node, owner, ["origin", "mass", "inertia"]);
         let [xyz, rpy] = self.origin(origin, owner);
@@ -576,7 +577,7 @@ impl Reader<'_, '_> {
         })
     }
 
-    /// The axis as a unit vector; x where it is left out, as URDF says.
+    /// The axis as a unit vector; by default x, as in URDF.
     fn axis(&mut self, node: Option<Node<'_, '_>>, kind: Kind, owner: &str) -> [f64; 3] {
         const X: [f64; 3] = [1.0, 0.0, 0.0];
         let Some(node) = node else {
@@ -595,13 +596,13 @@ impl Reader<'_, '_> {
             }
             return X;
         }
-        // So that no square overflows or vanishes.
+        // Scaled so that no square overflows or underflows.
         let axis = axis.map(|x| x / largest);
         let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
         axis.map(|x| x / length)
     }
 
-    /// The range, and what a comment says of velocity and effort.
+    /// The range, and the limits of velocity and effort for a comment.
     fn limit(
         &mut self,
         node: Option<Node<'_, '_>>,
@@ -632,13 +633,13 @@ impl Reader<'_, '_> {
         let has_range = matches!(kind, Kind::Revolute | Kind::Prismatic);
         let range = match bounds {
             [None, None] => None,
-            // Where a file gives one bound only, URDF takes 0 as the other.
+            // If a file gives only one bound, URDF defines the other as 0.
             bounds => Some(bounds.map(|bound| bound.unwrap_or_else(Number::zero))),
         };
         (range.filter(|_| has_range), remarks)
     }
 
-    /// What a safety controller keeps to.
+    /// The limits of a safety controller.
     fn soft(&mut self, node: Option<Node<'_, '_>>, owner: &str) -> Vec<(&'static str, Number)> {
         let Some(node) = node else {
             return Vec::new();

@@ -1,13 +1,13 @@
-//! Files of XML: read whole, with a place for all that is wrong.
+//! Reads whole XML files, and records the positions of errors.
 
 use roxmltree::{Document, ParsingOptions};
 
 use super::faults::Faults;
 
-/// The reader of XML compares every attribute of an element with every other.
+/// The most attributes of an element: the XML reader compares each with every other.
 const MOST_ATTRIBUTES: usize = 1000;
 
-/// Where an element begins that has more attributes than can be read in a moment.
+/// The position of an element with more attributes than can be read quickly.
 fn overlong_element(text: &str) -> Option<usize> {
     let mut at = 0;
     for element in text.split('<') {
@@ -26,7 +26,7 @@ fn overlong_element(text: &str) -> Option<usize> {
     None
 }
 
-/// Reads a text whose places begin at `start`.
+/// Reads a text whose positions begin at `start`.
 pub fn open<'t>(text: &'t str, start: usize, faults: &mut Faults) -> Option<Document<'t>> {
     if let Some(at) = overlong_element(text) {
         let message = format!("an element has more than {MOST_ATTRIBUTES} attributes");

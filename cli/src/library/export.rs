@@ -1,5 +1,6 @@
-// What the library exports. This text is no module of the command: `library.rs` puts it at the root of the generated file,
-// beside the module `machine` of the machine, the module `alone` for one state, and the modules of the crates `lagrangian-scalar` and `lagrangian-native`.
+// The exports of the library. This file is not a module of the command: `library.rs` includes its text at the root of the generated
+// file, beside the module `machine` of the machine, the module `alone` for one state, and the modules of the crates
+// `lagrangian-scalar` and `lagrangian-native`.
 
 use core::cell::UnsafeCell;
 use core::ffi::{CStr, c_char, c_int};
@@ -10,8 +11,8 @@ use machine::{COORDINATES, INPUTS, PARAMETERS, Prepared};
 use vector::Register;
 use scalar::{Kernel, Piece, Scalar};
 
-/// The functions of `libm` that generated code may call, by the C library. Sines and cosines are polynomials of this library
-/// up to 1e5 rad, where the processor has fused multiply-add.
+/// The functions of `libm` that generated code may call, from the C library. Sines and cosines up to 1e5 rad are polynomials
+/// of this library if the processor has fused multiply-add.
 mod libm {
     macro_rules! functions {
         ($($name:ident $method:ident($($argument:ident)?);)*) => {$(
@@ -31,7 +32,7 @@ mod libm {
     }
 }
 
-/// A number, and the registers in which the processor that the library is compiled for works on it.
+/// A number, with the registers of the target processor for it.
 pub trait Number: Copy {
     fn run<K: Kernel<Self>>(kernel: K) -> K::Output;
 }
@@ -66,8 +67,8 @@ numbers! { Lanes<8>: Eight, [f64; 8], plain::Plain<8>; }
 #[cfg(not(target_feature = "avx512vl"))]
 numbers! { Lanes<8>: TwiceFour, [f64; 8], plain::Plain<8>; }
 
-/// How many of eight states a long program takes at a time: as many as a register holds. A pair of registers that stands for
-/// one number lies in memory, where the time of the compiler grows with the square of the program.
+/// How many of eight states a long program evaluates at once: as many as fit in a register. A pair of registers for one
+/// number would be spilled to memory, and compile time would grow with the square of the program.
 #[cfg(target_feature = "avx512vl")]
 const IN_A_REGISTER: usize = 8;
 #[cfg(not(target_feature = "avx512vl"))]
@@ -77,7 +78,7 @@ const IN_A_REGISTER: usize = 4;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Singular;
 
-/// The pivots of a machine's eliminations, as `lagrangian::emitted` has them. Which row it was is of no use here.
+/// The pivots of a machine's eliminations, as in `lagrangian::emitted`, but without the index of the row.
 #[derive(Clone, Copy)]
 pub struct Pivots {
     pub coordinates: usize,
@@ -85,7 +86,7 @@ pub struct Pivots {
 }
 
 impl Pivots {
-    /// Whether a pivot exceeds its tolerance times the diagonal element, in all lanes; one that is no number does not.
+    /// Whether a pivot exceeds its tolerance times the diagonal element in all lanes; NaN does not.
     #[inline(always)]
     pub fn hold<N: Scalar>(self, pivot: N, diagonal: N) -> bool {
         pivot.exceeds(N::from_f64(self.tolerance) * diagonal)
@@ -110,30 +111,30 @@ const N: usize = COORDINATES.len();
 const P: usize = PARAMETERS.len();
 const U: usize = INPUTS.len();
 
-/// What `eval_setup` leaves for the evaluations; no register of it lies across two lines of a cache.
+/// The result of `eval_setup`, aligned such that no register load crosses cache lines.
 #[repr(align(64))]
 struct Slot<T>(UnsafeCell<Option<T>>);
 
-// SAFETY: the header asks that `eval_setup` is not called while another function of the library runs.
+// SAFETY: the header requires that `eval_setup` is not called while another function of the library runs.
 unsafe impl<T> Sync for Slot<T> {}
 
 static ONE: Slot<alone::Prepared<f64>> = Slot(UnsafeCell::new(None));
 
-/// The numbers of a table.
+/// The values of a table.
 fn values<const K: usize>(table: &[(&CStr, &CStr, f64); K]) -> [f64; K] {
     table.map(|(_, _, value)| value)
 }
 
 /// # Safety
-/// `p` is null or points to the parameters.
+/// `p` must be null or point to the parameters.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn eval_setup(p: *const f64) {
-    // SAFETY: what the caller promises.
+    // SAFETY: guaranteed by the caller.
     let row = match unsafe { p.cast::<[f64; P]>().as_ref() } {
         Some(row) => *row,
         None => values(&PARAMETERS),
     };
-    // SAFETY: nobody else runs.
+    // SAFETY: no other function of the library runs.
     unsafe {
         *ONE.0.get() = Some(alone::prepared(&row));
         set_up_lanes(&machine::prepared(&row));
@@ -143,22 +144,22 @@ pub unsafe extern "C" fn eval_setup(p: *const f64) {
 /// The values of the inputs, which follow the parameters.
 ///
 /// # Safety
-/// `p` is null or points to parameters and inputs.
+/// `p` must be null or point to parameters and inputs.
 #[inline(always)]
 unsafe fn given(p: *const f64) -> [f64; U] {
     if U == 0 || p.is_null() {
         return values(&INPUTS);
     }
-    // SAFETY: what the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { p.add(P).cast::<[f64; U]>().read() }
 }
 
 /// # Safety
-/// `y` and `qdd` point to as many numbers as the header says, apart from each other; `p` to parameters and inputs, or
-/// nowhere.
+/// `y` and `qdd` must point to as many numbers as the header says, without overlap; `p` must be null or point to
+/// parameters and inputs.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn eval(y: *const f64, t: f64, p: *const f64, qdd: *mut f64) {
-    // SAFETY: what the caller promises; nobody writes the slot meanwhile.
+    // SAFETY: guaranteed by the caller; the slot is not written meanwhile.
     unsafe {
         let ([q, v], a) = (&*y.cast::<[[f64; N]; 2]>(), &mut *qdd.cast::<[f64; N]>());
         let prepared = (*ONE.0.get()).as_ref();
@@ -168,13 +169,14 @@ pub unsafe extern "C" fn eval(y: *const f64, t: f64, p: *const f64, qdd: *mut f6
     }
 }
 
-/// The functions for several states at once, and how many of these are evaluated at a time: `library.rs` says which.
+/// Defines the functions for several states at once, and how many of these are evaluated together; `library.rs`
+/// writes the call.
 macro_rules! several {
     ($($name:ident: $lanes:literal by $width:expr;)*) => {
         /// # Safety
-        /// Nobody else runs.
+        /// No other function of the library may run.
         unsafe fn set_up_lanes(prepared: &Prepared) {
-            // SAFETY: what the caller promises.
+            // SAFETY: guaranteed by the caller.
             $(unsafe { *$name::SLOT.0.get() = Some(prepared.map(Lanes::splat)) };)*
         }
 
@@ -187,10 +189,10 @@ macro_rules! several {
                 pub static SLOT: Slot<Prepared<Lanes<WIDTH>>> = Slot(UnsafeCell::new(None));
 
                 /// # Safety
-                /// As of `eval`; `t` points to a time for each state.
+                /// As for `eval`; `t` must point to a time for each state.
                 #[unsafe(no_mangle)]
                 pub unsafe extern "C" fn $name(y: *const f64, t: *const f64, p: *const f64, qdd: *mut f64) {
-                    // SAFETY: as of `eval`; lanes are aligned as numbers, and every place lies among those of the states.
+                    // SAFETY: as for `eval`; lanes are aligned as single numbers, and every index is within the states.
                     unsafe {
                         let prepared = (*SLOT.0.get()).as_ref();
                         let inputs = given(p).map(Lanes::splat);
@@ -221,16 +223,16 @@ macro_rules! several {
                     }
                 }
 
-                /// Where one of the states has no accelerations, or an angle that is too large for lanes, the others are
-                /// what they are alone.
+                /// Evaluates states one by one if one of them has no accelerations, or an angle too large for lanes, so
+                /// that the others get the same results as alone.
                 ///
                 /// # Safety
-                /// As of the function above: all is read again, so that nothing need be kept for this.
+                /// As for the function above: everything is read again, so that nothing needs to be kept for this case.
                 #[cold]
                 #[inline(never)]
                 unsafe fn one_by_one(y: *const f64, t: *const f64, p: *const f64, qdd: *mut f64) {
                     for lane in 0..$lanes {
-                        // SAFETY: what the caller promises.
+                        // SAFETY: guaranteed by the caller.
                         unsafe {
                             let row = |i: usize| *y.add($lanes * i + lane);
                             let state: [f64; 2 * N] = core::array::from_fn(row);

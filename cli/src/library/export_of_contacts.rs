@@ -1,24 +1,25 @@
 
-// What a library exports of a machine with unilateral contacts. This text stands behind `export.rs`.
+// The exports for machines with unilateral contacts. This text follows `export.rs`.
 
 use machine::CONTACTS;
 
 const C: usize = CONTACTS.len();
 
-/// In place of the rows of constraints, where there are none.
+/// Replaces the rows of constraints if there are none.
 fn no_rows(_: &Prepared<f64>, _: f64, _: &[f64; N], _: &[f64; N], result: &mut [f64]) {
     result.fill(f64::NAN);
 }
 
-/// A quantity of the machine: of what is prepared, time, coordinates and rates.
+/// A quantity of the machine as a function of prepared values, time, coordinates and rates.
 type Quantity = fn(&Prepared<f64>, f64, &[f64; N], &[f64; N], &mut [f64]);
 
-/// Puts quantities where they go, or NaN, where nothing is set up.
+/// Writes quantities to their destinations, or NaN if `eval_setup` was not called.
 ///
 /// # Safety
-/// `y` points to a state; each place to as many numbers as stand beside it, apart from all that is read, or nowhere.
+/// `y` must point to a state; each destination must be null or point to as many numbers as given beside it, without
+/// overlap with the inputs.
 unsafe fn put(y: *const f64, t: f64, quantities: &[(*mut f64, usize, Quantity)]) {
-    // SAFETY: what the caller promises; nobody writes the slot meanwhile.
+    // SAFETY: guaranteed by the caller; the slot is not written meanwhile.
     unsafe {
         let [q, v] = &*y.cast::<[[f64; N]; 2]>();
         let prepared = (*ONE.0.get()).as_ref();
@@ -36,7 +37,7 @@ unsafe fn put(y: *const f64, t: f64, quantities: &[(*mut f64, usize, Quantity)])
 }
 
 /// # Safety
-/// As the header says.
+/// The header states the requirements.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn eval_contacts(
     y: *const f64,
@@ -54,19 +55,19 @@ pub unsafe extern "C" fn eval_contacts(
         (drift, 2 * C, machine::contact_drift_of),
         (coefficients, 4 * C, machine::contact_coefficients_of),
     ];
-    // SAFETY: what the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { put(y, t, &quantities) }
 }
 
 /// # Safety
-/// As the header says.
+/// The header states the requirements.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn eval_inertia(y: *const f64, t: f64, mass: *mut f64, constraints: *mut f64) {
     let quantities: [(*mut f64, usize, Quantity); 2] = [
         (mass, N * N, machine::mass_matrix_of),
         (constraints, CONSTRAINTS * N, constraint_rows),
     ];
-    // SAFETY: what the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { put(y, t, &quantities) }
 }
 

@@ -16,15 +16,15 @@ use crate::modes::{number, vary::Trace};
 use crate::output;
 use crate::table;
 
-/// An eigenvalue; of a conjugate pair that above the axis.
+/// An eigenvalue; of a conjugate pair the one above the real axis.
 struct Row {
     value: f64,
-    /// Which mode it is, from 1 on, the same along the range.
+    /// The number of its mode, from 1, which stays the same along the range.
     mode: usize,
     lambda: Complex<f64>,
 }
 
-/// Writes the table and says what is in it.
+/// Writes the table and prints a summary.
 ///
 /// # Errors
 /// If it cannot be written.
@@ -107,7 +107,7 @@ pub fn show(
     Ok(())
 }
 
-/// All eigenvalues, with numbers of modes that go on from value to value.
+/// All eigenvalues, with the numbers of modes continued from value to value.
 fn rows(machine: &InterpretedMachine, trace: &Trace) -> Vec<Row> {
     let system = machine.prepare();
     let mut rows = Vec::new();
@@ -141,7 +141,7 @@ fn rows(machine: &InterpretedMachine, trace: &Trace) -> Vec<Row> {
     rows
 }
 
-/// Which modes belong together: those that are most alike first.
+/// Matches modes, the most similar ones first.
 fn pairs(older: &[Mode], newer: &[Mode], mass: &DMatrix<f64>) -> Vec<(usize, usize)> {
     let mut all: Vec<(f64, usize, usize)> = Vec::with_capacity(older.len() * newer.len());
     for (k, one) in older.iter().enumerate() {
@@ -160,8 +160,8 @@ fn pairs(older: &[Mode], newer: &[Mode], mass: &DMatrix<f64>) -> Vec<(usize, usi
     pairs
 }
 
-/// How alike two modes are, from 0 to 1: by their shapes, measured by inertia (the modal assurance criterion; R. J. Allemang, *The
-/// modal assurance criterion*, Sound and Vibration 37 (2003) 14–21), and, of those of one shape, by their eigenvalues.
+/// The similarity of two modes, from 0 to 1: of their shapes in the metric of inertia (the modal assurance criterion; R. J.
+/// Allemang, *The modal assurance criterion*, Sound and Vibration 37 (2003) 14–21) and, for equal shapes, of their eigenvalues.
 fn alike(one: &Mode, other: &Mode, mass: &DMatrix<f64>) -> f64 {
     let vector = |mode: &Mode| DVector::from_column_slice(&mode.shape);
     let mass = mass.map(|x| Complex::new(x, 0.0));

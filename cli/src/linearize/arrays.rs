@@ -1,15 +1,15 @@
-//! A model as arrays with names, whatever file they go to.
+//! A model as named arrays, independent of the file format.
 
 use lagrangian_linear::DMatrix;
 use lagrangian_linear::model::{Label, Model};
 
-/// An array with a name.
+/// A named array.
 pub struct Array {
     pub name: &'static str,
     pub content: Content,
 }
 
-/// What is in an array.
+/// The content of an array.
 pub enum Content {
     Matrix(DMatrix<f64>),
     Vector(Vec<f64>),
@@ -21,7 +21,7 @@ pub fn plain(labels: &[Label]) -> Vec<String> {
     labels.iter().map(|label| label.name.clone()).collect()
 }
 
-/// What `.npz` and `.mat` hold.
+/// The arrays in `.npz` and `.mat` files.
 pub fn arrays(model: &Model) -> Vec<Array> {
     let matrix = |name, matrix: &DMatrix<f64>| Array {
         name,

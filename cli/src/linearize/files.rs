@@ -1,4 +1,4 @@
-//! The files that a call of `linearize` asks for.
+//! The output files of `linearize`.
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -12,27 +12,27 @@ use crate::call;
 use crate::failure::Failure;
 use crate::output::{self, Destination, MODEL, SVG, TABLE, keep_apart};
 
-/// The files that a call asks for.
+/// The files that a call requests.
 #[derive(Default)]
 pub struct Files {
-    /// The model in one file.
+    /// The model in a single file.
     model: Option<Destination>,
-    /// A file for each matrix.
+    /// One file for each matrix.
     matrices: Vec<(&'static str, Destination)>,
-    /// A table along a range.
+    /// The table along a range.
     pub table: Option<Destination>,
     bode: Option<Destination>,
     nyquist: Option<Destination>,
 }
 
-/// The matrices that have files of their own where the ending is `.csv`.
+/// The matrices that have separate files if the extension is `.csv`.
 const MATRICES: [&str; 6] = ["A", "B", "C", "D", "drift", "basis"];
 
 impl Files {
-    /// Looks at all of them, before anything is derived.
+    /// Checks all files before anything is derived.
     ///
     /// # Errors
-    /// If something cannot be written.
+    /// If a file cannot be written.
     pub fn new(call: &call::Linearize) -> Result<Files, Failure> {
         let mut files = Files {
             bode: Destination::of("--bode", call.bode.as_ref(), SVG)?,
@@ -71,7 +71,7 @@ impl Files {
     /// Writes a model.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn write(
         &self,
         title: &str,
@@ -113,7 +113,7 @@ impl Files {
     }
 }
 
-/// A cell of comma-separated text; `der(x,2)` has a comma of its own.
+/// A cell of comma-separated text; `der(x,2)` contains a comma.
 fn cell(text: &str) -> String {
     if text.contains(',') {
         format!("\"{text}\"")
@@ -122,7 +122,7 @@ fn cell(text: &str) -> String {
     }
 }
 
-/// A matrix with the names of its columns above and those of its rows before it.
+/// A matrix with the names of its columns above it and those of its rows in front.
 fn csv(
     rows: &[String],
     columns: &[String],

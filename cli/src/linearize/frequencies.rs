@@ -1,4 +1,4 @@
-//! Frequency responses as drawings: gain and phase over the frequency, and the curve in the complex plane.
+//! Frequency responses as drawings: Bode plots of gain and phase, and Nyquist curves.
 
 use std::f64::consts::{PI, TAU};
 
@@ -11,15 +11,15 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use super::Linearization;
 use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, axes, font, range, short, svg_of};
 
-/// Width of the names beside a panel, and how many fit.
+/// The width of the legend beside a panel, and the number of names that fit.
 const LEGEND: u32 = 170 * UNIT;
 const NAMES: usize = 11;
 
-/// Frequencies, evenly spaced in their logarithm; more stand near poles and zeros.
+/// The number of logarithmically spaced frequencies; further ones are added near poles and zeros.
 const POINTS: usize = 600;
 
-/// A Nyquist curve ends where it is so many times as far from 0 as in the middle of its frequencies: poles on the axis make it
-/// infinite.
+/// A Nyquist curve is cut off at this multiple of its distance from 0 at medium frequencies, because poles on the imaginary
+/// axis make it infinite.
 const FAR: f64 = 30.0;
 
 /// The response from one input to one output.
@@ -29,10 +29,10 @@ struct Curve {
     points: Vec<(f64, Complex<f64>)>,
 }
 
-/// A curve as it is drawn, in pieces.
+/// The pieces of a drawn curve.
 type Line = Vec<Vec<(f64, f64)>>;
 
-/// Frequencies in rad/s that show everything: from a tenth of the slowest pole or zero to ten times the fastest.
+/// Frequencies in rad/s that cover everything: from a tenth of the slowest pole or zero to ten times the fastest.
 fn frequencies(result: &Linearization) -> Vec<f64> {
     let poles = result.poles.iter().map(|pole| pole.lambda);
     let all: Vec<Complex<f64>> = poles.chain(result.zeros.iter().copied()).collect();
@@ -64,7 +64,7 @@ fn frequencies(result: &Linearization) -> Vec<f64> {
     list
 }
 
-/// All responses, where they are finite.
+/// All finite responses.
 fn curves(result: &Linearization) -> Vec<Curve> {
     let model = &result.model;
     let mut curves: Vec<Curve> = Vec::new();
@@ -89,7 +89,7 @@ fn curves(result: &Linearization) -> Vec<Curve> {
     curves
 }
 
-/// What there is to draw.
+/// The responses, or why there are none.
 fn drawn(result: &Linearization) -> Result<Vec<Curve>, String> {
     if result.model.inputs.is_empty() || result.model.outputs.is_empty() {
         return Err(
@@ -102,7 +102,7 @@ fn drawn(result: &Linearization) -> Result<Vec<Curve>, String> {
 /// Gain in dB and phase in degrees over the frequency in Hz, as SVG text.
 ///
 /// # Errors
-/// If there is nothing to draw, or what the drawing library says.
+/// If there is nothing to draw, or the drawing library fails.
 pub fn bode(title: &str, result: &Linearization) -> Result<String, String> {
     let curves = drawn(result)?;
     let names: Vec<&str> = curves.iter().map(|curve| curve.name.as_str()).collect();
@@ -121,7 +121,7 @@ pub fn bode(title: &str, result: &Linearization) -> Result<String, String> {
             let mut before: Option<f64> = None;
             let points = curve.points.iter().filter(|(_, g)| g.norm() > 0.0);
             let points = points.map(|(omega, g)| {
-                // Of all angles that differ by whole turns the one that is nearest to the one before.
+                // The phase is continued: the angle nearest to the previous one.
                 let angle = match before {
                     Some(before) => g.arg() - TAU * ((g.arg() - before) / TAU).round(),
                     None => g.arg(),
@@ -156,10 +156,10 @@ pub fn bode(title: &str, result: &Linearization) -> Result<String, String> {
     })
 }
 
-/// The curves of G(iω) and, below the axis, of G(−iω), as SVG text; −1 is marked.
+/// The curves of G(iω) and, mirrored at the real axis, of G(−iω), as SVG text; −1 is marked.
 ///
 /// # Errors
-/// As [`bode`].
+/// Those of [`bode`].
 pub fn nyquist(title: &str, result: &Linearization) -> Result<String, String> {
     let curves = drawn(result)?;
     let names: Vec<&str> = curves.iter().map(|curve| curve.name.as_str()).collect();
@@ -213,12 +213,12 @@ fn sheet<'a>(title: &str, backend: SVGBackend<'a>) -> Drawing<DrawingArea<SVGBac
 struct Axes {
     across: std::ops::Range<f64>,
     upwards: std::ops::Range<f64>,
-    /// How many numbers stand along the first, about.
+    /// The approximate number of ticks on the first axis.
     marks: usize,
     names: [&'static str; 2],
 }
 
-/// Curves with their names beside them.
+/// Draws curves with a legend.
 fn panel(
     area: &DrawingArea<SVGBackend<'_>, Shift>,
     axes: Axes,

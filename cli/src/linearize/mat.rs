@@ -1,9 +1,9 @@
-//! `.mat`: variables of MATLAB in the form of level 5, without compression (The MathWorks, *MAT-File Format*, R2023a, chapter 1).
-//! Text is a column of cells.
+//! Writer of `.mat` files: MATLAB variables in level 5 format, without compression (The MathWorks, *MAT-File Format*, R2023a,
+//! chapter 1). Text is stored as a column of cells.
 
 use super::arrays::{Array, Content};
 
-/// Types of data, tables 1-1 and 1-3.
+/// Data types, tables 1-1 and 1-3.
 const INT8: u32 = 1;
 const UINT16: u32 = 4;
 const INT32: u32 = 5;
@@ -14,9 +14,9 @@ const CELL_CLASS: u32 = 1;
 const CHAR_CLASS: u32 = 4;
 const DOUBLE_CLASS: u32 = 6;
 
-/// The file.
+/// The bytes of the file.
 pub fn bytes(arrays: &[Array]) -> Vec<u8> {
-    // A text of 116 bytes, nothing for 8, the version, and in which order the bytes of numbers are.
+    // A text of 116 bytes, 8 unused bytes, the version, and the byte order mark.
     let mut bytes = format!("{:<116}", "MATLAB 5.0 MAT-file, written by lagrangian").into_bytes();
     bytes.extend([0; 8]);
     bytes.extend(0x0100_u16.to_le_bytes());
@@ -45,7 +45,7 @@ pub fn bytes(arrays: &[Array]) -> Vec<u8> {
     bytes
 }
 
-/// A matrix of numbers, column by column.
+/// A matrix of numbers, stored by column.
 fn numbers(name: &str, shape: (usize, usize), columns: &[f64]) -> Vec<u8> {
     let mut content = head(name, DOUBLE_CLASS, shape);
     let data: Vec<u8> = columns.iter().flat_map(|x| x.to_le_bytes()).collect();
@@ -53,7 +53,7 @@ fn numbers(name: &str, shape: (usize, usize), columns: &[f64]) -> Vec<u8> {
     element(MATRIX, &content)
 }
 
-/// What comes before the data of an array: its class, its shape, its name.
+/// The fields before the data of an array: its class, its shape, its name.
 fn head(name: &str, class: u32, (rows, columns): (usize, usize)) -> Vec<u8> {
     let flags: Vec<u8> = [class, 0].into_iter().flat_map(u32::to_le_bytes).collect();
     let shape = [rows, columns].map(|count| count as i32);
@@ -66,7 +66,7 @@ fn head(name: &str, class: u32, (rows, columns): (usize, usize)) -> Vec<u8> {
     .concat()
 }
 
-/// Data behind its type and its length, filled up to 8 bytes.
+/// Data preceded by its type and length, and padded to 8 bytes.
 fn element(kind: u32, data: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(data.len() + 16);
     bytes.extend(kind.to_le_bytes());

@@ -1,5 +1,5 @@
-//! `.npz`: arrays of NumPy, an archive of files in the form `.npy` of version 1.0 (NumPy, *NEP 1 — A simple file format for
-//! NumPy arrays*, 2007). Text is of fixed width, so that nothing has to be unpickled.
+//! Writer of `.npz` files: an archive of NumPy arrays in `.npy` format version 1.0 (NumPy, *NEP 1 — A simple file format
+//! for NumPy arrays*, 2007). Text has fixed width, so that it can be read without pickle.
 
 use std::io::{self, Cursor, Write};
 
@@ -8,13 +8,13 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 
 use super::arrays::{Array, Content};
 
-/// The archive.
+/// The bytes of the archive.
 ///
 /// # Errors
-/// If it becomes larger than an archive may be.
+/// If it exceeds the size limit of an archive.
 pub fn bytes(arrays: &[Array]) -> io::Result<Vec<u8>> {
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
-    // One model gives one sequence of bytes: no clock.
+    // No time stamps, so that one model always gives the same bytes.
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Stored)
         .last_modified_time(DateTime::default());
@@ -25,7 +25,7 @@ pub fn bytes(arrays: &[Array]) -> io::Result<Vec<u8>> {
     Ok(archive.finish()?.into_inner())
 }
 
-/// One array.
+/// The bytes of one array.
 fn npy(content: &Content) -> Vec<u8> {
     let (kind, shape, data) = match content {
         Content::Matrix(matrix) => {
@@ -61,12 +61,12 @@ fn npy(content: &Content) -> Vec<u8> {
         }
     };
     let mut header = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}");
-    // Magic, version and length take 10 bytes; all of it is a multiple of 64, and ends with a line break.
+    // Magic, version and length take 10 bytes; the total is a multiple of 64 and ends with a line break.
     let padding = 63 - (10 + header.len()) % 64;
     header.push_str(&" ".repeat(padding));
     header.push('\n');
     let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
-    // A header is some dozens of letters.
+    // A header has only some dozens of characters.
     bytes.extend((header.len() as u16).to_le_bytes());
     bytes.extend(header.bytes());
     bytes.extend(data);

@@ -1,4 +1,4 @@
-//! The page of a map: the drawing, what it is under the pointer, and parts of it larger.
+//! The page of a map: the drawing, the values under the pointer, and zooming.
 
 use plotters::style::RGBColor;
 use serde_json::{Value, json};
@@ -11,7 +11,7 @@ use crate::report::{STYLE, base64};
 const PAGE: &str = include_str!("page.html");
 const SCRIPT: &str = include_str!("page.js");
 
-/// The page as one HTML file: what it is about, the name of the table, and what is drawn.
+/// The page as one HTML file, from the title, the name of the table, and the drawing.
 pub fn text(title: &str, table: &str, picture: &Picture<'_>) -> String {
     let data = match picture {
         Picture::Curves(curves) => of_curves(curves),
@@ -27,7 +27,7 @@ pub fn text(title: &str, table: &str, picture: &Picture<'_>) -> String {
     })
 }
 
-/// Numbers as 64-bit ones in little-endian order, in base 64: the page shows the values of the table.
+/// Numbers as 64-bit values in little-endian order, in base 64: the page shows the exact values of the table.
 fn numbers(values: impl Iterator<Item = f64>) -> String {
     base64(&values.flat_map(f64::to_le_bytes).collect::<Vec<u8>>())
 }

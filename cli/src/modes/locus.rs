@@ -1,27 +1,27 @@
-//! Motions along a range of values as a drawing: frequencies (a Campbell diagram), growth, and the root locus.
+//! Drawings of modes along a range of values: frequencies (a Campbell diagram), growth rates, and the root locus.
 
 use plotters::prelude::*;
 
 use super::vary::Trace;
 use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, axes, font, range, short, svg_of};
 
-/// Radius of a point.
+/// The radius of a point.
 const POINT: u32 = UNIT * 5 / 4;
 
-/// One of the drawings below each other.
+/// One of the drawings, arranged vertically.
 struct Figure {
     across: String,
     along: &'static str,
-    /// Points, and whether the motion grows.
+    /// Points, each with whether the motion grows.
     points: Vec<(f64, f64, bool)>,
-    /// Values to mark across.
+    /// Values to mark on the horizontal axis.
     marks: Vec<f64>,
 }
 
 /// The drawing as SVG text.
 ///
 /// # Errors
-/// What the drawing library says, as a sentence.
+/// An error of the drawing library, as a sentence.
 pub fn svg(title: &str, trace: &Trace) -> Result<String, String> {
     let figures = figures(trace);
     let height = 48 * UNIT + PANEL * figures.len() as u32;

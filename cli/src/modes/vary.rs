@@ -1,8 +1,9 @@
-//! `modes --vary` and `linearize --along`: a steady motion that is followed while a parameter or a rate changes, and where its modes change their kind.
+//! `modes --vary` and `linearize --along`: continuation of a steady motion in a parameter or a rate, and the values at which its
+//! modes change their kind.
 //!
-//! Each motion is sought from the one before it. Where it moves far for a small change, or is lost, the step is halved, so that
-//! what is followed is one motion and not now one, now another. Between two neighbours whose modes are of different kinds there
-//! is a critical value; it is found by bisection down to where rounding decides.
+//! Each motion is sought from the one before it. If it moves far for a small change, or is lost, the step is halved, so that the
+//! result is a single branch and does not jump between branches. Between two neighbours whose modes are of different kinds there is
+//! a critical value; it is found by bisection to the limit of round-off.
 
 use lagrangian::Machine as _;
 use lagrangian::interpreted::InterpretedMachine;
@@ -22,22 +23,23 @@ use crate::interrupt::Interrupt;
 use crate::output;
 use crate::progress;
 
-/// The most steps of Newton's method from one motion to the next.
+/// The most Newton steps from one motion to the next.
 const MOST_STEPS: usize = 40;
 
-/// How often the step to the next value is halved.
+/// How many times the step to the next value may be halved.
 const MOST_HALVINGS: usize = 8;
 
-/// A motion is another one if a coordinate is off by more than this, in rad, m, or as a share of it.
+/// A motion belongs to another branch if a coordinate differs by more than this, in rad, m, or relative to it.
 const NEAR: f64 = 0.25;
 
 /// The most critical values between two neighbours.
 const MOST_CRITICAL: usize = 8;
 
-/// Changes as near as this share of the distance of two values are one: beside a critical value rounding decides what a mode is.
+/// Changes closer together than this fraction of the distance of two values count as one: very near a critical
+/// value the kind of a mode is subject to round-off.
 const TOGETHER: f64 = 1e-7;
 
-/// What is varied.
+/// The varied quantity.
 enum Subject {
     /// A parameter or an input.
     Parameter,
@@ -45,53 +47,53 @@ enum Subject {
     Rates(Vec<usize>),
 }
 
-/// One of the values.
+/// The result at one value.
 pub struct Point {
     /// The value.
     pub value: f64,
-    /// The motion there, or why there is none.
+    /// The motion, or why there is none.
     pub motion: Result<Motion, String>,
-    /// Whether it continues the motion at the value before.
+    /// Whether it continues the motion at the previous value.
     pub continues: bool,
 }
 
-/// Where modes change their kind.
+/// A value at which modes change their kind.
 pub struct Critical {
     /// The value.
     pub value: f64,
-    /// It is known up to this.
+    /// The uncertainty of the value.
     pub error: f64,
-    /// How many motions grow before and after it.
+    /// The number of growing modes before and after it.
     pub growing: [usize; 2],
-    /// How many oscillate.
+    /// The number of oscillating modes before and after it.
     pub oscillating: [usize; 2],
-    /// The eigenvalue that changes, as far as one can be told.
+    /// The eigenvalue that changes, if it can be identified.
     pub lambda: Option<Complex<f64>>,
 }
 
 /// Steady motions along a range of values.
 pub struct Trace {
-    /// What is varied.
+    /// The name of the varied quantity.
     pub name: String,
-    /// Its unit; `1` for a bare number.
+    /// Its unit; `1` for a pure number.
     pub unit: String,
-    /// Which coordinates move steadily, and which rates are sought.
+    /// Which coordinates move steadily, and which rates are to be found.
     pub wanted: Wanted,
-    /// In the order of the values.
+    /// The results in the order of the values.
     pub points: Vec<Point>,
-    /// In the same order.
+    /// The critical values in the same order.
     pub critical: Vec<Critical>,
 }
 
-/// A critical value as near as this to one of the values that are asked for, as a share of their distance, is that one.
+/// A critical value this close to one of the requested values, relative to their distance, is set to that value.
 const AT_AN_END: f64 = 1e-9;
 
-/// How many modes are of which kind.
+/// The number of modes of each kind.
 #[derive(Clone, Copy, PartialEq)]
 struct Kinds {
     growing: usize,
     oscillating: usize,
-    /// Some are neither, but for rounding.
+    /// Modes that are neither within round-off.
     lost: usize,
 }
 
@@ -114,7 +116,7 @@ struct At {
     motion: Motion,
 }
 
-/// What is followed.
+/// The data for continuation.
 struct Tracer<'a> {
     machine: &'a InterpretedMachine,
     search: &'a call::Search,
@@ -123,10 +125,10 @@ struct Tracer<'a> {
     wanted: Wanted,
 }
 
-/// Follows the steady motion of a call along the values of its `--vary`, or another option.
+/// Continues the steady motion of a call along the values of `--vary`, or of another option.
 ///
 /// # Errors
-/// If the call is at fault, or there is no motion at any value.
+/// If the call is invalid, or there is no motion at any value.
 pub fn trace(
     search: &call::Search,
     (option, vary): (&str, &call::Vary),
@@ -152,11 +154,11 @@ pub fn trace(
         let machine = tracer.machine_at(value(k));
         let mut said = compiled.model.refused_values(machine.parameter_values());
         if k > 0 {
-            // What is strange only is said once.
+            // Warnings are printed only once.
             said.retain(|diagnostic| diagnostic.code.severity() == Severity::Error);
         }
         diagnostics::refused(&said).map_err(Failure::Call)?;
-        // Drives that some values stop are told at the first that does not.
+        // The first value may happen to remove a time dependence, so other values are checked too.
         if k < 2 || k == last {
             let (q, wanted) = tracer.start(&machine)?;
             refuse_drives(&machine, &q, &wanted)?;
@@ -179,7 +181,7 @@ pub fn trace(
         let continues = matches!(followed, Some(Ok(_)));
         let found = match (followed, &before) {
             (Some(Ok(motion)), _) => Ok(motion),
-            // The one that was followed has ended; there may be another.
+            // The branch has ended; there may be another one.
             (Some(Err(_)), Some(before)) => tracer.from(&before.motion, value),
             _ => tracer.anew(value),
         };
@@ -192,7 +194,7 @@ pub fn trace(
                 motion: motion.clone(),
             });
         } else {
-            // A motion that has ended is not followed over the gap.
+            // A branch that has ended is not continued across the gap.
             before = None;
         }
         points.push(Point {
@@ -294,13 +296,13 @@ impl<'a> Tracer<'a> {
     fn machine_at(&self, value: f64) -> InterpretedMachine {
         let mut machine = self.machine.clone();
         if let Subject::Parameter = self.subject {
-            // That the name is known was seen before.
+            // The name has been checked.
             let _ = machine.set(self.name, value);
         }
         machine
     }
 
-    /// Where the search begins for itself.
+    /// The start of a search that is not a continuation.
     fn start(&self, machine: &InterpretedMachine) -> Result<(Vec<f64>, Wanted), Failure> {
         let mut start = machine.start();
         set_start(&mut start, &self.search.start)?;
@@ -333,7 +335,7 @@ impl<'a> Tracer<'a> {
         self.find(&machine, &q, wanted, value)
     }
 
-    /// The motion that is reached from another one.
+    /// The motion that the search reaches from another one.
     fn from(&self, other: &Motion, value: f64) -> Result<Motion, Failure> {
         let mut wanted = self.wanted.clone();
         for j in 0..wanted.rates.len() {
@@ -349,7 +351,7 @@ impl<'a> Tracer<'a> {
         )
     }
 
-    /// The motion at another value of the parameter.
+    /// The continuation of a motion to another value of the parameter.
     fn follow(&self, from: &At, value: f64, halvings: usize) -> Result<Motion, Failure> {
         let found = self.from(&from.motion, value);
         match found {
@@ -369,7 +371,7 @@ impl<'a> Tracer<'a> {
         self.follow(&middle, value, halvings - 1)
     }
 
-    /// Critical values between two neighbours.
+    /// Finds the critical values between two neighbours.
     fn locate(&self, from: &At, to: f64, end: &Motion, critical: &mut Vec<Critical>) {
         let last = Kinds::of(&end.modes);
         let mut low = At {
@@ -408,7 +410,7 @@ impl<'a> Tracer<'a> {
         }
         let mut changes = changes.into_iter().peekable();
         while let Some((low, before, mut high, mut after)) = changes.next() {
-            // What is one change, seen through rounding.
+            // Merges changes that are one change within round-off.
             while let Some((_, _, end, motion)) =
                 changes.next_if(|(next, ..)| (next - high).abs() <= TOGETHER * span)
             {
@@ -419,7 +421,7 @@ impl<'a> Tracer<'a> {
                 continue;
             }
             let (mut value, mut error) = (0.5 * (low + high), 0.5 * (high - low).abs());
-            // Where rounding decides on both sides of one of the values themselves, it is this.
+            // If both kinds are round-off at one of the end values itself, that value is critical.
             for end in [from.value, to] {
                 if (value - end).abs() <= AT_AN_END * span {
                     error += (value - end).abs();
@@ -437,7 +439,7 @@ impl<'a> Tracer<'a> {
     }
 }
 
-/// The eigenvalue that changes its kind, by how near it is to the other.
+/// The eigenvalue that changes its kind: the one closest to doing so.
 fn changing(modes: [&Modes; 2], [first, then]: [Kinds; 2]) -> Option<Complex<f64>> {
     let nearest =
         |modes: &Modes, is: &dyn Fn(Complex<f64>) -> bool, size: &dyn Fn(Complex<f64>) -> f64| {
@@ -449,7 +451,7 @@ fn changing(modes: [&Modes; 2], [first, then]: [Kinds; 2]) -> Option<Complex<f64
             all.min_by(|a, b| size(*a).total_cmp(&size(*b)))
         };
     if first.oscillating != then.oscillating {
-        // Two that meet on the axis: there is no oscillation any more.
+        // A pair meets on the real axis and stops oscillating.
         let side = usize::from(then.oscillating > first.oscillating);
         let met = nearest(modes[side], &|lambda| lambda.im > 0.0, &|lambda| lambda.im)?;
         return Some(Complex::new(met.re, 0.0));

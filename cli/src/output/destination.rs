@@ -1,7 +1,7 @@
-//! A file that is to be written: looked at before a run, and either whole or as it was after it.
+//! An output file: checked before a run, and afterwards either complete or unchanged.
 //!
-//! What is written goes to a temporary file in the same folder, which takes the name when it is complete and on the disk.
-//! Whatever ends the command before, the file of that name is the older one, or there is none.
+//! The content is written to a temporary file in the same folder, which is renamed when it is complete and flushed to
+//! disk. If the command ends before, a file of that name is the old one, or there is none.
 
 use std::fs::{self, File, OpenOptions, Permissions};
 use std::io::{self, BufWriter, Write};
@@ -12,15 +12,15 @@ use super::ending::{self, Endings};
 use super::{FAILED, IS_TAKEN, Taken};
 use crate::failure::Failure;
 
-/// Symbolic links that lead to each other are followed this often, as Linux does.
+/// The most symbolic links that are followed, as in Linux.
 const MOST_LINKS: usize = 40;
 
-/// Where something is to be written.
+/// The destination of an output.
 #[derive(Debug)]
 pub struct Destination {
     /// The option that names it.
     option: &'static str,
-    /// Its path as the call has it.
+    /// The path as given in the call.
     path: PathBuf,
     ending: &'static str,
     target: Target,
@@ -29,9 +29,9 @@ pub struct Destination {
 
 #[derive(Debug)]
 enum Target {
-    /// A file, there already or not, at the end of all links.
+    /// A regular file, existing or not, after resolving all links.
     File(PathBuf),
-    /// A device or a pipe, which is written as it is.
+    /// A device or a pipe, which is written directly.
     Device,
     /// Standard output, by one of its names.
     Output,
@@ -39,24 +39,23 @@ enum Target {
     Error,
 }
 
-/// Two paths lead to one file where these are equal.
+/// The identity of a file: two paths lead to the same file if these are equal.
 #[derive(Debug, PartialEq, Eq)]
 enum Identity {
-    /// A file that is there: device and inode.
+    /// An existing file: device and inode.
     #[cfg(unix)]
     Inode(u64, u64),
-    /// One that is not: the folder's own path, and the name in it.
+    /// A new file: the canonical path of its folder, and its name.
     Path(PathBuf),
     /// Standard output or standard error.
     Stream(&'static str),
 }
 
 impl Destination {
-    /// Looks at the place that an option names, and whether something can be written there, with an ending that is known.
-    /// Nothing is changed.
+    /// Checks whether the path given by an option can be written, and has a known extension. Nothing is changed.
     ///
     /// # Errors
-    /// The call is at fault if nothing can be written there, or the ending is not among those given.
+    /// If the path cannot be written, or the extension is not among those given, the call is invalid.
     pub fn new(
         option: &'static str,
         path: &Path,
@@ -83,10 +82,10 @@ impl Destination {
         })
     }
 
-    /// The destination of an option that the call may leave out.
+    /// The destination of an optional option.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// Those of [`new`](Self::new).
     pub fn of(
         option: &'static str,
         path: Option<&PathBuf>,
@@ -96,12 +95,12 @@ impl Destination {
             .transpose()
     }
 
-    /// The ending, one of those that the option takes.
+    /// The extension, one of those that the option accepts.
     pub fn ending(&self) -> &'static str {
         self.ending
     }
 
-    /// The file, if it is one and no device, at the end of all links.
+    /// The path after resolving all links, if it is a regular file and not a device.
     pub fn file(&self) -> Option<&Path> {
         match &self.target {
             Target::File(path) => Some(path),
@@ -112,15 +111,15 @@ impl Destination {
     /// Writes a text.
     ///
     /// # Errors
-    /// As [`write`](Self::write).
+    /// Those of [`write`](Self::write).
     pub fn write_text(&self, text: &str) -> Result<(), Failure> {
         self.write(|to| to.write_all(text.as_bytes()))
     }
 
-    /// Writes what `content` writes. Only when all of it is on the disk, it takes the place of what was there.
+    /// Writes what `content` writes. The new file replaces the old one only when it is complete and on disk.
     ///
     /// # Errors
-    /// What the file system says; what was there is as it was.
+    /// Errors of the file system; the old file is then unchanged.
     pub fn write(
         &self,
         content: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
@@ -128,10 +127,10 @@ impl Destination {
         self.write_with_mode(0o666, content)
     }
 
-    /// Writes a file that may be executed, as linkers make libraries.
+    /// Writes an executable file, with the permissions that linkers give to libraries.
     ///
     /// # Errors
-    /// As [`write`](Self::write).
+    /// Those of [`write`](Self::write).
     pub fn write_executable(&self, bytes: &[u8]) -> Result<(), Failure> {
         self.write_with_mode(0o777, |to| to.write_all(bytes))
     }
@@ -150,7 +149,7 @@ impl Destination {
             Target::Output => {
                 IS_TAKEN.store(true, Ordering::Relaxed);
                 match buffered(Taken, content) {
-                    // Told at the end, once.
+                    // The error is reported once, at the end.
                     Err(_) if FAILED.get().is_some() => Ok(()),
                     written => written.map(drop),
                 }
@@ -162,10 +161,10 @@ impl Destination {
     }
 }
 
-/// Refuses files that two options name, and files that the command reads, each with what it is.
+/// Refuses a file that two options name, or that the command also reads; each is given with its description.
 ///
 /// # Errors
-/// The call is at fault.
+/// If there is such a file, the call is invalid.
 pub fn keep_apart<'a>(
     destinations: impl IntoIterator<Item = &'a Destination>,
     read: &[(&Path, &str)],
@@ -196,10 +195,10 @@ pub fn keep_apart<'a>(
     Ok(())
 }
 
-/// Refuses a file that is standard output where the result is a JSON document, which stands there alone.
+/// Refuses standard output as a file if the result is a JSON document, which must be alone there.
 ///
 /// # Errors
-/// The call is at fault.
+/// If so, the call is invalid.
 pub fn keep_document_apart<'a>(
     destinations: impl IntoIterator<Item = &'a Destination>,
     json: bool,
@@ -218,7 +217,7 @@ fn refused(option: &str, path: &Path, why: &str) -> Failure {
     Failure::Call(format!("cannot write {option} {}: {why}", path.display()))
 }
 
-/// What stands at a path, or will.
+/// The target of a path, which may not exist yet.
 fn place(path: &Path) -> Result<(Target, Option<Identity>), String> {
     let end = end_of_links(path);
     for (name, target) in [("stdout", Target::Output), ("stderr", Target::Error)] {
@@ -236,13 +235,13 @@ fn place(path: &Path) -> Result<(Target, Option<Identity>), String> {
                 return Err("standard output goes to the same file".to_owned());
             }
             let path = path.canonicalize().map_err(|error| error.to_string())?;
-            // What may not be written is not replaced either.
+            // A file without write permission is not replaced either.
             let opened = OpenOptions::new().write(true).open(&path);
             opened.map_err(|error| error.to_string())?;
             let identity = identity_of(&path);
             Ok((Target::File(path), identity))
         }
-        // As much as one likes may go to /dev/null or a terminal; what reads a pipe expects one thing.
+        // Several outputs may go to /dev/null or a terminal, but the reader of a pipe expects only one.
         Ok(found) => Ok((
             Target::Device,
             identity_of(path).filter(|_| is_pipe(&found)),
@@ -255,7 +254,7 @@ fn place(path: &Path) -> Result<(Target, Option<Identity>), String> {
     }
 }
 
-/// Where a path leads when its last name is a link, and so on; as far as it leads. Links to open files count as names.
+/// The target of a path after following symbolic links, as far as they lead. Links to open files are kept as names.
 fn end_of_links(path: &Path) -> PathBuf {
     let mut path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     for _ in 0..MOST_LINKS {
@@ -273,7 +272,7 @@ fn end_of_links(path: &Path) -> PathBuf {
     path
 }
 
-/// The path of a file that is not there yet, in the shortest form of its folder.
+/// The path of a file that does not exist yet, with the canonical path of its folder.
 fn new_file(path: &Path) -> Result<PathBuf, String> {
     let is_folder = path.as_os_str().as_encoded_bytes().ends_with(b"/");
     let name = path.file_name().filter(|_| !is_folder);
@@ -297,7 +296,7 @@ fn is_pipe(_: &fs::Metadata) -> bool {
     false
 }
 
-/// What tells a file that is there from every other.
+/// The identity of an existing file.
 #[cfg(unix)]
 fn identity_of(path: &Path) -> Option<Identity> {
     fs::metadata(path).ok().as_ref().map(inode)
@@ -309,7 +308,7 @@ fn inode(found: &fs::Metadata) -> Identity {
     Identity::Inode(found.dev(), found.ino())
 }
 
-/// What tells a file that is there from every other, but for hard links.
+/// The identity of an existing file; hard links are not recognized.
 #[cfg(not(unix))]
 fn identity_of(path: &Path) -> Option<Identity> {
     path.canonicalize().ok().map(Identity::Path)
@@ -332,11 +331,11 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().unwrap_or(Path::new("/"))
 }
 
-/// Whether a file can be made beside this one.
+/// Checks whether a file can be created in the folder of this path.
 fn try_folder(path: &Path) -> Result<(), String> {
     let folder = folder_of(path);
     match temporary(folder, 0o600) {
-        Ok(_) => Ok(()), // And it is gone again.
+        Ok(_) => Ok(()), // the temporary file has been removed
         Err(error) => Err(format!(
             "no file can be made in the folder {}: {error}",
             folder.display()
@@ -344,7 +343,7 @@ fn try_folder(path: &Path) -> Result<(), String> {
     }
 }
 
-/// A file with a name of its own, for this time hidden.
+/// A temporary file with a unique, hidden name.
 fn temporary(folder: &Path, mode: u32) -> io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".lagrangian-").suffix(".partial");
@@ -354,7 +353,7 @@ fn temporary(folder: &Path, mode: u32) -> io::Result<tempfile::NamedTempFile> {
     builder.tempfile_in(folder)
 }
 
-/// What a new file may have, as far as the user's mask lets it.
+/// The permissions of a new file, within the user's umask.
 #[cfg(unix)]
 fn permissions(mode: u32) -> Option<Permissions> {
     use std::os::unix::fs::PermissionsExt;
@@ -366,7 +365,7 @@ fn permissions(_: u32) -> Option<Permissions> {
     None
 }
 
-/// Writes a temporary file, and gives it the name when all is on the disk.
+/// Writes a temporary file and renames it when it is complete and on disk.
 fn replace(
     path: &Path,
     mode: u32,
@@ -382,7 +381,7 @@ fn replace(
     file.sync_all()?;
     drop(file);
     if let Err(failed) = part.persist(path) {
-        // Complete, but under another name: it must not be lost for that.
+        // The file is complete but could not be renamed: it must not be lost.
         let error = failed.error;
         return match failed.path.keep() {
             Ok(kept) => Err(io::Error::other(format!(
@@ -392,12 +391,12 @@ fn replace(
             Err(_) => Err(error),
         };
     }
-    // The new name, too, is on the disk where the system can promise that.
+    // Flushes the folder too, so that the new name is on disk, where the system supports that.
     let _ = File::open(folder).and_then(|folder| folder.sync_all());
     Ok(())
 }
 
-/// Gives a file to whom the older one belongs, as far as the user may.
+/// Keeps the owner of the old file, as far as the user may.
 #[cfg(unix)]
 fn keep_owner(file: &File, older: &fs::Metadata) {
     use std::os::unix::fs::{MetadataExt, fchown};
@@ -413,7 +412,7 @@ fn keep_owner(file: &File, older: &fs::Metadata) {
 #[cfg(not(unix))]
 fn keep_owner(_: &File, _: &fs::Metadata) {}
 
-/// Writes to a file in large pieces, and gives it back when all was written.
+/// Writes through a buffer, and returns the file when everything has been written.
 fn buffered<W: Write + Send>(
     to: W,
     content: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
@@ -454,10 +453,10 @@ mod tests {
         let path = folder.path().join("a.txt");
         fs::write(&path, "older").unwrap();
         let destination = at(&path);
-        assert_eq!(names(folder.path()), ["a.txt"]); // The trial is gone.
+        assert_eq!(names(folder.path()), ["a.txt"]); // the trial file has been removed
         let failed = destination.write(|to| {
             to.write_all(b"half")?;
-            // A reader sees the older file until now.
+            // Readers see the old file up to this point.
             assert_eq!(fs::read_to_string(&path).unwrap(), "older");
             Err(io::Error::from(io::ErrorKind::StorageFull))
         });

@@ -1,10 +1,10 @@
-//! The endings that files may have, since the ending says what is written.
+//! File extensions, which determine the format of the output.
 
 use std::path::Path;
 
 use crate::failure::Failure;
 
-/// The endings that an option takes; the first is the form of what is no file and has none.
+/// The extensions that an option accepts; the first is the format of outputs that are not files.
 pub type Endings = &'static [&'static str];
 
 /// A table.
@@ -42,18 +42,18 @@ pub const LIBRARY: Endings = &["so", "dylib", "dll"];
 /// A functional mock-up unit.
 pub const UNIT: Endings = &["fmu"];
 
-/// The ending of a path as it stands in the list, whatever its case.
+/// The extension of a path as it is written in the list, ignoring case.
 pub fn known(path: &Path, endings: Endings) -> Option<&'static str> {
     let ending = path.extension()?.to_str()?.to_ascii_lowercase();
     endings.iter().copied().find(|known| *known == ending)
 }
 
-/// Whether a path has one of these endings.
+/// Whether a path has one of these extensions.
 pub fn ending_is_one_of(path: &Path, endings: Endings) -> bool {
     known(path, endings).is_some()
 }
 
-/// What to say of a path whose ending is not in the list.
+/// The failure for a path whose extension is not in the list.
 pub fn unknown(option: &str, path: &Path, endings: Endings) -> Failure {
     let list: Vec<String> = endings
         .iter()

@@ -1,11 +1,11 @@
-//! Text that reaches a page, made harmless; tables.
+//! HTML: escaping of text, and tables.
 
 use std::fmt::Write;
 
 use lagrangian_print::document::{Run, of_docs};
 use serde_json::Value;
 
-/// Text between tags and in quoted attributes.
+/// Escapes text for content and for quoted attributes.
 pub fn text(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -15,7 +15,7 @@ pub fn text(text: &str) -> String {
             '>' => safe.push_str("&gt;"),
             '"' => safe.push_str("&quot;"),
             '\'' => safe.push_str("&#39;"),
-            // No reader sees them, and no document may hold them.
+            // Control characters are invisible, and not allowed in documents.
             '\0'..='\x08' | '\x0b' | '\x0c' | '\x0e'..='\x1f' | '\x7f' => {}
             letter => safe.push(letter),
         }
@@ -23,7 +23,7 @@ pub fn text(text: &str) -> String {
     safe
 }
 
-/// A paragraph of a doc comment between tags, with its code and its stressed words.
+/// A paragraph of a doc comment as HTML, with its code and its emphasized words.
 pub fn docs(paragraph: &str) -> String {
     let run = |run: &Run| match run {
         Run::Text(words) => text(words),
@@ -34,7 +34,7 @@ pub fn docs(paragraph: &str) -> String {
     of_docs(paragraph).iter().map(run).collect()
 }
 
-/// JSON within a `<script>` element: nothing in it looks like a tag or a comment.
+/// JSON for a `<script>` element, which cannot contain a tag or a comment.
 pub fn json(value: &Value) -> String {
     let text = value.to_string();
     text.replace('<', "\\u003c")
@@ -42,7 +42,7 @@ pub fn json(value: &Value) -> String {
         .replace('\u{2029}', "\\u2029")
 }
 
-/// A text in which every `{{name}}` is replaced by what `part` says; what is put in is not looked at again.
+/// Replaces every `{{name}}` in a text by the result of `part`; replacements are not scanned again.
 pub fn fill(template: &str, part: impl Fn(&str) -> String) -> String {
     let mut filled = String::new();
     let mut rest = template;
@@ -62,15 +62,15 @@ pub fn fill(template: &str, part: impl Fn(&str) -> String) -> String {
 
 /// A cell of a table.
 pub enum Cell {
-    /// Words.
+    /// Text.
     Words(String),
-    /// A number, or a name: aligned and in letters of one width.
+    /// A number or a name: right-aligned and in a monospaced font.
     Figure(String),
     /// HTML.
     Raw(String),
 }
 
-/// A table with a caption for those who cannot see where it stands. A last column of which nothing is known is left out.
+/// A table with a caption for screen readers. If the last column is empty in all rows, it is left out.
 pub fn table(caption: &str, head: &[&str], rows: &[Vec<Cell>]) -> String {
     let known =
         |row: &Vec<Cell>| !matches!(row.last(), Some(Cell::Words(words)) if words.is_empty());
@@ -92,7 +92,7 @@ pub fn table(caption: &str, head: &[&str], rows: &[Vec<Cell>]) -> String {
     html.push_str("<tbody>\n");
     for row in rows {
         html.push_str("<tr>");
-        // A table without heads has as many columns as it has.
+        // A table without a header has as many columns as each row.
         let columns = if has_head { columns } else { row.len() };
         for (index, cell) in row.iter().take(columns).enumerate() {
             let (class, body) = match cell {

@@ -1,4 +1,4 @@
-//! A page that computes: the machine's program as JavaScript, and sliders that run it again.
+//! An interactive page: the machine's program as JavaScript, with sliders that run it again.
 
 use std::collections::BTreeMap;
 
@@ -12,10 +12,10 @@ use serde_json::{Value, json};
 use super::Report;
 use super::html;
 
-/// What runs and shows it.
+/// The script that runs the machine and shows it.
 pub const SCRIPT: &str = include_str!("live.js");
 
-/// The place of the sliders.
+/// The section with the sliders.
 pub const SECTION: &str = r#"<section id="live" aria-labelledby="live-title">
 <style>
 #sliders { display: grid; grid-template-columns: repeat(auto-fill, minmax(22rem, 1fr)); gap: 0.3rem 1.5rem; }
@@ -30,10 +30,10 @@ pub const SECTION: &str = r#"<section id="live" aria-labelledby="live-title">
 </section>
 "#;
 
-/// The methods that a page has: pairs of Runge-Kutta, whose stages follow each other.
+/// The methods that the page supports: embedded explicit Runge–Kutta pairs.
 const EXPLICIT: [&str; 3] = ["dop853", "dopri5", "bs32"];
 
-/// Why a page cannot run a machine; `None` where it can.
+/// Why a page cannot run a machine; `None` if it can.
 pub fn objection(
     program: &Program,
     method: &Method,
@@ -69,7 +69,7 @@ pub fn objection(
     Some(format!("--live: {what}"))
 }
 
-/// What to do where constraints depend on each other: the page solves for the multipliers of all of them.
+/// Advice for dependent constraints: the page solves for the multipliers of all constraints.
 pub fn without_constraint(warning: &Warning, machine: &str, file: &str) -> String {
     let help = match warning {
         Warning::RedundantConstraint { constraint, .. } => format!(
@@ -81,15 +81,15 @@ pub fn without_constraint(warning: &Warning, machine: &str, file: &str) -> Strin
     format!("--live: {warning}; the page solves for the multipliers of all constraints{help}")
 }
 
-/// How a page integrates.
+/// The settings of the integration on the page.
 pub struct Live {
-    /// Of a step, relative and absolute.
+    /// Relative and absolute tolerance of a step.
     pub tolerance: f64,
-    /// How many steps a run may take.
+    /// The most steps of a run.
     pub most_steps: usize,
 }
 
-/// The machine, as a script. Names of the spec stand in it: nothing in it may end the element.
+/// The machine as a script. It contains names of the spec, which must not end the element.
 pub fn machine(report: &Report<'_, '_>) -> String {
     let program = &report.compiled.program;
     let text = script::file(program, Dialect::JavaScript, &[], &BTreeMap::new());
@@ -97,13 +97,13 @@ pub fn machine(report: &Report<'_, '_>) -> String {
 }
 
 impl Live {
-    /// The element with what the script reads.
+    /// The element with the data that the script reads.
     pub fn data(&self, report: &Report<'_, '_>) -> String {
         let program = &report.compiled.program;
         let tableau = &report.method.tableau;
         let start = report.run.start;
         let own = report.machine.start();
-        // What the call says stays; the rest follows from the parameters.
+        // Values given in the call are fixed; the others follow from the parameters.
         let pairs = || {
             let values = start.q.values.iter().chain(&start.v.values);
             values.zip(own.q.values.iter().chain(&own.v.values))
@@ -125,7 +125,7 @@ impl Live {
             .chain(rates)
             .zip(pairs())
             .map(|((name, unit), (value, _))| {
-                // On the integral of a state of first order nothing depends.
+                // Nothing depends on the integral of a state of first order.
                 let is_hidden = state_of(&name).is_some();
                 json!({ "name": name, "unit": unit, "value": value, "hidden": is_hidden })
             })

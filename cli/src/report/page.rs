@@ -1,4 +1,4 @@
-//! The page: its text, its tables, and the files it is made from.
+//! The HTML of the page: its text, its tables, and the files that it includes.
 
 use lagrangian::{Machine, System};
 use lagrangian_mechanics::Compiled;
@@ -15,17 +15,17 @@ use crate::contacts::{Found, other_events};
 use crate::numbers::shortest;
 
 const PAGE: &str = include_str!("page.html");
-/// The style of all pages.
+/// The style sheet of all pages.
 pub const STYLE: &str = include_str!("page.css");
 
-/// The control of a page that has forces of contact to show.
+/// The control that appears if there are contact forces.
 const FORCES: &str =
     "<label><input type=\"checkbox\" id=\"forces\" checked> Contact forces</label>\n";
 
-/// What the derivation may fill, in bytes: whole equations of a large machine are megabytes.
+/// The most bytes for the derivation: the full equations of a large machine take megabytes.
 const DERIVATION: usize = 700_000;
 
-/// What draws and plots: one module, whose parts follow each other. What plays stands behind it.
+/// The parts of the script that draws and plots, which are concatenated to one module; the player follows them.
 pub const DRAWING: [&str; 4] = [
     include_str!("motion.js"),
     include_str!("view.js"),
@@ -68,7 +68,7 @@ pub fn text(
         "statistics" => statistics(report, samples),
         "counts" => counts(&report.compiled.program),
         "equations" => equations(report.compiled),
-        // The page's own comes last: its colours follow the button, too.
+        // The page's own style comes last, so that its colours also follow the button.
         "style" => [derivation::STYLE, STYLE].concat(),
         "data" => html::json(data),
         "script" => {
@@ -82,7 +82,7 @@ pub fn text(
     })
 }
 
-/// What the spec says about the machine: its first words at once, a long text on demand.
+/// The documentation of the spec: the beginning is visible, the rest of a long text can be expanded.
 fn introduction(docs: &str) -> String {
     /// Longer texts would push the machine off the screen.
     const SHORT: usize = 300;
@@ -99,7 +99,7 @@ fn introduction(docs: &str) -> String {
     )
 }
 
-/// Documentation: what is indented by four spaces stays as it is, as in Markdown.
+/// Documentation as HTML; text indented by four spaces is preformatted, as in Markdown.
 fn paragraphs(docs: &str) -> String {
     let mut html = String::new();
     let lines: Vec<&str> = docs.lines().collect();
@@ -133,7 +133,7 @@ fn figure(x: f64) -> Cell {
     Cell::Figure(shortest(rounded(x)).replace('-', "−"))
 }
 
-/// A unit as books print it: `kg*m^2` is kg·m².
+/// A unit in typeset form: `kg*m^2` as kg·m².
 fn unit(text: &str) -> String {
     let powers = [("^-", "⁻"), ("^2", "²"), ("^3", "³"), ("^4", "⁴")];
     let text = text.replace('*', "·");
@@ -149,7 +149,7 @@ fn unit(text: &str) -> String {
     }
 }
 
-/// A number to look at, in nine digits.
+/// A number rounded to nine digits, for display.
 fn rounded(x: f64) -> f64 {
     format!("{x:.8e}").parse().unwrap_or(x)
 }
@@ -158,7 +158,7 @@ fn name(name: impl ToString) -> Cell {
     Cell::Raw(format!("<code>{}</code>", safe(&name.to_string())))
 }
 
-/// A number that somebody set, and what it would have been.
+/// A number that was set, with its default.
 fn changed(value: f64, otherwise: Option<f64>) -> Cell {
     let shown = shortest(rounded(value)).replace('-', "−");
     match otherwise {
@@ -174,7 +174,7 @@ fn changed(value: f64, otherwise: Option<f64>) -> Cell {
     }
 }
 
-/// Notes in one box: one note as it is, more behind the first.
+/// Notes in a box: the first one is visible, the others can be expanded.
 fn folded(notes: &[String]) -> String {
     match notes {
         [] => String::new(),
@@ -190,9 +190,9 @@ fn folded(notes: &[String]) -> String {
     }
 }
 
-/// Why the run ended early, and what else its reader must know.
+/// Why the run ended early, and other warnings.
 fn alert(report: &Report<'_, '_>, samples: &Samples) -> String {
-    /// What one begins to see.
+    /// The smallest visible error.
     const COARSE: f64 = 0.01;
     let mut alert = String::new();
     if let Some(error) = &report.error {
@@ -345,7 +345,7 @@ fn parameters(report: &Report<'_, '_>) -> String {
     html
 }
 
-/// Where the run starts and where it ends.
+/// A table of the start and the end of the run.
 fn start(report: &Report<'_, '_>) -> String {
     let Report { machine, run, .. } = report;
     let default = machine.start();
@@ -381,7 +381,7 @@ fn start(report: &Report<'_, '_>) -> String {
     html::table("Coordinates at the start and at the end", &head, &rows)
 }
 
-/// In seven digits.
+/// An energy with seven digits.
 fn joules(x: f64) -> Cell {
     let rounded = format!("{x:.6e}").parse().unwrap_or(x);
     Cell::Figure(shortest(rounded).replace('-', "−"))
@@ -419,14 +419,14 @@ fn energy(report: &Report<'_, '_>) -> String {
     html::table("Energy balance", &["", "J"], &rows)
 }
 
-/// Marks of events beside the time line, each of which leads to its instant; nothing where nothing happened. Of very many events that
-/// stand closer than marks are wide one is marked, an impact before others, and told how many there are.
+/// The marks of events on the time line, linked to their instants; empty without events. Of many events closer together than the
+/// width of a mark only one is marked, preferably an impact, with their number.
 fn marks(report: &Report<'_, '_>) -> String {
     let (from, to) = (report.run.start.t, report.run.end.t);
     if from == to {
         return String::new();
     }
-    /// What stands at one place.
+    /// The events at one position.
     struct Mark {
         t: f64,
         said: String,
@@ -442,7 +442,7 @@ fn marks(report: &Report<'_, '_>) -> String {
         let of_impact = impact.map_or_else(String::new, |impact| format!(": {impact}"));
         let said = format!("{} at t = {} s{of_impact}", event.name, shortest(t));
         let is_impact = impact.is_some();
-        // 0 to 1000, of the share.
+        // The position from 0 to 1000.
         let place = (1000.0 * share(t)).round() as u16;
         let first = Mark {
             t,
@@ -483,7 +483,7 @@ fn marks(report: &Report<'_, '_>) -> String {
     }
 }
 
-/// What impacts did, in words, by the time and the name of their events.
+/// The effects of impacts as text, by the time and the name of their events.
 fn impacts<'a>(report: &'a Report<'_, '_>) -> std::collections::BTreeMap<(u64, &'a str), String> {
     let told = report.run.contact_events.iter().filter_map(|told| {
         let impact = told.impact?;
@@ -510,7 +510,7 @@ fn impacts<'a>(report: &'a Report<'_, '_>) -> std::collections::BTreeMap<(u64, &
     events.collect()
 }
 
-/// What happened, each with a link to its instant.
+/// A list of events, each linked to its instant.
 fn events(report: &Report<'_, '_>) -> String {
     let impacts = impacts(report);
     let rows: Vec<Vec<Cell>> = other_events(report.run.events, report.contacts)
@@ -530,7 +530,7 @@ fn events(report: &Report<'_, '_>) -> String {
     html::table("Events", &["t [s]", "what happened"], &rows)
 }
 
-/// How much friction rolling needed, and from when on it could not be.
+/// The friction that rolling contacts needed, and from when on rolling was impossible.
 fn contacts(report: &Report<'_, '_>) -> String {
     let time = |t: f64| format!("<a href=\"#t={t:?}\">{}</a>", shortest(rounded(t)));
     let from = |t: Option<f64>| Cell::Raw(t.map_or_else(|| "–".to_owned(), time));
@@ -604,7 +604,7 @@ fn statistics(report: &Report<'_, '_>, samples: &Samples) -> String {
     html::table("The run", &[""], &rows)
 }
 
-/// What the functions that a step needs cost.
+/// The operation counts of the functions that a step needs.
 fn counts(program: &Program) -> String {
     let functions = program.all_functions().filter(|function| {
         (function.role == Role::Prepare || function.role == program.solving())
@@ -638,7 +638,7 @@ fn counts(program: &Program) -> String {
     html::table("Operations of one call", &head, &rows)
 }
 
-/// The derivation, as far as it fits: the shortest formulas of all.
+/// The derivation as far as it fits, with the shortest formulas first.
 fn equations(compiled: &Compiled<'_>) -> String {
     let mut document = Document::new(compiled);
     let sections = document.sections.iter().enumerate();
@@ -676,7 +676,7 @@ fn equations(compiled: &Compiled<'_>) -> String {
     )
 }
 
-/// How long a block is as HTML.
+/// The length of a block as HTML.
 fn length(block: &Block) -> usize {
     let section = lagrangian_print::document::Section {
         title: String::new(),

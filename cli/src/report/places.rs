@@ -1,8 +1,8 @@
-//! The numbers that a page computes at every instant, and what is rigid among them.
+//! The values that a page computes at every instant, and rigidity relations among them.
 //!
-//! A point is the place of its first component in one long list of values; equal points share a place. Which points keep
-//! their distance whatever the machine does is decided exactly: in the prime field of [`Residue`], where every parameter
-//! has one random value and every coordinate several.
+//! A point is represented by the index of its first component in one list of values; equal points share an index.
+//! Whether two points keep their distance for every motion is decided exactly in the prime field of [`Residue`], where
+//! every parameter has one random value and every coordinate several.
 
 use std::collections::BTreeMap;
 
@@ -10,15 +10,15 @@ use lagrangian_scalar::{Residue, Scalar};
 use lagrangian_spec::model::{Model, stage};
 use lagrangian_symbolic::{Expr, Id, Symbol, evaluate};
 
-/// Random values of the parameters that are tried: roots of some have no value in the field.
+/// The number of random sets of parameters that are tried: square roots of some have no value in the field.
 const WORLDS: u64 = 4;
 
-/// Random states in each of them. Three that have a value must agree, or four: a wrong «constant» passes with a probability
-/// of about 2⁻¹⁰⁰.
+/// The number of random states for each set, and how many of them must have a value and agree. The probability of accepting
+/// a wrong «constant» is about 2⁻¹⁰⁰.
 const STATES: u64 = 6;
 const NEEDED: usize = 3;
 
-/// The values, each list of components once.
+/// The values, with each list of components stored once.
 #[derive(Default)]
 pub struct Places<'d> {
     values: Vec<Expr<'d>>,
@@ -26,7 +26,7 @@ pub struct Places<'d> {
 }
 
 impl<'d> Places<'d> {
-    /// The place of the first of these components.
+    /// The index of the first of these components.
     pub fn of(&mut self, components: &[Expr<'d>]) -> usize {
         let ids: Vec<Id> = components.iter().map(|component| component.id()).collect();
         let next = self.values.len();
@@ -37,30 +37,30 @@ impl<'d> Places<'d> {
         place
     }
 
-    /// All of them.
+    /// All values.
     pub fn values(&self) -> &[Expr<'d>] {
         &self.values
     }
 
-    /// Their number in all states of the experiment.
+    /// The values in all states of the random experiment.
     pub fn experiment(&self, model: &Model<'d>) -> Experiment {
         Experiment::new(model, &self.values)
     }
 
-    /// Gives up the values.
+    /// Returns the values.
     pub fn into_values(self) -> Vec<Expr<'d>> {
         self.values
     }
 }
 
-/// The values in random worlds (parameters) and states (time and coordinates).
+/// The values for random parameter sets (worlds) and states (time and coordinates).
 pub struct Experiment {
     /// `worlds[w][s][place]`.
     worlds: Vec<Vec<Vec<Residue>>>,
 }
 
 impl Experiment {
-    /// Evaluates in all of them.
+    /// Evaluates the values in all worlds and states.
     pub fn new(model: &Model<'_>, values: &[Expr<'_>]) -> Experiment {
         let state = |world: u64, state: u64| {
             let value = |symbol: Symbol| {
@@ -94,17 +94,18 @@ impl Experiment {
         false
     }
 
-    /// Whether a value is the same in every state.
+    /// Whether a value is constant.
     pub fn keeps(&self, place: usize) -> bool {
         self.is_constant(|x| x[place])
     }
 
-    /// Whether two points of so many components keep their distance.
+    /// Whether two points with `dimension` components keep their distance.
     pub fn keeps_distance(&self, a: usize, b: usize, dimension: usize) -> bool {
         self.is_constant(|x| square(x, [a, b], dimension))
     }
 
-    /// Whether a point rests in the frame with this origin and these axes, components of one axis after the other.
+    /// Whether a point is fixed in the frame with this origin and these axes, whose components are stored one axis
+    /// after the other.
     pub fn rests(&self, point: usize, origin: usize, axes: usize, dimension: usize) -> bool {
         (0..dimension).all(|axis| {
             self.is_constant(|x| {
@@ -114,7 +115,7 @@ impl Experiment {
         })
     }
 
-    /// Whether a vector keeps its length, given the places of its components; components that are 0 are left out.
+    /// Whether a vector has constant length, given the indices of its nonzero components.
     pub fn keeps_length(&self, components: &[usize]) -> bool {
         self.is_constant(|x| {
             let square = |place: &usize| x[*place] * x[*place];
@@ -124,16 +125,16 @@ impl Experiment {
         })
     }
 
-    /// Whether all components are equal, that is, two points are one.
+    /// Whether two points coincide.
     pub fn coincide(&self, a: usize, b: usize, dimension: usize) -> bool {
         let zero = |x: &[Residue]| (0..dimension).all(|k| x[a + k] == x[b + k]);
         a == b || self.worlds.iter().flatten().all(|state| zero(state))
     }
 
-    /// Whether the distance of two points and a stretch differ by what does not change: `|a − b| = ±(stretch + c)`.
+    /// Whether the distance of two points is a stretch up to a constant: `|a − b| = ±(stretch + c)`.
     ///
-    /// Without roots: with `e = |a − b|² − stretch²` that is `e = 2 c · stretch + c²`, so the pairs (stretch, e) lie on a
-    /// line whose slope and intercept agree. Returns whether `c` is 0.
+    /// Square roots are avoided: with `e = |a − b|² − stretch²` the condition is `e = 2 c · stretch + c²`, so the pairs
+    /// (stretch, e) lie on a line whose slope and intercept are consistent. Returns whether `c` is 0.
     pub fn is_stretch(&self, a: usize, b: usize, stretch: usize, dimension: usize) -> Option<bool> {
         let (slope, intercept) = self.line(stretch, |x| {
             square(x, [a, b], dimension) - x[stretch] * x[stretch]
@@ -142,15 +143,16 @@ impl Experiment {
         (intercept == c * c).then_some(c == Residue::ZERO)
     }
 
-    /// Whether a constraint keeps the distance of two points: where `g` is 0, so is `|a − b| − c` or `|a − b|² − c`.
+    /// Whether a constraint keeps the distance of two points: its function `g` vanishes together with `|a − b| − c`
+    /// or `|a − b|² − c`.
     pub fn is_kept(&self, a: usize, b: usize, g: usize, dimension: usize) -> bool {
         let of_square = self.line(g, |x| square(x, [a, b], dimension));
         of_square.is_some_and(|(slope, _)| slope != Residue::ZERO)
             || self.is_stretch(a, b, g, dimension).is_some()
     }
 
-    /// Slope and intercept of a function of the values that is linear in one of them; none where it is not, or where that
-    /// value does not change.
+    /// Slope and intercept of a function of the values that depends linearly on one of them; `None` if it does not, or if
+    /// that value is constant.
     fn line(&self, by: usize, f: impl Fn(&[Residue]) -> Residue) -> Option<(Residue, Residue)> {
         for states in &self.worlds {
             let pairs: Vec<(Residue, Residue)> = states
@@ -175,7 +177,7 @@ impl Experiment {
     }
 }
 
-/// The square of the distance of two points of so many components.
+/// The squared distance of two points with `dimension` components.
 fn square(x: &[Residue], [a, b]: [usize; 2], dimension: usize) -> Residue {
     let square = |k| {
         let d = x[a + k] - x[b + k];

@@ -1,57 +1,57 @@
-//! The motion as the page stores it: as few states as show it, in 32 bits.
+//! The motion as stored on the page: as few states as needed, in 32 bits.
 //!
-//! Between two stored states the page takes the cubic through positions and velocities, whose error falls as the fourth
-//! power of the interval. States are recorded closely, and every other one is left out as long as the cubic finds it again.
+//! Between two stored states the page interpolates by the Hermite cubic of coordinates and rates, whose error is of fourth
+//! order in the interval. States are recorded densely, and every other one is dropped as long as the cubic reproduces it.
 
 use std::fmt::Write;
 
 use crate::recording::{Column, Kind, ROUNDING, Recording, extent};
 
-/// What the states may fill, in bytes before they are encoded.
+/// The most bytes for the states, before encoding.
 const STATE_BYTES: usize = 1_050_000;
 
-/// More states than this show nothing more.
+/// More states than this make no visible difference.
 const MOST: usize = 65_536;
 
-/// As few as this would make curves of straight lines.
+/// With fewer states than this curves would look like polygons.
 const FEWEST: usize = 256;
 
-/// How far the cubic may be from the motion: as a part of what the coordinate spans, a quarter of a pixel of a large plot;
-/// and of what the rate spans. It need not follow rounding.
+/// The allowed error of the cubic: relative to the range of the coordinate, a quarter of a pixel of a large plot, and
+/// relative to the range of the rate. Round-off need not be reproduced.
 const POSITION: f64 = 2e-4;
 const RATE: f64 = 2e-3;
 
-/// An angle may be wrong by this much, however many turns it makes, in rad.
+/// The allowed error of an angle, in rad, however many turns it makes.
 const ANGLE: f64 = 2e-4;
 
-/// How many states a page holds of a machine with so many coordinates.
+/// The most states that a page stores for a machine with this number of coordinates.
 pub fn most(coordinates: usize) -> usize {
     (STATE_BYTES / (8 * coordinates.max(1))).clamp(2, MOST)
 }
 
-/// How many times more often than every `interval` a run of that length is to be recorded for a page. A power of two where
-/// others read the record, too: then the instants of the coarser one are among those of the finer to the last bit.
+/// By which factor a run of this length must be recorded more densely than every `interval` for a page. It is a power of
+/// two if the recording is shared, so that the coarser instants are exactly among the finer ones.
 pub fn finer(coordinates: usize, length: f64, interval: f64, shared: bool) -> u32 {
     let fits = (most(coordinates) as f64 * (interval / length).abs()).min(1e6) as u32;
-    // At least the record itself, however fine.
+    // At least the recording itself, however dense.
     let fits = fits.max(1);
     if shared { 1 << fits.ilog2() } else { fits }
 }
 
-/// The states of a page.
+/// The stored states of a page.
 pub struct Samples {
-    /// The recorded instants that are kept: every so many, and the last.
+    /// The recorded instants that are kept: every `stride`-th one, and the last.
     pub stride: usize,
-    /// Their number.
+    /// The number of states.
     pub count: usize,
-    /// The greatest error of the cubic between them, as a part of what coordinates of that unit span.
+    /// The greatest interpolation error, relative to the range of coordinates with the same unit.
     pub error: f64,
     /// `q` and `v` of one instant after the other, as 32-bit numbers in little-endian order, in base 64.
     pub states: String,
 }
 
 impl Samples {
-    /// Chooses the states.
+    /// Selects the states.
     pub fn new(recording: &Recording) -> Samples {
         let rows = recording.times.len();
         let q: Vec<&Column> = recording.of_kind(Kind::Coordinate).collect();
@@ -62,7 +62,7 @@ impl Samples {
         while count(stride) > most.max(3) {
             stride *= 2;
         }
-        // The last instant is not on the grid.
+        // The last instant may not be on the grid.
         let grid = rows.saturating_sub(1);
         let motion = Motion::new(&recording.times[..grid], &q, &v);
         while count(2 * stride) >= FEWEST && motion.finds_again(2 * stride) {
@@ -89,7 +89,7 @@ impl Samples {
     }
 }
 
-/// The recorded motion, and what each quantity spans.
+/// The recorded motion, and the range of each quantity.
 struct Motion<'a> {
     times: &'a [f64],
     quantities: Vec<Quantity<'a>>,
@@ -98,16 +98,16 @@ struct Motion<'a> {
 struct Quantity<'a> {
     q: &'a [f64],
     v: &'a [f64],
-    /// What is allowed.
+    /// The allowed errors of coordinate and rate.
     position: f64,
     rate: f64,
-    /// By what an error of the coordinate is measured: the most that any of its unit spans, unless that is rounding.
+    /// The scale of an error: the largest range of a coordinate with the same unit, unless that is round-off.
     measure: f64,
 }
 
 impl<'a> Motion<'a> {
     fn new(times: &'a [f64], q: &[&'a Column], v: &[&'a Column]) -> Motion<'a> {
-        // Of all columns with the unit of this one: the most that one spans, and what is rounding there.
+        // Over all columns with the unit of this one: the largest range, and the round-off.
         let measure = |columns: &[&'a Column], unit: &str| {
             let same = columns.iter().filter(|column| column.unit == unit);
             let sizes = same.map(|column| (span(&column.values), largest(&column.values)));
@@ -137,7 +137,7 @@ impl<'a> Motion<'a> {
         }
     }
 
-    /// Whether the middle of every `stride` instants is where the cubic through its ends has it.
+    /// Whether the cubic through the ends of every `stride` instants reproduces their middle.
     fn finds_again(&self, stride: usize) -> bool {
         self.quantities.iter().all(|quantity| {
             self.middles(stride).all(|[a, m, b]| {
@@ -148,8 +148,8 @@ impl<'a> Motion<'a> {
         })
     }
 
-    /// The greatest error in a middle, as a part of what coordinates of that unit span. Where nothing is left out it is estimated from
-    /// every other instant: the cubic is of order 4.
+    /// The greatest error at a middle, relative to the range of coordinates with the same unit. If no instants are dropped it is
+    /// estimated from every other instant, because the cubic is of order 4.
     fn error(&self, stride: usize) -> f64 {
         if stride < 2 {
             return self.error(2) / 16.0;
@@ -164,7 +164,7 @@ impl<'a> Motion<'a> {
         self.quantities.iter().map(of).fold(0.0, f64::max)
     }
 
-    /// Beginning, middle and end of every `stride` instants.
+    /// The first, middle and last index of every `stride` instants.
     fn middles(&self, stride: usize) -> impl Iterator<Item = [usize; 3]> {
         let rows = if stride < 2 { 0 } else { self.times.len() };
         let starts = (0..rows).step_by(stride.max(1));
@@ -174,7 +174,7 @@ impl<'a> Motion<'a> {
 }
 
 impl Quantity<'_> {
-    /// The cubic through two instants, and its slope, in the middle between them.
+    /// The value and the slope of the cubic through two instants, half-way between them.
     fn middle(&self, [a, b]: [usize; 2], times: &[f64]) -> (f64, f64) {
         let h = times[b] - times[a];
         let (q0, q1, v0, v1) = (self.q[a], self.q[b], self.v[a], self.v[b]);
@@ -193,7 +193,7 @@ fn largest(values: &[f64]) -> f64 {
     extent(values.iter().map(|value| value.abs())).map_or(0.0, |[_, largest]| largest)
 }
 
-/// A constant rate spans nothing, and is still only known to roundoff of what it is made from.
+/// The range of rates: a constant rate has no range, and is only known to its round-off.
 fn span_of_rates(values: &[f64]) -> f64 {
     span(values).max(1e-6 * largest(values))
 }
@@ -267,8 +267,8 @@ mod tests {
         }
     }
 
-    /// The cubic is wrong by (ωh)⁴/384 of the amplitude, 2·10⁻⁴ of the span at ωh = 0.62; its slope by (ωh)³/(72√3) of ω
-    /// off the middle: what is kept lies between that interval and half of it.
+    /// The error of the cubic is (ωh)⁴/384 of the amplitude, 2·10⁻⁴ of the range at ωh = 0.62; that of its slope, away
+    /// from the middle, is (ωh)³/(72√3) of ω. The stored interval lies between that one and half of it.
     #[test]
     fn as_many_states_are_kept_as_the_motion_needs() {
         for hertz in [1.0, 8.0, 40.0] {
@@ -283,7 +283,8 @@ mod tests {
         }
     }
 
-    /// A second coordinate that rests but for rounding, which no cubic finds again, costs no states and is no error.
+    /// A second coordinate at rest within round-off, which no cubic reproduces, requires no additional states and
+    /// counts as exact.
     #[test]
     fn rounding_is_not_followed() {
         let alone = vibration(1.0, 16_000);
@@ -302,7 +303,7 @@ mod tests {
         assert!((both.error - alone.error).abs() <= 1e-3 * alone.error);
     }
 
-    /// Where there is no room for more, the error is told: (ωh)⁴/384 of the amplitude, half of the span.
+    /// If there is no room for more states, the error is reported: (ωh)⁴/384 of the amplitude, which is half of the range.
     #[test]
     fn what_is_stored_too_coarsely_is_estimated() {
         let recording = vibration(400.0, 4000);

@@ -1,20 +1,20 @@
-//! What is drawn of a machine. A spec says nothing about drawing: what is joined is found in the model.
+//! The picture of a machine. A spec says nothing about drawing, so connections are found in the model.
 //!
-//! * A shift of constant length, from one frame to the next, is a link; two points whose distance a constraint keeps are joined
-//!   by a rope.
-//! * A body is joined by a rod to the nearest point before it (the ground, origins of frames, earlier bodies) from which
-//!   it keeps its distance. If there is none, to a point that its own position is built on: the pivot of a driven
-//!   pendulum, the axle of a debalance.
+//! * A displacement of constant length from one frame to the next is a link; two points whose distance a constraint keeps are
+//!   connected by a rope.
+//! * A body is connected by a rod to the nearest earlier point (the ground, origins of frames, earlier bodies) from which it keeps
+//!   its distance. If there is none, it is connected to a point in the expression of its own position: the pivot of a driven
+//!   pendulum, the axle of an unbalanced rotor.
 //! * A body with an `outline` is drawn as that polygon.
-//! * A body with an inertia is drawn as the uniform solid that has it: a disc, or a bar where it hangs at the end of one,
-//!   in the plane; a cylinder or a box in space.
-//! * A contact has its force where it touches, along the normal and the tangents there. One whose gap is given by an expression has it on
-//!   its line of action, where that is found as that of a spring is.
-//! * A spring or damper given by its stretch is drawn between the two points whose distance differs from the stretch by
-//!   a constant; failing that, on its line of action: where on its body a force must act to have that work.
+//! * A body with an inertia is drawn as the uniform solid that has it: in the plane a disc, or a bar if it is attached at the end
+//!   of one; in space a cylinder or a box.
+//! * The force of a contact is drawn where it touches, along the normal and the tangents. If the gap is given by an expression, the
+//!   force is drawn on its line of action, if that can be found as for a spring.
+//! * A spring or damper given by its stretch is drawn between the two points whose distance differs from the stretch by a constant;
+//!   otherwise on its line of action: where a force on its body must act to have the same power.
 //!
-//! Everything found is true for all parameters, coordinates and times, see [`places`](super::places). Points and
-//! vectors are places in the list of values that the page computes.
+//! All findings hold for all parameters, coordinates and times, see [`places`](super::places). Points and vectors are indices in
+//! the list of values that the page computes.
 
 use lagrangian_spec::model::circles::{body_axes, outline, placed};
 use lagrangian_spec::model::element::{Drawing, Element, Shape, Site};
@@ -27,21 +27,21 @@ use serde::Serialize;
 use super::places::{Experiment, Places};
 use super::touching;
 
-/// A part of so many pairs of points and elements would take seconds to search.
+/// The most pairs of points and elements that are searched; more would take seconds.
 const MOST_PAIRS: usize = 400_000;
 
-/// How near the half-length of a uniform bar must be to the distance of a joint for the body to be taken for that bar.
+/// How closely the half-length of a uniform bar must match the distance of a joint for the body to be drawn as that bar.
 const BAR: f64 = 0.02;
 
-/// The picture of a machine, and the values it is drawn from.
+/// The picture of a machine, with the values that it needs.
 pub struct Scene<'d> {
-    /// What is drawn.
+    /// The picture.
     pub picture: Picture,
-    /// What the page must compute for it, at every instant.
+    /// The values that the page must compute at every instant.
     pub values: Vec<Expr<'d>>,
 }
 
-/// What is drawn. All numbers of type `usize` are places in the values, but for `body`, which is an index.
+/// The picture. All numbers of type `usize` are indices of values, except `body`, which is the index of a body.
 #[derive(Debug, Serialize)]
 pub struct Picture {
     /// 2 in the plane, 3 in space.
@@ -50,29 +50,29 @@ pub struct Picture {
     pub ground: usize,
     pub bodies: Vec<BodyDrawn>,
     pub frames: Vec<FrameDrawn>,
-    /// Shifts of constant length between frames.
+    /// Displacements of constant length between frames.
     pub links: Vec<Link>,
     /// Springs and dampers.
     pub elements: Vec<ElementDrawn>,
     pub circles: Vec<CircleDrawn>,
-    /// Contacts, for their forces.
+    /// Contacts whose forces are drawn.
     pub contacts: Vec<ContactDrawn>,
-    /// The acceleration of gravity, a vector.
+    /// The acceleration of gravity, as a vector.
     pub gravity: Option<usize>,
-    /// Springs, dampers and forces of contact that have no place that could be shown.
+    /// Springs, dampers and contact forces without a place where they can be drawn.
     pub omitted: Vec<String>,
 }
 
 #[derive(Debug, Serialize)]
 pub struct BodyDrawn {
     pub name: String,
-    /// In kg, of this run.
+    /// The mass in this run, in kg.
     pub mass: f64,
     /// The mass centre.
     pub at: usize,
-    /// The axes, components of one after the other; absent where the spec does not say how the body is turned.
+    /// The axes, one after the other; `None` if the spec does not define the orientation of the body.
     pub axes: Option<usize>,
-    /// The point that a rod joins it to.
+    /// The point to which a rod connects it.
     pub rod: Option<usize>,
     pub solid: Option<Solid>,
 }
@@ -81,19 +81,19 @@ pub struct BodyDrawn {
 #[derive(Debug, Serialize, PartialEq)]
 #[serde(rename_all = "lowercase", tag = "form")]
 pub enum Solid {
-    /// In the plane, a polygon with these points for corners.
+    /// In the plane, a polygon with these corners.
     Outline { corners: Vec<usize> },
     /// In the plane.
     Disc { radius: f64 },
-    /// In the plane, from `end`, at `half` from the mass centre, to as far beyond it.
+    /// In the plane, from `end`, at distance `half` from the mass centre, to the same distance beyond it.
     Bar { end: usize, half: f64 },
-    /// In space, about an axis given in the body's axes.
+    /// In space, about an axis given in the axes of the body.
     Cylinder {
         axis: [f64; 3],
         radius: f64,
         half: f64,
     },
-    /// In space, along axes given in the body's axes.
+    /// In space, along axes given in the axes of the body.
     Box { axes: [[f64; 3]; 3], half: [f64; 3] },
 }
 
@@ -109,14 +109,14 @@ pub struct Link {
     pub ends: [usize; 2],
     /// The first body that is fixed to it.
     pub body: Option<usize>,
-    /// Whether a constraint keeps its length: a rope, or a rod without mass.
+    /// Whether a constraint keeps its length, as for a rope or a massless rod.
     pub rope: bool,
 }
 
 #[derive(Debug, Serialize)]
 pub struct ElementDrawn {
     pub name: String,
-    /// Whether it is a damper and no spring.
+    /// Whether it is a damper instead of a spring.
     pub damper: bool,
     #[serde(flatten)]
     pub place: Placed,
@@ -127,15 +127,15 @@ pub struct ElementDrawn {
 pub enum Placed {
     /// Between two points.
     Between { ends: [usize; 2] },
-    /// From the ground to a point of a body, in its axes, along a direction in the ground's: a sketch, since the spec gives
-    /// the line of action only. `side` is −1 where it stands behind the body, 1 before it.
+    /// From the ground to a point of a body, in the axes of the body, along a direction in those of the ground. It is a
+    /// sketch, since the spec only determines the line of action. `side` is −1 behind the body and 1 in front of it.
     Sketch {
         body: usize,
         foot: [f64; 2],
         along: [f64; 2],
         side: i8,
     },
-    /// Twists about a point.
+    /// A torsion element about a point.
     Twist { about: usize },
 }
 
@@ -144,16 +144,16 @@ pub struct CircleDrawn {
     pub name: String,
     pub center: usize,
     pub radius: usize,
-    /// The axes of what it is fixed to.
+    /// The axes of the frame to which it is fixed.
     pub axes: usize,
-    /// The body that it belongs to.
+    /// The body to which it belongs.
     pub body: Option<usize>,
 }
 
 #[derive(Debug, Serialize)]
 pub struct ContactDrawn {
     pub name: String,
-    /// The curves that hold the components of its force, along its directions.
+    /// The names of the curves with the components of its force along its directions.
     pub forces: Vec<String>,
     #[serde(flatten)]
     pub place: Touch,
@@ -167,7 +167,8 @@ pub enum Touch {
         point: usize,
         directions: Vec<usize>,
     },
-    /// On a line of action: from a point of a body, in its axes, and what the force is where that on the gap is 1, in the ground's.
+    /// On a line of action: at a point of a body, in its axes, with the force per unit of the force on the gap, in
+    /// the axes of the ground.
     Line {
         body: usize,
         foot: [f64; 2],
@@ -176,7 +177,7 @@ pub enum Touch {
 }
 
 impl<'d> Scene<'d> {
-    /// The scene of a machine that starts at these values of the symbols: parameters, coordinates, time.
+    /// The scene of a machine with these initial values of the symbols: parameters, coordinates, time.
     pub fn new(model: &Model<'d>, value: &dyn Fn(Symbol) -> f64) -> Scene<'d> {
         let mut places = Places::default();
         let points = Points::new(model, &mut places);
@@ -232,24 +233,24 @@ impl<'d> Scene<'d> {
     }
 }
 
-/// The places of everything that has one.
+/// The indices of all points and vectors.
 struct Points {
     dimension: usize,
-    /// Of each pose.
+    /// For each pose.
     origins: Vec<usize>,
     axes: Vec<usize>,
-    /// Of each body.
+    /// For each body.
     bodies: Vec<usize>,
     body_axes: Vec<Option<usize>>,
     /// The corners of each body's outline.
     outlines: Vec<Vec<usize>>,
-    /// Centre, radius, axes of each circle.
+    /// The centre, radius and axes of each circle.
     circles: Vec<[usize; 3]>,
-    /// What each constraint of positions says is 0.
+    /// The function of each constraint on positions.
     constraints: Vec<usize>,
-    /// Where each element is that is drawn, in the order of [`drawings`].
+    /// The location of each drawn element, in the order of [`drawings`].
     sites: Vec<SitePoints>,
-    /// Point and directions of each contact, then of what rolls; none where an expression is all that is known.
+    /// The point and directions of each contact, then of each rolling contact; `None` if only an expression is known.
     touching: Vec<Option<(usize, Vec<usize>)>>,
     gravity: Option<usize>,
 }
@@ -353,13 +354,13 @@ impl Points {
     }
 }
 
-/// Where an element is drawn, by places.
+/// The location of an element, by indices.
 enum SitePoints {
     /// Between two points.
     Between([usize; 2]),
-    /// Where this stretch is found to be.
+    /// To be found from this stretch.
     Stretch(usize),
-    /// At a hinge that is still to be found.
+    /// At a hinge that is to be found.
     Twist,
     /// About a point.
     At(usize),
@@ -373,7 +374,7 @@ fn drawings<'m, 'd>(
     all.filter_map(|element| Some((element, element.drawing.as_ref()?)))
 }
 
-/// The body that a circle is fixed to, or whose frame it is fixed to.
+/// The body to which a circle is fixed, directly or through its frame.
 fn holder(model: &Model<'_>, place: Place) -> Option<usize> {
     match place {
         Place::Body(body) => Some(body),
@@ -399,7 +400,7 @@ impl<'d> Finder<'_, 'd> {
         self.points.dimension
     }
 
-    /// How far two points are from each other at the start.
+    /// The distance of two points at the start.
     fn distance(&self, a: usize, b: usize) -> f64 {
         let difference = |k| self.start[a + k] - self.start[b + k];
         let squares = (0..self.dimension()).map(|k| difference(k) * difference(k));
@@ -411,7 +412,7 @@ impl<'d> Finder<'_, 'd> {
             && !self.experiment.coincide(a, b, self.dimension())
     }
 
-    /// Shifts of constant length.
+    /// Displacements of constant length.
     fn links(&self) -> Vec<Link> {
         let mut links: Vec<Link> = Vec::new();
         for (index, pose) in self.model.poses.iter().enumerate() {
@@ -436,7 +437,7 @@ impl<'d> Finder<'_, 'd> {
         links
     }
 
-    /// Two points for each constraint that keeps their distance.
+    /// The two points of each constraint that keeps a distance.
     fn ropes(&self) -> Vec<Link> {
         let candidates = self.references(self.model.bodies.len());
         if candidates.len().pow(2) / 2 * self.points.constraints.len() > MOST_PAIRS {
@@ -466,7 +467,7 @@ impl<'d> Finder<'_, 'd> {
         axes.is_some_and(|axes| self.experiment.rests(point, at, axes, self.dimension()))
     }
 
-    /// The points that a body may be joined to: the ground, origins of frames, bodies before it; each once.
+    /// The points to which a body may be connected: the ground, origins of frames, earlier bodies; without duplicates.
     fn references(&self, body: usize) -> Vec<usize> {
         let mut references = Vec::new();
         for &place in self
@@ -524,7 +525,7 @@ impl<'d> Finder<'_, 'd> {
             }
             Inertia::Tensor(ref entries) => solid_in_space(mass, &numbers(entries)),
         };
-        // A bar reaches its joints itself.
+        // A bar reaches its joints without a rod.
         let rod = match solid {
             Some(Solid::Bar { .. }) => None,
             _ if on_link => None,
@@ -540,7 +541,7 @@ impl<'d> Finder<'_, 'd> {
         }
     }
 
-    /// The uniform bar or disc with this square of the radius of gyration.
+    /// The uniform bar or disc with this squared radius of gyration.
     fn planar_solid(&self, at: usize, squared: f64, fixed: &[usize]) -> Option<Solid> {
         if !(squared > 0.0 && squared.is_finite()) {
             return None;
@@ -556,10 +557,10 @@ impl<'d> Finder<'_, 'd> {
         })
     }
 
-    /// For bodies that nothing holds: the point that the position of each is built on, where it is one.
+    /// For bodies without a connection: the point from which the position of each is constructed, if there is one.
     ///
-    /// A position is a sum in which whatever it was written from is one term: `platform.point(x0, y0) + polar(e, ω t)`. If
-    /// one term of each component makes a vector of constant length, the rest is the point at its other end.
+    /// A position is a sum that contains its construction as a term: `platform.point(x0, y0) + polar(e, ω t)`. If one term
+    /// of each component forms a vector of constant length, the remaining terms are the point at its other end.
     fn built_on(&self, bodies: &[BodyDrawn], links: &[Link]) -> Vec<Option<Vec<Expr<'d>>>> {
         let dag = self.model.dag;
         let held = |body: &BodyDrawn| {
@@ -596,14 +597,14 @@ impl<'d> Finder<'_, 'd> {
                 .zip(&choice)
                 .map(|(&x, &place)| dag.sum([x, -sheet[place]]))
                 .collect();
-            // All of it dropped: the ground, which was tried.
+            // Everything was dropped: this is the ground, which has been tried.
             let ground = anchor.iter().all(|x| x.is_zero());
             (!ground).then_some(anchor)
         });
         found.collect()
     }
 
-    /// Links that no bar covers already.
+    /// Links that are not covered by a bar.
     fn without_bars(&self, links: Vec<Link>, bodies: &[BodyDrawn]) -> Vec<Link> {
         let covered = |link: &Link| {
             bodies.iter().enumerate().any(|(index, body)| {
@@ -619,7 +620,7 @@ impl<'d> Finder<'_, 'd> {
         links.into_iter().filter(|link| !covered(link)).collect()
     }
 
-    /// Springs, dampers and the like with their places, and the names of those that have none.
+    /// Springs, dampers and similar elements with their locations, and the names of those without one.
     fn elements(&self) -> (Vec<ElementDrawn>, Vec<String>) {
         let mut candidates = self.references(self.model.bodies.len());
         if candidates.len().pow(2) / 2 * self.points.sites.len() > MOST_PAIRS {
@@ -643,7 +644,7 @@ impl<'d> Finder<'_, 'd> {
                 omitted.push(format!("{} {}", element.section.noun, element.name));
                 continue;
             };
-            // Where several act on one body along one direction, they stand on opposite sides by turns.
+            // Elements that act on one body along the same direction are placed alternately on opposite sides.
             if let Placed::Sketch {
                 body, along, side, ..
             } = &mut place
@@ -665,7 +666,7 @@ impl<'d> Finder<'_, 'd> {
         (drawn, omitted)
     }
 
-    /// Where the forces of contacts are drawn, of `contacts` and of `rolling`, and the names of those that have no place.
+    /// Where the forces of `contacts` and `rolling` are drawn, and the names of those without a location.
     fn contacts(&self) -> (Vec<ContactDrawn>, Vec<String>) {
         let (mut drawn, mut omitted) = (Vec::new(), Vec::new());
         let collide = self.model.contacts.iter().map(|contact| {
@@ -678,7 +679,7 @@ impl<'d> Finder<'_, 'd> {
                 forces.push(format!("friction({name}.across)"));
             }
             let gap = match contact.geometry {
-                // Friction has a line of action of its own, of which only its power is known.
+                // Friction has a separate line of action, which is unknown because only its power is.
                 ContactGeometry::Expressions { gap, .. } if contact.friction.is_none() => Some(gap),
                 _ => None,
             };
@@ -693,7 +694,7 @@ impl<'d> Finder<'_, 'd> {
             let place = match touching {
                 Some((point, directions)) => Some(Touch::Point {
                     point: *point,
-                    // Without friction there is a force along the normal only.
+                    // Without friction only the normal force exists.
                     directions: directions.iter().copied().take(forces.len()).collect(),
                 }),
                 None => gap
@@ -712,8 +713,8 @@ impl<'d> Finder<'_, 'd> {
         (drawn, omitted)
     }
 
-    /// The two points whose distance is the stretch and a constant. From the ground the constant must not be 0: that would
-    /// be a coordinate, not a length.
+    /// The two points whose distance is the stretch plus a constant. From the ground the constant must not be 0: the
+    /// stretch would then be a coordinate, not a length.
     fn pair(&self, stretch: usize, candidates: &[usize]) -> Option<[usize; 2]> {
         let ground = self.points.origins[0];
         for (index, &a) in candidates.iter().enumerate() {
@@ -738,9 +739,9 @@ impl<'d> Finder<'_, 'd> {
         })
     }
 
-    /// The line of action of a force that works on the stretch alone, as a force on one body of a plane machine: `w` with
-    /// `∂stretch/∂q = wᵀ ∂(x, y, angle)/∂q` at the start. Its foot, in the axes of the body, and the force where that
-    /// on the stretch is 1, in those of the ground.
+    /// The line of action of a force that does work only on the stretch, as a force on one body of a plane machine: `w`
+    /// with `∂stretch/∂q = wᵀ ∂(x, y, angle)/∂q` at the start. Returns its foot, in the axes of the body, and the force
+    /// per unit of the force on the stretch, in those of the ground.
     fn line_of_action(&self, stretch: Expr<'d>) -> Option<(usize, [f64; 2], [f64; 2])> {
         if self.dimension() != 2 {
             return None;
@@ -756,7 +757,7 @@ impl<'d> Finder<'_, 'd> {
         };
         let numbers =
             |slopes: &[Expr<'d>]| evaluate(self.model.dag, slopes, |symbol| (self.value)(symbol));
-        // The line of action of a stretch that is not linear would move about.
+        // The line of action of a nonlinear stretch would move.
         let linear = slopes(stretch);
         if linear.iter().any(|slope| slope.stage() > stage::PARAMETER) {
             return None;
@@ -781,7 +782,7 @@ impl<'d> Finder<'_, 'd> {
             if size < 1e-9 {
                 continue;
             }
-            // The foot of the perpendicular from the mass centre, turned into the body's axes.
+            // The foot of the perpendicular from the mass centre, in the axes of the body.
             let foot = [moment * y / (size * size), -moment * x / (size * size)];
             let turn = evaluate(self.model.dag, &[angle], |symbol| (self.value)(symbol))[0];
             let (sin, cos) = turn.sin_cos();
@@ -791,7 +792,7 @@ impl<'d> Finder<'_, 'd> {
         None
     }
 
-    /// A torsion spring is shown at the first body whose angle is its twist, up to a constant.
+    /// A torsion spring is drawn at the first body whose angle equals its twist up to a constant.
     fn twist(&self, twist: Expr<'d>) -> Option<Placed> {
         let same = |angle: Expr<'d>| {
             let rest = [twist - angle];
@@ -825,7 +826,7 @@ impl<'d> Finder<'_, 'd> {
     }
 }
 
-/// The terms of a sum, with their coefficients; whatever is no sum is one term.
+/// The terms of a sum with their coefficients; any other expression is a single term.
 fn terms(x: Expr<'_>) -> Vec<Expr<'_>> {
     match x.node() {
         Node::Sum(terms) => terms
@@ -836,7 +837,7 @@ fn terms(x: Expr<'_>) -> Vec<Expr<'_>> {
     }
 }
 
-/// Every choice of one from each list.
+/// All combinations of one element from each list.
 fn choices(lists: &[Vec<usize>]) -> impl Iterator<Item = Vec<usize>> + '_ {
     let count: usize = lists.iter().map(Vec::len).product();
     (0..count).map(move |mut number| {
@@ -849,11 +850,11 @@ fn choices(lists: &[Vec<usize>]) -> impl Iterator<Item = Vec<usize>> + '_ {
     })
 }
 
-/// The `w` with `wanted_i = Σ_k w_k motion_k,i` for every i, by least squares; `None` where there is none. Of several the
-/// one without the parts that do not matter.
+/// The `w` with `wanted_i = Σ_k w_k motion_k,i` for every i, by least squares; `None` if there is none. If it is not
+/// unique, irrelevant components are 0.
 fn wrench(motion: &[Vec<f64>], wanted: &[f64]) -> Option<[f64; 3]> {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    // Gram–Schmidt on the rows: at most three, with coefficients kept beside them.
+    // Gram–Schmidt orthogonalization of at most three rows, with the coefficients of each.
     let mut basis: Vec<(Vec<f64>, [f64; 3])> = Vec::new();
     for (k, row) in motion.iter().enumerate() {
         let mut row = row.clone();
@@ -881,10 +882,10 @@ fn wrench(motion: &[Vec<f64>], wanted: &[f64]) -> Option<[f64; 3]> {
     (exact && found.iter().all(|x| x.is_finite())).then_some(found)
 }
 
-/// The uniform cylinder, or else box, with this mass and inertia `xx, yy, zz, xy, xz, yz`.
+/// The uniform cylinder, or otherwise the box, with this mass and inertia `xx, yy, zz, xy, xz, yz`.
 ///
 /// A cylinder of radius R and height 2h has m R²/2 about its axis and m (R²/4 + h²/3) across it; a box of sides 2a, 2b, 2c
-/// has m (b² + c²)/3 about the first. A tensor that no solid has (A > B + C) gives sides of 0.
+/// has m (b² + c²)/3 about the first axis. A tensor that no solid has (A > B + C) gives sides of 0.
 fn solid_in_space(mass: f64, inertia: &[f64]) -> Option<Solid> {
     let &[xx, yy, zz, xy, xz, yz] = inertia else {
         return None;
@@ -915,12 +916,12 @@ fn solid_in_space(mass: f64, inertia: &[f64]) -> Option<Solid> {
     Some(Solid::Box { axes, half })
 }
 
-/// Principal moments and axes of a symmetric tensor, by Jacobi's rotations. G. H. Golub and C. F. Van Loan, *Matrix
+/// Principal moments and axes of a symmetric tensor, by Jacobi rotations. G. H. Golub and C. F. Van Loan, *Matrix
 /// Computations*, 4th ed. (2013), section 8.5.
 fn principal(mut a: [[f64; 3]; 3]) -> ([f64; 3], [[f64; 3]; 3]) {
     // The rows of `v` are the axes.
     let mut v = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    // Convergence is quadratic: a few sweeps reach roundoff.
+    // Convergence is quadratic: a few sweeps reach round-off.
     for _ in 0..12 {
         for (p, q) in [(0, 1), (0, 2), (1, 2)] {
             if a[p][q] == 0.0 {

@@ -1,4 +1,4 @@
-//! Expressions as JavaScript: one assignment for each node of the graph, shared parts once.
+//! Expressions as JavaScript: one assignment for each node of the graph, with shared nodes assigned once.
 
 use std::fmt::Write;
 
@@ -8,7 +8,8 @@ use lagrangian_symbolic::{Expr, Function, Id, Node, Rational, Symbol, reachable}
 /// A function `kinematics(t, q, p, x)` that writes the values into `x`: `t` is the time, `q` the coordinates, `p` the
 /// parameters, all in SI units and in the order of the model.
 ///
-/// No name of the spec reaches the text. The values must be positions: of no later stage than coordinates.
+/// Names of the spec do not occur in the text. The values must be positions: they must not depend on velocities
+/// or later stages.
 pub fn kinematics(model: &Model<'_>, values: &[Expr<'_>]) -> String {
     let mut text = String::from("function kinematics(t, q, p, x) {\n");
     for id in reachable(model.dag, values) {
@@ -29,7 +30,7 @@ fn name(id: Id) -> String {
     format!("n{}", id.index())
 }
 
-/// A node where it is used: a leaf itself, anything else by its name.
+/// The text of a node where it is used: a leaf is written out, any other node by its name.
 fn operand(model: &Model<'_>, id: Id) -> String {
     match model.dag.node(id) {
         Node::Constant(value) => number(&value),
@@ -39,7 +40,7 @@ fn operand(model: &Model<'_>, id: Id) -> String {
     }
 }
 
-/// Where the value of a symbol stands.
+/// The text that reads the value of a symbol.
 fn read(model: &Model<'_>, symbol: Symbol) -> String {
     let is = |expression: Expr<'_>| expression.as_symbol() == Some(symbol);
     if is(model.time) {
@@ -50,12 +51,12 @@ fn read(model: &Model<'_>, symbol: Symbol) -> String {
     }
     match model.parameters.iter().position(|p| is(p.symbol)) {
         Some(i) => format!("p[{i}]"),
-        // Velocities and inputs do not place anything.
+        // Positions do not depend on velocities and inputs.
         None => "NaN".into(),
     }
 }
 
-/// A number as JavaScript writes it, in brackets where a sign would meet an operator.
+/// A number in JavaScript, in parentheses if its sign could meet an operator.
 fn number(value: &Rational) -> String {
     let value = value.to_f64();
     match value {
@@ -65,7 +66,7 @@ fn number(value: &Rational) -> String {
     }
 }
 
-/// What a node is computed by; `None` for leaves, which are written where they are used.
+/// The expression that computes a node; `None` for leaves, which are written where they are used.
 fn assigned(model: &Model<'_>, node: &Node) -> Option<String> {
     let of = |id: Id| operand(model, id);
     Some(match node {
@@ -123,7 +124,7 @@ fn power(x: &str, n: u32) -> String {
 fn function_name(function: Function) -> &'static str {
     match function {
         Function::Ln => "log",
-        // The others are called the same.
+        // The other functions have the same names.
         other => other.name(),
     }
 }

@@ -1,26 +1,26 @@
-//! Where forces of contact act: the point at which a circle, a sphere or a point touches, and the directions there.
+//! The points at which contact forces act, and the directions there: where a circle, a sphere or a point touches.
 
 use lagrangian_spec::model::circles::{distance, placed};
 use lagrangian_spec::model::polygons::{self, Corner};
 use lagrangian_spec::model::{Circle, Model, Surface, spheres};
 use lagrangian_symbolic::Expr;
 
-/// Where something touches, in ground axes.
+/// A contact point, in ground axes.
 pub struct Site<'d> {
     /// The point.
     pub point: Vec<Expr<'d>>,
-    /// Unit vectors along which forces act on the circle: the normal, into which the gap opens, and one tangent in the plane or two in
-    /// space, each as its slip is counted. So a force on the circle is the sum of its components times these.
+    /// Unit vectors along which forces act on the circle: the normal, in the direction of opening, and one tangent in the plane or
+    /// two in space, in the directions of slip. The force on the circle is the sum of its components times these.
     pub directions: Vec<Vec<Expr<'d>>>,
 }
 
-/// Where a circle or sphere, which may be a point, touches a surface.
+/// Where a circle or sphere, possibly a point, touches a surface.
 pub fn site<'d>(model: &Model<'d>, circle: &Circle<'d>, surface: Surface) -> Site<'d> {
     let (centre, _) = placed(model, circle);
     let (other, is_inside) = match surface {
         Surface::Along(pose) => {
             let mut axes = model.poses[pose.index()].axes.clone();
-            // The last one is the normal; the others are tangents.
+            // The last axis is the normal; the others are tangents.
             axes.rotate_right(1);
             let below = centre.iter().zip(&axes[0]);
             return Site {
@@ -43,7 +43,7 @@ pub fn site<'d>(model: &Model<'d>, circle: &Circle<'d>, surface: Surface) -> Sit
         outward.clone()
     };
     let tangents: Vec<Vec<Expr<'d>>> = match outward.as_slice() {
-        // From the centre of the other circle to that of this one, turned left.
+        // The normal points from the centre of the other circle to that of this one; the tangent is rotated to the left.
         &[x, y] => vec![vec![-y, x]],
         _ => spheres::tangents(&normal).map(|t| t.to_vec()).to_vec(),
     };
@@ -75,9 +75,9 @@ mod tests {
 
     use super::*;
 
-    /// A force on what touches, and its reaction on what is touched, are what the rows of the contact say: the derivatives of the rates
-    /// of gap and slip by the velocity of a body are the force on it, those by its angular velocity the moment about its centre. Bodies
-    /// have three coordinates each in the plane and six in space, the angles being 0, and touch at the start.
+    /// The force on the touching body and its reaction must agree with the rows of the contact: the derivatives of the rates of gap
+    /// and slip by the velocity of a body are the force on it, those by its angular velocity the moment about its centre. Bodies
+    /// have three coordinates each in the plane and six in space, with angles 0, and touch at the start.
     #[track_caller]
     fn assert_forces_act(text: &str) {
         let dag = Dag::new();
@@ -103,7 +103,7 @@ mod tests {
         let mut matrix = vec![f64::NAN; 2 * gaps.len() * n];
         system.contact_matrix(0.0, &start.q.values, &mut matrix);
         let rows: Vec<&[f64]> = matrix.chunks(n).collect();
-        // Normal and tangent of the contact; normal again, and the tangent across.
+        // The normal and the tangent of the contact; the repeated normal is skipped, then the other tangent follows.
         let rows: Vec<&[f64]> = (0..rows.len())
             .filter(|k| *k != 2)
             .map(|k| rows[k])
@@ -116,7 +116,7 @@ mod tests {
             ContactGeometry::Corner(corner) => site_of_corner(model, corner),
             ContactGeometry::Expressions { .. } => panic!("no place"),
         };
-        // Other contacts follow.
+        // Further rows belong to other contacts.
         let rows = &rows[..site.directions.len()];
         let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-13, "{a}, not {b}: {text}");
         near(gaps[0], 0.0);
@@ -147,7 +147,7 @@ mod tests {
 
     #[test]
     fn forces_act_where_circles_touch() {
-        // At (0.3, 0.4)/0.5 times what lies between the centres: 1.5 − 0.5 inside, 2 outside.
+        // In the direction (0.3, 0.4)/0.5, at the distance of the centres: 1.5 − 0.5 inside, 2 outside.
         for (way, x, y) in [("inside", 0.6, 0.8), ("outside", 1.2, 1.6)] {
             assert_forces_act(&format!(
                 "machine Circles in plane {{
@@ -173,12 +173,12 @@ mod tests {
                 }}"
             ));
         };
-        // The centre of the circle is 0.1 further along x, a corner 0.2 further along x and 0.3 below.
+        // The centre of the circle is 0.1 further along x, and a corner is 0.2 further along x and 0.3 below.
         touching("circle: rim", "0.5 + 0.1*4/5");
         touching("point: (0.2, -0.3), on: one", "0.2*4/5 + 0.3*3/5");
     }
 
-    /// A corner of a triangle on the upper face of a box that is turned by the angle whose sine is 4/5.
+    /// A corner of a triangle on the upper face of a box that is rotated by the angle whose sine is 4/5.
     #[test]
     fn forces_act_where_a_corner_touches_a_face() {
         assert_forces_act(
@@ -197,7 +197,7 @@ mod tests {
 
     #[test]
     fn forces_act_where_spheres_touch() {
-        // Along (2, 3, 6)/7, and along (2, 3, −6)/7, where the tangents are others.
+        // Along (2, 3, 6)/7, and along (2, 3, −6)/7, where the tangents differ.
         for (way, apart, sign) in [
             ("inside", 1, 1),
             ("outside", 2, 1),

@@ -1,4 +1,4 @@
-//! Which runs a call asks for: `--vary`, `--together`, `--samples`, `--table`.
+//! The design of a sweep in a call: `--vary`, `--together`, `--samples`, `--table`.
 
 use lagrangian_spec::model::Model;
 use lagrangian_spec::token::normalized;
@@ -11,7 +11,7 @@ use crate::failure::Failure;
 /// The most values that one option lists.
 const MOST_LISTED: usize = 1_000_000;
 
-/// What one `--vary` says.
+/// A parsed `--vary`.
 enum Varied {
     Fixed(Factor),
     Sampled(String, Distribution),
@@ -20,7 +20,7 @@ enum Varied {
 /// The factors of a call, in the order of its options.
 ///
 /// # Errors
-/// The call is at fault.
+/// If the call is invalid.
 pub fn factors(call: &call::Sweep, model: &Model<'_>) -> Result<Vec<Factor>, Failure> {
     if let Some(path) = &call.table {
         if !call.vary.is_empty() || call.samples.is_some() || !call.together.is_empty() {
@@ -95,7 +95,7 @@ pub fn factors(call: &call::Sweep, model: &Model<'_>) -> Result<Vec<Factor>, Fai
     Ok(factors)
 }
 
-/// Puts factors side by side, in the place of the first of them.
+/// Joins factors that vary together, at the place of the first of them.
 fn together(factors: &mut Vec<Factor>, group: &str) -> Result<(), String> {
     let names: Vec<String> = group
         .split(',')
@@ -208,13 +208,13 @@ fn value(name: &str, text: &str, unit: &str) -> Result<f64, String> {
         name: name.to_owned(),
         value: text.trim().to_owned(),
     };
-    // What is wrong is said of the whole option.
+    // Errors must mention the whole option.
     let named = format!(" {name}={}: ", set.value);
     set.value("", unit)
         .map_err(|why| why.strip_prefix(&named).unwrap_or(&why).to_owned())
 }
 
-/// What stands between commas that are in no brackets.
+/// The parts between commas that are not inside brackets.
 fn arguments(text: &str) -> Vec<&str> {
     let mut depth = 0;
     let parts = text.split(|c: char| {
@@ -247,7 +247,7 @@ fn distribution_of(name: &str, text: &str, unit: &str) -> Result<Distribution, S
     Ok(distribution)
 }
 
-/// Whether there is such a distribution.
+/// Checks the parameters of a distribution.
 fn check(distribution: Distribution) -> Result<(), String> {
     match distribution {
         Distribution::Uniform(a, b) if a >= b => {

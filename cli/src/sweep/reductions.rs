@@ -1,4 +1,4 @@
-//! What is kept of each motion: `--record`, `--reduce`.
+//! What a sweep keeps of each motion: `--record`, `--reduce`.
 
 use lagrangian::ContactEventKind;
 use lagrangian_sweep::plan::{Function, Reduction, Watch};
@@ -6,21 +6,21 @@ use lagrangian_sweep::plan::{Function, Reduction, Watch};
 use crate::call::{self, Assignment};
 use crate::failure::Failure;
 
-/// What `--record` says.
+/// A parsed `--record`.
 #[derive(Default)]
 pub struct Recorded {
     /// Instants, in s.
     pub at: Vec<f64>,
-    /// The interval of samples, in s.
+    /// The sampling interval, in s.
     pub every: Option<f64>,
-    /// Events whose states are samples.
+    /// Events at which samples are recorded.
     pub events: Vec<String>,
 }
 
 /// Reads `--record`.
 ///
 /// # Errors
-/// The call is at fault.
+/// If the call is invalid.
 pub fn recorded(given: &[String]) -> Result<Recorded, Failure> {
     let Recorded {
         mut at,
@@ -33,7 +33,7 @@ pub fn recorded(given: &[String]) -> Result<Recorded, Failure> {
             .split_once('=')
             .map(|(what, value)| (what.trim(), value))
         {
-            None if text.trim() == "end" => {} // it always is
+            None if text.trim() == "end" => {} // the end is always recorded
             Some(("at", times)) => {
                 for time in times.split(',') {
                     let time = call::number(time).map_err(wrong)?;
@@ -73,7 +73,7 @@ pub fn recorded(given: &[String]) -> Result<Recorded, Failure> {
 /// The reductions of a call.
 ///
 /// # Errors
-/// The call is at fault.
+/// If the call is invalid.
 pub fn reductions(given: &[Assignment], events: &[Watch]) -> Result<Vec<Reduction>, Failure> {
     given.iter().map(|one| reduction(one, events)).collect()
 }
@@ -106,7 +106,7 @@ fn reduction(given: &Assignment, events: &[Watch]) -> Result<Reduction, Failure>
     if of.is_empty() {
         return Err(wanted());
     }
-    // What happens to a contact is named by two words, which no formula is.
+    // An event of a contact has a name of two words, unlike any formula.
     let is_of_contact = of.rsplit_once(' ').is_some_and(|(_, word)| {
         let mut kinds = ContactEventKind::ALL.into_iter();
         kinds.any(|kind| kind.word() == word)

@@ -1,4 +1,4 @@
-//! How far a sweep is, on standard error.
+//! Progress messages of a sweep, on standard error.
 
 use std::collections::VecDeque;
 use std::io::{self, IsTerminal, Write};
@@ -7,25 +7,25 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 use lagrangian_sweep::Progress;
 
-/// Time between two lines where there is no terminal.
+/// The interval between two lines if there is no terminal.
 const BETWEEN: Duration = Duration::from_secs(10);
 
-/// The time left is told by what was done in this time.
+/// The remaining time is estimated from the progress in this time.
 const WINDOW: Duration = Duration::from_secs(30);
 
-/// How far a sweep is, told while it goes on.
+/// The progress of a sweep, reported while it runs.
 pub struct Spoken {
     runs: u64,
     is_silent: bool,
     bar: Option<ProgressBar>,
     began: Instant,
     next: Instant,
-    /// How much was done when.
+    /// The number of finished runs at recent instants.
     seen: VecDeque<(Instant, u64)>,
 }
 
 impl Spoken {
-    /// Of so many runs.
+    /// Starts reporting for this number of runs.
     pub fn new(runs: u64, json: bool) -> Spoken {
         let is_terminal = io::stderr().is_terminal();
         let now = Instant::now();
@@ -46,7 +46,7 @@ impl Spoken {
         }
     }
 
-    /// Takes note, and says it where it is time to.
+    /// Records progress, and prints it when it is time to.
     pub fn say(&mut self, progress: Progress) {
         let now = Instant::now();
         self.seen.push_back((now, progress.done));
@@ -92,7 +92,7 @@ impl Spoken {
         }
     }
 
-    /// Takes the line away.
+    /// Removes the line.
     pub fn end(&mut self) {
         if let Some(bar) = self.bar.take() {
             bar.finish_and_clear();

@@ -1,19 +1,19 @@
-//! Values between the rows of a table.
+//! Interpolation between the rows of a table.
 
-/// How values between rows are found.
+/// How values between rows are interpolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Between {
-    /// The cubic with the values and the rates of both rows: its error is h⁴/384 times the fourth derivative.
+    /// The Hermite cubic through the values and rates of both rows: its error is h⁴/384 times the fourth derivative.
     Hermite,
-    /// The cubic through the two rows before and the two behind, at an end through the four rows there: where there are no rates. Its
-    /// error is 3h⁴/128 times the fourth derivative, in an interval at an end h⁴/24 times it.
+    /// The cubic through the two rows before and the two after, at either end through the outermost four rows; used where there are
+    /// no rates. Its error is 3h⁴/128 times the fourth derivative, in the first and last interval h⁴/24 times.
     Cubic,
-    /// Straight lines.
+    /// Linear interpolation.
     Linear,
 }
 
 impl Between {
-    /// In words.
+    /// The name in words.
     pub fn name(self) -> &'static str {
         match self {
             Between::Hermite => "cubic with rates",
@@ -22,7 +22,7 @@ impl Between {
         }
     }
 
-    /// By how much an error of interpolation becomes smaller where rows are twice as dense, of a smooth curve.
+    /// The factor by which the interpolation error of a smooth curve shrinks where rows are twice as dense.
     fn gain(self) -> f64 {
         match self {
             Between::Hermite | Between::Cubic => 16.0,
@@ -41,9 +41,9 @@ pub struct Curve<'a> {
 }
 
 impl<'a> Curve<'a> {
-    /// A column, with that of its rates where there is one. All are equally long.
+    /// A column, with the column of its rates if there is one. All must be equally long.
     ///
-    /// With [`Between::Hermite`] and no rates it is [`Between::Cubic`].
+    /// [`Between::Hermite`] without rates becomes [`Between::Cubic`].
     pub fn new(
         times: &'a [f64],
         values: &'a [f64],
@@ -62,7 +62,7 @@ impl<'a> Curve<'a> {
         }
     }
 
-    /// How values between rows are found.
+    /// How values between rows are interpolated.
     pub fn between(&self) -> Between {
         self.between
     }
@@ -77,7 +77,7 @@ impl<'a> Curve<'a> {
         self.values
     }
 
-    /// The value at a time; NaN beyond the rows, and beside a row without a value.
+    /// The value at a time; NaN outside the table, and next to a row without a value.
     pub fn at(&self, t: f64) -> f64 {
         let after = self.times.partition_point(|row| *row < t);
         match self.times.get(after) {
@@ -87,7 +87,7 @@ impl<'a> Curve<'a> {
         }
     }
 
-    /// The value between two rows, which are `stride` rows apart; so are further ones that are needed.
+    /// The value between two rows that are `stride` rows apart; further rows that are needed have the same spacing.
     fn within(&self, left: usize, right: usize, t: f64, stride: usize) -> f64 {
         let (t0, t1) = (self.times[left], self.times[right]);
         let (x0, x1) = (self.values[left], self.values[right]);
@@ -99,7 +99,7 @@ impl<'a> Curve<'a> {
             }
             (Between::Linear, _) => x0 + s * (x1 - x0),
             _ => {
-                // The four rows about it, or those at the end.
+                // The four rows around the interval, or the outermost four.
                 let before = left.checked_sub(stride);
                 let behind = Some(right + stride).filter(|row| *row < self.times.len());
                 let rows = match (before, behind) {
@@ -119,13 +119,13 @@ impl<'a> Curve<'a> {
         }
     }
 
-    /// What interpolation may make of values between rows: the largest difference between a row and what its neighbours alone say of
-    /// it, over the factor that a smooth curve gains where rows are twice as dense. 0 where there are fewer than three rows.
+    /// An estimate of the interpolation error: the largest difference between a row and its interpolation from its neighbours,
+    /// divided by the factor that a smooth curve gains where rows are twice as dense. 0 with fewer than three rows.
     pub fn interpolation_error(&self) -> f64 {
         let inner = 1..self.times.len().saturating_sub(1);
         let off = inner.map(|row| {
             let found = match self.between {
-                // Rows that are two apart, and none that is nearer.
+                // From rows at odd distances, which are two rows apart.
                 Between::Cubic => self.without(row),
                 _ => self.within(row - 1, row + 1, self.times[row], 2),
             };
@@ -134,7 +134,7 @@ impl<'a> Curve<'a> {
         off.fold(0.0, f64::max)
     }
 
-    /// What the rows at odd distances from a row say of it.
+    /// The interpolation of a row from the rows at odd distances.
     fn without(&self, row: usize) -> f64 {
         let last = self.times.len() - 1;
         let away = [-1, 1, -3, 3, -5, 5].map(|k: isize| row.checked_add_signed(k));
@@ -143,11 +143,11 @@ impl<'a> Curve<'a> {
         lagrange(self.times, self.values, &rows, self.times[row])
     }
 
-    /// Instants at which the curve goes through a level, each with whether it rises there. A curve that is on the level without
-    /// passing it does not count; one that rests on it does where it leaves on the other side.
+    /// The instants at which the curve crosses a level, each with whether it rises there. Touching the level is no crossing; a
+    /// curve that stays on the level crosses it where it leaves on the other side.
     pub fn crossings(&self, level: f64) -> Vec<(f64, bool)> {
         let mut found = Vec::new();
-        // The last row that was off the level.
+        // The last row that was not on the level.
         let mut before: Option<(usize, f64)> = None;
         for (row, x) in self.values.iter().map(|x| x - level).enumerate() {
             if x.is_nan() {
@@ -156,7 +156,7 @@ impl<'a> Curve<'a> {
                 if let Some((last, side)) = before.filter(|(_, side)| *side != x.signum()) {
                     let t = match row - last {
                         1 => self.root(last, row, level, side),
-                        // On the level at rows in between: it is left at the last of them.
+                        // Rows in between are on the level: the crossing is at the last of them.
                         _ => self.times[row - 1],
                     };
                     found.push((t, side < 0.0));
@@ -167,7 +167,8 @@ impl<'a> Curve<'a> {
         found
     }
 
-    /// Where between two rows the curve goes through a level, by halving: 60 times leave nothing of an interval.
+    /// The instant between two rows at which the curve crosses a level, by bisection: 60 steps exhaust the
+    /// digits of an interval.
     fn root(&self, left: usize, right: usize, level: f64, side: f64) -> f64 {
         let (mut low, mut high) = (self.times[left], self.times[right]);
         for _ in 0..60 {
@@ -188,11 +189,11 @@ impl<'a> Curve<'a> {
 /// The cubic with values x and slopes d at s = 0 and s = 1.
 pub(crate) fn hermite(s: f64, [x0, x1]: [f64; 2], [d0, d1]: [f64; 2]) -> f64 {
     let r = 1.0 - s;
-    // Both ends are met without rounding.
+    // This form is exact at both ends.
     r * r * (x0 * (1.0 + 2.0 * s) + s * d0) + s * s * (x1 * (1.0 + 2.0 * r) - r * d1)
 }
 
-/// The polynomial through some rows.
+/// The Lagrange polynomial through some rows.
 fn lagrange(times: &[f64], values: &[f64], rows: &[usize], t: f64) -> f64 {
     let term = |&i: &usize| {
         let factors = rows.iter().filter(|j| **j != i);
@@ -204,7 +205,8 @@ fn lagrange(times: &[f64], values: &[f64], rows: &[usize], t: f64) -> f64 {
     rows.iter().map(term).sum()
 }
 
-/// The instants of two tables where both are, in order: instants closer together than the share 1e-9 of the distance of rows are one.
+/// The instants of two tables within the time that both cover, in order. Instants closer together than 1e-9 of the
+/// distance of rows are merged.
 pub fn common_times(one: &[f64], other: &[f64]) -> Vec<f64> {
     let (Some(from), Some(to)) = (
         one.first().zip(other.first()).map(|(a, b)| a.max(*b)),
@@ -249,7 +251,7 @@ mod tests {
     fn errors_between_rows_are_those_of_the_remainders() {
         let h = 0.1;
         let [times, values, rates] = sine(64, h);
-        // Remainders of interpolation of sin, whose derivatives are at most 1.
+        // Remainders of the interpolation of sin, whose derivatives are at most 1.
         for (between, bound) in [
             (Between::Hermite, h.powi(4) / 384.0),
             (Between::Cubic, h.powi(4) / 24.0),
@@ -263,7 +265,7 @@ mod tests {
             let off = off.fold(0.0, f64::max);
             assert!(off <= bound * (1.0 + 1e-9), "{between:?}: {off} {bound}");
             assert!(off >= 0.2 * bound, "{between:?}: {off} {bound}");
-            // What the curve says of its own error is it, up to the factor between the middle of an interval and its ends.
+            // The estimate of the error is the error, up to the factor between the middle of an interval and its ends.
             let said = curve.interpolation_error();
             assert!(
                 (0.2..5.0).contains(&(said / off)),
@@ -295,7 +297,7 @@ mod tests {
         for rates in [None, Some(&rates[..])] {
             let curve = Curve::new(&times, &values, rates, Between::Hermite);
             for t in [0.1, 0.6, 1.3, 2.9] {
-                // A dozen operations on numbers up to 10.
+                // About a dozen operations on numbers up to 10.
                 assert!((curve.at(t) - cubic(t)).abs() < 12.0 * 10.0 * f64::EPSILON);
             }
         }
@@ -306,14 +308,14 @@ mod tests {
         let [times, values, rates] = sine(200, 0.1);
         let curve = Curve::new(&times, &values, Some(&rates), Between::Hermite);
         let found = curve.crossings(0.0);
-        // sin starts on the level and does not pass it there.
+        // sin starts on the level and does not cross it there.
         assert_eq!(found.len(), 6);
         for (k, (t, rises)) in found.iter().enumerate() {
             let exact = std::f64::consts::PI * (k + 1) as f64;
             assert!((t - exact).abs() < 0.1_f64.powi(4) / 384.0);
             assert_eq!(*rises, k % 2 == 1);
         }
-        // On the level at rows, and off again on the same side or on the other.
+        // Rows on the level, after which the curve leaves on the same side or on the other.
         let touching = Curve::new(&[0.0, 1.0, 2.0], &[1.0, 0.0, 1.0], None, Between::Linear);
         assert_eq!(touching.crossings(0.0), []);
         let times = [0.0, 1.0, 2.0, 3.0];

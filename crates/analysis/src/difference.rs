@@ -1,32 +1,32 @@
-//! How far two curves are apart.
+//! The difference of two curves.
 
 use crate::curve::Curve;
 
-/// How far the second of two curves is from the first.
+/// The difference of the second of two curves from the first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
-    /// The largest difference, without its sign.
+    /// The largest absolute difference.
     pub largest: f64,
-    /// When that is, in s.
+    /// The time of the largest difference, in s.
     pub at: f64,
     /// The root of the mean square over time, `√(∫ d² dt / ∫ dt)` by the trapezoidal rule.
     pub rms: f64,
-    /// What it is measured by: greatest minus least value of the first curve, or, where that spans no more than the share 1e-9 of its
-    /// largest value and so counts as constant, this value.
+    /// The scale of relative differences: the maximum minus the minimum of the first curve. A curve whose range is at most 1e-9 of
+    /// its largest value counts as constant; its scale is this value.
     pub range: f64,
-    /// Whether `range` is the value of a constant.
+    /// Whether `range` is the value of a constant curve.
     pub is_constant: bool,
-    /// The second minus the first at each instant; NaN where one of them has no value.
+    /// The second minus the first at each instant; NaN where a curve has no value.
     pub values: Vec<f64>,
-    /// At how many instants both have a value.
+    /// The number of instants at which both have a value.
     pub count: usize,
 }
 
-/// What spans no more than this share of its size is a constant with the rounding of a run.
+/// A curve whose range is at most this fraction of its size is constant but for the round-off of a run.
 const CONSTANT: f64 = 1e-9;
 
 impl Difference {
-    /// The largest difference over the range; none where both are 0.
+    /// The largest difference relative to the range; `None` where both are 0.
     pub fn relative(&self) -> Option<f64> {
         match (self.largest, self.range) {
             (0.0, _) => Some(0.0),
@@ -36,7 +36,7 @@ impl Difference {
     }
 }
 
-/// The difference of two curves at some instants, which increase. None where they have no instant with values in common.
+/// The difference of two curves at increasing instants; `None` where they have no values at a common instant.
 pub fn difference(times: &[f64], one: &Curve<'_>, other: &Curve<'_>) -> Option<Difference> {
     let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
     let mut values = Vec::with_capacity(times.len());
@@ -85,7 +85,7 @@ pub fn difference(times: &[f64], one: &Curve<'_>, other: &Curve<'_>) -> Option<D
     })
 }
 
-/// The value at an instant, or at a row that is the same instant but for rounding.
+/// The value at an instant, or at a row that differs from it only by round-off.
 fn nearest(curve: &Curve<'_>, t: f64) -> f64 {
     let times = curve.times();
     let place = times.partition_point(|row| *row < t);
@@ -111,8 +111,8 @@ mod tests {
 
     #[test]
     fn two_sines_are_apart_as_the_formula_says() {
-        // sin t and sin t + 0.01 sin 2t, at other instants: the largest difference is 0.01 at π/4, and its root mean square over
-        // whole periods 0.01/√2.
+        // sin t and sin t + 0.01 sin 2t, sampled at different instants: the largest difference is 0.01 at π/4, and the root mean
+        // square over whole periods is 0.01/√2.
         let rows = |count: usize| -> Vec<f64> {
             let step = std::f64::consts::TAU / count as f64;
             (0..=count).map(|k| k as f64 * step).collect()
@@ -128,7 +128,8 @@ mod tests {
         let other = Curve::new(&t2, &x2, None, Between::Hermite);
         let times = common_times(&t1, &t2);
         let found = difference(&times, &one, &other).unwrap();
-        // Instants are 2π/1777 apart at most, which misses the top by 0.01 (2·step/2)²/2; interpolation is below 1e-10.
+        // Instants are at most 2π/1777 apart, so the maximum is missed by 0.01 (2·step/2)²/2; the interpolation
+        // error is below 1e-10.
         let step = std::f64::consts::TAU / 777.0;
         assert!((found.largest - 0.01).abs() < 0.01 * step * step / 2.0 + 1e-10);
         assert!(

@@ -5,7 +5,7 @@ use crate::curve::{Between, Curve, hermite};
 /// A maximum or a minimum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extreme {
-    /// When, in s.
+    /// The time, in s.
     pub t: f64,
     /// The value there.
     pub value: f64,
@@ -13,11 +13,11 @@ pub struct Extreme {
     pub is_maximum: bool,
 }
 
-/// All maxima and minima within a curve, in order of time: where the cubic between rows turns that has their rates, or the parabola
-/// through a row and its neighbours where there are no rates.
+/// All maxima and minima within a curve, in order of time. With rates, they are the turning points of the cubics between rows;
+/// without, the vertices of parabolas through a row and its neighbours.
 ///
-/// Ripples are left out: from a maximum the curve falls by more than `least` to both sides before it comes to a greater value, a gap
-/// or its end, and from a minimum it rises so.
+/// Ripples are left out: on both sides of a maximum the curve must fall by more than `least` before it reaches a greater value, a
+/// gap or its end; minima accordingly.
 pub fn extremes(curve: &Curve<'_>, rates: Option<&[f64]>, least: f64) -> Vec<Extreme> {
     let rates = rates.filter(|_| curve.between() == Between::Hermite);
     let (times, values) = (curve.times(), curve.values());
@@ -49,10 +49,10 @@ pub fn extremes(curve: &Curve<'_>, rates: Option<&[f64]>, least: f64) -> Vec<Ext
     found
 }
 
-/// Where rates change sign between two rows, the extreme of the cubic that has them.
+/// The extremes of the cubics between rows at which rates change sign.
 fn by_rates(times: &[f64], values: &[f64], rates: &[f64]) -> Vec<Extreme> {
     let mut found = Vec::new();
-    // The last row at which the curve was not at rest.
+    // The last row at which the rate was not 0.
     let mut before: Option<(usize, f64)> = None;
     for (row, rate) in rates.iter().enumerate() {
         if *rate == 0.0 {
@@ -67,7 +67,7 @@ fn by_rates(times: &[f64], values: &[f64], rates: &[f64]) -> Vec<Extreme> {
                     let s = turning(x, d);
                     (times[last] + s * h, hermite(s, x, d))
                 }
-                // At rest at rows in between.
+                // The rates of rows in between are 0.
                 _ => (times[last + 1], values[last + 1]),
             };
             found.push(Extreme {
@@ -81,7 +81,7 @@ fn by_rates(times: &[f64], values: &[f64], rates: &[f64]) -> Vec<Extreme> {
     found
 }
 
-/// Where the cubic turns whose slopes at 0 and 1 have opposite signs: the only root of its derivative in between.
+/// The turning point of a cubic whose slopes at 0 and 1 have opposite signs: the only root of its derivative in between.
 fn turning([x0, x1]: [f64; 2], [d0, d1]: [f64; 2]) -> f64 {
     let slope = |s: f64| {
         let r = 1.0 - s;
@@ -99,12 +99,12 @@ fn turning([x0, x1]: [f64; 2], [d0, d1]: [f64; 2]) -> f64 {
     0.5 * (low + high)
 }
 
-/// Rows that are greater or less than their neighbours, moved to the top of the parabola through the three.
+/// Rows greater or less than their neighbours, moved to the vertex of the parabola through the three.
 fn by_values(times: &[f64], values: &[f64]) -> Vec<Extreme> {
     let mut found = Vec::new();
     let mut row = 1;
     while row + 1 < values.len() {
-        // A flat top is one extreme.
+        // Equal neighbouring rows are one extreme.
         let mut end = row;
         while end + 1 < values.len() && values[end + 1] == values[row] {
             end += 1;
@@ -130,30 +130,30 @@ fn by_values(times: &[f64], values: &[f64]) -> Vec<Extreme> {
     found
 }
 
-/// Where the parabola through three points turns.
+/// The vertex of the parabola through three points.
 fn parabola([(t0, x0), (t1, x1), (t2, x2)]: [(f64, f64); 3]) -> (f64, f64) {
     let (a, b) = ((x1 - x0) / (t1 - t0), (x2 - x1) / (t2 - t1));
     let bend = (b - a) / (t2 - t0);
-    // The slope at the row in the middle.
+    // The slope at the middle row.
     let slope = a + bend * (t1 - t0);
     let step = -0.5 * slope / bend;
     (t1 + step, x1 + 0.5 * slope * step)
 }
 
-/// Adds those turns of a curve, with the values at its ends, that are no ripples.
+/// Selects the turning points of a curve that are not ripples.
 ///
-/// The curve is followed from its start. When it has fallen by more than `least` from the greatest value since the last minimum that
-/// was found, that value is a maximum; and the other way round. The first that is found so is left out, since before it the curve has
-/// not moved by more than `least`: otherwise it would not be the first.
+/// The curve is followed from its start. When it has fallen by more than `least` from the greatest value since the last minimum,
+/// that value is a maximum; minima accordingly. The first one found is left out, because before it the curve has not moved by
+/// more than `least`.
 fn without_ripples(
     turns: &[Extreme],
     [start, end]: [f64; 2],
     least: f64,
     found: &mut Vec<Extreme>,
 ) {
-    // The greatest and the least value since the turn before, and where they are unless at an end.
+    // The greatest and the least value since the last extreme, with their turning points unless they are at an end.
     let (mut greatest, mut smallest) = ((start, None), (start, None));
-    // Whether the curve goes up, once that is known: the next turn is a maximum then.
+    // Whether the curve rises, once known: the next extreme is then a maximum.
     let mut rises: Option<bool> = None;
     let turns = turns.iter().map(|turn| (turn.value, Some(*turn)));
     for point in turns.chain([(end, None)]) {
@@ -201,9 +201,10 @@ mod tests {
     #[test]
     fn a_sine_turns_where_its_rate_is_zero() {
         let h: f64 = 0.05;
-        // Of the cubic the error is h⁴/384, its slope's h³√3/216, which moves the top by as much over the curvature 1.
+        // The error of the cubic is h⁴/384, and that of its slope h³√3/216, which shifts the maximum by as much,
+        // divided by the curvature 1.
         check(h, true, [h.powi(3) / 100.0, h.powi(4) / 384.0]);
-        // Of the parabola h³√3/27 · x‴ with x‴ at most h near a top; its slope's error h²/3 · x‴.
+        // The error of the parabola is h³√3/27 · x‴ with x‴ at most h near a maximum; that of its slope is h²/3 · x‴.
         check(h, false, [h.powi(3) / 2.0, h.powi(4) / 10.0]);
     }
 
@@ -220,12 +221,12 @@ mod tests {
         let curve = Curve::new(&times[..5], &flat, None, Between::Cubic);
         let found = extremes(&curve, None, 0.0);
         assert_eq!(found.len(), 2);
-        // Up to the end the curve rises by 0.53 only.
+        // Up to its end the curve rises by only 0.53.
         assert_eq!(extremes(&curve, None, 0.6), found[..1]);
         assert!((found[0].t - 0.075).abs() < 1e-15 && found[0].value == 1.0);
     }
 
-    /// Turns by their values, maxima and minima in turn.
+    /// Turning points with these values, alternately maxima and minima.
     fn turns(values: &[f64]) -> Vec<Extreme> {
         let pairs = values.windows(3).enumerate();
         let pairs = pairs.filter(|(_, x)| (x[1] - x[0]) * (x[1] - x[2]) > 0.0);
@@ -241,7 +242,7 @@ mod tests {
     fn noise_on_a_monotone_curve_is_no_extreme() {
         let times: Vec<f64> = (0..200).map(|k| f64::from(k) * 0.05).collect();
         for phase in 0..60 {
-            // Both ends lie anywhere on the ripple, so that its turns are even and odd in number.
+            // The ends lie anywhere on the ripple, so that the number of turning points is even or odd.
             let ripple = |t: f64| 1e-3 * (40.0 * t + 0.1 * f64::from(phase)).sin();
             let values: Vec<f64> = times.iter().map(|t| (-t).exp() + ripple(*t)).collect();
             let slopes = |t: &f64| -(-t).exp() + 0.04 * (40.0 * t + 0.1 * f64::from(phase)).cos();
@@ -254,7 +255,8 @@ mod tests {
         }
     }
 
-    /// What the words say, turn by turn: the way to both sides until the curve passes the turn, or ends.
+    /// A direct implementation of the definition: both sides of each turning point, until the curve passes
+    /// its value or ends.
     #[test]
     fn extremes_are_those_with_slopes_to_both_sides() {
         let mut state = 1_u64;

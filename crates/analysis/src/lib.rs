@@ -1,7 +1,7 @@
-//! What is asked of runs that are there as columns of numbers: how far two are apart, which frequencies are in one, where its
-//! extremes are, and where it passes a value.
+//! Analysis of runs given as columns of numbers: the difference of two runs, the frequencies in one, its extremes, and the
+//! times at which it crosses a value.
 //!
-//! Nothing here knows of machines. Times are in s and increase strictly; values may be NaN where there is none.
+//! This crate does not depend on machines. Times are in s and increase strictly; a missing value is NaN.
 
 pub mod curve;
 pub mod difference;

@@ -1,4 +1,4 @@
-//! Which frequencies are in a curve.
+//! The spectrum of a curve and its dominant frequencies.
 
 use std::f64::consts::{PI, TAU};
 
@@ -6,22 +6,22 @@ use num_complex::Complex;
 
 use crate::transform::transform;
 
-/// By what values are multiplied before they are transformed, so that a frequency that does not fit a whole number of times into the
-/// time is not smeared over all others. Sums of cosines, periodic in the number of samples.
+/// The window function by which values are multiplied before the transform, to reduce leakage of frequencies that do not fit a
+/// whole number of times into the time span. Windows are sums of cosines, periodic in the number of samples.
 ///
 /// F. J. Harris, *On the use of windows for harmonic analysis with the discrete Fourier transform*, Proc. IEEE 66 (1978) 51–83.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Window {
-    /// Nothing: the narrowest lines, and side lobes of a fifth of them.
+    /// Rectangular: the narrowest lines, with side lobes of a fifth of them.
     None,
-    /// Hann's: lines two frequencies wide to each side, side lobes of 1/37 that fall off with the cube of the distance.
+    /// Hann: lines two bins wide on each side, side lobes of 1/37 that fall off with the cube of the distance.
     Hann,
-    /// Blackman's and Harris's of four terms: lines four frequencies wide to each side, side lobes of 1/40 000.
+    /// Blackman–Harris with four terms: lines four bins wide on each side, side lobes of 1/40 000.
     BlackmanHarris,
 }
 
 impl Window {
-    /// All of them.
+    /// All windows.
     pub const ALL: [Window; 3] = [Window::Hann, Window::None, Window::BlackmanHarris];
 
     /// Its name.
@@ -51,7 +51,8 @@ impl Window {
             .sum()
     }
 
-    /// The transform of `e^{2πi x n/N}` under the window at frequency 0, over that at x = 0: how a line x frequencies away is seen.
+    /// The transform of `e^{2πi x n/N}` under the window at frequency 0, relative to that at x = 0: the response of
+    /// the window to a line x bins away.
     fn seen(self, x: f64, count: usize) -> Complex<f64> {
         let terms = self.terms();
         let mut sum = terms[0] * dirichlet(x, count);
@@ -71,7 +72,7 @@ fn dirichlet(x: f64, count: usize) -> Complex<f64> {
     if below == 0.0 {
         Complex::new(1.0, 0.0)
     } else {
-        // The sine of π x from its distance to a whole number: it is 0 where x is one.
+        // The sine of π x is computed from the distance of x to the nearest integer, so that it is exactly 0 at integers.
         let whole = x.round();
         let sine = (PI * (x - whole)).sin() * if whole % 2.0 == 0.0 { 1.0 } else { -1.0 };
         Complex::from_polar(sine / (count * below), PI * x * (count - 1.0) / count)
@@ -81,25 +82,25 @@ fn dirichlet(x: f64, count: usize) -> Complex<f64> {
 /// The amplitudes of a curve at the frequencies k/(N h).
 #[derive(Clone, Debug)]
 pub struct Spectrum {
-    /// Frequencies, in Hz, from 0 to half of the rate of samples.
+    /// Frequencies, in Hz, from 0 to half of the sampling rate.
     pub frequencies: Vec<f64>,
-    /// Amplitudes in the unit of the curve: a sine of amplitude A on one of the frequencies has A there. The mean is taken away
-    /// before, and stands in `mean`.
+    /// Amplitudes in the unit of the curve: a sine of amplitude A at one of the frequencies has A there. The mean is subtracted
+    /// before the transform and stored in `mean`.
     pub amplitudes: Vec<f64>,
     /// The mean of the samples.
     pub mean: f64,
-    /// The distance of two frequencies, in Hz: one over the time that all samples take.
+    /// The distance between frequencies, in Hz: the reciprocal of the duration of all samples.
     pub resolution: f64,
-    /// The transform, over N/2 times the mean weight.
+    /// The transform, divided by N/2 times the mean weight.
     transform: Vec<Complex<f64>>,
     window: Window,
     count: usize,
 }
 
-/// A frequency that a curve has.
+/// A sinusoidal component of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {
-    /// Its frequency, in Hz, between those of the spectrum.
+    /// Its frequency, in Hz, interpolated between those of the spectrum.
     pub frequency: f64,
     /// Its amplitude, in the unit of the curve.
     pub amplitude: f64,
@@ -107,17 +108,19 @@ pub struct Line {
     pub phase: f64,
 }
 
-/// A line that is less than this much of what the spectrum has at its place belongs to the foot of a greater one.
+/// A line whose amplitude is less than this fraction of the spectrum at its frequency belongs to the leakage
+/// of a greater one.
 const OWN: f64 = 0.5;
 
-/// How often all lines are found anew with the others taken away.
+/// How many times all lines are refined with the others subtracted.
 const ROUNDS: usize = 8;
 
-/// The fewest samples of a spectrum.
+/// The smallest number of samples of a spectrum.
 pub const LEAST: usize = 4;
 
 impl Spectrum {
-    /// The spectrum of samples that are `step` seconds apart. None of fewer than [`LEAST`] samples, or where one is not finite.
+    /// The spectrum of samples that are `step` seconds apart. `None` with fewer than [`LEAST`] samples, or where
+    /// one is not finite.
     pub fn new(values: &[f64], step: f64, window: Window) -> Option<Spectrum> {
         let count = values.len();
         if count < LEAST || values.iter().any(|x| !x.is_finite()) {
@@ -140,7 +143,7 @@ impl Spectrum {
             frequencies: (0..transform.len())
                 .map(|k| k as f64 * resolution)
                 .collect(),
-            // At 0 and at half of the rate of samples both images are one.
+            // At 0 and at half of the sampling rate the line coincides with its image.
             amplitudes: transform
                 .iter()
                 .enumerate()
@@ -154,11 +157,11 @@ impl Spectrum {
         })
     }
 
-    /// The greatest lines, by amplitude, `most` of them at most, and none below the share `least` of the greatest.
+    /// The greatest lines by amplitude: at most `most` of them, and none below the fraction `least` of the greatest.
     ///
-    /// A line is a place where the amplitudes are greatest among their neighbours, and stays so when greater lines are taken away
-    /// with everything that the window makes of them. Its frequency and its amplitude are those of the sine that looks
-    /// so under the window, which is exact for sines that are apart by more than the width of a line.
+    /// A line is a local maximum of the amplitudes that remains one after greater lines are subtracted together with their
+    /// leakage. Its frequency and amplitude are those of the sine that has this response under the window, which is exact for
+    /// sines further apart than the width of a line.
     pub fn lines(&self, most: usize, least: f64) -> Vec<Line> {
         let mut tops: Vec<usize> = (1..self.amplitudes.len())
             .filter(|&k| {
@@ -173,7 +176,7 @@ impl Spectrum {
         };
         let mut found: Vec<(usize, Wave)> = Vec::new();
         let mut left = self.transform.clone();
-        // The mean of samples of a sine that is cut off is not that of the sine, and has a foot of its own.
+        // The mean of the samples of a truncated sine differs from that of the sine, and has leakage of its own.
         let mut still = Wave {
             place: 0.0,
             amplitude: Complex::new(0.0, 0.0),
@@ -188,14 +191,14 @@ impl Spectrum {
             let wave = self.wave(&left, top);
             self.add(&mut left, wave, -1.0);
             found.push((top, wave));
-            // What was found under the feet of others is found anew without them.
+            // Lines found under the leakage of others are refined without it.
             for _ in 0..ROUNDS {
                 self.add(&mut left, still, 1.0);
-                // Both images are one there.
+                // The wave coincides with its image there.
                 still.amplitude = Complex::new(0.5 * left[0].re, 0.0);
                 self.add(&mut left, still, -1.0);
                 for (top, own) in &mut found {
-                    // The wave alone, and not its image, whose foot stands here too.
+                    // Adds the wave alone, without its image, whose leakage also remains here.
                     self.add_one(&mut left, own.place, own.amplitude);
                     let wave = self.wave(&left, *top);
                     self.add_one(&mut left, -own.place, own.amplitude.conj());
@@ -216,14 +219,14 @@ impl Spectrum {
         lines
     }
 
-    /// The wave that looks like a transform at a frequency and its greater neighbour.
+    /// The wave that matches a transform at a frequency and at its greater neighbour.
     fn wave(&self, transform: &[Complex<f64>], top: usize) -> Wave {
         let size = |k: usize| transform.get(k).map_or(0.0, |x| x.norm());
         let (below, above) = (size(top - 1), size(top + 1));
-        // The line lies towards the greater neighbour.
+        // The line is shifted towards the greater neighbour.
         let side = if above >= below { 1.0 } else { -1.0 };
         let ratio = above.max(below) / size(top);
-        // How large the neighbour is beside the top grows with the distance of the line, from 0 to 1.
+        // The ratio of neighbour to peak grows with the shift of the line, for shifts from 0 to 1.
         let seen = |x: f64| self.window.seen(x, self.count).norm();
         let at_rest = seen(1.0);
         let shift = if ratio <= at_rest {
@@ -245,13 +248,13 @@ impl Spectrum {
         Wave { place, amplitude }
     }
 
-    /// Adds what the window makes of a wave, and of its image at the negative frequency.
+    /// Adds the response of the window to a wave, and to its image at the negative frequency.
     fn add(&self, transform: &mut [Complex<f64>], wave: Wave, factor: f64) {
         self.add_one(transform, wave.place, wave.amplitude * factor);
         self.add_one(transform, -wave.place, wave.amplitude.conj() * factor);
     }
 
-    /// Adds what the window makes of one of these.
+    /// Adds the response of the window to one of them.
     fn add_one(&self, transform: &mut [Complex<f64>], place: f64, amplitude: Complex<f64>) {
         for (k, x) in transform.iter_mut().enumerate() {
             *x += amplitude * self.window.seen(place - k as f64, self.count);
@@ -259,7 +262,7 @@ impl Spectrum {
     }
 }
 
-/// `Re(A e^{2πi x n/N})` of sample n.
+/// The wave `Re(A e^{2πi x n/N})` of samples n.
 #[derive(Clone, Copy, Debug)]
 struct Wave {
     place: f64,
@@ -282,7 +285,7 @@ mod tests {
 
     #[test]
     fn the_transform_is_the_sum_that_defines_it() {
-        // Of an even and an odd number, against the sum itself.
+        // An even and an odd number of samples, against the direct sum.
         for count in [32, 27] {
             let values: Vec<f64> = (0..count).map(|n| ((n * n) % 17) as f64 - 3.0).collect();
             for window in Window::ALL {
@@ -298,7 +301,7 @@ mod tests {
                     }
                     let both = if k == 0 || 2 * k == count { 1.0 } else { 2.0 };
                     let sum = both * f64::hypot(re, im) / total;
-                    // `count` terms of size 20, over a mean weight of a third.
+                    // `count` terms of size 20, divided by a mean weight of a third.
                     let bound = 20.0 * 3.0 * 8.0 * count as f64 * f64::EPSILON;
                     assert!(
                         (amplitude - sum).abs() < bound,
@@ -318,8 +321,8 @@ mod tests {
                 let spectrum = Spectrum::new(&values, 1.0 / 64.0, window).unwrap();
                 let lines = spectrum.lines(5, 1e-3);
                 assert_eq!(lines.len(), 1, "{window:?} {f}: {lines:?}");
-                // Each round leaves of an error what the foot of the image or of the mean, 24 frequencies away at least, is of a
-                // line: 1/(24 π) without a window. 8 rounds leave 1e-15, on top of the rounding of a transform.
+                // Each round reduces an error by the leakage of the image or of the mean, at least 24 bins away, relative to the
+                // line: 1/(24 π) without a window. Eight rounds leave 1e-15, in addition to the round-off of the transform.
                 let bound = 1e-11;
                 let line = lines[0];
                 assert!(
@@ -340,7 +343,7 @@ mod tests {
 
     #[test]
     fn small_lines_are_told_from_the_feet_of_great_ones() {
-        // The second is below the side lobes that the first has without a window, the third a thousandth of it.
+        // Without a window the second line is below the side lobes of the first; the third is a thousandth of it.
         let waves = [(5.23, 1.0, 0.0), (9.41, 0.02, 1.0), (14.77, 0.001, 2.0)];
         let values = samples(&waves, 1024, 1.0 / 64.0);
         let spectrum = Spectrum::new(&values, 1.0 / 64.0, Window::Hann).unwrap();
@@ -354,7 +357,7 @@ mod tests {
 
     #[test]
     fn a_damped_oscillation_is_one_line() {
-        // x = e^{−δt} cos ωt has |X| = ½/√(δ² + (Ω − ω)²) about ω: one maximum, and no ripples beside it.
+        // x = e^{−δt} cos ωt has |X| = ½/√(δ² + (Ω − ω)²) near ω: one maximum, without ripples beside it.
         let step = 1.0 / 64.0;
         let values: Vec<f64> = (0..2048)
             .map(|n| n as f64 * step)

@@ -1,16 +1,16 @@
-//! The discrete Fourier transform, of any number of samples.
+//! The discrete Fourier transform of any number of samples.
 
 use num_complex::Complex;
 use realfft::RealFftPlanner;
 
-/// `Σ xₙ e^{−2πi k n/N}` for k from 0 to N/2: the others are conjugate to these.
+/// `Σ xₙ e^{−2πi k n/N}` for k from 0 to N/2; the remaining values are conjugate to these.
 pub fn transform(samples: &[f64]) -> Vec<Complex<f64>> {
     if samples.is_empty() {
         return Vec::new();
     }
     let plan = RealFftPlanner::<f64>::new().plan_fft_forward(samples.len());
     let (mut values, mut result) = (samples.to_vec(), plan.make_output_vec());
-    // It fails only for lists of other lengths than the plan's own.
+    // It fails only if lengths differ from those of the plan.
     if plan.process(&mut values, &mut result).is_err() {
         result.fill(Complex::new(f64::NAN, f64::NAN));
     }
@@ -21,7 +21,7 @@ pub fn transform(samples: &[f64]) -> Vec<Complex<f64>> {
 mod tests {
     use super::*;
 
-    /// `numpy.fft.rfft` of NumPy 2.4.6, of n³ mod 11 − 4.
+    /// Values of `numpy.fft.rfft` of NumPy 2.4.6 for n³ mod 11 − 4.
     #[test]
     fn numbers_are_those_of_numpy() {
         let of_seven = [

@@ -1,25 +1,25 @@
-//! The fastest motion of a machine whose masses, forces and friction depend on where it is and how fast: outside of the
-//! conditions (17).
+//! The fastest motion of a machine whose masses, forces and friction depend on position and velocity, and which
+//! therefore does not satisfy the conditions (17).
 //!
-//! With `A(q) = a + d` and everything else that resists in `R(q, v)` (inertia forces, less applied ones, friction of what
-//! presses without accelerations), control forces that do no work leave
+//! Let `A(q) = a + d`, and let `R(q, v)` hold all other resistance: inertia forces, minus applied forces, plus friction
+//! from reactions that do not depend on accelerations. Control forces that do no work leave
 //!
 //! ```text
 //! v·A(q) v̇ + v·R(q, v) = 0                                                                    (8)
 //! ```
 //!
-//! A transcription whose unknowns are speeds could gain from turns that it does not resolve: `v·A v̇` contains the change of
-//! the direction. So the speed is measured by what a sudden turn leaves alone (`hamiltonian`), the direction becomes a
-//! control without a rate, and Pontryagin's conditions, a boundary value problem, are collocated at Gauss points
-//! (`collocation`): with s of them the error at the ends of stretches is of the order 2 s.
+//! A transcription whose unknowns are velocities could gain time from turns that it does not resolve, because `v·A v̇`
+//! contains the change of direction. So speed is measured by a quantity that a sudden turn does not change (`hamiltonian`),
+//! the direction becomes a control without a rate, and Pontryagin's conditions, a boundary value problem, are collocated at
+//! Gauss points (`collocation`): with s points the error at the ends of stretches is of order 2 s.
 //!
-//! The way to the answer begins at several starts: the straight way, ways to either side of it, and guesses. Each becomes the
-//! fastest way of straight pieces near it (`descent`), for which nothing but energy has to be known, and if that is a new one, it is where
-//! Newton's method on the conditions starts. Where none leads to a motion, or a way of straight pieces is faster than all of them, the
-//! motions of the machine without friction are followed while friction grows (`followed`); and where that gives none, there is the machine with
-//! frozen coefficients, whose closed form is followed to the machine itself (`frozen`). The stretches are halved until the time settles, and of the motions that obey the
-//! conditions of Legendre and of Jacobi the fastest is taken. What was tried is told ([`Trial`]); how much may be done is counted
-//! (`budget`).
+//! The search has several starts: the straight path, paths to either side of it, and guesses. Each is improved to the fastest
+//! polygon near it (`descent`), for which the energy balance suffices, and every distinct polygon is a start of Newton's method for
+//! the conditions. If none leads to a motion, or a polygon is faster than all motions found, motions of the machine without
+//! friction are continued while friction grows (`followed`). If that fails too, the machine with frozen coefficients is used, whose
+//! closed form is continued to the machine itself (`frozen`). The stretches are halved until the time converges, and the fastest
+//! motion that satisfies the conditions of Legendre and of Jacobi is the result. All attempts are reported ([`Trial`]), and the
+//! work is limited by counting evaluations (`budget`).
 
 mod budget;
 mod collocation;
@@ -43,23 +43,23 @@ pub use super::trial::{Outcome, Start, Trial};
 pub use motion::Sought;
 pub use search::Search;
 
-/// `½ (A_αβ − A_βα)` below this part of the inertia of both is rounding.
+/// A skew part `½ (A_αβ − A_βα)` below this fraction of the inertia of both coordinates is round-off.
 const SKEW: f64 = 1e-13;
 
 /// A machine without constraints and without explicit time.
 ///
-/// Over any numbers, as derivatives are taken with dual ones.
+/// Its functions are generic over the number, because derivatives are computed with dual numbers.
 pub trait Terrain {
-    /// How many coordinates there are.
+    /// The number of coordinates.
     fn coordinates(&self) -> usize;
 
-    /// `A(q) = a + d` by rows: inertia, and friction that grows with the accelerations.
+    /// `A(q) = a + d` by rows: inertia plus the friction that grows with accelerations.
     fn inertia<N: Scalar>(&self, q: &[N]) -> Vec<N>;
 
-    /// `R(q, v)`: what resists without accelerations, a covector.
+    /// `R(q, v)`, a covector: the resistance that does not depend on accelerations.
     fn resistance<N: Scalar>(&self, q: &[N], v: &[N]) -> Vec<N>;
 
-    /// `a(q)` by rows, where that is not the symmetric part of `A`.
+    /// `a(q)` by rows; by default the symmetric part of `A`.
     fn mass(&self, q: &[f64]) -> Vec<f64> {
         let (n, inertia) = (self.coordinates(), self.inertia(q));
         let even = |k: usize| 0.5 * (inertia[k] + inertia[k % n * n + k / n]);
@@ -67,8 +67,8 @@ pub trait Terrain {
     }
 
     /// This machine with every coefficient of friction multiplied by `share`, from 0 to 1; 1 is the machine itself. A search
-    /// that finds no motion follows those of the machine without friction to the machine itself. `None` where friction is not
-    /// known apart, or there is none.
+    /// that finds no motion continues motions of the machine without friction to the machine itself. `None` where friction
+    /// cannot be separated, or there is none.
     fn with_friction(&self, _share: f64) -> Option<Self>
     where
         Self: Sized,
@@ -81,24 +81,24 @@ pub trait Terrain {
         Vec::new()
     }
 
-    /// What the guides do, and the power of their friction, in W.
+    /// The slips and reactions of the guides, and the power of their friction, in W.
     fn contacts(&self, _q: &[f64], _v: &[f64], _a: &[f64]) -> (Vec<Contact>, f64) {
         (Vec::new(), 0.0)
     }
 }
 
-/// The fastest motion of a machine from rest at one place to another, by a [`Search`] as it is unless something is said.
+/// The fastest motion of a machine from rest at one position to another, by a [`Search`] with default settings.
 ///
 /// # Errors
-/// Why there is none, or none that was found; see [`Unsolved`].
+/// Why there is no fastest motion, or none was found; see [`Unsolved`].
 pub fn solve<T: Terrain>(terrain: T, from: &[f64], to: &[f64]) -> Result<Sought<T>, Unsolved> {
     Search::new().solve(terrain, from, to)
 }
 
-/// [`solve`] on a given number of equal stretches of time, for studies of the error.
+/// [`solve`] with a given number of equal time stretches, for studies of the error.
 ///
 /// # Errors
-/// As [`solve`].
+/// Those of [`solve`].
 pub fn solve_on<T: Terrain>(
     terrain: T,
     from: &[f64],

@@ -1,25 +1,25 @@
-//! Why a fastest motion cannot be given.
+//! Errors of the search for a fastest motion.
 
 use core::fmt::{self, Display};
 
 use super::trial::Trial;
 
-/// Why there is no fastest motion, or none that the formulas give.
+/// Why there is no fastest motion, or none that the formulas yield.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Unsolved {
     /// A list or a matrix does not have as many entries as there are coordinates.
     Size {
-        /// Which.
+        /// The list or matrix.
         what: &'static str,
-        /// How many it should have.
+        /// The expected number.
         expected: usize,
-        /// How many it has.
+        /// The number found.
         found: usize,
     },
     /// A number is infinite or not a number.
     NotFinite {
-        /// Which list or matrix it is in.
+        /// The list or matrix.
         what: &'static str,
     },
     /// The mass matrix is not symmetric.
@@ -33,20 +33,20 @@ pub enum Unsolved {
     NoInertia {
         /// The coordinate at which the elimination stopped, counted from 0.
         coordinate: usize,
-        /// What was left of its inertia, relative to what it had.
+        /// The remaining pivot, relative to the diagonal entry.
         ratio: f64,
     },
-    /// Friction that grows with accelerations outweighs inertia: `a + sym d` is not positive definite, and a push ahead
+    /// Friction that grows with accelerations exceeds inertia: `a + sym d` is not positive definite, and a forward push
     /// would slow the machine down.
     FrictionOutweighsInertia {
         /// The coordinate at which the elimination stopped, counted from 0.
         coordinate: usize,
-        /// What was left of its inertia, relative to what it had.
+        /// The remaining pivot, relative to the diagonal entry.
         ratio: f64,
     },
     /// Start and end are the same.
     SameEnds,
-    /// Neither the potential nor friction has a slope: at rest, the machine stays at rest.
+    /// Neither the potential nor friction has a slope, so the machine stays at rest.
     NothingDrives,
     /// The end cannot be reached from rest: it is not below the start.
     NotBelow {
@@ -55,9 +55,9 @@ pub enum Unsolved {
     },
     /// The end is below the start, but friction takes more than the descent gives.
     Held {
-        /// What the descent gives, in J.
+        /// The potential energy released by the descent, in J.
         descent: f64,
-        /// What friction takes on the straight way at constant velocity, in J, which is the least.
+        /// The friction work on the straight path at constant velocity, in J, which is the least possible.
         friction: f64,
     },
     /// The direction would have to turn so far that the friction saved in turning outweighs inertia: a jump of the
@@ -68,18 +68,18 @@ pub enum Unsolved {
         /// The greatest angle at which there is a smooth motion, in rad.
         reach: f64,
     },
-    /// With three coordinates or more, a loop of directions gone through in no time would multiply the speed: the shorter
-    /// the time is to be, the more loops, and no motion is the fastest. The laws of sliding fail there, as reactions
-    /// become negative.
+    /// With three coordinates or more, a loop of directions traversed in no time would multiply the speed: more
+    /// loops are always faster, so there is no fastest motion. Along such loops reactions become negative, and the
+    /// laws of sliding fail.
     LoopsFeed {
-        /// The two coordinates of the loop that feeds most, counted from 0.
+        /// The two coordinates of the loop with the largest gain, counted from 0.
         coordinates: [usize; 2],
         /// `½ (d_αβ − d_βα)`, relative to the inertia of the two.
         skew: f64,
     },
-    /// None of the starts led to a motion that is faster than its neighbours.
+    /// No start led to a motion that is a local minimum.
     NotFound {
-        /// What was tried, and what came of each.
+        /// All trials and their outcomes.
         tried: Vec<Trial>,
     },
 }

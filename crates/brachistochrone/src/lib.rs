@@ -1,5 +1,5 @@
-//! Brachistochronic motion: from rest at one configuration to another in the least time, by control forces that do no
-//! work, with Coulomb friction whose reactions depend on the accelerations.
+//! Brachistochronic motion: from rest at one configuration to another in the least time, under control forces that do
+//! no work, with Coulomb friction whose reactions depend on the accelerations.
 //!
 //! ```
 //! use lagrangian_brachistochrone::Problem;
@@ -11,12 +11,12 @@
 //! # Ok::<(), lagrangian_brachistochrone::Unsolved>(())
 //! ```
 //!
-//! [`direct`] solves what follows for machines whose coefficients are not constant.
+//! [`direct`] solves the same problem for machines whose coefficients are not constant.
 //!
 //! # What is solved
 //!
-//! A machine with constant mass matrix `a`, potential energy `c·q` and guides that slide ([`Guide`]); so friction has the
-//! power `P = −b·v − v·d v̇`, and, as the control forces `u` do no work (`u·v = 0`), energy goes by
+//! The machine has a constant mass matrix `a`, potential energy `c·q`, and guides that slide ([`Guide`]). So friction has
+//! the power `P = −b·v − v·d v̇`, and because the control forces `u` do no work (`u·v = 0`), the energy balance is
 //!
 //! ```text
 //! v·(a + d) v̇ + r·v = 0        r = b + c
@@ -34,9 +34,9 @@
 //! such machine is Ashby's particle on a rough wire. All its extremals have a closed form with two numbers in it, κ and
 //! the angle δ through which the direction turns ([`plane`]); δ is the one root of one equation.
 //!
-//! *More.* If `Ω = 0` the motion stays in the plane through the steepest descent and the end, and is a cycloid there. If
-//! not, a small loop of directions, gone through in no time, multiplies the speed, and no motion is the fastest
-//! ([`Unsolved::LoopsFeed`]).
+//! *More coordinates.* If `Ω = 0` the motion stays in the plane through the steepest descent and the end, and is a
+//! cycloid there. Otherwise a small loop of directions, traversed in no time, multiplies the speed, and there is no
+//! fastest motion ([`Unsolved::LoopsFeed`]).
 
 pub mod direct;
 mod error;

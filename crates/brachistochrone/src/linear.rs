@@ -1,9 +1,9 @@
-//! Small symmetric systems.
+//! Solvers for small dense systems.
 
 /// A square matrix by rows.
 pub(super) type Matrix = Vec<Vec<f64>>;
 
-/// A pivot that is smaller than this, relative to the diagonal entry it comes from, may be rounding error.
+/// A pivot smaller than this, relative to the diagonal entry it comes from, may be round-off.
 const SMALLEST_PIVOT: f64 = 1e-14;
 
 /// `x·y`.
@@ -16,7 +16,7 @@ pub(super) fn times(matrix: &Matrix, x: &[f64]) -> Vec<f64> {
     matrix.iter().map(|row| dot(row, x)).collect()
 }
 
-/// `M = L Lᵀ`, Cholesky.
+/// The Cholesky factorization `M = L Lᵀ`.
 #[derive(Clone, Debug)]
 pub(super) struct Cholesky {
     lower: Matrix,
@@ -26,7 +26,7 @@ impl Cholesky {
     /// Factors a symmetric matrix.
     ///
     /// # Errors
-    /// The row at which it is not positive definite, and its pivot relative to the diagonal entry.
+    /// If it is not positive definite: the row, and its pivot relative to the diagonal entry.
     pub(super) fn new(matrix: &Matrix) -> Result<Cholesky, (usize, f64)> {
         let n = matrix.len();
         let mut lower = std::vec![std::vec![0.0; n]; n];
@@ -72,7 +72,7 @@ impl Cholesky {
     }
 }
 
-/// `P M = L U` with partial pivoting.
+/// The factorization `P M = L U` with partial pivoting.
 #[derive(Clone, Debug)]
 pub(super) struct Lu {
     factors: Matrix,
@@ -80,10 +80,10 @@ pub(super) struct Lu {
 }
 
 impl Lu {
-    /// Factors a square matrix; `None` where a pivot vanishes or is no number.
+    /// Factors a square matrix; `None` where a pivot vanishes or is NaN.
     pub(super) fn new(mut rows: Matrix) -> Option<Lu> {
         let n = rows.len();
-        // Rows are in units of their own.
+        // Rows are scaled because each has its own unit.
         let largest = |row: &Vec<f64>| row.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         let mut scales: Vec<f64> = rows.iter().map(largest).collect();
         let mut order: Vec<usize> = (0..n).collect();

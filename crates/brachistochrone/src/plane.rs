@@ -1,7 +1,8 @@
-//! The plane problem in closed form: Ashby's particle on a rough wire, which every machine with two coordinates is.
+//! The plane problem in closed form: Ashby's particle on a rough wire, to which every machine with two
+//! coordinates is equivalent.
 //!
-//! N. Ashby, W. E. Brittin, W. F. Love, W. Wyss, *Brachistochrone with Coulomb friction*, Am. J. Phys. 43 (1975) 902, of
-//! which this is the form without cancellation.
+//! N. Ashby, W. E. Brittin, W. F. Love, W. Wyss, *Brachistochrone with Coulomb friction*, Am. J. Phys. 43 (1975) 902;
+//! this form avoids cancellation.
 //!
 //! Let x be the angle of the motion from the steepest descent R, so that `V̇ = R cos x − κ V ẋ`. With the angle
 //! `u = x − x₀` from the first direction, `tan x₀ = κ`, and δ its last value, every extremal is
@@ -12,18 +13,18 @@
 //! λ     = sin(δ − u) / (R cos x₀ sin δ (1 − κ p))
 //! ```
 //!
-//! with a scale S. All is positive as long as |κ| p < 1, that is |κ| tan(δ/2) < 1. At κ = 0 this is the cycloid.
-//! Angles are counted so that δ > 0; for a turn to the other side, κ has the other sign.
+//! with a scale S. All are positive as long as |κ| p < 1, that is |κ| tan(δ/2) < 1. At κ = 0 this is the cycloid.
+//! Angles are counted such that δ > 0; for a turn to the other side, κ has the other sign.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::quadrature::Gauss;
 
-/// A turn so small that it is none: sin u = u, and squares of it are still numbers.
+/// A turn below this counts as none: sin u = u, and squares of it do not underflow.
 const STRAIGHT: f64 = 1e-120;
 
-/// How near to the greatest turn, relative to it, extremals are looked for. For κ > 0 the speed has a pole there, and the
-/// end's direction tells the last 1e-9 of the turn to no more than half of the digits.
+/// How close to the greatest turn extremals are searched for, relative to it. For κ > 0 the speed has a pole there, and
+/// in the last 1e-9 of the turn the direction of the end determines it to no more than half of the digits.
 const NEAREST: f64 = 1e-9;
 
 /// One extremal, up to its scale.
@@ -32,25 +33,25 @@ pub struct Arc {
     kappa: f64,
     delta: f64,
     gauss: Gauss,
-    /// `∫ (V dt/du cos u, V dt/du sin u, dt/du) du` from 0 to ends of stretches, in units of `S²/(R cos x₀)` and
-    /// `S/(R cos x₀)`.
+    /// `∫ (V dt/du cos u, V dt/du sin u, dt/du) du` from 0 to the end of each stretch, in units of `S²/(R cos x₀)`
+    /// and `S/(R cos x₀)`.
     stretches: Vec<(f64, [f64; 3])>,
 }
 
-/// The end lies beyond the directions to which extremals lead.
+/// The error that the end lies outside the directions that extremals reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Beyond {
-    /// The greatest angle between first direction and end, in rad.
+    /// The greatest angle between the first direction and the end, in rad.
     pub reach: f64,
 }
 
 impl Arc {
-    /// The extremal to an end that is seen under `angle ≥ 0` from the first direction.
+    /// The extremal to an end at `angle ≥ 0` from the first direction.
     ///
-    /// The angle grows with δ, so that there is one extremal or none.
+    /// The angle grows with δ, so there is at most one extremal.
     ///
     /// # Errors
-    /// If the angle is not below the greatest; for κ = 0 the greatest is reached, by a whole arch.
+    /// If the angle is not below the greatest one. For κ = 0 the greatest angle itself is reached, by a whole arch.
     pub fn to(angle: f64, kappa: f64) -> Result<Arc, Beyond> {
         let gauss = Gauss::new();
         if angle <= STRAIGHT {
@@ -64,7 +65,7 @@ impl Arc {
             let [ahead, aside, _] = gauss.integrate(&|u| integrands(kappa, delta, u), 0.0, delta);
             aside.atan2(ahead)
         };
-        // What is seen is a mean of directions, and so less than the last one.
+        // The angle of the end is a mean of directions, and so less than the last one.
         let (mut low, mut high) = (angle, widest * (1.0 - NEAREST));
         let reach = if kappa >= 0.0 {
             FRAC_PI_2 - kappa.atan()
@@ -78,7 +79,8 @@ impl Arc {
         if above < 0.0 {
             return Err(Beyond { reach });
         }
-        // The Illinois method, G. Dahlquist and Å. Björck, *Numerical Methods* (1974), ch. 6, with halving where it stalls.
+        // The Illinois method, G. Dahlquist and Å. Björck, *Numerical Methods* (1974), ch. 6, with bisection
+        // where it stalls.
         for step in 0..200 {
             if below == 0.0 || high - low <= 2.0 * f64::EPSILON * high {
                 break;
@@ -114,12 +116,12 @@ impl Arc {
         }
     }
 
-    /// Through which angle the direction turns, in rad.
+    /// The total turn of the direction, in rad.
     pub fn turn(&self) -> f64 {
         self.delta
     }
 
-    /// Whether this is a whole arch of a cycloid, which comes to rest at the end; its multipliers are infinite.
+    /// Whether this is a whole arch of a cycloid, which comes to rest at the end and has infinite multipliers.
     pub fn is_arch(&self) -> bool {
         self.delta >= PI
     }
@@ -128,7 +130,7 @@ impl Arc {
     pub fn speed(&self, u: f64) -> (f64, f64) {
         let (sin, cos) = u.sin_cos();
         let [left, _] = self.factors(u);
-        // `p′ = 2 sin(δ − 2u)/sin δ`; without friction nobody asks, and of a whole arch it is infinite.
+        // `p′ = 2 sin(δ − 2u)/sin δ`, which is infinite for a whole arch and not needed without friction.
         let steeper = if self.kappa == 0.0 {
             0.0
         } else {
@@ -154,8 +156,8 @@ impl Arc {
         (self.delta - u).sin() / (self.delta.sin() * left)
     }
 
-    /// The way so far, along the first direction and across it, in units of `S²/(R cos x₀)`, and the time so far, in
-    /// units of `S/(R cos x₀)`.
+    /// The displacement so far, along the first direction and across it, in units of `S²/(R cos x₀)`, and the time
+    /// so far, in units of `S/(R cos x₀)`.
     pub fn so_far(&self, u: f64) -> [f64; 3] {
         let after = self.stretches.partition_point(|(end, _)| *end <= u);
         let (from, before) = self.stretches[after.saturating_sub(1)];
@@ -168,12 +170,12 @@ impl Arc {
         core::array::from_fn(|k| before[k] + more[k])
     }
 
-    /// Way and time of the whole.
+    /// Displacement and time of the whole arc.
     pub fn whole(&self) -> [f64; 3] {
         self.stretches[self.stretches.len() - 1].1
     }
 
-    /// When the direction has turned by u: the inverse of the time so far, at a part of the whole time.
+    /// The turn at a fraction of the total time: the inverse of the time so far.
     pub fn turned_after(&self, part: f64) -> f64 {
         let time = part.clamp(0.0, 1.0) * self.whole()[2];
         let after = self
@@ -187,7 +189,7 @@ impl Arc {
             self.stretches[after].0,
         );
         let mut u = low + (high - low) / 2.0;
-        // Newton's method on a smooth, growing function, with halving where it leaves the bracket.
+        // Newton's method on a smooth, increasing function, with bisection where it leaves the bracket.
         for _ in 0..100 {
             let ahead = self.so_far(u)[2] - time;
             if ahead > 0.0 {
@@ -210,15 +212,15 @@ impl Arc {
         u
     }
 
-    /// By which sudden turns, between −π and π, nothing is gained at any moment: Weierstrass' condition, the same as
-    /// Pontryagin's. A jump of the direction by z leaves `V e^{κx}` as it is; relative to the motion without a jump it
-    /// scores, at u,
+    /// The range of sudden turns, between −π and π, that gain nothing at any moment: Weierstrass' condition, here
+    /// equivalent to Pontryagin's. A jump of the direction by z leaves `V e^{κx}` unchanged; relative to the motion
+    /// without a jump its value at u is
     ///
     /// ```text
     /// B(z) = [sin u cos(u + z − δ − x₀) e^{−κz} + sin(δ − u) cos(u + z + x₀) e^{κz}] / (sin δ cos x₀ (1 − κ p))
     /// ```
     ///
-    /// and gains where B > 1. At κ = 0, `B = cos z`. The turns are looked at in steps of half a degree, at 33 moments.
+    /// with a gain where B > 1. At κ = 0, `B = cos z`. The turns are checked in steps of half a degree, at 33 moments.
     pub fn best_among_turns(&self) -> [f64; 2] {
         const STEPS: u32 = 360;
         const MOMENTS: u32 = 32;
@@ -232,7 +234,7 @@ impl Arc {
                 let whole = self.delta.sin() * first.cos() * self.factors(u)[0];
                 let end = u.sin() * (u + z - self.delta - first).cos() * (-self.kappa * z).exp();
                 let now = (self.delta - u).sin() * (u + z + first).cos() * (self.kappa * z).exp();
-                // Some twenty operations have rounded.
+                // About twenty operations have rounded.
                 end + now > whole * (1.0 + 32.0 * f64::EPSILON)
             })
         };
@@ -250,14 +252,14 @@ impl Arc {
 
 /// `1 − κ p` and `1 + κ p`.
 ///
-/// The one of them that may become small is a sum of two positive terms, with `w = π − 2 |x₀|`:
+/// The one that may become small is a sum of two positive terms, with `w = π − 2 |x₀|`:
 ///
 /// ```text
 /// 1 − |κ| p = (2 sin(δ/2) sin((w − δ)/2) / cos x₀ + 2 |κ| sin²(δ/2 − u)) / sin δ
 /// ```
 fn factors(kappa: f64, delta: f64, u: f64) -> [f64; 2] {
     if kappa == 0.0 {
-        return [1.0, 1.0]; // Of a whole arch p is infinite.
+        return [1.0, 1.0]; // For a whole arch p is infinite.
     }
     let (size, first) = (kappa.abs(), kappa.abs().atan());
     let (sin, half) = (delta.sin(), delta / 2.0);
@@ -288,7 +290,7 @@ mod tests {
         -10.0, -3.0, -1.0, -0.5, -0.1, -0.01, 0.01, 0.1, 0.5, 1.0, 3.0,
     ];
 
-    /// So `Arc::to` has one root, and no conjugate point at the start.
+    /// So `Arc::to` has one root, and there is no conjugate point at the start.
     #[test]
     fn the_angle_of_the_end_grows_with_the_turn() {
         for kappa in FRICTIONS {
@@ -303,15 +305,15 @@ mod tests {
         }
     }
 
-    /// Jacobi's condition: extremals to one end, from wherever they are, do not meet before it. Their family has three
-    /// parameters, as the state (V e^{κu}, x, y) has; its Jacobian vanishes nowhere on the way.
+    /// Jacobi's condition: extremals to one end, whatever their state, do not intersect before it. Their family has
+    /// three parameters, as many as the state (V e^{κu}, x, y); its Jacobian vanishes nowhere on the way.
     #[test]
     fn extremals_to_one_end_do_not_meet_before_it() {
         for kappa in FRICTIONS {
             let widest = PI - 2.0 * kappa.abs().atan();
             for part in [0.1, 0.3, 0.5, 0.7, 0.9, 0.97] {
                 let delta = widest * part;
-                // The rest of the way, in the frame of the first direction, and V e^{κu}, with S = 1.
+                // The remaining displacement, in the frame of the first direction, and V e^{κu}, with S = 1.
                 let state = |delta: f64, u: f64| {
                     let arc = Arc::new(Gauss::new(), kappa, delta);
                     let (whole, so_far) = (arc.whole(), arc.so_far(u));

@@ -1,23 +1,23 @@
-//! What is asked: the machine in the neighbourhood of its motion, in numbers.
+//! The problem: a machine near its motion, given by constant numbers.
 
 use super::error::Unsolved;
 use super::linear::{Cholesky, Matrix, dot, times};
 
-/// `½ (d_αβ − d_βα)` below this part of the inertia of both coordinates is rounding of whoever made `d`.
+/// A skew part `½ (d_αβ − d_βα)` below this fraction of the inertia of both coordinates is round-off in the given `d`.
 const SKEW: f64 = 1e-13;
 
-/// What a friction force depends on: a guided contact that slides one way, pressed together.
+/// A sliding guide, which determines a friction force: a contact that slides one way while it is pressed together.
 ///
 /// Slip `τ·v > 0`, reaction `N = ν + ρ·v̇ > 0`, friction `μ N` against the slip: `b = Σ μ ν τ`, `d_αβ = Σ μ τ_α ρ_β`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Guide {
     /// Name, for messages.
     pub name: String,
-    /// `τ`: the slip for each velocity.
+    /// `τ`: the slip per unit of each velocity.
     pub along: Vec<f64>,
-    /// `ν`: the reaction while nothing accelerates, in N.
+    /// `ν`: the reaction without accelerations, in N.
     pub load: f64,
-    /// `ρ`: the reaction for each acceleration.
+    /// `ρ`: the reaction per unit of each acceleration.
     pub weights: Vec<f64>,
     /// `μ`, the coefficient of friction.
     pub friction: f64,
@@ -45,7 +45,7 @@ impl Problem {
         for row in 0..n {
             for column in 0..row {
                 let (one, other) = (mass[row][column], mass[column][row]);
-                // Two ways to sum the same products differ by roundoffs of the diagonal.
+                // Two ways to sum the same products differ by some roundings of the diagonal.
                 let scale = (mass[row][row].abs() * mass[column][column].abs()).sqrt();
                 if (one - other).abs() > 64.0 * f64::EPSILON * scale {
                     return Err(Unsolved::NotSymmetric { row, column });
@@ -103,7 +103,7 @@ impl Problem {
         Ok(problem)
     }
 
-    /// How many coordinates there are.
+    /// The number of coordinates.
     pub fn coordinates(&self) -> usize {
         self.slope.len()
     }
@@ -115,8 +115,8 @@ impl Problem {
 
     /// Normal coordinates (18)–(19): columns `k_γ` with `k_γ·a k_π = δ_γπ`, so that `q = Σ k_γ q^γ`.
     ///
-    /// The first is along (1, …, 1), the others along the first coordinates, each less what those before it have of it,
-    /// with a positive first entry: for two coordinates the paper's (24).
+    /// The first is along (1, …, 1), the others along the first coordinates, orthogonalized against those before it,
+    /// with a positive first entry: for two coordinates this is the paper's (24).
     pub fn normal_coordinates(&self) -> Vec<Vec<f64>> {
         let n = self.coordinates();
         let mut columns: Vec<Vec<f64>> = Vec::new();
@@ -127,7 +127,7 @@ impl Problem {
                     .map(|i| f64::from(u8::from(i + 1 == column)))
                     .collect(),
             };
-            // Twice, as once leaves roundoffs of what is taken away.
+            // Orthogonalizing once leaves round-off of the removed components, so it is done twice.
             for _ in 0..2 {
                 for before in &columns {
                     let part = dot(before, &times(&self.mass, &k));
@@ -147,7 +147,7 @@ impl Problem {
         columns
     }
 
-    /// Coordinates of the machine for values of normal ones.
+    /// Converts normal coordinates to those of the machine.
     pub fn from_normal(&self, normal: &[f64]) -> Vec<f64> {
         let columns = self.normal_coordinates();
         let mut q = std::vec![0.0; self.coordinates()];
@@ -157,7 +157,7 @@ impl Problem {
         q
     }
 
-    /// Normal coordinates for values of the machine's: `q^γ = k_γ·a q`.
+    /// Converts coordinates of the machine to normal ones: `q^γ = k_γ·a q`.
     pub fn to_normal(&self, q: &[f64]) -> Vec<f64> {
         let momenta = times(&self.mass, q);
         let columns = self.normal_coordinates();
@@ -165,20 +165,20 @@ impl Problem {
     }
 }
 
-/// The plane in which the motion stays: orthonormal in the metric `A = a + sym d`.
+/// The plane that contains the motion, orthonormal in the metric `A = a + sym d`.
 #[derive(Clone, Debug)]
 pub(super) struct Frame {
-    /// Steepest descent, and the direction across it towards which the motion turns.
+    /// The direction of steepest descent, and the direction across it towards which the motion turns.
     pub(super) axes: [Vec<f64>; 2],
     /// The axes as covectors, `A f`.
     pub(super) coaxes: [Vec<f64>; 2],
-    /// `R`: the acceleration down the steepest descent.
+    /// `R`: the acceleration along the steepest descent.
     pub(super) drive: f64,
     /// `κ`.
     pub(super) kappa: f64,
     /// `|Δq|`.
     pub(super) length: f64,
-    /// Angle between first direction and end, in rad.
+    /// The angle between the first direction and the end, in rad.
     pub(super) angle: f64,
 }
 
@@ -210,11 +210,11 @@ impl Frame {
         let skew = |i: usize, j: usize| 0.5 * (reactive[i][j] - reactive[j][i]);
         let mut kappa = 0.0;
         let mut across = match n {
-            // Orthogonal to what the covector stands for, of length 1: the same to the last digit wherever the end is.
+            // The vector orthogonal to the covector, of length 1; it is the same to the last digit for any end.
             2 => {
                 let root = factor.root_of_determinant();
                 let across = std::vec![-down_covector[1] / root, down_covector[0] / root];
-                // Ω(f₁, f₂) of a skew form of two variables.
+                // Ω(f₁, f₂) of a skew form in two variables.
                 kappa = skew(0, 1) * (down[0] * across[1] - down[1] * across[0]);
                 across
             }
@@ -229,7 +229,7 @@ impl Frame {
                         .for_each(|(x, down)| *x -= along * down);
                 }
                 let length = dot(&across, &times(&inertia, &across)).sqrt();
-                // The horizontal part of a way straight down is rounding error, and no direction.
+                // For a path straight down the horizontal component is round-off and defines no direction.
                 let scale = if length > 8.0 * f64::EPSILON * ahead.abs() {
                     1.0 / length
                 } else {
@@ -257,7 +257,7 @@ impl Frame {
     }
 }
 
-/// With three coordinates or more, a skew part of `d` feeds a loop of directions.
+/// With three coordinates or more, a skew part of `d` amplifies the speed along a loop of directions.
 fn refuse_loops(inertia: &Matrix, skew: &impl Fn(usize, usize) -> f64) -> Result<(), Unsolved> {
     let n = inertia.len();
     let pairs = (0..n).flat_map(|i| (0..i).map(move |j| [j, i]));

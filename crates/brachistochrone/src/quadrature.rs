@@ -1,15 +1,15 @@
-//! Integrals of analytic functions to the last digits.
+//! Integrals of analytic functions to full accuracy.
 
 use std::f64::consts::PI;
 
-/// Nodes of the rule: exact for polynomials of degree 31.
+/// The number of nodes of the rule: exact for polynomials of degree 31.
 const NODES: usize = 16;
 
-/// A stretch is halved until both halves add up to it within this part of the whole, a few roundoffs.
+/// A stretch is halved until both halves add up to it within this fraction of the whole, a few roundings.
 const TOLERANCE: f64 = 4.0 * f64::EPSILON;
 
-/// Stretches in all. Up to a pole at the distance d, relative to the whole, there are some 2 log₂ 1/d; more are asked for
-/// only where rounding keeps halves from adding up, and do not help.
+/// The most stretches. Near a pole at the relative distance d about 2 log₂ 1/d are needed; more would be used only where
+/// round-off keeps the halves from adding up, and would not help.
 const MOST: usize = 256;
 
 /// Gauss–Legendre quadrature, with nodes on [0, 1].
@@ -26,7 +26,7 @@ impl Gauss {
         let nodes = core::array::from_fn(|k| {
             let mut z = (PI * (k as f64 + 0.75) / (n + 0.5)).cos();
             let mut slope = 1.0;
-            // Newton's method doubles the digits; the estimate has three.
+            // Newton's method doubles the number of correct digits; the estimate has three.
             for _ in 0..6 {
                 let (mut value, mut before) = (z, 1.0);
                 for degree in 2..=NODES {
@@ -44,7 +44,7 @@ impl Gauss {
         Gauss { nodes }
     }
 
-    /// One stretch by one rule.
+    /// Integrates over one stretch.
     pub(super) fn stretch<const N: usize>(
         &self,
         f: &impl Fn(f64) -> [f64; N],
@@ -61,7 +61,8 @@ impl Gauss {
         sum.map(|sum| sum * (to - from))
     }
 
-    /// Ends of stretches on which one rule gives all digits, from `from` to `to`; and the integrals up to each end.
+    /// Ends of stretches on each of which the rule is fully accurate, from `from` to `to`, and the
+    /// integrals up to each end.
     pub(super) fn stretches<const N: usize>(
         &self,
         f: &impl Fn(f64) -> [f64; N],
@@ -77,7 +78,7 @@ impl Gauss {
             let halves = [self.stretch(f, from, middle), self.stretch(f, middle, to)];
             let good = (0..N).all(|k| {
                 let both = halves[0][k] + halves[1][k];
-                // What has no finite integral is not going to have one by halving; callers look at the value.
+                // Halving does not make an infinite integral finite; callers check the value.
                 (both - whole[k]).abs() <= TOLERANCE * scale[k].max(both.abs()) || !both.is_finite()
             });
             if good || done.len() + open.len() >= MOST {
@@ -112,7 +113,7 @@ mod tests {
     #[test]
     fn polynomials_of_the_rules_degree_are_integrated_exactly() {
         let [whole] = Gauss::new().stretch(&|x: f64| [32.0 * x.powi(31)], 0.0, 1.0);
-        // 16 terms of a sum, each with a few roundoffs from the power.
+        // A sum of 16 terms, each with a few roundings from the power.
         assert!((whole - 1.0).abs() < 64.0 * f64::EPSILON, "{whole}");
     }
 

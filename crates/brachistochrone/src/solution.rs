@@ -1,14 +1,14 @@
-//! The fastest motion, and everything about it at any moment.
+//! The fastest motion, with all quantities along it.
 
 use super::error::Unsolved;
 use super::linear::{dot, times};
 use super::plane::Arc;
 use super::problem::{Frame, Problem, check_list};
 
-/// Moments at which [`Brachistochrone::lapses`] looks at the guides.
+/// The number of intervals into which [`Brachistochrone::lapses`] divides the motion to check the guides.
 const LOOKS: u32 = 256;
 
-/// The fastest motion from rest at one place to another.
+/// The fastest motion from rest at one position to another.
 #[derive(Clone, Debug)]
 pub struct Brachistochrone {
     problem: Problem,
@@ -29,7 +29,7 @@ pub struct Brachistochrone {
 pub struct Moment {
     /// Time since the start, in s.
     pub time: f64,
-    /// Through which angle the direction has turned, in rad, in the metric of the motion.
+    /// The angle by which the direction has turned, in rad, in the metric of the motion.
     pub turned: f64,
     /// `q`.
     pub q: Vec<f64>,
@@ -37,7 +37,7 @@ pub struct Moment {
     pub v: Vec<f64>,
     /// `v̇`.
     pub a: Vec<f64>,
-    /// The direction of motion, a velocity for which twice the kinetic energy `a_αβ v^α v^β` is 1; at rest too.
+    /// The direction of motion, as a velocity for which twice the kinetic energy `a_αβ v^α v^β` is 1; defined at rest too.
     pub direction: Vec<f64>,
     /// Control forces `u = (a + d) v̇ + b + c`.
     pub control: Vec<f64>,
@@ -45,7 +45,7 @@ pub struct Moment {
     pub friction_power: f64,
     /// λ of (44), the multiplier of the principle of work and energy divided by the speed, (31); 0 at the end.
     pub multiplier: f64,
-    /// What the guides do, in their order.
+    /// The slips and reactions of the guides, in their order.
     pub contacts: Vec<Contact>,
 }
 
@@ -58,21 +58,21 @@ pub struct Contact {
     pub reaction: f64,
 }
 
-/// A guide that leaves the law under which the motion was found.
+/// A guide that violates the law under which the motion was found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lapse {
     /// Name of the guide.
     pub guide: String,
-    /// When it was first seen, in s.
+    /// The time of the first violation, in s.
     pub time: f64,
-    /// Whether it slides backwards then; otherwise its reaction is negative.
+    /// Whether it slips backwards; otherwise its reaction is negative.
     pub backwards: bool,
-    /// The least value on the way: of the reaction, in N, or of the slip for motion with unit [`Moment::direction`].
+    /// The least value during the motion: of the reaction, in N, or of the slip for motion with unit [`Moment::direction`].
     pub least: f64,
 }
 
 impl Problem {
-    /// The fastest motion from rest at one place to another.
+    /// The fastest motion from rest at one position to another.
     ///
     /// # Errors
     /// Why there is none; see [`Unsolved`].
@@ -91,7 +91,7 @@ impl Problem {
         Ok(Brachistochrone::new(self.clone(), frame, arc, from, to))
     }
 
-    /// Why the end cannot be reached.
+    /// The reason why the end cannot be reached.
     fn beyond(&self, way: &[f64], angle: f64, reach: f64) -> Unsolved {
         let rise = dot(&self.slope, way);
         let friction = dot(&self.loads, way);
@@ -120,7 +120,7 @@ impl Brachistochrone {
         let first = frame.kappa.atan();
         let descent = frame.drive * first.cos();
         let [ahead, aside, _] = arc.whole();
-        // Roots one by one: of a straight way, `ahead` is next to nothing.
+        // Separate square roots: for a straight path, `ahead` is nearly 0.
         let scale = (frame.length * descent).sqrt() / ahead.hypot(aside).sqrt();
         Brachistochrone {
             problem,
@@ -134,17 +134,17 @@ impl Brachistochrone {
         }
     }
 
-    /// The time that it takes, in s.
+    /// The duration, in s.
     pub fn time(&self) -> f64 {
         self.scale / self.descent * self.arc.whole()[2]
     }
 
-    /// The machine that moves.
+    /// The machine.
     pub fn problem(&self) -> &Problem {
         &self.problem
     }
 
-    /// Where it starts and where it ends.
+    /// The start and the end.
     pub fn ends(&self) -> [&[f64]; 2] {
         [&self.start, &self.end]
     }
@@ -155,7 +155,7 @@ impl Brachistochrone {
         self.frame.kappa
     }
 
-    /// Through which angle the direction turns in all, in rad, in the metric of the motion.
+    /// The total angle by which the direction turns, in rad, in the metric of the motion.
     pub fn turn(&self) -> f64 {
         self.arc.turn()
     }
@@ -173,19 +173,20 @@ impl Brachistochrone {
             .collect()
     }
 
-    /// Between which sudden turns of the direction, in rad, nothing would be faster at any moment: −π and π where there is
-    /// no better motion at all, less where friction is saved by turning. Positive is the sense in which the motion turns.
+    /// The range of sudden turns of the direction, in rad, among which none would be faster at any moment: −π and π
+    /// if there is no better motion at all, less where turning saves friction. Positive turns have the sense in which
+    /// the motion turns.
     pub fn best_among_turns(&self) -> [f64; 2] {
         self.arc.best_among_turns()
     }
 
-    /// The motion at a time, in s; before the start and after the end, at these.
+    /// The motion at a time, in s; times before the start or after the end are clamped.
     pub fn at(&self, time: f64) -> Moment {
         let part = time / self.time();
         self.after_turning(self.arc.turned_after(part))
     }
 
-    /// The motion when a part of the whole turn has been made, from 0 to 1; so moments are nearer where it turns faster.
+    /// The motion at a fraction of the total turn, from 0 to 1; moments are then denser where it turns faster.
     pub fn after_part(&self, part: f64) -> Moment {
         self.after_turning(self.arc.turn() * part.clamp(0.0, 1.0))
     }
@@ -202,7 +203,8 @@ impl Brachistochrone {
         let [ahead, aside, time] = self.arc.so_far(u);
         let (sin, cos) = self.first.sin_cos();
         let way = along(cos * ahead - sin * aside, sin * ahead + cos * aside);
-        // The unit of the way may be too great for a number where the way in that unit is too small.
+        // Applied one after the other, because the unit of displacement may overflow where the displacement in that
+        // unit underflows.
         let scaled = |x: &f64| x * self.scale / self.descent * self.scale;
         let q = self
             .start
@@ -231,7 +233,7 @@ impl Brachistochrone {
             slip: dot(&guide.along, &v),
             reaction: guide.load + dot(&guide.weights, &a),
         });
-        // In the metric of the motion |e| = 1; the paper measures speed by the kinetic energy alone.
+        // In the metric of the motion |e| = 1, but the paper measures speed by the kinetic energy alone.
         let kinetic = dot(&unit, &times(&problem.mass, &unit)).sqrt();
         Moment {
             time: self.scale / self.descent * time,
@@ -247,8 +249,8 @@ impl Brachistochrone {
         }
     }
 
-    /// Guides that slide backwards, or whose reaction becomes negative, at one of 257 moments: there, the friction that was
-    /// assumed is not that of Coulomb.
+    /// Guides that slip backwards, or whose reaction becomes negative, at one of 257 moments: there the assumed friction is
+    /// not that of Coulomb.
     pub fn lapses(&self) -> Vec<Lapse> {
         let moments = (0..=LOOKS).map(|k| self.after_part(f64::from(k) / f64::from(LOOKS)));
         let guides = &self.problem.guides;
@@ -258,8 +260,7 @@ impl Brachistochrone {
     }
 }
 
-/// What guides do at these moments that Coulomb's law does not allow; `slip` is that of a motion with unit
-/// [`Moment::direction`].
+/// The violations of Coulomb's law by guides at these moments; `slip` is that of a motion with unit [`Moment::direction`].
 pub(super) fn lapses(
     guides: &[String],
     moments: &[Moment],

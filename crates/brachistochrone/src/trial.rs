@@ -1,89 +1,89 @@
-//! What a search tried, and what came of it.
+//! The trials of a search and their outcomes.
 
 use core::fmt::{self, Display};
 
-/// From what a search starts.
+/// The start of a trial.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Start {
-    /// A way that the caller gave.
+    /// A path given by the caller.
     Guess,
-    /// The straight way in coordinates.
+    /// The straight path in coordinates.
     Straight,
-    /// The straight way, moved aside.
+    /// The straight path, bent to one side.
     Bowed {
-        /// By so much in the middle, in each coordinate.
+        /// The displacement in the middle, in each coordinate.
         by: Vec<f64>,
     },
-    /// The closed form of the machine with constant coefficients, followed to the machine itself.
+    /// The closed form of the machine with constant coefficients, continued to the machine itself.
     Frozen,
-    /// The motion of the machine without friction, followed while friction grows to that of the machine.
+    /// The motion of the machine without friction, continued while friction grows to that of the machine.
     Frictionless {
-        /// The time that it takes without friction, in s; `None` where no motion without friction was found.
+        /// Its duration without friction, in s; `None` where no motion without friction was found.
         time: Option<f64>,
     },
 }
 
-/// What came of a start.
+/// The outcome of a trial.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Outcome {
-    /// A motion that is faster than its neighbours.
+    /// A motion that is a local minimum.
     Found {
-        /// The time that it takes, in s.
+        /// Its duration, in s.
         time: f64,
     },
-    /// A motion, or a path of straight pieces, that another start led to as well.
+    /// A motion, or a polygon, to which another start led as well.
     Same {
-        /// Which, in the order of the trials.
+        /// The index of that trial.
         trial: usize,
     },
-    /// An extremal, but a change of its directions would save time: Legendre's condition fails, or Jacobi's.
+    /// An extremal that is not a minimum: a change of its directions would be faster. Legendre's condition
+    /// fails, or Jacobi's.
     NotLeast {
-        /// The time that it takes, in s.
+        /// Its duration, in s.
         time: f64,
-        /// From when on there are faster ones beside it, in s after the start.
+        /// The time from which faster motions exist beside it, in s after the start.
         since: f64,
     },
-    /// A way of straight pieces that could not be made smooth: Newton's method finds no extremal at it.
+    /// A polygon near which Newton's method finds no extremal.
     NotSmooth {
-        /// The time that it takes, in s.
+        /// Its duration, in s.
         time: f64,
     },
-    /// No way near this one is gone from rest.
+    /// The machine cannot traverse any path near this one from rest.
     Lacks {
-        /// The energy that is lacking at the start on the way that needs least of those that were looked at, in J; infinite where
-        /// none would do.
+        /// The energy lacking at the start, in J, on the path that needs least among those examined; infinite if no energy suffices.
         energy: f64,
     },
-    /// Followed from constant coefficients, or from no friction, to those of the machine, the motion was lost.
+    /// The continuation, from constant coefficients or from no friction to the machine itself, lost the motion.
     Lost {
-        /// Which part of the way was gone.
+        /// The parameter of the continuation at which it failed.
         part: f64,
     },
-    /// The machine without friction has no motion that was found, so there was none to follow.
+    /// No motion of the machine without friction was found, so there was none to continue.
     Nothing,
-    /// It was not looked at to its end, as the search had done what it may.
+    /// The trial was not finished because the budget of the search was exhausted.
     Unfinished,
 }
 
-/// A start, and what came of it.
+/// A trial: its start and its outcome.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
-    /// From what.
+    /// Its start.
     pub start: Start,
-    /// What came of it.
+    /// Its outcome.
     pub outcome: Outcome,
 }
 
 impl Trial {
-    /// Its time, in s, where it was not followed to a motion that is faster than its neighbours and is less than this one.
+    /// Its duration, in s, if it is less than `known` and was not continued to a local minimum.
     pub(crate) fn doubt(&self, known: f64) -> Option<f64> {
         let time = match self.outcome {
             Outcome::NotSmooth { time } | Outcome::NotLeast { time, .. } => time,
             _ => return None,
         };
-        // Straight pieces are good to so much.
+        // The accuracy of polygons.
         (time < (1.0 - 1e-3) * known).then_some(time)
     }
 }
@@ -149,7 +149,7 @@ impl Display for Trial {
     }
 }
 
-/// Three digits.
+/// Rounds to three digits.
 fn short(x: f64) -> f64 {
     std::format!("{x:.2e}").parse().unwrap_or(x) + 0.0
 }

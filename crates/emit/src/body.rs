@@ -1,8 +1,8 @@
 //! Straight-line code as statements of a language with operators: the part that Rust and C share.
 //!
-//! Every value that is used more than once becomes a variable; one that is used once stands inside the expression that
-//! uses it, as long as that stays readable. The order of the operations inside an expression is that of the program, so
-//! rounding is the same as if every value were a variable.
+//! Every value that is used more than once becomes a variable. A value that is used once is written inside the
+//! expression that uses it, as long as the expression stays readable. The order of operations inside an expression is
+//! that of the program, so rounding is the same as if every value were a variable.
 
 use lagrangian_symbolic::{self as symbolic, Rational};
 
@@ -18,21 +18,21 @@ mod repeats;
 
 pub use repeats::{Loops, Place, Plan, fill, runs, statements_with_loops};
 
-/// The longest expression that is put into another one.
+/// The longest expression that is inlined into another one.
 const LONGEST_INLINE: usize = 72;
 
-/// The longest expression with a call of a method that is put into another one: longer ones are broken by rustfmt.
+/// The longest expression with a method call that is inlined into another one: rustfmt breaks longer ones.
 const LONGEST_CALL: usize = 58;
 
-/// How a language writes what is no operator.
+/// How a language writes everything except operators.
 pub trait Language {
     /// A rational number.
     fn constant(&self, value: &Rational) -> Expression;
     /// π.
     fn pi(&self) -> Expression;
-    /// An argument that has no variable of its own; `None` where it has one.
+    /// The expression for an argument that needs no variable; `None` where it needs one.
     fn argument(&self, source: Source) -> Option<Expression>;
-    /// The name that a variable for an argument should have, and what it is set to.
+    /// The name that a variable for an argument should have, and the text of its value.
     fn variable(&self, source: Source) -> (String, String);
     /// A function of one argument, `a.sqrt()`.
     fn unary(&self, function: symbolic::Function, argument: &Expression) -> Expression;
@@ -40,7 +40,7 @@ pub trait Language {
     fn binary(&self, function: symbolic::Function, a: &Expression, b: &Expression) -> Expression;
     /// `let name = value;`
     fn bind(&self, writer: &mut Writer, name: &str, value: &str);
-    /// Sine, cosine or both of a variable or an argument.
+    /// Writes sine, cosine or both of a variable or an argument.
     fn sin_cos(
         &self,
         writer: &mut Writer,
@@ -48,11 +48,11 @@ pub trait Language {
         cos: Option<&str>,
         angle: &Expression,
     );
-    /// Leaves the function where a pivot vanishes.
+    /// Writes an early return for a vanishing pivot.
     fn guard(&self, writer: &mut Writer, guard: &Guard, names: [&str; 2]);
-    /// A free name for a variable, the nearest to `name`.
+    /// A free identifier for a variable, as close to `name` as possible.
     fn identifier(&self, scope: &mut Scope, name: &str) -> String;
-    /// What an angle may be called in the names of its sine and cosine: `theta1`, of `n(q[0])` too.
+    /// The name of an angle within the names of its sine and cosine: `theta1`, also for `n(q[0])`.
     fn angle_name(&self, angle: &str) -> String {
         let plain = angle.trim_start_matches("r#");
         plain
@@ -60,11 +60,11 @@ pub trait Language {
             .map(|c| if c.is_alphanumeric() { c } else { '_' })
             .collect()
     }
-    /// Whether a bound value may be called by its meaning, such as `zero`.
+    /// The name for a bound constant that has one, such as `zero`.
     fn constant_name(&self, value: &Rational) -> Option<&'static str>;
-    /// What rounding took from a product or a sum.
+    /// The rounding error of a product or a sum.
     fn error(&self, of: Rounded, a: &Expression, b: &Expression) -> Expression;
-    /// A product and a sum in one operation; `None` where the language keeps them apart.
+    /// A fused product and sum; `None` where the language computes them separately.
     fn contraction(
         &self,
         _kind: Contracted,
@@ -73,19 +73,20 @@ pub trait Language {
     ) -> Option<Expression> {
         None
     }
-    /// Whether [`sin_cos_all`](Language::sin_cos_all) is to be used, and products are contracted.
+    /// Whether code is written for speed: with [`sin_cos_all`](Language::sin_cos_all), and with products contracted.
     fn is_for_speed(&self) -> bool {
         false
     }
-    /// Sines and cosines of several angles at once; names for those that are used.
+    /// Writes sines and cosines of several angles at once, with names for those that are used.
     fn sin_cos_all(&self, _writer: &mut Writer, _angles: &[Angle]) {}
-    /// Two operations of one kind in one statement, of operands slot by slot; `None` where the language writes each by itself.
+    /// Two operations of the same kind in one statement, with their operands slot by slot; `None` where the
+    /// language writes them separately.
     fn pack(&self, _what: What, _operands: &[[Expression; 2]]) -> Option<String> {
         None
     }
 }
 
-/// An operation whose rounding error is asked for.
+/// An operation whose rounding error is needed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rounded {
     /// `a·b`
@@ -104,7 +105,7 @@ pub struct Angle {
     pub cos: Option<String>,
 }
 
-/// How tightly an expression holds together.
+/// The precedence of an expression's outermost operator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Binding {
     /// `a + b`, `a - b`
@@ -124,12 +125,12 @@ pub struct Expression {
     pub text: String,
     /// Its outermost operator.
     pub binding: Binding,
-    /// Whether it is no longer and no dearer than a name.
+    /// Whether it is as short and as cheap as a name.
     pub is_leaf: bool,
 }
 
 impl Expression {
-    /// A name, or a number that is as good as one.
+    /// A name, or a number that is as short as one.
     pub fn leaf(text: impl Into<String>) -> Expression {
         Expression {
             text: text.into(),
@@ -155,7 +156,7 @@ impl Expression {
         }
     }
 
-    /// In parentheses where it would fall apart beside something that binds as tightly as `least`.
+    /// The text, in parentheses if its operator binds less tightly than `least`.
     pub fn at_least(&self, least: Binding) -> String {
         if self.binding >= least {
             self.text.clone()
@@ -180,9 +181,9 @@ impl Expression {
     }
 }
 
-/// Writes the statements of a function; the texts of its results come back.
+/// Writes the statements of a function and returns the texts of its results.
 ///
-/// `wanted` are the names that the results should have, where they become variables; a scalar's result does not.
+/// `wanted` holds the names of results that become variables; a scalar result does not.
 pub fn statements(
     writer: &mut Writer,
     language: &impl Language,
@@ -205,18 +206,18 @@ pub fn statements(
     body.results()
 }
 
-/// The guards that are checked after the statements of a function.
+/// The results and guards of a function whose guards the caller checks.
 pub struct Unchecked {
     /// The results.
     pub results: Vec<Expression>,
-    /// Of each guard the pivot and its scale.
+    /// The pivot and the scale of each guard.
     pub guards: Vec<[String; 2]>,
-    /// The result that is known last.
+    /// The index of the result that is computed last.
     pub latest: usize,
 }
 
-/// The statements of a function without its guards, which the caller checks after everything else; with its operations in
-/// pairs, where it has any.
+/// Writes the statements of a function without its guards, which the caller checks after everything else. If `packs` is
+/// given, operations are written in pairs.
 pub fn unchecked(
     writer: &mut Writer,
     language: &impl Language,
@@ -245,7 +246,7 @@ pub fn unchecked(
     }
 }
 
-/// Whether an expression is too long to be put into another one.
+/// Whether an expression is too long to be inlined into another one.
 fn is_long(text: &str) -> bool {
     let longest = if text.contains(".mul_") || text.contains(".neg_mul_") {
         LONGEST_CALL
@@ -260,20 +261,20 @@ struct Body<'a, L> {
     language: &'a L,
     function: &'a Function,
     scope: Scope,
-    /// How often each value is used.
+    /// How many times each value is used.
     uses: Vec<u32>,
-    /// Where values stand among others that are counted.
+    /// The elements of arrays that hold each value, for loops that count through them.
     places: Vec<Vec<Place>>,
-    /// The names that values should have.
+    /// The names wanted for values.
     wanted: Vec<Option<&'a str>>,
-    /// The text of each value so far.
+    /// The text of each value written so far.
     texts: Vec<Option<Expression>>,
     temporaries: usize,
-    /// How many names of loops there are.
+    /// The number of loop names used so far.
     names: usize,
     /// Whether results become variables.
     binds_results: bool,
-    /// Which products are computed by the sums that use them.
+    /// Which products are fused into the sums that use them.
     contractions: Contractions,
 }
 
@@ -311,7 +312,7 @@ impl<'a, L: Language> Body<'a, L> {
         }
     }
 
-    /// Variables for the arguments that are used.
+    /// Writes variables for the arguments that are used.
     fn read_arguments(&mut self) {
         let mut reads: Vec<(Source, usize)> = Vec::new();
         for (index, op) in self.function.code.iter().enumerate() {
@@ -331,14 +332,14 @@ impl<'a, L: Language> Body<'a, L> {
         }
     }
 
-    /// Whether what a guard compares is there after the operation at an index.
+    /// Whether the operands of a guard are computed after the operation at an index.
     fn is_ready(&self, guard: &Guard, index: usize) -> bool {
         let is_argument = |value: Value| matches!(self.function.op(value), Op::Read(_));
         let is_there = |value: Value| value.index() <= index || is_argument(value);
         is_there(guard.pivot) && is_there(guard.scale)
     }
 
-    /// Sines and cosines that need nothing but arguments and sums and products of them, together.
+    /// Writes together all sines and cosines whose angles need only arguments and sums and products of them.
     fn all_angles(&mut self) {
         if !self.language.is_for_speed() {
             return;
@@ -370,7 +371,7 @@ impl<'a, L: Language> Body<'a, L> {
 
     fn operation(&mut self, value: Value) {
         if self.texts[value.index()].is_some() || self.contractions.is_part(value) {
-            return; // read above, the cosine beside a sine, or part of the sum that uses it
+            return; // written before, the cosine to a sine, or part of the sum that uses it
         }
         let expression = match self.function.op(value).clone() {
             _ if let Some(sum) = self.contractions.sum(value) => self.contraction(sum),
@@ -380,7 +381,7 @@ impl<'a, L: Language> Body<'a, L> {
         self.define(value, expression);
     }
 
-    /// The operations of a function in pairs.
+    /// Writes the operations of a function in pairs.
     fn in_pairs(&mut self, statements: &[Statement]) {
         for (index, op) in self.function.code.iter().enumerate() {
             if matches!(op, Op::Constant(_) | Op::Pi) {
@@ -395,7 +396,7 @@ impl<'a, L: Language> Body<'a, L> {
         }
     }
 
-    /// Two operations in one statement.
+    /// Writes two operations in one statement.
     fn pack(&mut self, pack: &Pack) {
         for value in pack.operands.iter().flatten() {
             if is_long(&self.text(*value).text) {
@@ -423,7 +424,7 @@ impl<'a, L: Language> Body<'a, L> {
         }
     }
 
-    /// What a value is: a variable, if it is used again.
+    /// Defines the text of a value, as a variable if it is used more than once.
     fn define(&mut self, value: Value, expression: Expression) {
         let is_cheap = expression.is_leaf || matches!(self.function.op(value), Op::Pi);
         self.texts[value.index()] = Some(expression);
@@ -432,13 +433,13 @@ impl<'a, L: Language> Body<'a, L> {
         }
     }
 
-    /// An operation, other than a sine and a cosine.
+    /// The expression of an operation other than sine and cosine.
     fn expression(&mut self, op: Op) -> Expression {
         let language = self.language;
         match op {
             Op::Constant(rational) => language.constant(&rational),
             Op::Pi => language.pi(),
-            // All of them were read above.
+            // All arguments were written before.
             Op::Read(source) => Expression::leaf(language.variable(source).1),
             Op::Sin(a) => self.combine([a], |[a]| language.unary(symbolic::Function::Sin, a)),
             Op::Cos(a) => self.combine([a], |[a]| language.unary(symbolic::Function::Cos, a)),
@@ -504,14 +505,14 @@ impl<'a, L: Language> Body<'a, L> {
         }
     }
 
-    /// Sine and cosine of an angle, whichever of them the function uses.
+    /// Writes sine and cosine of an angle, or the one that the function uses.
     fn sin_cos(&mut self, angle: Value) {
         let Angle { angle, sin, cos } = self.name_angle(angle);
         self.language
             .sin_cos(self.writer, sin.as_deref(), cos.as_deref(), &angle);
     }
 
-    /// Names for the sine and the cosine of an angle, whichever of them the function uses.
+    /// Names the sine and the cosine of an angle, or the one that the function uses.
     fn name_angle(&mut self, angle: Value) -> Angle {
         self.bound(angle);
         let argument = self.text(angle);
@@ -532,14 +533,14 @@ impl<'a, L: Language> Body<'a, L> {
         }
     }
 
-    /// The text of a value that was met already.
+    /// The text of a value that has been written.
     fn text(&self, value: Value) -> Expression {
         self.texts[value.index()]
             .clone()
             .expect("operands come before what uses them")
     }
 
-    /// The name of a value, which becomes a variable if it is none yet.
+    /// The name of a value, which becomes a variable if it is not one yet.
     fn bound(&mut self, value: Value) -> String {
         let expression = self.text(value);
         if expression.is_leaf {
@@ -549,7 +550,7 @@ impl<'a, L: Language> Body<'a, L> {
         self.bind(value, &name, &expression.text)
     }
 
-    /// What the variable of a value should be called: what is wanted, or the next number.
+    /// A name for the variable of a value: the wanted one, or the next number.
     fn name(&mut self, value: Value) -> String {
         let wanted = self.wanted.get(value.index()).copied().flatten();
         wanted.map(str::to_owned).unwrap_or_else(|| {
@@ -573,7 +574,7 @@ impl<'a, L: Language> Body<'a, L> {
     fn result(&mut self, value: Value) -> Expression {
         if self.binds_results {
             let text = self.bound(value);
-            // A matrix is easier to read with `zero` in it than with `S::ZERO`.
+            // A matrix is easier to read with `zero` than with `S::ZERO`.
             let named = match self.function.op(value) {
                 Op::Constant(rational) => self.language.constant_name(rational),
                 _ => None,

@@ -1,4 +1,4 @@
-//! C: one file for one machine, plain C99 over `double`, the same operations in the same order as the Rust.
+//! C: one file for one machine, plain C99 over `double`, with the same operations in the same order as the Rust code.
 
 pub mod uniform;
 
@@ -15,7 +15,7 @@ use lagrangian_mechanics::Proved;
 use lagrangian_program::{Function, Guard, Op, Program, Reads, Role, Shape, Slot, Source};
 use lagrangian_units::{rate_unit, state_of};
 
-/// What C keeps for itself, and the functions of its library that the code calls.
+/// Keywords of C, and the functions of its library that the code calls.
 const RESERVED: &[&str] = &[
     "auto",
     "break",
@@ -88,7 +88,7 @@ const RESERVED: &[&str] = &[
     "INFINITY",
 ];
 
-/// The text of the file. `origin` are lines for its head, `formulas` those that the comments show.
+/// The text of the file. `origin` holds lines for its head, `formulas` those that comments show.
 pub fn file(program: &Proved, origin: &[String], formulas: &BTreeMap<Role, Vec<String>>) -> String {
     let emitter = Emitter::new(program);
     let mut writer = Writer::default();
@@ -103,13 +103,13 @@ pub fn file(program: &Proved, origin: &[String], formulas: &BTreeMap<Role, Vec<S
     writer.finish()
 }
 
-/// Whether any of the programs has such an operation.
+/// Whether any of the programs contains such an operation.
 fn have(programs: &[&Program], is_such: fn(&Op) -> bool) -> bool {
     let functions = programs.iter().flat_map(|program| program.all_functions());
     functions.flat_map(|function| &function.code).any(is_such)
 }
 
-/// What rounding takes from a sum, where programs ask for it.
+/// The helper for the rounding error of a sum, where programs need it.
 fn sum_error(writer: &mut Writer, programs: &[&Program]) {
     if !have(programs, |op| matches!(op, Op::SumError(..))) {
         return;
@@ -122,7 +122,7 @@ fn sum_error(writer: &mut Writer, programs: &[&Program]) {
     writer.close("}");
 }
 
-/// The sign of a number, where programs ask for it.
+/// The helper for the sign of a number, where programs need it.
 fn sign(writer: &mut Writer, programs: &[&Program]) {
     if !have(programs, |op| {
         matches!(op, Op::Unary(symbolic::Function::Sign, _))
@@ -138,9 +138,9 @@ fn sign(writer: &mut Writer, programs: &[&Program]) {
 
 struct Emitter<'a> {
     program: &'a Program,
-    /// What every global name begins with.
+    /// The prefix of every global name.
     prefix: String,
-    /// For each slot the path of its number in its struct.
+    /// For each slot the path to its number in its struct.
     parameters: Vec<String>,
     inputs: Vec<String>,
     prepared: Vec<String>,
@@ -314,7 +314,7 @@ impl<'a> Emitter<'a> {
         if !function.guards.is_empty() || self.prepared.is_empty() {
             writer.line("p->singular = 0;");
         }
-        // The first that fails is reported: it is written last.
+        // The first guard that fails is reported, so it is written last.
         let pairs = texts[self.prepared.len()..].chunks(2);
         for (guard, pair) in function
             .guards
@@ -332,7 +332,7 @@ impl<'a> Emitter<'a> {
         writer.close("}");
     }
 
-    /// Whether there is a function in the text: of zeros there is none, but for some.
+    /// Whether the text contains a function: most functions whose results are all zero are left out.
     fn is_written(&self, function: &Function) -> bool {
         let is_zero =
             |value: &_| matches!(function.op(*value), Op::Constant(rational) if rational.is_zero());
@@ -358,7 +358,7 @@ impl<'a> Emitter<'a> {
         let result = match function.shape {
             Shape::Scalar => "double",
             Shape::Vector(n) => {
-                // What time decides may be nothing.
+                // C has no empty arrays, so a stage of time that leaves nothing has one element.
                 arguments.push(format!("double to[{}]", n.max(1)));
                 if inverts { "int" } else { "void" }
             }
@@ -466,7 +466,7 @@ impl<'a> Emitter<'a> {
         docs
     }
 
-    /// The arguments that a function reads, and how they are passed on.
+    /// The arguments that a function needs, and how they are passed on.
     fn arguments(&self, reads: Reads) -> Vec<(&'static str, String)> {
         let (prefix, n) = (&self.prefix, self.program.dimension());
         let all = [
@@ -499,7 +499,7 @@ impl<'a> Emitter<'a> {
             .collect()
     }
 
-    /// What a piece reads; what it takes from `w` are no prepared values.
+    /// The arguments that a piece reads; values that it takes from `w` do not count as prepared values.
     fn reads_of_piece(&self, piece: &Piece) -> Reads {
         let mut reads = piece.function.reads();
         reads.prepared = piece.function.code.iter().any(
@@ -508,7 +508,7 @@ impl<'a> Emitter<'a> {
         reads
     }
 
-    /// A piece of a function that is too long to be one.
+    /// Writes one piece of a function that is too long to be written whole.
     fn piece(&self, writer: &mut Writer, name: &str, piece: &Piece) {
         let fails = !piece.function.guards.is_empty();
         let mut arguments = self.declared(self.reads_of_piece(piece));
@@ -526,7 +526,7 @@ impl<'a> Emitter<'a> {
         writer.close("}");
     }
 
-    /// The body of a function in pieces; the texts of its results come back.
+    /// Writes the body of a function in pieces; returns the texts of its results.
     fn calls_of_pieces(&self, writer: &mut Writer, name: &str, cut: &Cut) -> Vec<String> {
         writer.line(
             "/* Too long for one function: each piece leaves in w what those after it need. */",
@@ -582,7 +582,7 @@ impl<'a> Emitter<'a> {
 
     fn statements(&self, writer: &mut Writer, function: &Function) -> Vec<Expression> {
         let scope = Scope::with(RESERVED);
-        // Entries of a matrix are written twice: they must be names. Vectors are written once.
+        // Entries of a matrix are written twice, so they must be names. Those of vectors are written once.
         let names: Vec<String> = match function.shape {
             Shape::Symmetric(n) => (0..n)
                 .flat_map(|i| (0..=i).map(move |j| format!("m{}_{}", i + 1, j + 1)))
@@ -622,7 +622,7 @@ impl Language for Emitter<'_> {
             Source::Coordinate(i) => (name(i), format!("q[{i}]")),
             Source::Velocity(i) => (format!("{}_dot", name(i)), format!("v[{i}]")),
             Source::Acceleration(i) => (format!("{}_ddot", name(i)), format!("a[{i}]")),
-            // The others are no variables.
+            // Other arguments are not variables.
             _ => ("argument".into(), "argument".into()),
         }
     }
@@ -685,10 +685,10 @@ impl Language for Emitter<'_> {
     }
 }
 
-/// True where a pivot vanishes, or is no number.
+/// True where a pivot vanishes or is NaN.
 fn condition(guard: &Guard, pivot: &str, scale: &str) -> String {
     let tolerance = number(guard.tolerance).text;
-    // A scale may be a sum, and all of it is meant.
+    // A scale that is a sum needs parentheses.
     if scale.contains(' ') {
         format!("!({pivot} > ({scale}) * {tolerance})")
     } else {
@@ -756,12 +756,12 @@ fn comment(writer: &mut Writer, text: &str, formulas: &[String]) {
     writer.line(" */");
 }
 
-/// A text that does not end the comment it stands in.
+/// A text that cannot end the comment in which it is written.
 fn harmless(text: &str) -> String {
     text.replace("*/", "* /").replace("/*", "/ *")
 }
 
-/// The names of the fields of a struct, none twice.
+/// The names of the fields of a struct, without duplicates.
 fn field_names(groups: &[Field], slots: &[Slot]) -> Vec<String> {
     let mut scope = Scope::with(RESERVED);
     groups
@@ -770,7 +770,7 @@ fn field_names(groups: &[Field], slots: &[Slot]) -> Vec<String> {
         .collect()
 }
 
-/// For each slot the path of its number in its struct.
+/// For each slot the path to its number in its struct.
 fn paths(slots: &[Slot]) -> Vec<String> {
     let mut groups = fields(slots.iter().map(|slot| &slot.name));
     let names = field_names(&groups, slots);

@@ -1,23 +1,24 @@
 //! Functions that are too long for a compiler, cut into pieces.
 //!
-//! Every `let` is a scope of its own to the Rust compiler, and its code generator descends into scopes recursively: some
-//! thousand in one function overflow its stack. Before that, time grows faster than length. The pieces leave their results
-//! to each other in an array `w`, which holds what is still needed and nothing else.
+//! The Rust compiler treats every `let` as a scope of its own, and its code generator descends into scopes recursively:
+//! some thousand in one function overflow its stack. Before that, compile time grows faster than length. The pieces pass
+//! their results on in an array `w`, which holds only values that are still needed.
 
 use rustc_hash::FxHashMap;
 
 use lagrangian_program::{Function, Guard, Op, Shape, Source, Value};
 
-/// The most operations of a function that stays whole, by default. A compiler still handles it well, and calls cost nothing.
+/// The most operations of a function that is not cut, by default. Compilers handle this length well, and the calls
+/// of pieces cost nothing.
 pub const LONGEST_WHOLE: usize = 2000;
 
-/// The most operations of a piece, and the fewest: in between, it ends where the least is left to the next one.
+/// The most and the fewest operations of a piece; in between it ends where the fewest values are live.
 const LONGEST_PIECE: usize = 500;
 const SHORTEST_PIECE: usize = 350;
 
-/// A function in pieces.
+/// A function cut into pieces.
 pub struct Cut {
-    /// To be run one after the other.
+    /// The pieces, in the order in which they run.
     pub pieces: Vec<Piece>,
     /// The length of `w`.
     pub slots: usize,
@@ -28,21 +29,21 @@ pub struct Cut {
 /// A piece: a function whose results go to slots of `w`. It reads slot k as prepared value `first + k`, where `first` is the
 /// number of prepared values.
 pub struct Piece {
-    /// What it computes.
+    /// The operations of the piece.
     pub function: Function,
-    /// For each of its results the slot.
+    /// The slot of `w` for each of its results.
     pub keeps: Vec<usize>,
 }
 
-/// Where a result is found once all pieces have run.
+/// Where a result is found after all pieces have run.
 pub enum Place {
     /// In `w`.
     Slot(usize),
-    /// It is an argument or a constant.
+    /// An argument or a constant.
     Leaf(Op),
 }
 
-/// Cuts a function, if it has more operations than `longest`.
+/// Cuts a function if it has more operations than `longest`.
 pub fn cut(function: &Function, first: usize, longest: usize) -> Option<Cut> {
     let is_long = function.code.iter().filter(|op| !is_leaf(op)).count() > longest;
     is_long.then(|| Cutter::new(function, first).cut())
@@ -55,9 +56,9 @@ fn is_leaf(op: &Op) -> bool {
 struct Cutter<'a> {
     function: &'a Function,
     first: usize,
-    /// For each value the index of the last operation that needs it; that of a result is past all of them.
+    /// For each value the index of the last operation that needs it; for results an index past all operations.
     last_use: Vec<usize>,
-    /// The slots of values that a piece left behind.
+    /// The slots of values that earlier pieces have stored.
     slots: FxHashMap<Value, usize>,
     free: Vec<usize>,
     count: usize,
@@ -112,7 +113,7 @@ impl<'a> Cutter<'a> {
     /// Where the pieces end.
     fn ends(&self) -> Vec<usize> {
         let code = &self.function.code;
-        // How many values are computed before an operation and needed by it or after it.
+        // The number of values that are computed before an operation and needed by it or later ones.
         let mut live = vec![0isize; code.len() + 2];
         for (index, op) in code.iter().enumerate().filter(|(_, op)| !is_leaf(op)) {
             live[index + 1] += isize::from(!is_leaf(op));
@@ -157,7 +158,7 @@ impl<'a> Cutter<'a> {
         };
         for index in start..end {
             let value = Value(index as u32);
-            // The partner of a sine or cosine was left behind by the piece that has the first of them.
+            // The piece that has the sine or the cosine has stored its partner too.
             if !is_leaf(whole.op(value)) && !piece.cutter.slots.contains_key(&value) {
                 piece.take(value);
             }
@@ -182,7 +183,7 @@ impl<'a> Cutter<'a> {
         kept.sort();
         let results: Vec<Value> = kept.iter().map(|value| values[value]).collect();
         let keeps: Vec<usize> = kept.iter().map(|&value| self.keep(value)).collect();
-        // What nobody needs any more makes room, but only for the pieces after this one.
+        // Slots of values that are no longer needed become free, but only for the pieces after this one.
         let last_use = &self.last_use;
         let mut dead: Vec<Value> = self
             .slots
@@ -217,21 +218,21 @@ impl<'a> Cutter<'a> {
     }
 }
 
-/// The operation after which a guard can be checked.
+/// The index of the operation after which a guard can be checked.
 fn checked_at(guard: &Guard) -> usize {
     guard.pivot.index().max(guard.scale.index())
 }
 
-/// The code of a piece, as it grows.
+/// The code of a piece under construction.
 struct Builder<'c, 'a> {
     cutter: &'c mut Cutter<'a>,
     code: Vec<Op>,
-    /// The values of the whole function in the piece.
+    /// The values of the whole function, as values of the piece.
     values: FxHashMap<Value, Value>,
 }
 
 impl Builder<'_, '_> {
-    /// Puts an operation into the piece, and the partner of a sine or cosine with it.
+    /// Appends an operation to the piece, with the partner of a sine or cosine.
     fn take(&mut self, value: Value) {
         if self.values.contains_key(&value) {
             return;
@@ -263,7 +264,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// A value in the piece: computed here, read again, or left by an earlier piece.
+    /// A value in the piece: computed here, read again, or stored by an earlier piece.
     fn value(&mut self, value: Value) -> Value {
         if let Some(&known) = self.values.get(&value) {
             return known;
@@ -287,7 +288,7 @@ impl Builder<'_, '_> {
     }
 }
 
-/// A function that is worth cutting, for tests: `sum (sin(k q))²` and on, all of it needed at the end.
+/// A function long enough to be cut, for tests: terms like `(sin(k q))²`, all needed for the sum at the end.
 #[cfg(test)]
 fn long_function(terms: usize) -> Function {
     let mut code = vec![Op::Read(Source::Coordinate(0))];
@@ -322,7 +323,7 @@ fn long_function(terms: usize) -> Function {
 mod tests {
     use super::*;
 
-    /// Runs straight-line code; slots are prepared values.
+    /// Runs straight-line code; slots of `w` are passed as prepared values.
     fn run(function: &Function, q: f64, slots: &[f64]) -> Vec<f64> {
         let mut values: Vec<f64> = Vec::new();
         for op in &function.code {

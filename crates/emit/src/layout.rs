@@ -1,23 +1,23 @@
-//! Text laid out as rustfmt leaves it.
+//! Text laid out as rustfmt formats it.
 //!
-//! The macro cannot call rustfmt, and what is committed must not change under it. Emitted code therefore uses a handful of
-//! constructs only, and this module knows how default rustfmt breaks each of them; a test holds it to that.
+//! The macro cannot call rustfmt, and committed code must not change when it is formatted. Emitted code therefore uses
+//! only a few constructs, and this module reproduces how default rustfmt breaks each of them; a test verifies this.
 
 /// The widest line.
 pub const WIDTH: usize = 100;
-/// The widest content of an array, or of the arguments of a call, on one line.
+/// The widest content on one line of an array, or of the arguments of a call.
 const LIST_WIDTH: usize = 60;
 /// The widest content of a struct literal on one line.
 const STRUCT_WIDTH: usize = 18;
 /// The longest item of a list whose items share lines.
 const SHORT_ITEM: usize = 10;
 
-/// An expression whose line breaks follow from where it stands.
+/// An expression whose line breaks depend on its position.
 #[derive(Clone, Debug)]
 pub enum Layout {
-    /// Never broken.
+    /// A text that is never broken.
     Atom(String),
-    /// `[a, b]`, `f(a, b)`: what stands before the items, the items, what stands behind.
+    /// `[a, b]`, `f(a, b)`: the text before the items, the items, and the text after them.
     List(String, Vec<Layout>, &'static str),
     /// `Name { field: value }`.
     Struct(String, Vec<(String, Layout)>),
@@ -38,7 +38,7 @@ impl Layout {
         Layout::List("[".into(), items.into_iter().collect(), "]")
     }
 
-    /// On one line, where it fits its own limits.
+    /// The text on one line, if that is within its width limits.
     fn flat(&self) -> Option<String> {
         match self {
             Layout::Atom(text) => Some(text.clone()),
@@ -56,7 +56,7 @@ impl Layout {
         }
     }
 
-    /// Lines that begin at column `indent`, the first of them behind `before`, the last followed by `after`.
+    /// Writes lines that begin at column `indent`, the first after `before`, the last followed by `after`.
     fn write(&self, out: &mut String, indent: usize, before: &str, after: &str) {
         let pad = " ".repeat(indent);
         if let Some(flat) = self.flat() {
@@ -64,7 +64,7 @@ impl Layout {
                 out.push_str(&format!("{pad}{before}{flat}{after}\n"));
                 return;
             }
-            // What is assigned goes to the next line rather than over several.
+            // An assigned expression moves to the next line rather than being broken.
             if let Some(name) = before.strip_suffix("= ")
                 && indent + 4 + width(&flat) + width(after) <= WIDTH
             {
@@ -73,7 +73,7 @@ impl Layout {
             }
         }
         match self {
-            // An atom too long for its line: rustfmt lets it stand behind a line break.
+            // rustfmt leaves an atom that is too long for its line.
             Layout::Atom(text) => out.push_str(&format!("{pad}{before}{text}{after}\n")),
             Layout::List(open, items, close) => {
                 out.push_str(&format!("{pad}{before}{open}\n"));
@@ -125,7 +125,7 @@ fn is_simple(text: &str) -> bool {
         .all(|c| c.is_alphanumeric() || "_.[]#".contains(c))
 }
 
-/// As many items to a line as fit; rustfmt leaves the last column free.
+/// Puts as many items on a line as fit; rustfmt leaves the last column free.
 fn fill(out: &mut String, indent: usize, items: &[&str]) {
     let pad = " ".repeat(indent);
     let mut line = String::new();
@@ -143,7 +143,7 @@ fn fill(out: &mut String, indent: usize, items: &[&str]) {
     out.push_str(&format!("{pad}{line}\n"));
 }
 
-/// Columns that a text takes.
+/// The number of columns of a text.
 pub fn width(text: &str) -> usize {
     text.chars().count()
 }
@@ -156,7 +156,7 @@ pub struct Writer {
 }
 
 impl Writer {
-    /// For text that is put into a block later.
+    /// A writer for text that is inserted into a block later.
     pub fn indented(indent: usize) -> Writer {
         Writer {
             out: String::new(),
@@ -164,22 +164,22 @@ impl Writer {
         }
     }
 
-    /// Text that is laid out already.
+    /// Appends text that is already laid out.
     pub fn raw(&mut self, text: &str) {
         self.out.push_str(text);
     }
 
-    /// What was written.
+    /// The text written so far.
     pub fn finish(self) -> String {
         self.out
     }
 
-    /// The columns that are left on a line.
+    /// The number of columns of a line after indentation.
     pub fn columns(&self) -> usize {
         WIDTH - self.indent
     }
 
-    /// One line; an empty one has no blanks.
+    /// Writes one line; an empty line gets no indentation.
     pub fn line(&mut self, line: impl AsRef<str>) {
         let line = line.as_ref();
         if !line.is_empty() {
@@ -189,7 +189,7 @@ impl Writer {
         self.out.push('\n');
     }
 
-    /// `head tail`, on two lines if it does not fit one.
+    /// Writes `head tail`, on two lines if it does not fit on one.
     pub fn statement(&mut self, head: &str, tail: &str) {
         if width(head) + 1 + width(tail) <= self.columns() {
             return self.line(format!("{head} {tail}"));
@@ -199,37 +199,37 @@ impl Writer {
         self.indent -= 4;
     }
 
-    /// An empty line, unless a block has just begun or one stands here already.
+    /// Writes an empty line, unless a block has just begun or an empty line precedes.
     pub fn gap(&mut self) {
         if !self.out.is_empty() && !self.out.ends_with("{\n") && !self.out.ends_with("\n\n") {
             self.out.push('\n');
         }
     }
 
-    /// A line that begins a block; the block ends with [`close`](Writer::close).
+    /// Writes a line that begins a block; [`close`](Writer::close) ends it.
     pub fn open(&mut self, line: impl AsRef<str>) {
         self.line(line);
         self.indent += 4;
     }
 
-    /// A line between two halves of a block: `} else {`.
+    /// Writes a line between two halves of a block: `} else {`.
     pub fn middle(&mut self, line: &str) {
         self.close(line);
         self.indent += 4;
     }
 
-    /// The line that ends a block.
+    /// Writes the line that ends a block.
     pub fn close(&mut self, line: &str) {
         self.indent = self.indent.saturating_sub(4);
         self.line(line);
     }
 
-    /// `before`, the expression, `after`.
+    /// Writes `before`, the expression, `after`.
     pub fn expression(&mut self, before: &str, layout: &Layout, after: &str) {
         layout.write(&mut self.out, self.indent, before, after);
     }
 
-    /// `head(arguments) -> result {`, which [`close`](Writer::close) ends.
+    /// Writes `head(arguments) -> result {`; [`close`](Writer::close) ends the block.
     pub fn signature(&mut self, head: &str, arguments: &[String], result: Option<&str>) {
         let end = match result {
             Some(result) => format!(") -> {result} {{"),
@@ -247,8 +247,8 @@ impl Writer {
         self.open(end);
     }
 
-    /// A comment, each line behind `mark`. Lines wider than the page are wrapped: prose between words, formulas (between
-    /// lines of three backquotes) before the signs of terms.
+    /// Writes a comment, each line after `mark`. Lines wider than the page are wrapped: prose between words, formulas
+    /// (between lines of three backquotes) before the signs of terms.
     pub fn comment(&mut self, mark: &str, text: &str) {
         let columns = self.columns() - width(mark) - 1;
         let mut is_formula = false;
@@ -264,7 +264,7 @@ impl Writer {
         }
     }
 
-    /// A formula as a comment, wrapped before the signs of terms.
+    /// Writes a formula as a comment, wrapped before the signs of terms.
     pub fn formula(&mut self, mark: &str, line: &str) {
         let columns = self.columns() - width(mark) - 1;
         for piece in wrap(&terms(line), columns, 4) {
@@ -288,7 +288,7 @@ fn words(line: &str) -> Vec<String> {
         .collect()
 }
 
-/// The terms of a formula, each with its sign; those that stand inside brackets belong together.
+/// The terms of a formula, each with its sign; terms inside brackets are not separated.
 fn terms(line: &str) -> Vec<String> {
     let mut terms: Vec<String> = Vec::new();
     let mut depth = 0i32;
@@ -353,7 +353,8 @@ mod tests {
         writer.finish()
     }
 
-    /// The tests of `emit::rust` hold whole files against rustfmt itself; these are the rules it was seen to follow.
+    /// The tests of `emit::rust` compare whole files with rustfmt itself; these are the rules that rustfmt was
+    /// observed to follow.
     #[test]
     fn lists_break_as_rustfmt_breaks_them() {
         let short = |n: usize| Layout::array((0..n).map(|i| format!("t{:04}", 1000 + i)));

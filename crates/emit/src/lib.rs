@@ -1,5 +1,5 @@
-//! What a program is printed as: [`rust`] is what the macro expands to and what `generated/` holds, [`c`] the same in C,
-//! [`script`] the same in languages that people compute and write formulas in.
+//! Emitters of programs: [`rust`] writes what the macro expands to and what `generated/` contains, [`c`] writes the same
+//! in C, and [`script`] writes it in languages for computation and symbolic formulas.
 
 pub mod c;
 pub mod layout;

@@ -1,10 +1,10 @@
-//! Names of the emitted code: those of the spec, made into Rust identifiers that do not clash.
+//! Names of the emitted code: those of the spec, converted to Rust identifiers without collisions.
 
 use std::collections::BTreeSet;
 
 use lagrangian_spec::model::Name;
 
-/// Words that Rust keeps for itself, in any edition.
+/// Keywords and reserved words of Rust, in any edition.
 const KEYWORDS: &[&str] = &[
     "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "do", "dyn",
     "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let",
@@ -13,10 +13,10 @@ const KEYWORDS: &[&str] = &[
     "virtual", "where", "while", "yield",
 ];
 
-/// Keywords that not even `r#` makes into names.
+/// Keywords that cannot be identifiers even with `r#`.
 const NEVER_NAMES: &[&str] = &["crate", "self", "super", "Self", "_"];
 
-/// A name of the spec as a Rust identifier.
+/// Converts a name of the spec to a Rust identifier.
 pub fn identifier(name: &str) -> String {
     if NEVER_NAMES.contains(&name) {
         format!("{name}_")
@@ -27,7 +27,7 @@ pub fn identifier(name: &str) -> String {
     }
 }
 
-/// `VibratingCrusher` as the name of a module: `vibrating_crusher`.
+/// Converts a name such as `VibratingCrusher` to that of a module: `vibrating_crusher`.
 pub fn snake_case(name: &str) -> String {
     let letters: Vec<char> = name.chars().collect();
     let mut snake = String::new();
@@ -44,7 +44,7 @@ pub fn snake_case(name: &str) -> String {
     snake
 }
 
-/// A name that may stand inside another: `q[3]` is `q_3`, `q[-1]` is `q_m1`.
+/// A name that can be part of another name: `q[3]` becomes `q_3`, `q[-1]` becomes `q_m1`.
 pub fn flat(name: &Name) -> String {
     match name.index {
         Some(index) if index < 0 => format!("{}_m{}", name.word(), index.unsigned_abs()),
@@ -53,7 +53,7 @@ pub fn flat(name: &Name) -> String {
     }
 }
 
-/// A name in the letters that every compiler takes.
+/// A name in ASCII letters, which every compiler accepts.
 pub fn ascii(name: &str) -> String {
     name.chars()
         .map(|c| match c {
@@ -82,26 +82,26 @@ fn greek(letter: char) -> Option<&'static str> {
         .copied()
 }
 
-/// Hands out names, none twice.
+/// Allocates unique names.
 #[derive(Clone, Debug, Default)]
 pub struct Scope {
     taken: BTreeSet<String>,
 }
 
 impl Scope {
-    /// Where these names are taken.
+    /// A scope in which these names are taken.
     pub fn with(taken: &[&str]) -> Scope {
         Scope {
             taken: taken.iter().map(|&name| name.to_owned()).collect(),
         }
     }
 
-    /// `name`, or the nearest name that is free, as a Rust identifier.
+    /// Takes `name`, or a similar name that is free, as a Rust identifier.
     pub fn take(&mut self, name: &str) -> String {
         identifier(&self.take_plain(name))
     }
 
-    /// `name`, or the nearest name that is free.
+    /// Takes `name`, or a similar name that is free.
     pub fn take_plain(&mut self, name: &str) -> String {
         let mut name = name.to_owned();
         while self.taken.contains(&name) {
@@ -146,7 +146,7 @@ pub fn fields<'a>(names: impl IntoIterator<Item = &'a Name>) -> Vec<Field> {
     fields.into_iter().map(|(_, field)| field).collect()
 }
 
-/// For each slot the path of its number in a struct: `m1`, `mass[2]`.
+/// For each slot the path to its number in a struct: `m1`, `mass[2]`.
 pub fn paths(fields: &[Field]) -> Vec<String> {
     let mut paths = vec![String::new(); fields.iter().map(|field| field.slots.len()).sum()];
     for field in fields {

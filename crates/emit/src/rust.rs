@@ -1,7 +1,7 @@
 //! Rust: a module for one machine, as the macro expands to it and as `generated/` holds it.
 //!
-//! The module needs `core` and the runtime only. Its arithmetic is in plain functions, generic over the number and taking
-//! the arguments that they use; `Machine` and `System` are implemented on top of them for `f64`.
+//! The module needs only `core` and the runtime. Its arithmetic consists of plain functions that are generic over the
+//! number and take only the arguments that they use; `Machine` and `System` are implemented with them for `f64`.
 
 mod derivatives;
 mod docs;
@@ -31,41 +31,41 @@ use types::{Group, Types};
 
 pub use stub::stub;
 
-/// What the text depends on besides the program.
+/// Settings of the text besides the program.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// The path of what emitted code needs of the runtime.
+    /// The path of the runtime in emitted code.
     pub runtime: String,
-    /// Lines for the head of the file: where it came from.
+    /// Lines for the head of the file: its origin.
     pub origin: Vec<String>,
     /// For each role the formulas that its documentation shows, `T = 1/2*m*der(x)^2`.
     pub formulas: BTreeMap<Role, Vec<String>>,
     /// The Taylor series of the motion, if the machine asks for it.
     pub series: Option<ProvedSeries>,
-    /// The most operations of a function that is not cut into pieces. Beyond some thousand a compiler that describes every
-    /// variable to a debugger needs more stack than it has.
+    /// The most operations of a function that is not cut into pieces. Above some thousand, a compiler that generates debug
+    /// information for every variable overflows its stack.
     pub longest_whole: usize,
-    /// The fewest steps of a function in which what repeats itself is written as a loop.
+    /// The fewest steps of a function in which repeated code is written as a loop.
     pub shortest_rolled: usize,
-    /// The fewest operations of a library's accelerations in which those that parts of the machine have in common are written
-    /// in pairs.
+    /// The fewest operations of a library's accelerations in which operations that parts of the machine have in common are
+    /// written in pairs.
     pub shortest_packed: usize,
-    /// Whether the structs whose fields a description names (parameters, coordinates, inputs, outputs) are marked by an
-    /// attribute, [`MARK`], in whose place the macro puts those of its user.
+    /// Whether the structs with fields named by the spec (parameters, coordinates, inputs, outputs) are marked by an
+    /// attribute, [`MARK`], which the macro replaces by the attributes of its user.
     pub marks: bool,
 }
 
-/// Stands before a struct whose fields a description names, where they are marked.
+/// The attribute before a struct with fields named by the spec, if such structs are marked.
 pub const MARK: &str = "fields_of_the_description";
 
-/// The fewest steps of a function in which what repeats itself is written as a loop.
+/// The fewest steps of a function in which repeated code is written as a loop.
 ///
-/// Below, a function is short to a compiler and to a processor anyhow; and in the order of time little
-/// repeats itself.
+/// Shorter functions are short enough for compilers and processors anyway, and in the order of time they contain
+/// few repetitions.
 pub const SHORTEST_ROLLED: usize = 300;
 
-/// The fewest operations of a function that is written in pairs. A shorter one fits the processor's store of decoded
-/// instructions, and waits for its results more than for its instructions.
+/// The fewest operations of a function that is written in pairs. A shorter one fits into the processor's cache of
+/// decoded instructions, and is limited by latency more than by the number of instructions.
 pub const SHORTEST_PACKED: usize = 1000;
 
 impl Default for Options {
@@ -86,7 +86,7 @@ impl Default for Options {
 /// The name of the module of a machine.
 pub fn module_name(machine: &str) -> String {
     let name = snake_case(machine);
-    // The module and the type it exports share a namespace.
+    // The module and its exported type share a namespace.
     if name == machine {
         format!("{name}_machine")
     } else {
@@ -99,14 +99,14 @@ pub fn module(program: &Proved, options: &Options) -> String {
     Emitter::new(program, options).module()
 }
 
-/// The content of a module for a library that is called from C: the accelerations alone, and what they need. Of a machine with unilateral
-/// contacts also what a simulator needs to find out which of them press: see [`OF_CONTACTS`].
+/// The content of a module for a library that is called from C: the accelerations and what they need. For a machine with unilateral
+/// contacts it also has what a simulator needs to find out which of them press: see [`OF_CONTACTS`].
 ///
-/// It has the functions `prepared` and `evaluate`, the type `Prepared` and the tables `COORDINATES`, `PARAMETERS`, `INPUTS`; with
-/// contacts the table `CONTACTS`, and a function `gaps_of` and the like for each of these quantities.
+/// It contains the functions `prepared` and `evaluate`, the type `Prepared` and the tables `COORDINATES`, `PARAMETERS`, `INPUTS`;
+/// with contacts the table `CONTACTS`, and a function like `gaps_of` for each of these quantities.
 ///
 /// # Errors
-/// If the functions alone are not what they were among all, which is a defect of the compiler.
+/// If a function of the reduced program differs from that of the whole program, which is a defect of the compiler.
 pub fn library(program: &Proved, options: &Options) -> Result<String, Unproved> {
     let mut roles = vec![Role::Accelerations];
     if !program.unilateral.is_empty() {
@@ -117,14 +117,15 @@ pub fn library(program: &Proved, options: &Options) -> Result<String, Unproved> 
     Ok(Emitter::new(&program, options).library())
 }
 
-/// The operations of a library's accelerations in pairs, if that is how they are written.
+/// The operations of a library's accelerations in pairs, if they are written in this way.
 pub fn in_pairs(function: &Function, options: &Options) -> Option<Vec<Statement>> {
     let is_long = function.code.len() >= options.shortest_packed;
     is_long.then(|| packs(function)).flatten()
 }
 
-/// What a library has of a machine with unilateral contacts, beside the accelerations with all of them open. With M and the rows of
-/// contacts and constraints, accelerations under any forces of contact follow, and the changes of rates by impulses.
+/// The quantities that a library provides for a machine with unilateral contacts, besides the accelerations with all contacts open.
+/// Together with M and the rows of contacts and constraints they determine accelerations under any contact forces, and changes of
+/// rates by impulses.
 pub const OF_CONTACTS: [Role; 7] = [
     Role::MassMatrix,
     Role::ConstraintMatrix,
@@ -135,14 +136,15 @@ pub const OF_CONTACTS: [Role; 7] = [
     Role::ContactCoefficients,
 ];
 
-/// What the macro expands to: the module of a machine, and the machine's type beside it.
+/// The expansion of the macro: the module of a machine, and the machine's type beside it.
 ///
-/// The type is an alias and no `use`: it resolves in the body of a function too, and beside a crate of the same name.
+/// The type is an alias instead of a `use`: it also resolves inside the body of a function, and beside a crate
+/// of the same name.
 pub fn expansion(program: &Proved, options: &Options) -> String {
     unproved_expansion(program, options)
 }
 
-/// The expansion of any program: also of one that stands where a spec is wrong, and computes nothing.
+/// The expansion of any program, also of the placeholder for an invalid spec, which computes nothing.
 fn unproved_expansion(program: &Program, options: &Options) -> String {
     let emitter = Emitter::new(program, options);
     let (name, scalar) = (emitter.types.machine.clone(), emitter.types.scalar.clone());
@@ -166,17 +168,17 @@ struct Emitter<'a> {
     coordinates: Group<'a>,
     inputs: Group<'a>,
     outputs: Group<'a>,
-    /// The paths of the prepared values in their struct: `k3`, `k7[2]`.
+    /// The path to each prepared value in its struct: `k3`, `k7[2]`.
     prepared: Vec<String>,
-    /// Those prepared values that loops count, as arrays. One may be in several of them.
+    /// Prepared values that loops count through, as arrays. A value may be in several of them.
     prepared_families: Vec<Field>,
-    /// The loops of functions that have any.
+    /// The loops of functions that have loops.
     plans: BTreeMap<Role, Plan>,
-    /// Whether the function that is being written leaves large angles to whoever calls it.
+    /// Whether the function being written leaves the check for large angles to its caller.
     asks_once: bool,
 }
 
-/// Lints that a formula may break, with the reason; whoever audits the code should see that no other is silenced.
+/// Lints that a formula may violate, with the reason; this list shows auditors that no other lint is silenced.
 const ALLOWED: &[(&str, &[&str])] = &[
     (
         "A program uses some of it.",
@@ -213,7 +215,7 @@ impl<'a> Emitter<'a> {
         let parameters = Group::new(&program.parameters);
         let plan = |function: &Function| {
             let plan = Plan::of(function, true, options.shortest_rolled)?;
-            // The rest is straight in any case: loops are for functions that they make shorter.
+            // Loops are used only for functions that become much shorter.
             let is_worth_it = 4 * plan.len() <= 3 * plan.len_straight();
             is_worth_it.then_some((function.role, plan))
         };
@@ -267,7 +269,7 @@ impl<'a> Emitter<'a> {
         self.writer.finish()
     }
 
-    /// The head of the file: where it came from, what it says, how much work it is.
+    /// Writes the head of the file: its origin, its documentation, and the amount of work.
     fn head(&mut self) {
         let program = self.program;
         for line in &self.options.origin {
@@ -347,7 +349,7 @@ impl<'a> Emitter<'a> {
     }
 }
 
-/// Values that are computed, not read.
+/// The number of values that are computed, not read.
 fn temporaries(function: &Function) -> usize {
     let computed = |op: &&Op| !matches!(op, Op::Constant(_) | Op::Pi | Op::Read(_));
     function.code.iter().filter(computed).count()

@@ -1,7 +1,7 @@
-//! One file for one machine in languages that people compute and write formulas in: functions of lists of numbers, the same
-//! operations in the same order as everywhere.
+//! Languages for computation and symbolic formulas: one file for one machine, with functions of lists of numbers and the
+//! same operations in the same order as elsewhere.
 //!
-//! What the languages share stands here; each of them is one file with its [`Syntax`] and one row of [`DIALECTS`].
+//! This module contains what the languages share; each has a file of its own with its [`Syntax`], and a row of [`DIALECTS`].
 
 mod javascript;
 mod julia;
@@ -22,7 +22,7 @@ use super::names::{Scope, ascii, flat, snake_case};
 /// A language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dialect {
-    /// Python over SymPy: numbers or symbols go in, exact constants stand inside.
+    /// Python with SymPy: takes numbers or symbols; constants are exact.
     Sympy,
     /// MATLAB and Octave.
     Matlab,
@@ -32,7 +32,7 @@ pub enum Dialect {
     JavaScript,
 }
 
-/// Each with its syntax.
+/// All languages with their syntax.
 const DIALECTS: [(Dialect, &dyn Syntax); 4] = [
     (Dialect::Sympy, &sympy::Sympy),
     (Dialect::Matlab, &matlab::Matlab),
@@ -47,30 +47,30 @@ impl Dialect {
     }
 }
 
-/// How a language writes what the others write otherwise.
+/// The syntax in which a language differs from others.
 trait Syntax: Sync {
-    /// What a line of comment begins with.
+    /// The beginning of a comment line.
     fn comment(&self) -> &'static str;
-    /// Words that are no names of variables.
+    /// Words that cannot be names of variables.
     fn reserved(&self) -> &'static [&'static str];
-    /// What stands before the functions: imports, and what a function of the language is made of. `name` is the machine's,
-    /// `functions` are the names of all functions.
+    /// Writes the text before the functions: imports, and helper functions. `name` is that of the machine, `functions`
+    /// lists the names of all functions.
     fn begin(&self, writer: &mut Writer, name: &str, tables: &[Table], functions: &[String]);
-    /// What the file ends with.
+    /// Writes the end of the file.
     fn end(&self, writer: &mut Writer, tables: &[Table], functions: &[String]);
     /// The line that begins a function.
     fn function(&self, name: &str, arguments: &[&str]) -> String;
-    /// The line that ends it; empty where there is none.
+    /// The line that ends a function; empty if there is none.
     fn function_end(&self) -> &'static str;
-    /// The line that says its value.
+    /// The line that returns a value.
     fn result(&self, value: &str) -> String;
     /// The assignment of a variable.
     fn assign(&self, name: &str, value: &str) -> String;
-    /// An element of a list, counted from 0.
+    /// An element of a list, with the index counted from 0.
     fn element(&self, list: &str, index: usize) -> String;
     /// A list of numbers.
     fn list(&self, entries: &[String]) -> String;
-    /// A matrix, row by row.
+    /// A matrix, given row by row.
     fn matrix(&self, rows: &[Vec<String>]) -> String;
     /// A number.
     fn constant(&self, value: &Rational) -> Expression {
@@ -80,13 +80,13 @@ trait Syntax: Sync {
     fn pi(&self) -> &'static str;
     /// The name of a function.
     fn call(&self, function: symbolic::Function) -> &'static str;
-    /// What rounding took from a product or a sum.
+    /// The rounding error of a product or a sum.
     fn error(&self, of: Rounded, a: &Expression, b: &Expression) -> Expression;
-    /// Ends the function where a pivot vanishes: where `pivot > limit` does not hold.
+    /// Writes an early return for a vanishing pivot: where `pivot > limit` does not hold.
     fn guard(&self, writer: &mut Writer, pivot: &str, limit: &str, message: &str);
 }
 
-/// Names or numbers that a file tells of its machine.
+/// Names or numbers of the machine that a file lists.
 struct Table {
     name: &'static str,
     entries: Entries,
@@ -94,11 +94,11 @@ struct Table {
 
 enum Entries {
     Texts(Vec<String>),
-    /// Not a number where nothing is given.
+    /// NaN where no value is given.
     Numbers(Vec<f64>),
 }
 
-/// The text of the file. `origin` are lines for its head, `formulas` those that the comments show.
+/// The text of the file. `origin` holds lines for its head, `formulas` those that comments show.
 pub fn file(
     program: &Proved,
     dialect: Dialect,
@@ -175,7 +175,7 @@ fn tables(program: &Program) -> Vec<Table> {
     ]
 }
 
-/// A program in a language.
+/// The emitter of a program in a language.
 struct Speaker<'a> {
     program: &'a Program,
     syntax: &'static dyn Syntax,
@@ -235,7 +235,7 @@ impl Speaker<'_> {
         ] {
             scope.take_plain(taken);
         }
-        // What is prepared is guarded as well.
+        // The preparation has guards too.
         let results = body::statements(writer, self, function, scope, &[]);
         let texts: Vec<String> = results.into_iter().map(|result| result.text).collect();
         let columns = match (role.row().extent, function.shape) {
@@ -354,7 +354,7 @@ impl Language for Speaker<'_> {
     }
 }
 
-/// A number of double precision, as all of these languages write it.
+/// A double-precision number, in the notation that all these languages share.
 fn number(x: f64) -> Expression {
     let text = format!("{x:?}");
     if x < 0.0 {
@@ -368,7 +368,7 @@ fn number(x: f64) -> Expression {
     }
 }
 
-/// A line without what any of these languages takes for the end of one.
+/// A line without characters that any of these languages takes for a line end.
 fn plain(line: &str) -> String {
     let harmless = |c: char| match c {
         '\u{2028}' | '\u{2029}' => ' ',
@@ -378,7 +378,7 @@ fn plain(line: &str) -> String {
     line.trim().chars().map(harmless).collect()
 }
 
-/// A text in double quotes; all of these languages escape as C does.
+/// A text in double quotes; all these languages escape like C.
 fn quoted(text: &str) -> String {
     let escaped = text.replace('\\', "\\\\").replace('"', "\\\"");
     format!("\"{}\"", plain(&escaped))

@@ -1,44 +1,45 @@
-//! What can be told of numbers that cannot be told apart: combinations of them.
+//! Combinations of numbers that can be estimated where the single numbers cannot.
 //!
-//! Where a direction changes no residual, what is orthogonal to it is what the residuals tell. In the logarithms of the numbers
-//! that is a product of powers, `k/m`; in the numbers themselves a sum, `m1 + m2`. Both are true of the linear problem at the
-//! minimum, so each is tried: the numbers are moved far along the direction, with the product or the sum held, from the minimum
-//! and from a place beside it, and only where no residual changes is it said. Where neither passes, what is told is a sum for
-//! small changes.
+//! Along a null direction no residual changes, so the data determine only what is orthogonal to it. In the logarithms of the
+//! numbers that is a product of powers, `k/m`; in the numbers themselves a sum, `m1 + m2`. Both solve the linear problem at the
+//! minimum, so each is tested: the numbers are moved far along the direction with the product or the sum held constant, from
+//! the minimum and from a point beside it, and the combination is reported only if no residual changes. If neither passes, a
+//! sum is reported that holds for small changes.
 
 use nalgebra::DMatrix;
 
-/// How a combination is made.
+/// The form of a combination.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A product of powers.
     Product,
     /// A sum of multiples.
     Sum,
-    /// A sum of multiples, for small changes only.
+    /// A sum of multiples, valid for small changes only.
     Local,
 }
 
-/// A combination that the residuals tell.
+/// A combination that the residuals determine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Combination {
-    /// How it is made.
+    /// Its form.
     pub kind: Kind,
     /// The numbers in it with their exponents or factors.
     pub terms: Vec<(usize, f64)>,
 }
 
-/// How far the numbers are moved: by this power of e, and by this share of their size.
+/// How far the numbers are moved for the test: by this power of e, and by this fraction of their size.
 const FAR: f64 = 0.2;
 
-/// How far beside the minimum the other place is, as a share of the numbers' sizes.
+/// The distance of the second test point from the minimum, relative to the sizes of the numbers.
 const BESIDE: f64 = 0.05;
 
-/// An exponent is a fraction with a denominator up to 6 if it is as near as this to it, beside how exact derivatives are.
+/// An exponent within this distance of a fraction with a denominator up to 6, plus the error of the derivatives, is
+/// taken to be that fraction.
 const NEAR: f64 = 1e-6;
 
-/// The combinations of the entangled numbers that are told. `null` has the directions that change nothing, a row for each number;
-/// `is_same` tells whether the residuals are the same at two places.
+/// The combinations of the entangled numbers that the residuals determine. `null` holds the null directions as columns, with a
+/// row for each number; `is_same` tests whether the residuals are the same at two points.
 pub fn combinations(
     x: &[f64],
     sizes: &[f64],
@@ -51,7 +52,7 @@ pub fn combinations(
         return Vec::new();
     }
     let near = NEAR.max(exact.sqrt());
-    // What is constant on one of the surfaces on which nothing changes need not be on the next.
+    // A combination that is constant on one of the surfaces of equal residuals need not be constant on the next.
     let mut beside = x.to_vec();
     for (a, j) in involved.iter().enumerate() {
         beside[*j] += BESIDE * sizes[*j] * (a + 1) as f64 / involved.len() as f64;
@@ -124,15 +125,16 @@ fn made(kind: Kind, rows: &[Vec<f64>], involved: &[usize]) -> Vec<Combination> {
     rows.iter().map(combination).collect()
 }
 
-/// A basis of what is orthogonal to the columns, each with a 1 at a place of its own and 0 at those of the others. The
-/// places of the others are the last ones that do, by the sizes of the rows.
+/// A basis of the orthogonal complement of the columns. Each vector has a 1 at a pivot of its own and 0 at the
+/// pivots of the others. The pivots of the columns are the rows of greatest size, so those of the complement are
+/// the remaining ones.
 fn across(columns: &DMatrix<f64>, units: &[f64]) -> Vec<Vec<f64>> {
     let count = columns.nrows();
     let mut rest = DMatrix::from_fn(count, columns.ncols(), |a, i| columns[(a, i)] / units[a]);
     let mut pivots: Vec<usize> = Vec::new();
     for i in 0..columns.ncols() {
         let open: Vec<usize> = (0..count).filter(|a| !pivots.contains(a)).collect();
-        // Among columns that are left the one with the most in it comes next.
+        // The remaining column with the largest entry is eliminated next.
         let weight = |k: usize| open.iter().map(|a| rest[(*a, k)].abs()).fold(0.0, f64::max);
         let best = (i..columns.ncols()).max_by(|a, b| weight(*a).total_cmp(&weight(*b)));
         rest.swap_columns(i, best.unwrap_or(i));
@@ -158,7 +160,7 @@ fn across(columns: &DMatrix<f64>, units: &[f64]) -> Vec<Vec<f64>> {
             }
         }
     }
-    // Each column has a 1 at its own pivot and 0 at those of others: what is orthogonal to it follows.
+    // Each column has a 1 at its own pivot and 0 at those of others, so the complement can be read off.
     let others = (0..count).filter(|a| !pivots.contains(a));
     others
         .map(|a| {
@@ -178,9 +180,9 @@ fn weight_of(rest: &DMatrix<f64>, open: &[usize], column: usize) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// A basis of what is orthogonal to rows as [`across`] makes them: the directions along which they stay.
+/// A basis of the null space of rows as [`across`] makes them.
 fn along(rows: &[Vec<f64>], count: usize) -> Vec<Vec<f64>> {
-    // Each row has its 1 where all others have a 0.
+    // Each row has a 1 at a place where all others have a 0.
     let own: Vec<usize> = rows
         .iter()
         .enumerate()
@@ -207,7 +209,7 @@ fn along(rows: &[Vec<f64>], count: usize) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// The fraction with a small denominator that a number is near to.
+/// The fraction with a small denominator nearest to a number, if it is within `near`.
 fn fraction(value: f64, near: f64) -> Option<f64> {
     let fractions = (1..=6).map(|below| {
         let below = f64::from(below);
@@ -248,7 +250,7 @@ impl Combination {
         }
     }
 
-    /// Its unit, of the units of the numbers; none where those of a sum are not alike.
+    /// Its unit in terms of the units of the numbers; `None` if the terms of a sum have different units.
     pub fn unit(&self, units: &[String]) -> Option<String> {
         match self.kind {
             Kind::Product => {
@@ -270,7 +272,7 @@ impl Combination {
     }
 }
 
-/// A unit as a factor.
+/// A unit in parentheses if it is needed as a factor.
 fn bracketed(unit: &str) -> String {
     if unit.contains(['*', '/', '^']) {
         format!("({unit})")
@@ -323,7 +325,7 @@ fn sum(terms: &[(usize, f64)], names: &[String]) -> String {
         let size = c.abs();
         if size != 1.0 {
             let digits = format!("{size:.5e}");
-            // The shortest form of six digits.
+            // The shortest form of six digits, without trailing zeros.
             let digits = digits.parse::<f64>().map_or(digits, |x| format!("{x}"));
             text.push_str(&format!("{digits}*"));
         }

@@ -1,64 +1,69 @@
-//! Nonlinear least squares within bounds, by the method of Levenberg and Marquardt with a trust region.
+//! Nonlinear least squares with bounds, by the method of Levenberg and Marquardt with a trust region.
 //!
-//! Sought are numbers x within bounds for which `½ |r(x)|²` is least. A step δ makes the linear model `|r + J δ|` least among
-//! those with `|D δ| ≤ Δ`; the radius Δ follows how well the model told what the step would do, and D, the greatest norms that the
-//! columns of J have had, makes all of it independent of units (J. J. Moré, *The Levenberg–Marquardt algorithm: implementation
-//! and theory*, Lecture Notes in Mathematics 630 (1978) 105–116). The linear problem is solved by singular values, in which
-//! directions that the residuals do not depend on are seen and left alone.
+//! The search minimizes `½ |r(x)|²` over numbers x within bounds. A step δ minimizes the linear model `|r + J δ|` subject to
+//! `|D δ| ≤ Δ`. The radius Δ adapts to how well the model predicted the effect of the last step, and D, the greatest norms that
+//! the columns of J have had, makes everything independent of units (J. J. Moré, *The Levenberg–Marquardt algorithm:
+//! implementation and theory*, Lecture Notes in Mathematics 630 (1978) 105–116). The linear problem is solved by singular value
+//! decomposition, which detects directions on which the residuals do not depend; steps have no component along them.
 //!
-//! Numbers at a bound from which the sum of squares falls only outward stay there. What a step would carry over its bound
-//! is put on it, and the step of the others is found anew with it there; short enough, such a step lessens the sum wherever x
-//! can move (C. Kanzow, N. Yamashita, M. Fukushima, *Levenberg–Marquardt methods with strong local convergence properties for
-//! solving nonlinear equations with convex constraints*, J. Comput. Appl. Math. 172 (2004) 375–397).
+//! A number at a bound stays there if the sum of squares falls only outward. Where a step would carry a number over its
+//! bound, the number is set to the bound and the step of the others is computed anew; if short enough, such a step
+//! reduces the sum wherever x can move (C. Kanzow, N. Yamashita, M. Fukushima, *Levenberg–Marquardt methods with strong
+//! local convergence properties for solving nonlinear equations with convex constraints*, J. Comput. Appl. Math. 172
+//! (2004) 375–397).
 
 use nalgebra::{DMatrix, DVector};
 
-/// Why there are no residuals.
+/// Why residuals could not be computed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Trouble {
-    /// There are none at these numbers; a shorter step may have some. Why, as a sentence.
+    /// The residuals are undefined at these numbers, though they may exist after a shorter step. The text says
+    /// why, as a sentence.
     NoValue(String),
-    /// Somebody asked to stop.
+    /// The search was interrupted.
     Stopped,
 }
 
-/// Residuals and how they change.
+/// Residuals and their derivatives.
 pub trait Problem {
-    /// The residuals at x, in an order that is always the same.
+    /// The residuals at x, always in the same order.
     ///
     /// # Errors
-    /// If there are none there.
+    /// If they are undefined there.
     fn residuals(&mut self, x: &[f64]) -> Result<Vec<f64>, Trouble>;
 
     /// Their derivatives at x, a column for each number of x.
     ///
     /// # Errors
-    /// If there are none there.
+    /// If they are undefined there.
     fn jacobian(&mut self, x: &[f64]) -> Result<DMatrix<f64>, Trouble>;
 
-    /// The residuals with what they are differences of, by which their rounding is measured; by default they themselves.
+    /// The norm of the terms of which the residuals are differences, which measures their round-off; by default the
+    /// norm of the residuals.
     fn size(&self, residuals: &[f64]) -> f64 {
         norm(residuals)
     }
 }
 
-/// When a search ends.
+/// Stopping criteria of a search.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
-    /// Where the part of the residuals that a step could still take away is this share of the rest, each by degree of
-    /// freedom: how far x is from the minimum, in standard errors of it (D. M. Bates, D. G. Watts, *A relative offset
-    /// orthogonality convergence criterion for nonlinear least squares*, Technometrics 23 (1981) 179–183).
+    /// Stop where the part of the residuals that a step could still remove is this fraction of the rest, each per
+    /// degree of freedom. It measures the distance of x from the minimum in standard errors (D. M. Bates, D. G.
+    /// Watts, *A relative offset orthogonality convergence criterion for nonlinear least squares*, Technometrics 23
+    /// (1981) 179–183).
     pub offset: f64,
-    /// Where a step is this share of x, in the norm of D.
+    /// Stop where a step is this fraction of x, in the norm of D.
     pub step: f64,
-    /// Where a step promises to lessen the sum of squares by no more than this share of it, and does not lessen the offset.
+    /// Stop where the model predicts that a step reduces the sum of squares by at most this fraction, and the step
+    /// does not reduce the offset.
     pub reduction: f64,
-    /// How exact the derivatives are, as a share of each column's norm: directions whose singular values are below this
-    /// are ones that the residuals do not depend on.
+    /// The relative error of the derivatives, per norm of a column: the residuals count as independent of directions
+    /// whose singular values are smaller.
     pub derivatives: f64,
-    /// The first radius, as a share of |D x|.
+    /// The initial radius, as a fraction of |D x|.
     pub first_radius: f64,
-    /// The most steps that are tried.
+    /// The most steps tried.
     pub most_steps: usize,
 }
 
@@ -75,20 +80,20 @@ impl Default for Options {
     }
 }
 
-/// How a search ended.
+/// Why a search ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
-    /// Nothing of the residuals can be taken away any more: [`Options::offset`].
+    /// No step can reduce the residuals significantly: [`Options::offset`].
     Offset,
     /// Steps no longer change x: [`Options::step`].
     Step,
-    /// Steps no longer change the sum: [`Options::reduction`].
+    /// Steps no longer change the sum of squares: [`Options::reduction`].
     Reduction,
-    /// The residuals are 0 to rounding.
+    /// The residuals are 0 within round-off.
     Zero,
-    /// No number is free: all are at bounds.
+    /// All numbers are at bounds.
     Bounds,
-    /// More steps than allowed: this is no minimum.
+    /// The limit on steps was reached: this is not a minimum.
     TooManySteps,
 }
 
@@ -98,7 +103,7 @@ impl Ending {
         self != Ending::TooManySteps
     }
 
-    /// As the end of a sentence that begins with the search.
+    /// The reason as the end of a sentence whose subject is the search.
     pub fn words(self) -> &'static str {
         match self {
             Ending::Offset => "ended where no step takes anything away from the residuals",
@@ -111,10 +116,10 @@ impl Ending {
     }
 }
 
-/// The end of a search.
+/// The result of a search.
 #[derive(Clone, Debug)]
 pub struct Minimum {
-    /// Where it is.
+    /// The numbers at the minimum.
     pub x: Vec<f64>,
     /// The residuals there.
     pub residuals: Vec<f64>,
@@ -122,26 +127,26 @@ pub struct Minimum {
     pub jacobian: DMatrix<f64>,
     /// Why the search ended.
     pub ending: Ending,
-    /// Steps that were kept.
+    /// The number of accepted steps.
     pub steps: usize,
-    /// How often residuals were evaluated.
+    /// The number of evaluations of the residuals.
     pub evaluations: usize,
-    /// How often derivatives were.
+    /// The number of evaluations of the derivatives.
     pub derivatives: usize,
     /// The sum of squares at the start and after each step.
     pub sums: Vec<f64>,
 }
 
-/// A step is kept if it lessens the sum by this share of what the linear model promises.
+/// A step is accepted if it reduces the sum by this fraction of what the linear model predicts.
 const KEPT: f64 = 1e-4;
 
-/// A step that lessens nothing is kept if it lessens the offset by this factor.
+/// A step that does not reduce the sum is accepted if it reduces the offset by this factor.
 const CLOSER: f64 = 0.9;
 
-/// A sum of squares is zero where residuals are so small beside what they are differences of.
+/// A sum of squares counts as zero where the residuals are this small relative to the terms of which they are differences.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Looks for a minimum from a start, which is put within the bounds first.
+/// Searches for a minimum from a start, which is first moved to within the bounds.
 ///
 /// ```
 /// use lagrangian_fit::least_squares::{Options, Problem, Trouble, minimize};
@@ -164,7 +169,7 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// ```
 ///
 /// # Errors
-/// If there are no residuals at the start, or no derivatives at a point that was reached.
+/// If the residuals are undefined at the start, or the derivatives at a point on the way.
 pub fn minimize(
     problem: &mut dyn Problem,
     start: &[f64],
@@ -205,8 +210,8 @@ pub fn minimize(
             at.ending = ending;
             return Ok(at);
         }
-        // So little is left that rounding, and errors of the residuals, decide whether the sum falls: a step is of Gauss and
-        // Newton then, and counts if it comes nearer by what derivatives say.
+        // If the full Gauss–Newton step promises next to nothing, round-off and errors of the residuals decide whether the
+        // sum falls. That step is then tried, and accepted if the derivatives show that it is nearer to the minimum.
         let half = 0.5 * squares(&at.residuals);
         let whole = step(
             &at,
@@ -236,7 +241,7 @@ pub fn minimize(
         at.evaluations += 1;
         let promised = promise(&at, &step);
         let reduced = residuals.as_ref().map(|new| {
-            // The difference of squares, without the cancellation of the sums.
+            // The difference of squares, factored to avoid cancellation between the sums.
             let pairs = at.residuals.iter().zip(new);
             0.5 * pairs
                 .map(|(old, new)| (old - new) * (old + new))
@@ -290,7 +295,7 @@ pub fn minimize(
     Ok(at)
 }
 
-/// The search after a step that is kept.
+/// The search after an accepted step.
 fn moved(
     problem: &mut dyn Problem,
     at: &Minimum,
@@ -311,7 +316,7 @@ fn moved(
     })
 }
 
-/// Which numbers are at a bound from which the sum of squares falls outward only.
+/// Which numbers are at a bound such that the sum of squares falls only outward.
 pub fn held(at: &Minimum, bounds: &[[f64; 2]]) -> Vec<bool> {
     let gradient = at
         .jacobian
@@ -330,7 +335,7 @@ fn free(at: &Minimum, bounds: &[[f64; 2]]) -> Vec<usize> {
     held.filter(|(_, held)| !held).map(|(j, _)| j).collect()
 }
 
-/// Whether x is a minimum as far as the residuals tell.
+/// Whether x is a minimum as far as the residuals can tell.
 fn ended(
     problem: &dyn Problem,
     at: &Minimum,
@@ -348,10 +353,10 @@ fn ended(
     is_level.then_some(Ending::Offset)
 }
 
-/// What a step of the free numbers could take away of the residuals, relative to the rest of them, each by degree of freedom:
-/// [`Options::offset`]. None where all of them could be taken away.
+/// The part of the residuals that a step of the free numbers could remove, relative to the rest, each per degree of freedom:
+/// [`Options::offset`]. `None` where a step could remove all of it.
 fn offset(at: &Minimum, free: &[usize], scale: &[f64], exact: f64) -> Option<f64> {
-    // All numbers are at their bounds.
+    // All numbers are held at bounds.
     if free.is_empty() {
         return Some(0.0);
     }
@@ -359,7 +364,7 @@ fn offset(at: &Minimum, free: &[usize], scale: &[f64], exact: f64) -> Option<f64
     let along: f64 = parts.along.iter().map(|b| b * b).sum();
     let rest = at.residuals.len().checked_sub(parts.kept)?;
     match (parts.kept, rest) {
-        // Nothing moves the residuals.
+        // No free number affects the residuals.
         (0, _) => Some(0.0),
         (_, 0) => None,
         (kept, rest) => {
@@ -369,14 +374,14 @@ fn offset(at: &Minimum, free: &[usize], scale: &[f64], exact: f64) -> Option<f64
     }
 }
 
-/// The residuals in the directions of the singular vectors of `J D⁻¹`, some columns of it.
+/// The residuals projected onto the singular vectors of some columns of `J D⁻¹`.
 struct Parts {
-    /// Singular values, and the residuals along their vectors.
+    /// Singular values, and the residuals along the left vectors.
     values: Vec<f64>,
     along: Vec<f64>,
-    /// The vectors on the right, a row for each.
+    /// The right singular vectors, a row for each.
     right: DMatrix<f64>,
-    /// How many there are.
+    /// How many singular values are kept.
     kept: usize,
 }
 
@@ -386,7 +391,7 @@ impl Parts {
             at.jacobian[(i, columns[j])] / unit(scale[columns[j]])
         });
         let mut right = DVector::from_column_slice(residuals);
-        // The small triangle has the same singular values, and as many rows as there are columns.
+        // The triangular factor has the same singular values and is smaller.
         let (triangle, part) = if matrix.nrows() > matrix.ncols() {
             let qr = matrix.qr();
             qr.q_tr_mul(&mut right);
@@ -418,7 +423,7 @@ impl Parts {
         }
     }
 
-    /// The step of the linear problem with `|δ| ≤ radius`, in units of the scale.
+    /// The minimizer of the linear problem with `|δ| ≤ radius`, in scaled numbers.
     fn step(&self, radius: f64) -> DVector<f64> {
         let of = |damping: f64| -> Vec<f64> {
             let pairs = self.values.iter().zip(&self.along);
@@ -432,7 +437,7 @@ impl Parts {
                 .zip(&self.along)
                 .map(|(s, b)| s * b)
                 .collect();
-            // |δ(λ)| falls with λ, and is below |J' r| / λ.
+            // |δ(λ)| decreases with λ, and is below |J' r| / λ.
             let (mut low, mut high) = (0.0, norm(&slope) / radius);
             let mut damping = 1e-3 * high;
             for _ in 0..60 {
@@ -446,7 +451,7 @@ impl Parts {
                 } else {
                     high = damping
                 }
-                // Newton's method on 1/|δ|, which is nearly linear.
+                // Newton's method on 1/|δ|, which is nearly linear in λ.
                 let pairs = self.values.iter().zip(&step);
                 let bend: f64 = pairs.map(|(s, d)| d * d / (s * s + damping)).sum::<f64>() / long;
                 let next = damping + (long - radius) / radius * long / bend;
@@ -461,7 +466,7 @@ impl Parts {
     }
 }
 
-/// The step within the radius and the bounds.
+/// The step that respects the radius and the bounds.
 fn step(
     at: &Minimum,
     free: &[usize],
@@ -505,14 +510,14 @@ fn step(
     step
 }
 
-/// By how much the linear model has half the sum of squares fall.
+/// The reduction of half the sum of squares that the linear model predicts.
 fn promise(at: &Minimum, step: &DVector<f64>) -> f64 {
     let change = &at.jacobian * step;
     let pairs = at.residuals.iter().zip(change.iter());
     pairs.map(|(r, c)| -c * (r + 0.5 * c)).sum()
 }
 
-/// Lets the scale be the greatest norms of columns so far.
+/// Raises the scale to the greatest column norms so far.
 fn grow(scale: &mut [f64], jacobian: &DMatrix<f64>) {
     for (scale, column) in scale.iter_mut().zip(jacobian.column_iter()) {
         let norm = column.norm();
@@ -522,7 +527,7 @@ fn grow(scale: &mut [f64], jacobian: &DMatrix<f64>) {
     }
 }
 
-/// A scale to divide by: a number on which nothing depends has none.
+/// A scale that is safe to divide by: a number on which nothing depends has scale 0.
 fn unit(scale: f64) -> f64 {
     if scale > 0.0 { scale } else { 1.0 }
 }

@@ -15,77 +15,77 @@ use crate::combinations::{Combination, combinations};
 use crate::least_squares::{Minimum, Options, Problem, Trouble, minimize};
 use crate::statistics::{Standing, Statistics};
 
-/// What is fitted.
+/// A quantity that can be fitted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Subject {
-    /// The parameter of this number.
+    /// The parameter with this index.
     Parameter(usize),
-    /// The start of the coordinate of this number, in the experiment of that number.
+    /// The start of a coordinate: the index of the coordinate, then that of the experiment.
     Start(usize, usize),
-    /// The start of its rate.
+    /// The start of a rate: the index of the coordinate, then that of the experiment.
     Rate(usize, usize),
 }
 
-/// Something that is fitted.
+/// A fitted number.
 #[derive(Clone, Debug)]
 pub struct Sought {
-    /// What it is.
+    /// Which quantity it is.
     pub subject: Subject,
     /// Its name, for messages.
     pub name: String,
     /// Its unit.
     pub unit: String,
-    /// Where the search begins.
+    /// The initial guess.
     pub from: f64,
-    /// The least and the greatest value that it may have.
+    /// The least and the greatest value allowed.
     pub bounds: [f64; 2],
 }
 
-/// What is measured.
+/// A quantity that can be measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
-    /// The coordinate of this number.
+    /// The coordinate with this index.
     Coordinate(usize),
     /// Its rate.
     Rate(usize),
-    /// The output of this number.
+    /// The output with this index.
     Output(usize),
 }
 
-/// A quantity in the rows of an experiment.
+/// The measurements of one quantity in an experiment.
 #[derive(Clone, Debug)]
 pub struct Column {
-    /// What is measured.
+    /// The measured quantity.
     pub quantity: Quantity,
-    /// Which of [`Fit::sigmas`] is its standard deviation.
+    /// The index of its standard deviation in [`Fit::sigmas`].
     pub sigma: usize,
-    /// What was measured at each time, where something was.
+    /// The measured value at each time, if there is one.
     pub values: Vec<Option<f64>>,
 }
 
 /// One measured motion.
 #[derive(Clone, Debug)]
 pub struct Experiment {
-    /// What messages call it.
+    /// Its name in messages.
     pub name: String,
-    /// The machine with the parameters of this experiment.
+    /// The machine, with the parameters of this experiment.
     pub machine: InterpretedMachine,
-    /// The coordinates and the rates that start otherwise than the spec says.
+    /// The starts of coordinates and of rates that differ from those of the spec.
     pub start: [Vec<Option<f64>>; 2],
-    /// What drives its inputs.
+    /// The signals that drive its inputs.
     pub signals: Signals,
-    /// The times, in s: not before the start of the machine, increasing, and the last one later than that.
+    /// The times, in s: increasing, the first not before the start of the machine, and the last one after it.
     pub times: Vec<f64>,
-    /// What was measured at these times.
+    /// The measurements at these times.
     pub columns: Vec<Column>,
 }
 
-/// How derivatives are found.
+/// How derivatives are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Derivatives {
-    /// Exact ones are integrated with the motion.
+    /// Exact derivatives, integrated together with the motion.
     Integrated,
-    /// Differences of whole runs.
+    /// Differences between whole runs.
     Differences,
 }
 
@@ -98,9 +98,9 @@ pub struct Running {
     pub tolerance: f64,
     /// The most steps of a run.
     pub most_steps: usize,
-    /// Which numbers of a start stay where constraints move it; what the spec says where there is none.
+    /// Which numbers of a start the projection onto the constraints keeps; those that the spec keeps where this is `None`.
     pub kept: Option<Vec<String>>,
-    /// Asked between steps whether to stop.
+    /// Polled between steps: whether to stop.
     pub stop: Arc<dyn Fn() -> bool + Send + Sync>,
 }
 
@@ -113,44 +113,45 @@ impl Debug for Running {
     }
 }
 
-/// Why a machine cannot have parameters, as a sentence; none if it can.
+/// Why a machine cannot have these parameters, as a sentence; `None` if it can.
 pub type Refusal<'a> = &'a dyn Fn(&[f64]) -> Option<String>;
 
-/// Measured motions, and what is to be fitted to them.
+/// Measured motions, and the numbers to be fitted to them.
 pub struct Fit<'a> {
-    /// The motions.
+    /// The measured motions.
     pub experiments: Vec<Experiment>,
-    /// What is fitted.
+    /// The numbers to be fitted.
     pub sought: Vec<Sought>,
-    /// Standard deviations of what is measured, by which columns refer to them.
+    /// Standard deviations of the measurements; columns refer to them by index.
     pub sigmas: Vec<f64>,
     /// How the machines are run.
     pub running: Running,
-    /// Which parameters machines cannot have.
+    /// Checks which parameters machines cannot have.
     pub refusal: Refusal<'a>,
-    /// How often motions were run, and how often with their derivatives.
+    /// The number of runs without and with derivatives.
     pub runs: [usize; 2],
-    /// What is known of the derivatives of machines with constraints; nothing at the beginning.
+    /// Findings about the derivatives of machines with constraints; empty at first.
     pub held: Held,
 }
 
-/// What is known of the derivatives of motions that constraints hold.
+/// Findings about the derivatives of constrained motions.
 ///
-/// They are integrated from derivatives of the start that obey the constraints, and nothing is projected on the way, as
-/// accelerations keep the second derivatives of constraints 0. So what steps err by grows with time, and is measured at the end.
+/// Their integration starts from derivatives that obey the constraints. Nothing is projected on the way, because the
+/// accelerations keep the second derivatives of the constraints 0. So integration errors let them drift, and the drift is
+/// measured at the end.
 #[derive(Clone, Debug, Default)]
 pub struct Held {
-    /// Why they are differences of runs after all.
+    /// Why differences of runs are used instead, if they are.
     pub why: Option<String>,
-    /// How far motions or derivatives were off the constraints, at most, as a share of their numbers.
+    /// The largest drift off the constraints of motions or derivatives, relative to the size of their terms.
     pub off: f64,
 }
 
 /// Why there are no integrated derivatives.
 enum Lost {
-    /// There is no motion, or somebody asked to stop.
+    /// There is no motion, or the search was interrupted.
     Trouble(Trouble),
-    /// There is a motion, and its derivatives have to be found by differences; why.
+    /// There is a motion, but its derivatives must come from differences; the text says why.
     Held(String),
 }
 
@@ -160,41 +161,43 @@ impl From<Trouble> for Lost {
     }
 }
 
-/// What was found.
+/// The result of a fit.
 #[derive(Clone, Debug)]
 pub struct Found {
     /// The end of the search.
     pub minimum: Minimum,
-    /// What it says.
+    /// The statistics there.
     pub statistics: Statistics,
-    /// What can be told of the numbers that cannot be told apart.
+    /// Combinations that can be estimated of numbers that cannot.
     pub combinations: Vec<Combination>,
-    /// How derivatives were found.
+    /// How derivatives were computed.
     pub derivatives: Derivatives,
-    /// How exact these are, as a share of each column.
+    /// The relative error of the derivatives, per column.
     pub exact: f64,
 }
 
-/// Integrated derivatives are as exact as this many tolerances, and differences as this many roots of the tolerance's square.
+/// The relative error of integrated derivatives is this times the tolerance; that of differences is this
+/// times tolerance^(2/3).
 const SHARE: f64 = 100.0;
 
-/// Derivatives on the way of a search may be this many times as far off constraints as those that were looked at.
+/// During a search, derivatives may be this many times as far off the constraints as at the states that were measured.
 const ELSEWHERE: f64 = 10.0;
 
-/// Derivatives of one kind are no more exact than that.
+/// The smallest relative error assumed for derivatives of either kind.
 const MOST_EXACT: f64 = 1e-11;
 
-/// Numbers far along a direction that changes nothing give the same residuals up to this share of the motion, beside tolerances.
+/// Points far along a null direction have the same residuals if these agree to this fraction of the motion,
+/// plus tolerances.
 const SAME: f64 = 1e-6;
 
-/// What one row of a run has: the values of all columns, and their derivatives in all directions where these are run.
+/// One row of a run: the values of all columns and, if these are integrated, their derivatives in all directions.
 struct Row {
     values: Vec<f64>,
     by: Vec<Vec<f64>>,
 }
 
 impl Fit<'_> {
-    /// How derivatives of these machines are found, and why not as exact ones where they are differences.
+    /// How derivatives of these machines are computed, and why they are differences if they are.
     pub fn derivatives(&self) -> (Derivatives, Option<String>) {
         let why = self.experiments.iter().find_map(|experiment| {
             let program = experiment.machine.program();
@@ -213,7 +216,7 @@ impl Fit<'_> {
         }
     }
 
-    /// How exact derivatives are, as a share of each.
+    /// The relative error of the derivatives.
     fn exact(&self) -> f64 {
         let exact = match self.derivatives().0 {
             Derivatives::Integrated => {
@@ -224,18 +227,19 @@ impl Fit<'_> {
         exact.max(MOST_EXACT)
     }
 
-    /// How exact differences of runs are: an error of the third order against one of the tolerance over the distance.
+    /// The relative error of differences of runs, at the distance that balances the truncation error, with the third
+    /// derivative, against the tolerance divided by the distance.
     fn exact_differences(&self) -> f64 {
         SHARE * self.running.tolerance.powf(2.0 / 3.0)
     }
 
-    /// Whether constraints hold the machine of an experiment.
+    /// Whether the machine of an experiment has constraints.
     fn is_held(&self, experiment: usize) -> bool {
         let system = self.experiments[experiment].machine.prepare();
         system.constraints().len() > 0
     }
 
-    /// Numbers of the size of each that is fitted: what it starts from, or what its bounds allow where that is 0.
+    /// The scale of each fitted number: its initial guess or, where that is 0, what its bounds allow.
     pub fn sizes(&self) -> Vec<f64> {
         let size = |sought: &Sought| {
             let finite = sought.bounds.iter().filter(|bound| bound.is_finite());
@@ -253,14 +257,15 @@ impl Fit<'_> {
         self.sought.iter().map(|sought| sought.bounds).collect()
     }
 
-    /// Looks for the minimum from the numbers where the search begins.
+    /// Searches for the minimum from these numbers.
     ///
     /// # Errors
-    /// If there is no motion there, or no derivatives of one on the way.
+    /// If there is no motion there, or no derivatives on the way.
     pub fn search(&mut self, from: &[f64]) -> Result<Minimum, Trouble> {
         let is_held = (0..self.experiments.len()).any(|experiment| self.is_held(experiment));
         if is_held && self.derivatives().0 == Derivatives::Integrated {
-            // How exact derivatives are is to be known before they are relied on. What is wrong here is said where the search begins.
+            // The error of the derivatives must be known before the search relies on them. Other failures are
+            // reported where the search starts.
             if let Err(Trouble::Stopped) = self.jacobian(from) {
                 return Err(Trouble::Stopped);
             }
@@ -273,10 +278,10 @@ impl Fit<'_> {
         minimize(self, from, &bounds, &options)
     }
 
-    /// What a minimum says. `is_scaled`: standard deviations are known up to a factor only.
+    /// The statistics of a minimum. If `is_scaled`, standard deviations are known only up to a common factor.
     ///
     /// # Errors
-    /// If somebody asked to stop.
+    /// If the search was interrupted.
     pub fn found(&mut self, minimum: Minimum, is_scaled: bool) -> Result<Found, Trouble> {
         let exact = self.exact();
         let sizes: Vec<f64> = self
@@ -316,7 +321,7 @@ impl Fit<'_> {
         }
     }
 
-    /// The machine of an experiment with what is fitted.
+    /// The machine of an experiment with the fitted numbers set.
     fn machine(&self, experiment: usize, x: &[f64]) -> Result<InterpretedMachine, Trouble> {
         let mut machine = self.experiments[experiment].machine.clone();
         for (sought, x) in self.sought.iter().zip(x) {
@@ -332,7 +337,7 @@ impl Fit<'_> {
         }
     }
 
-    /// Puts into a start what the experiment says of it, and what is fitted.
+    /// Sets in a start the values of the experiment and the fitted numbers.
     fn put_start(&self, experiment: usize, x: &[f64], q: &mut [f64], v: &mut [f64]) {
         let given = &self.experiments[experiment].start;
         for (numbers, given) in [(&mut *q, &given[0]), (&mut *v, &given[1])] {
@@ -349,17 +354,17 @@ impl Fit<'_> {
         }
     }
 
-    /// Where an experiment starts with what is fitted, as it is before constraints move it.
+    /// The start of an experiment with the fitted numbers, before the projection onto the constraints.
     ///
     /// # Errors
-    /// If there is no machine with these numbers.
+    /// If no machine exists with these numbers.
     pub fn start(&self, experiment: usize, x: &[f64]) -> Result<State<Named>, Trouble> {
         let mut start = self.machine(experiment, x)?.start();
         self.put_start(experiment, x, &mut start.q.values, &mut start.v.values);
         Ok(start)
     }
 
-    /// What the machine of an experiment does at the measured times: for each time the values of all columns.
+    /// The motion of an experiment at the measured times: for each time the values of all columns.
     ///
     /// # Errors
     /// If there is no such motion.
@@ -406,7 +411,7 @@ impl Fit<'_> {
         self.whole(own, rows)
     }
 
-    /// The settings of a run.
+    /// Applies the settings of a run.
     fn set<'s, M: Machine, L: lagrangian::InputLaw<M::System>>(
         &self,
         simulation: Simulation<'s, M, L>,
@@ -422,7 +427,7 @@ impl Fit<'_> {
             .stop_if(move |_| stop())
     }
 
-    /// A run that keeps of its start what is to be kept.
+    /// Tells a run which numbers of its start to keep.
     fn keep<'s, M: Machine, L: lagrangian::InputLaw<M::System>>(
         &self,
         simulation: Simulation<'s, M, L>,
@@ -436,7 +441,7 @@ impl Fit<'_> {
         }
     }
 
-    /// Where an experiment starts with what is fitted, on the constraints.
+    /// The start of an experiment with the fitted numbers, projected onto the constraints.
     fn start_on_constraints(&self, experiment: usize, x: &[f64]) -> Result<State<Named>, Trouble> {
         let machine = self.machine(experiment, x)?;
         let start = self.start(experiment, x)?;
@@ -446,7 +451,7 @@ impl Fit<'_> {
         Ok(run.start().clone())
     }
 
-    /// How that start changes with what is fitted, by numbers of size 1.
+    /// The derivative of that start by the fitted numbers, scaled to size 1.
     fn change_on_constraints(
         &self,
         experiment: usize,
@@ -492,7 +497,7 @@ impl Fit<'_> {
         }
     }
 
-    /// The rows of a run that came to its end.
+    /// The rows of a run, or an error if it did not reach its end.
     fn whole(&self, experiment: &Experiment, rows: Vec<Row>) -> Result<Vec<Row>, Trouble> {
         match (rows.len() == experiment.times.len(), (self.running.stop)()) {
             (true, _) => Ok(rows),
@@ -504,20 +509,20 @@ impl Fit<'_> {
         }
     }
 
-    /// The motion with its derivatives, which are exact but for the tolerance; and how far it is off constraints at its end, as a
-    /// share of its numbers.
+    /// The motion with its derivatives, which are exact up to the tolerance; and how far it is off the constraints at its end,
+    /// relative to the size of its terms.
     fn run_with_derivatives(&self, experiment: usize, x: &[f64]) -> Result<(Vec<Row>, f64), Lost> {
         let machine = self.machine(experiment, x)?;
         let own = &self.experiments[experiment];
         let sizes = self.sizes();
-        // Starts of other experiments do not matter here.
+        // Starts of other experiments do not affect this one.
         let here: Vec<usize> = (0..self.sought.len())
             .filter(|j| match self.sought[*j].subject {
                 Subject::Parameter(_) => true,
                 Subject::Start(of, _) | Subject::Rate(of, _) => of == experiment,
             })
             .collect();
-        // Derivatives by numbers of size 1, so that one tolerance is as good for all of them.
+        // Derivatives by numbers scaled to size 1, so that one tolerance suits all of them.
         let directions = here.iter().map(|j| {
             let mut direction = Direction::of_start(&machine);
             if let Subject::Parameter(index) = self.sought[*j].subject {
@@ -655,14 +660,14 @@ impl Fit<'_> {
         self.checked(experiment, rows, off)
     }
 
-    /// Rows with derivatives that are so far off constraints, if that is near enough.
+    /// Accepts rows with derivatives that are off the constraints by this much, if that is near enough.
     fn checked(
         &self,
         experiment: usize,
         rows: Vec<Row>,
         off: f64,
     ) -> Result<(Vec<Row>, f64), Lost> {
-        // Where differences of runs, which are held on the constraints, are as exact, they are taken.
+        // Differences of runs obey the constraints; they are used where they are about as accurate.
         if off.is_nan() || ELSEWHERE * off > self.exact_differences() {
             return Err(Lost::Held(format!(
                 "errors of steps move derivatives by {off:.1e} of their numbers off the constraints"
@@ -671,7 +676,7 @@ impl Fit<'_> {
         Ok((self.whole(&self.experiments[experiment], rows)?, off))
     }
 
-    /// How far a motion and its derivatives by numbers of size 1 are off the constraints, as a share of their numbers.
+    /// How far a motion and its derivatives by scaled numbers are off the constraints, relative to the size of their terms.
     fn off_constraints(
         &self,
         experiment: usize,
@@ -697,7 +702,7 @@ impl Fit<'_> {
             let change = [&end.q[part.clone()], &end.v[part]];
             starts::off_constraints(&machine, &at, change, parameter)
         });
-        // A number that is none is none of the greatest, and is to be seen.
+        // `f64::max` would ignore NaN, which must be reported.
         shares.fold(0.0, |most: f64, off| match off.is_nan() {
             true => off,
             false if most.is_nan() => most,
@@ -705,7 +710,7 @@ impl Fit<'_> {
         })
     }
 
-    /// The derivatives of all residuals by central differences of runs.
+    /// The derivatives of all residuals, by central differences of runs.
     fn differences(&mut self, x: &[f64]) -> Result<DMatrix<f64>, Trouble> {
         let sizes = self.sizes();
         let share = self.running.tolerance.cbrt();
@@ -723,7 +728,7 @@ impl Fit<'_> {
             let here = |this: &mut Self| this.residuals(x).map(|residuals| (own, residuals));
             let mut sides = Vec::new();
             for (end, tried) in ends.into_iter().zip(tried) {
-                // Where there is no machine on one side the derivative is that of the other.
+                // If there is no machine on one side, a one-sided difference is used.
                 match tried {
                     Ok(residuals) => sides.push((end, residuals)),
                     Err(Trouble::NoValue(_)) => sides.push(here(self)?),
@@ -747,7 +752,7 @@ impl Fit<'_> {
         Ok(DMatrix::from_columns(&columns))
     }
 
-    /// Each measurement: its experiment, column and row, its value and its standard deviation.
+    /// Each measurement: the indices of its experiment, column and row, its value and its standard deviation.
     fn measurements(&self) -> impl Iterator<Item = (usize, usize, usize, f64, f64)> + '_ {
         let experiments = self.experiments.iter().enumerate();
         experiments.flat_map(move |(e, experiment)| {
@@ -760,9 +765,9 @@ impl Fit<'_> {
         })
     }
 
-    /// Standard deviations by the residuals of a minimum: of each class of columns the root of its mean square, where the
-    /// numbers that were fitted take away from each class the share of their degrees of freedom that its derivatives have
-    /// in all (the trace of its part of the projection).
+    /// Estimates standard deviations from the residuals of a minimum, as the root mean square of each class of columns.
+    /// The fitted numbers reduce the degrees of freedom of each class by its share of the projection, the trace of its
+    /// part of the hat matrix.
     pub fn estimated_sigmas(&self, minimum: &Minimum) -> Vec<f64> {
         let mut sums = vec![0.0; self.sigmas.len()];
         let mut counts = vec![0.0; self.sigmas.len()];
@@ -794,14 +799,15 @@ impl Fit<'_> {
 }
 
 impl Experiment {
-    /// Whether what is measured depends on more than coordinates and rates.
+    /// Whether a measured quantity depends on more than coordinates and rates.
     fn reads_more(&self) -> bool {
         let mut columns = self.columns.iter();
         columns.any(|column| matches!(column.quantity, Quantity::Output(_)))
     }
 }
 
-/// The next of the times, if it is in a step: at its end only where nothing follows, as what changes there has changed.
+/// The next of the times if it is within a step. At the end of a step it is taken only if no step follows: a change
+/// of inputs there has then taken effect.
 fn due(times: &[f64], seen: usize, [_, to]: [f64; 2]) -> Option<f64> {
     let t = *times.get(seen)?;
     let is_last = times.last().is_some_and(|last| to >= *last);
@@ -847,7 +853,7 @@ impl Problem for Fit<'_> {
     }
 
     fn size(&self, residuals: &[f64]) -> f64 {
-        // Of what was measured, by the numbers that residuals are differences of.
+        // The norm of the measured values, of which residuals are differences.
         let measured = self.measurements();
         let measured: f64 = measured
             .map(|(.., value, sigma)| (value / sigma).powi(2))

@@ -1,61 +1,60 @@
-//! Several searches from several places, with standard deviations that are given, or found on the way.
+//! Several searches from several starts, with standard deviations that are given or estimated on the way.
 
 use crate::least_squares::{Minimum, Trouble};
 use crate::motion::{Fit, Found, Sought};
 
-/// Standard deviations of the measurements.
+/// How standard deviations of the measurements are known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sigmas {
-    /// In the proportions of [`Fit::sigmas`], and otherwise not known.
+    /// In the proportions of [`Fit::sigmas`], up to an unknown common factor.
     Equal,
     /// Those of [`Fit::sigmas`].
     Given,
-    /// Found with the fit, from these on: searches and estimates take turns until neither changes.
+    /// Estimated with the fit, starting from [`Fit::sigmas`]: searches and estimates alternate until neither changes.
     Estimated,
 }
 
-/// Where one of several searches ended.
+/// The outcome of one of several searches.
 #[derive(Clone, Debug)]
 pub struct Search {
-    /// Where it began.
+    /// The start of the search.
     pub from: Vec<f64>,
-    /// The end, or why there is none.
+    /// The minimum, or why there is none.
     pub end: Result<Minimum, String>,
 }
 
-/// What several searches found.
+/// The results of several searches.
 #[derive(Clone, Debug)]
 pub struct Searched {
-    /// The least of the minima.
+    /// The lowest minimum.
     pub found: Found,
-    /// All of them, with the standard deviations from which estimates go on.
+    /// All searches; their minima are those before standard deviations were estimated.
     pub searches: Vec<Search>,
-    /// The number of the one that found it.
+    /// The index of the search that found the lowest minimum.
     pub best: usize,
 }
 
 /// Why nothing was found.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Failed {
-    /// No search had a motion to begin with; why the first had none.
+    /// No search had a motion at its start; why the first had none.
     NoStart(String),
-    /// Estimates of standard deviations do not settle.
+    /// The estimates of standard deviations do not converge.
     Unsettled,
-    /// A motion that was there is not, or somebody asked to stop.
+    /// A motion failed, or the search was interrupted.
     Trouble(Trouble),
 }
 
-/// Standard deviations have settled when none changes by more than this share any more.
+/// Standard deviations have converged when none changes by more than this fraction.
 const SETTLED: f64 = 1e-6;
 
-/// They are given up after so many turns.
+/// The most alternations of searches and estimates.
 const MOST_TURNS: usize = 50;
 
-/// The least of the minima to which so many searches lead: the first from where the search is to begin, others from the points
-/// of [`spread`].
+/// The lowest minimum of several searches: the first from the initial guess, the others from the points of [`spread`].
 ///
 /// # Errors
-/// If there is none.
+/// If there is no minimum.
 pub fn search(fit: &mut Fit<'_>, count: usize, sigmas: Sigmas) -> Result<Searched, Failed> {
     let mut searches = Vec::new();
     for index in 0..count.max(1) {
@@ -91,7 +90,7 @@ pub fn search(fit: &mut Fit<'_>, count: usize, sigmas: Sigmas) -> Result<Searche
     })
 }
 
-/// The minimum with the standard deviations that its own residuals have.
+/// The minimum with the standard deviations estimated from its own residuals.
 fn settled(fit: &mut Fit<'_>, mut minimum: Minimum) -> Result<Minimum, Failed> {
     for _ in 0..MOST_TURNS {
         let estimated = fit.estimated_sigmas(&minimum);
@@ -107,11 +106,11 @@ fn settled(fit: &mut Fit<'_>, mut minimum: Minimum) -> Result<Minimum, Failed> {
     Err(Failed::Unsettled)
 }
 
-/// Where a search begins: the first where it is to, others between the bounds, or within a factor of 3 where there are none.
+/// The start of a search: the first is the initial guess, the others lie between the bounds, or within a factor of 3 where there are none.
 ///
-/// They are the points of the additive sequence of the generalized golden ratio, which fill a box evenly and are the same in
-/// every run (M. Roberts, *The unreasonable effectiveness of quasirandom sequences*, 2018). Between bounds that are positive and more than a
-/// decade apart logarithms are spread.
+/// They are the points of the additive sequence of the generalized golden ratio, which fill a box evenly and are the same in every
+/// run (M. Roberts, *The unreasonable effectiveness of quasirandom sequences*, 2018). Between positive bounds more than a decade
+/// apart the logarithms are distributed evenly.
 pub fn spread(sought: &[Sought], index: usize) -> Vec<f64> {
     if index == 0 {
         return sought.iter().map(|one| one.from).collect();

@@ -1,15 +1,15 @@
-//! What a minimum says: estimates, how exact they are, and what of them can be told at all.
+//! Statistics of a minimum: estimates, their uncertainties, and which of them the data determine.
 //!
-//! With residuals weighted by their standard deviations the estimates' covariance is `(Jᵀ J)⁻¹`, times the variance of unit
-//! weight `|r|² / (m − p)` where these deviations are known up to a factor only (G. A. F. Seber, C. J. Wild, *Nonlinear Regression*,
-//! 1989, section 2.1). Where columns of J depend on each other this inverse exists in the directions only that the residuals
-//! depend on: by singular values of J, its columns scaled to one length so that units play no part.
+//! With residuals weighted by their standard deviations, the covariance of the estimates is `(Jᵀ J)⁻¹`, times the variance of unit
+//! weight `|r|² / (m − p)` where these deviations are known only up to a factor (G. A. F. Seber, C. J. Wild, *Nonlinear
+//! Regression*, 1989, section 2.1). Where columns of J are dependent, this inverse exists only in the directions on which the
+//! residuals depend. These are found by the singular values of J, with columns scaled to equal length so that units play no part.
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::least_squares::{Minimum, held};
 
-/// What is known of each number that was fitted.
+/// How far the data determine a fitted number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
     /// It has an estimate and a standard error.
@@ -18,36 +18,36 @@ pub enum Standing {
     Bound,
     /// The residuals do not depend on it.
     Ineffective,
-    /// The residuals depend on it, but what it does others can do as well.
+    /// The residuals depend on it, but other numbers can have the same effect.
     Entangled,
 }
 
-/// What a minimum says of the numbers that were fitted.
+/// The statistics of a minimum.
 #[derive(Clone, Debug)]
 pub struct Statistics {
     /// How many measurements there are.
     pub measurements: usize,
-    /// How many directions the residuals tell.
+    /// The number of directions that the residuals determine.
     pub told: usize,
-    /// Measurements less these.
+    /// The number of measurements minus the number of these directions.
     pub freedom: usize,
     /// The sum of squares of the weighted residuals.
     pub chi_squared: f64,
-    /// The variance of unit weight that the residuals show; not a number without degrees of freedom.
+    /// The variance of unit weight estimated from the residuals; NaN without degrees of freedom.
     pub variance: f64,
-    /// For each number what is known of it.
+    /// How far each number is determined.
     pub standing: Vec<Standing>,
-    /// Covariances; those of what is not told are those within the directions that are.
+    /// The covariance matrix; for numbers that are not determined, within the directions that are.
     pub covariance: DMatrix<f64>,
     /// The singular values of J with its columns scaled to one length, relative to the greatest.
     pub singular_values: Vec<f64>,
-    /// Directions that change no residual, among what is entangled: a column for each, a row for each number.
+    /// Null directions among the entangled numbers: a column for each, with a row for each number.
     pub null: DMatrix<f64>,
 }
 
 impl Statistics {
-    /// The statistics of a minimum. `sizes` are numbers of the size of those that were fitted, `exact` how exact the
-    /// derivatives are as a share, and `is_scaled` says that the weights are known up to a factor only.
+    /// The statistics of a minimum. `sizes` are the scales of the fitted numbers, `exact` is the relative error of
+    /// the derivatives, and `is_scaled` says that the weights are known only up to a factor.
     pub fn of(
         at: &Minimum,
         bounds: &[[f64; 2]],
@@ -99,7 +99,7 @@ impl Statistics {
         }
         let outside = part(&lost, &|_| 1.0);
         let mut null = DMatrix::zeros(count, lost.len());
-        // A vector of the directions that are lost is known to about the share that derivatives are.
+        // A null direction is known to about the square root of the relative error of the derivatives.
         let seen = exact.sqrt();
         for (a, j) in open.iter().enumerate() {
             let share = outside.row(a).norm() * norms[*j];
@@ -123,13 +123,13 @@ impl Statistics {
         }
     }
 
-    /// The standard error of a number; none where it is not told.
+    /// The standard error of a number; `None` where the data do not determine it.
     pub fn standard_error(&self, j: usize) -> Option<f64> {
         let is_told = self.standing[j] == Standing::Told;
         is_told.then(|| self.covariance[(j, j)].sqrt())
     }
 
-    /// The correlation of two numbers; none where one of them is not told.
+    /// The correlation of two numbers; `None` where the data do not determine one of them.
     pub fn correlation(&self, j: usize, k: usize) -> Option<f64> {
         let errors = self.standard_error(j)? * self.standard_error(k)?;
         Some(if j == k {
@@ -139,7 +139,7 @@ impl Statistics {
         })
     }
 
-    /// The standard error of a function of the numbers with this gradient, which must be one that the residuals tell.
+    /// The standard error of a function of the numbers with this gradient; the data must determine the function.
     pub fn standard_error_of(&self, gradient: &[f64]) -> f64 {
         let gradient = DVector::from_column_slice(gradient);
         (gradient.transpose() * &self.covariance * &gradient)[(0, 0)]
@@ -148,13 +148,13 @@ impl Statistics {
     }
 }
 
-/// Singular values, and the vectors on the right, a row for each column of the matrix.
+/// Singular values and right singular vectors, with a row for each column of the matrix.
 fn singular(matrix: DMatrix<f64>) -> (Vec<f64>, DMatrix<f64>) {
     let columns = matrix.ncols();
     if columns == 0 {
         return (Vec::new(), DMatrix::zeros(0, 0));
     }
-    // With as many rows as columns at least there is a vector for each column.
+    // With at least as many rows as columns there is a right vector for each column.
     let square = if matrix.nrows() >= columns {
         matrix.qr().r()
     } else {

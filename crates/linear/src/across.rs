@@ -1,16 +1,17 @@
-//! How a run of a machine with unilateral contacts changes with what it depends on.
+//! Derivatives of the run of a machine with unilateral contacts, continued across changes of the contacts.
 //!
 //! Between two changes of the contacts a motion and its derivatives obey the variational equations of one machine
-//! ([`crate::varied`]). Where h(t, x) = 0 brings a change, the instant itself moves, by δt, and all that happens there is evaluated at
-//! the moved instant over dual numbers: with x⁻ before and x⁺ = R(t, x⁻) after, and ẋ⁻ and ẋ⁺ how fast the state changes,
+//! ([`crate::varied`]). Where h(t, x) = 0 triggers a change, its instant moves by δt, and everything that happens there is
+//! evaluated over dual numbers at the moved instant. With the states x⁻ before and x⁺ = R(t, x⁻) after, and their time
+//! derivatives ẋ⁻ and ẋ⁺,
 //!
 //! ```text
 //! δt = −(∂h/∂x δx⁻ + ∂h/∂s)/ḣ,   δx⁺ = d/ds R(t + δt, x⁻ + δx⁻ + ẋ⁻ δt) − ẋ⁺ δt                      (E66)
 //! ```
 //!
-//! (M. A. Aizerman, F. R. Gantmakher, *On the stability of periodic motions*, J. Appl. Math. Mech. 22 (1958) 1065–1078; R. I. Leine, H. Nijmeijer,
-//! *Dynamics and Bifurcations of Non-Smooth Mechanical Systems*, 2004, chapter 7.) R is the law of impact with the contacts that the
-//! run has found to press, stick and slip; without an impact it changes nothing.
+//! (M. A. Aizerman, F. R. Gantmakher, *On the stability of periodic motions*, J. Appl. Math. Mech. 22 (1958) 1065–1078; R. I.
+//! Leine, H. Nijmeijer, *Dynamics and Bifurcations of Non-Smooth Mechanical Systems*, 2004, chapter 7.) R is the law of impact,
+//! with those contacts pressing, sticking and slipping that the run has found to do so; without an impact it is the identity.
 
 use std::fmt;
 use std::sync::Arc;
@@ -29,39 +30,40 @@ use crate::varied::{
 
 type Number = Dual<f64>;
 
-/// What would be penetrated without an impact is at least so many tolerances of the gap before it: else it grazes, and
-/// whether it happens at all is not known.
+/// The penetration depth that would follow without an impact must be at least this many tolerances of the preceding
+/// gap. Below that the contact grazes, and it is not certain that the impact happens at all.
 const GRAZES: f64 = 100.0;
 
-/// Accelerations on both sides of a change that agree to this share of them go on without a jump, as far as a run of a usual
-/// tolerance can tell.
+/// Accelerations before and after a change that agree to this fraction are continuous, as far as a run of the usual
+/// tolerance can resolve.
 const GOES_ON: f64 = 1e-6;
 
-/// Friction this close to the greatest that there is, relative to that, is used up.
+/// Friction within this fraction of its limit is saturated.
 const SATURATED: f64 = 1e-10;
 
-/// Contacts that change the rates of each other by less than this share meet apart.
+/// Contacts whose impulses change each other's rates by less than this fraction are uncoupled.
 const COUPLED: f64 = 1e-12;
 
-/// Derivatives below this share of the terms that they are the sum of are rounding.
+/// Derivatives below this fraction of the terms that they sum are round-off.
 const ROUNDING: f64 = 1e-9;
 
-/// What is run.
+/// The run to be made.
 #[derive(Clone, Debug)]
 pub struct Wanted<'m> {
     /// The machine.
     pub machine: &'m InterpretedMachine,
-    /// What drives its inputs.
+    /// The signals that drive its inputs.
     pub signals: &'m Signals,
-    /// The directions in which it changes, best of such a length that derivatives are of the size of the motion: the tolerance is one.
+    /// The directions of differentiation. They are best scaled so that derivatives are of the size of the motion,
+    /// because one tolerance serves both.
     pub directions: Vec<Direction>,
-    /// By which method.
+    /// The method of integration.
     pub method: &'static Method,
-    /// Relative and absolute, of motion and derivatives.
+    /// Relative and absolute tolerance, of motion and derivatives.
     pub tolerance: f64,
-    /// Until when, in s.
+    /// The end of the run, in s.
     pub until: f64,
-    /// How many steps a part between two changes may take, and the run itself.
+    /// The most steps of a part between two changes, and of the run itself.
     pub most_steps: usize,
 }
 
@@ -70,11 +72,11 @@ pub struct Across<'m> {
     parts: Vec<Part<'m>>,
     /// The state after the last change, if nothing follows it.
     end: State<Vec<f64>>,
-    /// Changes that were passed.
+    /// The number of changes passed.
     changes: usize,
 }
 
-/// What there is beside a state.
+/// What can be evaluated at a state of the run.
 pub struct Observed<'a> {
     /// The equations of motion, between two changes.
     pub system: &'a VariedSystem,
@@ -84,7 +86,7 @@ pub struct Observed<'a> {
     pub inputs: VariedInputs,
 }
 
-/// Between two changes.
+/// The motion between two changes.
 struct Part<'m> {
     from: f64,
     law: VariedLaw<'m>,
@@ -96,9 +98,9 @@ struct Part<'m> {
 pub enum NoDerivatives {
     /// A run ended early.
     Run(lagrangian::Error),
-    /// The run has no derivatives: what stands in the way, and when.
+    /// The run has no derivatives from a certain change on.
     Broken {
-        /// When, in s.
+        /// The time of that change, in s.
         t: f64,
         /// The contact.
         contact: String,
@@ -122,10 +124,10 @@ impl fmt::Display for NoDerivatives {
 impl std::error::Error for NoDerivatives {}
 
 impl<'m> Across<'m> {
-    /// The state at a time within the run, and behind it its derivatives in each direction; at a change what follows it.
+    /// The state at a time within the run, followed by its derivatives in each direction; at a change the state after it.
     ///
     /// # Errors
-    /// Where there is none.
+    /// If it cannot be evaluated.
     pub fn at(&self, t: f64) -> Result<State<Vec<f64>>, lagrangian::Error> {
         if t == self.end.t {
             return Ok(self.end.clone());
@@ -141,15 +143,15 @@ impl<'m> Across<'m> {
         &self.end
     }
 
-    /// How often contacts changed.
+    /// The number of changes of contacts.
     pub fn changes(&self) -> usize {
         self.changes
     }
 
-    /// Accelerations and inputs at a state of the run, which [`at`](Self::at) gives for this time.
+    /// Accelerations and inputs at a state of the run, which must be that of [`at`](Self::at) for this time.
     ///
     /// # Errors
-    /// Where there are none.
+    /// If they cannot be evaluated.
     pub fn observe(
         &self,
         t: f64,
@@ -177,10 +179,10 @@ impl<'m> Across<'m> {
     }
 }
 
-/// Runs a machine with derivatives in some directions, from a start behind which those of the start stand.
+/// Runs a machine with derivatives in some directions. In `start`, the derivatives follow the start itself.
 ///
 /// # Errors
-/// Where the run ends early, or has no derivatives.
+/// If the run ends early, or has no derivatives.
 pub fn run<'m>(wanted: &Wanted<'m>, start: &State<Vec<f64>>) -> Result<Across<'m>, NoDerivatives> {
     let Wanted {
         machine,
@@ -251,7 +253,7 @@ pub fn interpreters(
     directions.iter().map(of_direction).collect()
 }
 
-/// An impact of a contact, as the run told it.
+/// An impact of a contact, as the run reported it.
 type Hit = (usize, ContactImpact);
 
 struct Passing<'w, 'm> {
@@ -263,7 +265,7 @@ struct Passing<'w, 'm> {
     interpreters: std::cell::RefCell<Vec<Interpreter<Number>>>,
 }
 
-/// A change: when it is, what contacts do before and after it, and why.
+/// A change: its time, the modes of the contacts before and after it, and its cause.
 struct Change<'a> {
     t: f64,
     before: &'a Phase,
@@ -271,7 +273,7 @@ struct Change<'a> {
     cause: PhaseCause,
     hits: &'a [Hit],
     ended: &'a [usize],
-    /// How far each gap opened since it was closed.
+    /// How far each gap opened since it was last closed.
     excursions: &'a [f64],
 }
 
@@ -296,7 +298,7 @@ impl<'m> Passing<'_, 'm> {
             for (layer, is_loaded) in after.layers.iter_mut().zip(&told.loaded) {
                 layer.is_loaded = *is_loaded;
             }
-            // The values are those of the run itself.
+            // The values are those of the run itself, so they carry no error of the variational integration.
             let here = base.at(told.since).map_err(NoDerivatives::Run)?;
             if index == 0 {
                 self.put_values(&mut state, &here);
@@ -343,7 +345,7 @@ impl<'m> Passing<'_, 'm> {
         })
     }
 
-    /// The motion from a state on, until contacts change.
+    /// Integrates from a state until contacts change.
     fn part(
         &self,
         phase: &Phase,
@@ -386,8 +388,8 @@ impl<'m> Passing<'_, 'm> {
         state.v[..self.n].copy_from_slice(&own.v.values);
     }
 
-    /// A list of time, coordinates and rates with their derivatives in a direction, where the instant moves by `by` and the state with it at
-    /// these accelerations.
+    /// Time, coordinates and rates with their derivatives in a direction, where the instant moves by `by` and the state moves along
+    /// with these accelerations.
     fn moved(&self, state: &State<Vec<f64>>, direction: usize, by: f64, a: &[f64]) -> Vec<Number> {
         let n = self.n;
         let part = (direction + 1) * n;
@@ -406,7 +408,7 @@ impl<'m> Passing<'_, 'm> {
         time.into_iter().chain(place).chain(rate).collect()
     }
 
-    /// Evaluates something at a state in a direction.
+    /// Evaluates a function at a state in a direction.
     fn place<T>(
         &self,
         state: Vec<Number>,
@@ -446,7 +448,7 @@ impl<'m> Passing<'_, 'm> {
         .collect()
     }
 
-    /// Accelerations while everything stays as it is.
+    /// The accelerations while the contact phase does not change.
     fn accelerations(&self, state: &State<Vec<f64>>, phase: &Phase) -> Option<Vec<f64>> {
         let still = self.moved(state, 0, 0.0, &vec![0.0; self.n]);
         self.place(still, 0, phase, |place| {
@@ -455,7 +457,7 @@ impl<'m> Passing<'_, 'm> {
         })
     }
 
-    /// What contacts press is to be the only forces that go with the motion.
+    /// Checks that the loads of the closed contacts are unique.
     fn check_forces(&self, state: &State<Vec<f64>>, phase: &Phase) -> Result<(), NoDerivatives> {
         if self.directions == 0 || phase.is_free() || self.accelerations(state, phase).is_some() {
             return Ok(());
@@ -468,7 +470,7 @@ impl<'m> Passing<'_, 'm> {
         ))
     }
 
-    /// A start that touches stays on what it touches.
+    /// Checks that the start has no impact, and that contacts closed there stay closed in every direction.
     fn check_start(
         &self,
         state: &State<Vec<f64>>,
@@ -508,7 +510,7 @@ impl<'m> Passing<'_, 'm> {
         Ok(())
     }
 
-    /// Takes derivatives past a change. `here` is the state after it.
+    /// Carries the derivatives across a change. `here` is the state after it.
     fn pass(
         &self,
         change: Change<'_>,
@@ -556,7 +558,7 @@ impl<'m> Passing<'_, 'm> {
                 *first
             }
         };
-        // Contacts that do not change each other's rates meet one after the other, in any order.
+        // Impacts of uncoupled contacts may be evaluated one after the other, in any order.
         let apart: &[usize] = if is_sequence || closing.len() == 1 {
             &[first]
         } else {
@@ -589,7 +591,7 @@ impl<'m> Passing<'_, 'm> {
             phase = next;
         }
         *change.after = phase;
-        // The law of impact over dual numbers and that of the run are to say the same.
+        // The law of impact over dual numbers must give the same rates as the run.
         let jump: f64 = (change.hits.iter())
             .map(|(_, hit)| hit.gap_rate[0].abs() + hit.gap_rate[1].abs())
             .fold(0.0, f64::max);
@@ -611,7 +613,7 @@ impl<'m> Passing<'_, 'm> {
         Ok(())
     }
 
-    /// Whether the impulses of contacts change no rates of each other.
+    /// Whether the impulses of these contacts leave each other's rates unchanged.
     fn meet_apart(
         &self,
         contacts: &[usize],
@@ -643,7 +645,7 @@ impl<'m> Passing<'_, 'm> {
         })
     }
 
-    /// Takes derivatives past an impact that one closing gap brings.
+    /// Carries the derivatives across an impact that one closing gap triggers.
     fn meet(
         &self,
         contact: usize,
@@ -666,7 +668,7 @@ impl<'m> Passing<'_, 'm> {
                     Some([place.gaps[contact], place.rates[2 * contact], bend])
                 })
                 .ok_or_else(no_forces)?;
-            // How deep it would be penetrated if it were not for the impact.
+            // The penetration depth that would follow without the impact.
             let depth = 0.5 * rate.value * rate.value / bend.value.abs();
             if rate.value >= 0.0 || depth < GRAZES * self.wanted.tolerance * excursion {
                 return Err(broken(
@@ -721,7 +723,7 @@ impl<'m> Passing<'_, 'm> {
             self.impact(place, (before, after), round)?;
         }
         if !ended.is_empty() {
-            // The last rates of bounces are dropped, without friction.
+            // Without friction, the remaining rates at the end of a bouncing sequence are set to zero.
             let mut sought = Vec::new();
             for k in (0..after.modes.len()).filter(|k| after.is_closed(*k)) {
                 let rigid = after.compliances[after.presses(k)].is_none();
@@ -743,7 +745,7 @@ impl<'m> Passing<'_, 'm> {
         Ok(place.v.clone())
     }
 
-    /// Changes rates by impulses along what is sought; returns the impulses.
+    /// Applies the impulses that bring about the sought changes of rates; returns these impulses.
     fn push(
         &self,
         place: &mut Place<'_>,
@@ -763,7 +765,8 @@ impl<'m> Passing<'_, 'm> {
         Some(impulses)
     }
 
-    /// One impact of contacts that take part at once, by Newton's law with what the run found to press, stick and slip.
+    /// One impact of contacts that take part simultaneously, by Newton's law, with pressing, sticking and slipping
+    /// as the run found them.
     fn impact(
         &self,
         place: &mut Place<'_>,
@@ -775,7 +778,7 @@ impl<'m> Passing<'_, 'm> {
         });
         let one = Dual::constant(1.0);
         let impulse_of = |k: usize| hits.iter().find(|(other, _)| *other == k);
-        // What presses, and what of it is at rest and has no impulse but goes on being closed.
+        // Which contacts press, including those at rest that receive no impulse but stay closed.
         let presses = |k: usize, hit: &ContactImpact| {
             hit.impulse[0] > 1e-12 * greatest || before.is_closed(k) && after.is_closed(k)
         };
@@ -855,7 +858,7 @@ impl<'m> Passing<'_, 'm> {
             .iter()
             .fold(0.0_f64, |most, x| most.max(x.derivative.abs()));
         for (index, contact) in idle {
-            // On one side it would be pressed, on the other it would open.
+            // A variation of one sign would press the contact, one of the other sign would open it.
             if impulses[index].derivative.abs() > ROUNDING * size {
                 return Err((
                     contact,
@@ -866,13 +869,13 @@ impl<'m> Passing<'_, 'm> {
         Ok(())
     }
 
-    /// Whether a contact is the only one that has an impulse.
+    /// Whether a contact is the only one with an impulse.
     fn is_alone(&self, hits: &[Hit], contact: usize) -> bool {
         hits.iter()
             .all(|(k, hit)| *k == contact || hit.impulse == [0.0; 2])
     }
 
-    /// Takes derivatives past a change without an impact: of accelerations alone.
+    /// Carries the derivatives across a change without an impact, in which only accelerations jump.
     fn pass_without_impact(
         &self,
         change: Change<'_>,
@@ -917,7 +920,8 @@ impl<'m> Passing<'_, 'm> {
         let shared = || broken(contact, "shares its load with others in more than one way");
         let a_before = self.accelerations(state, before).ok_or_else(shared)?;
         self.put_values(state, here);
-        // Where a layer turns by itself its depth is greatest, and the same a moment later.
+        // Where a layer begins to unload by itself its depth is at a maximum, so a shift of the instant does not
+        // change it to first order.
         let still = |direction| self.moved(state, direction, 0.0, &vec![0.0; self.n]);
         let places: Vec<Vec<Number>> = (0..self.directions).map(still).collect();
         self.load_layers(after, &places);
@@ -934,7 +938,7 @@ impl<'m> Passing<'_, 'm> {
                 "changes where forces jump, for no cause that is known",
             ));
         }
-        // Several slips that stop at one instant are one event only if they always do so together.
+        // Several slips that stop at the same instant count as one event only if they always stop together.
         let stops = |k: &usize| match (before.modes[*k], after.modes[*k]) {
             (ContactMode::Slides(from), ContactMode::Sticks) => from != 0.0,
             (ContactMode::Slides(from), ContactMode::Slides(to)) => from != to && from != 0.0,
@@ -960,7 +964,7 @@ impl<'m> Passing<'_, 'm> {
                     self.margin(place, (before, cause), contact, interpreter)
                 })
             };
-            // What a moved instant adds is the derivative along the motion, ḣ.
+            // The derivative along the motion, ḣ, is the change of the margin with a shift of the instant.
             let moves = |contact: usize| -> Option<f64> {
                 let changes = of(along(0.0), contact, direction)?.derivative;
                 let with_time = of(along(1.0), contact, direction)?.derivative;
@@ -994,7 +998,7 @@ impl<'m> Passing<'_, 'm> {
         Ok(())
     }
 
-    /// What becomes 0 where a contact changes.
+    /// The function whose zero triggers a change of a contact.
     fn margin(
         &self,
         place: &mut Place<'_>,
@@ -1025,7 +1029,7 @@ impl<'m> Passing<'_, 'm> {
         }
     }
 
-    /// Layers that are unloaded from now on were pressed to where they are at the instant of the change, in each direction.
+    /// Sets, in each direction, the depth to which a layer was pressed for layers that start to unload at this change.
     fn load_layers(&self, after: &mut Phase, places: &[Vec<Number>]) {
         let is_layer = |k: &usize| after.compliances[*k] == Some(Compliance::Layer);
         let layers: Vec<usize> = (0..after.modes.len()).filter(is_layer).collect();
@@ -1050,7 +1054,7 @@ fn zero() -> Number {
     Dual::constant(0.0)
 }
 
-/// Whether a derivative is beyond the rounding of a direction of this size.
+/// Whether a derivative exceeds round-off for a direction of this size.
 fn off(x: Number, size: f64) -> bool {
     x.derivative.abs() > ROUNDING * size
 }

@@ -1,5 +1,5 @@
-//! Numbers that a state is told by, near another one: the coordinates z that may be displaced at will and the
-//! rates s of I, in the words of (E39). What depends on them follows: coordinates from constraints of positions, rates from all.
+//! Independent numbers that describe a state near another one: the coordinates z that may be displaced freely and the rates s of
+//! I, as in (E39). Dependent coordinates follow from the constraints on positions, dependent rates from all constraints.
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Machine, System};
@@ -8,23 +8,23 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::reduced::{Choice, Fault, Number, Place, Reduced};
 
-/// Which numbers tell a state; states are coordinates, then rates.
+/// Which numbers of a state are independent; a state holds coordinates, then rates.
 #[derive(Clone, Debug)]
 pub(crate) struct Chart {
-    /// How many coordinates there are.
+    /// The number of coordinates.
     n: usize,
-    /// Those numbers of a state, coordinates before rates.
+    /// The indices of the independent numbers of a state, coordinates before rates.
     picked: Vec<usize>,
-    /// Which coordinates follow from which constraints; none without constraints.
+    /// Which coordinates follow from which constraints; `None` without constraints.
     choice: Option<Choice>,
 }
 
 impl Chart {
-    /// The numbers that tell states near `x`, among them those that are kept. A coordinate that goes on, on which nothing depends, as the
-    /// integral of a state of first order, is none of them: its rate is.
+    /// Chooses independent numbers for states near `x`; numbers that are kept are among them. A coordinate that goes on and on
+    /// which nothing depends, such as the integral of a state of first order, is not one of them, but its rate is.
     ///
     /// # Errors
-    /// If there are none: kept ones depend on others, or constraints have no rows there.
+    /// If kept numbers depend on others, or the constraints have no rows there.
     pub fn at(
         machine: &InterpretedMachine,
         x: &DVector<f64>,
@@ -57,17 +57,17 @@ impl Chart {
         })
     }
 
-    /// How many numbers tell a state.
+    /// How many independent numbers a state has.
     pub fn size(&self) -> usize {
         self.picked.len()
     }
 
-    /// Which numbers of a state these are.
+    /// The indices of these numbers in a state.
     pub fn picked(&self) -> &[usize] {
         &self.picked
     }
 
-    /// How many of the constraints do not follow from others.
+    /// The rank of the constraints.
     pub fn rank(&self) -> usize {
         self.choice.as_ref().map_or(0, |choice| choice.rows.len())
     }
@@ -77,10 +77,10 @@ impl Chart {
         DVector::from_iterator(self.size(), self.picked.iter().map(|k| x[*k]))
     }
 
-    /// How all numbers of a state change with these, a column for each.
+    /// The derivative of all numbers of a state by these, a column for each.
     ///
     /// # Errors
-    /// If the constraints give no rates there.
+    /// If the constraints do not determine the rates there.
     pub fn spread(
         &self,
         machine: &InterpretedMachine,
@@ -130,7 +130,7 @@ impl Chart {
         Ok(spread)
     }
 
-    /// The state near `x` in which these numbers are others, by `step`.
+    /// The state near `x` whose independent numbers differ by `step`.
     ///
     /// # Errors
     /// If the constraints cannot be met there.

@@ -1,10 +1,10 @@
-//! Where a machine stays or moves steadily, how it moves about that place, and its linear model there.
+//! Equilibria and steady motions of a machine, the modes about them, linear models, and periodic orbits.
 //!
-//! [`steady::motion`] finds an equilibrium or a steady motion and the modes about it; [`model`] makes matrices A, B, C, D of it, or of
-//! any other state; [`poles`], [`zeros`] and [`response`] are what is asked of these. Derivatives are exact: everything is
-//! evaluated over dual numbers of 32 digits, never over differences of finite steps. [`orbit`] finds periodic motions and their
-//! multipliers, by integration of the variational equations; [`varied`] has these for whatever a motion depends on, and [`across`] takes them across
-//! impacts and other changes of unilateral contacts.
+//! [`steady::motion`] finds an equilibrium or a steady motion and the modes about it. [`model`] makes the matrices A, B, C, D of a
+//! linear model there or at any other state; [`poles`], [`zeros`] and [`response`] evaluate such a model. Derivatives are exact:
+//! everything is evaluated over dual numbers of 32 digits, never by finite differences. [`orbit`] finds periodic motions and their
+//! multipliers by integrating the variational equations. [`varied`] sets these equations up for derivatives by anything that a
+//! motion depends on, and [`across`] continues them across impacts and other changes of unilateral contacts.
 
 pub mod across;
 mod chart;

@@ -1,15 +1,16 @@
 //! The linear model of a machine, `ẋ = A x + B u`, `y = C x + D u`, about a steady motion or about any state.
 //!
-//! In the form of (E39) a machine has as coordinates z, which may be displaced at will, and the rates s of those of them that are
-//! independent. Together they are a chart of the states that the constraints leave, and x is the change of them: without
-//! constraints all coordinates, then all rates. With `ż = v_z(q, s)`, `ṡ = (Tᵀ M T)⁻¹ r`, accelerations `a = a° + T ṡ`, and
-//! multipliers from the rows of D of `M a = f + Gᵀ λ`,
+//! In the form of (E39) the coordinates of a machine are z, which may be displaced freely, and its rates are s, those of the
+//! independent ones among z. Together they are a chart of the states that the constraints allow, and x is a deviation in this
+//! chart; without constraints it holds all coordinates, then all rates. With `ż = v_z(q, s)`, `ṡ = (Tᵀ M T)⁻¹ r`, accelerations
+//! `a = a° + T ṡ`, and multipliers from the rows of D of `M a = f + Gᵀ λ`, the matrices are
 //!
 //! ```text
 //! A = ∂(ż, ṡ)/∂(z, s),  B = ∂(ż, ṡ)/∂u,  C = ∂y/∂(z, s),  D = ∂y/∂u,                (E54)
 //! ```
 //!
-//! each column by dual numbers of 32 digits. A number that is 0 but for the rounding of parameters, state and inputs is 0.
+//! computed column by column over dual numbers of 32 digits. Entries within the effect of rounding in parameters,
+//! state and inputs are set to 0.
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem};
 use lagrangian::{Machine, System};
@@ -21,7 +22,7 @@ use crate::motion::{self, Motion};
 use crate::reduced::{Choice, Fault, Number, Place, Reduced, solve};
 use crate::steady::{Options, states};
 
-/// Something that a model has as an output, by its number.
+/// A quantity that a model may have as an output, by its index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Observed {
     /// An output of the spec.
@@ -36,16 +37,16 @@ pub enum Observed {
     Multiplier(usize),
 }
 
-/// What a model is to have.
+/// The inputs and outputs of the model to be made.
 #[derive(Clone, Debug)]
 pub struct Request {
-    /// Numbers of inputs, in the order of the columns of B and D.
+    /// The indices of inputs, in the order of the columns of B and D.
     pub inputs: Vec<usize>,
     /// Outputs, in the order of the rows of C and D.
     pub outputs: Vec<Observed>,
 }
 
-/// What a number is, and its unit.
+/// The name of a number and its unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
     /// Its name: `phi`, `der(phi)`, `der(phi,2)`, `multiplier(rod)`, or that of an output or an input.
@@ -57,19 +58,19 @@ pub struct Label {
 /// A linear model of r states, m inputs and p outputs.
 #[derive(Clone, Debug)]
 pub struct Model {
-    /// The coordinates there.
+    /// The coordinates at the operating point.
     pub q: Vec<f64>,
-    /// Their rates.
+    /// The rates there.
     pub v: Vec<f64>,
-    /// All inputs of the machine.
+    /// All inputs of the machine there.
     pub u: Vec<f64>,
-    /// The outputs.
+    /// The outputs there.
     pub y: Vec<f64>,
-    /// What the states are: coordinates, then rates.
+    /// The labels of the states: coordinates, then rates.
     pub states: Vec<Label>,
-    /// The inputs.
+    /// The labels of the inputs.
     pub inputs: Vec<Label>,
-    /// The outputs.
+    /// The labels of the outputs.
     pub outputs: Vec<Label>,
     /// A, r × r.
     pub a: DMatrix<f64>,
@@ -79,46 +80,46 @@ pub struct Model {
     pub c: DMatrix<f64>,
     /// D, p × m.
     pub d: DMatrix<f64>,
-    /// ẋ where x and the changes of inputs are 0: nothing about an equilibrium or along a steady motion.
+    /// ẋ where x and the changes of inputs are 0; zero about an equilibrium or along a steady motion.
     pub drift: Vec<f64>,
-    /// How all coordinates, then all rates, change with x, 2n × r.
+    /// The change of all coordinates, then all rates, with x, 2n × r.
     pub basis: DMatrix<f64>,
-    /// Whether the states are fewer than coordinates and rates.
+    /// Whether there are fewer states than coordinates and rates.
     pub is_reduced: bool,
-    /// Coordinates that only record where the machine has come, and are no states.
+    /// Coordinates that only record how far the machine has moved, and are no states.
     pub records: Vec<String>,
-    /// What rounding may make of each number of A.
+    /// Bounds on the effect of rounding on each entry of A.
     pub a_bounds: DMatrix<f64>,
 }
 
 /// Why there is no model.
 #[derive(Clone, Debug)]
 pub enum NoModel {
-    /// There are no numbers.
+    /// The equations cannot be evaluated.
     Fault(Fault),
-    /// Multipliers of constraints that follow from others have no value of their own; which was asked for.
+    /// The requested multiplier, by its index, is not unique because its constraint follows from others.
     Multiplier(usize),
-    /// The equations have a corner or a jump at the state, in a coordinate or a rate by its name where it is one alone.
+    /// The equations have a corner or a jump at the state; names the coordinate or rate if a single one causes it.
     Kink(Option<String>),
     /// This output has a corner or a jump at the state.
     OutputKink(String),
-    /// Its part in the model changes as the machine moves steadily: an input by its name, and which coordinate moves.
+    /// The effect of this input changes along the steady motion; names the input, and what moves.
     InputTurns(String, Moving),
-    /// The part of this output in the model changes as the machine moves steadily, and which coordinate moves.
+    /// The gains of this output change along the steady motion; names the output, and what moves.
     OutputTurns(String, Moving),
 }
 
-/// What goes on in a steady motion.
+/// What changes along a steady motion.
 #[derive(Clone, Debug)]
 pub enum Moving {
     /// A coordinate.
     Coordinate(String),
-    /// The time, which the equations hold.
+    /// The time, on which the equations depend.
     Time,
 }
 
 impl NoModel {
-    /// Why, in one sentence.
+    /// The reason in one sentence.
     pub fn in_words(&self, system: &InterpretedSystem, options: Options) -> String {
         let turns = |what: &str, name: &str, moving: &Moving| {
             let when = match moving {
@@ -176,7 +177,7 @@ impl From<Fault> for NoModel {
     }
 }
 
-/// Where a model is to be.
+/// The operating point of a model.
 struct At<'a> {
     choice: &'a Choice,
     place: &'a Place,
@@ -224,22 +225,22 @@ impl Matrices {
     }
 }
 
-/// What rounding makes of a number may be this many times as much in other cases.
+/// Safety factor on the observed effect of rounding.
 const SAFETY: f64 = 4.0;
 
-/// Times at which a model is to be the same, in s.
+/// Times at which a model must be the same, in s.
 const TIMES: [f64; 3] = [0.37, 1.13, 29.7];
 
-/// How far to both sides of a state a corner is looked for, in rad, m, or as a share.
+/// The distances on both sides of a state at which the search looks for corners, in rad, m, or relative to the coordinate.
 const NEAR: [f64; 2] = [1e-10, 1e-13];
 
-/// What is below this share of the largest number is the rounding of 32 digits.
+/// Numbers below this fraction of the largest are the round-off of 32 digits.
 const ROUNDING: f64 = 1e-21;
 
 /// The model about an equilibrium, or along a steady motion.
 ///
 /// # Errors
-/// Why there is none.
+/// Why there is no model.
 pub fn along(
     machine: &InterpretedMachine,
     motion: &Motion,
@@ -259,16 +260,16 @@ pub fn along(
     smooth(&mut reduced, &asked, &at)?;
     let (mut here, bounds) = settled(&mut reduced, &asked, &at)?;
     goes_on(&mut reduced, &asked, &at, (&here, &bounds), &motion.v)?;
-    // x is what the machine is off its motion, which places follow.
+    // x is the deviation from the steady motion, so the rates of that motion are no drift of the coordinates.
     here.drift.rows_mut(0, at.places().len()).fill(0.0);
     let v = motion.v.clone();
     Ok(asked.model(&at, here, bounds, (q, v, inputs)))
 }
 
-/// Whether the equations of motion have a linearization along a motion, and so modes.
+/// Checks that the equations of motion can be linearized along a motion, and so that it has modes.
 ///
 /// # Errors
-/// If something in them has a corner or a jump there.
+/// If a term of the equations has a corner or a jump there.
 pub fn check_smooth(machine: &InterpretedMachine, motion: &Motion) -> Result<(), NoModel> {
     let system = machine.prepare();
     let inputs = system.default_inputs().values;
@@ -292,10 +293,10 @@ pub fn check_smooth(machine: &InterpretedMachine, motion: &Motion) -> Result<(),
     smooth(&mut reduced, &asked, &at)
 }
 
-/// The model about a state at a time, whatever the machine does there. With constraints the coordinates are moved onto them.
+/// The model about any state, at a time. With constraints the coordinates are first projected onto them.
 ///
 /// # Errors
-/// Why there is none.
+/// Why there is no model.
 pub fn about(
     machine: &InterpretedMachine,
     (t, q, v): (f64, &[f64], &[f64]),
@@ -343,7 +344,7 @@ impl At<'_> {
     }
 }
 
-/// A request, and the names of what is in it.
+/// A request with the names of its entries.
 struct Asked<'a> {
     request: &'a Request,
     coordinates: Vec<Label>,
@@ -352,7 +353,7 @@ struct Asked<'a> {
     has_multipliers: bool,
 }
 
-/// `der(x)` in its unit.
+/// The label of a derivative, with its unit.
 fn rate(of: &Label, order: u8) -> Label {
     if let Some(state) = state_of(&of.name) {
         let unit = rate_unit(&of.name, &of.unit);
@@ -407,7 +408,7 @@ impl<'a> Asked<'a> {
                 }
                 Observed::Multiplier(k) => Label {
                     name: format!("multiplier({})", constraints[k]),
-                    // In the unit of energy over that of the constraint, which has none here.
+                    // The unit is that of energy over that of the constraint, and constraints have no unit here.
                     unit: String::new(),
                 },
             });
@@ -436,7 +437,7 @@ impl<'a> Asked<'a> {
         let rates = rates.map(|j| rate(&self.coordinates[*j], 1));
         let records = self.coordinates.iter().zip(at.records);
         let is_integral = |label: &Label| state_of(&label.name).is_some();
-        // That a state of first order has an integral is nothing to be told.
+        // The integrals of states of first order are always records, and are not reported as such.
         let records = records.filter(|(label, is_record)| **is_record && !is_integral(label));
         let integrals = self
             .coordinates
@@ -474,7 +475,7 @@ impl<'a> Asked<'a> {
     }
 }
 
-/// What changes with states and inputs, over numbers with a derivative.
+/// The quantities that depend on states and inputs, over numbers with a derivative.
 struct Response {
     rates: Vec<Number>,
     /// ṡ.
@@ -563,7 +564,7 @@ fn respond(
     })
 }
 
-/// All matrices at a state, as they come out.
+/// All matrices at a state, with their round-off.
 fn matrices(
     reduced: &mut Reduced<'_>,
     asked: &Asked<'_>,
@@ -657,7 +658,7 @@ fn matrices(
     Ok(found)
 }
 
-/// The matrices, with what is 0 but for rounding as 0; and what rounding may make of each number.
+/// The matrices, in which entries within round-off are set to 0, and bounds on the effect of rounding on each entry.
 fn settled(
     reduced: &mut Reduced<'_>,
     asked: &Asked<'_>,
@@ -688,7 +689,7 @@ fn settled(
     Ok((here, bounds))
 }
 
-/// Whether inputs and outputs have the same part in the model wherever a steady motion has come, and at all times.
+/// Checks that inputs and outputs have the same gains everywhere along a steady motion, and at all times.
 fn goes_on(
     reduced: &mut Reduced<'_>,
     asked: &Asked<'_>,
@@ -724,13 +725,13 @@ fn goes_on(
     let places = at.choice.places();
     for &j in places.iter().filter(|j| v[**j] != 0.0) {
         for there in motion::elsewhere(reduced, at.choice, at.place, j) {
-            // Where the equations end nothing can be compared.
+            // Positions at which the equations cannot be evaluated are skipped.
             if let Ok(there) = matrices(reduced, asked, at, &there) {
                 compare(&there, coordinate(j))?;
             }
         }
     }
-    // An output that depends on what only records is the same nowhere.
+    // The gains of an output that depends on a recording coordinate change along the motion.
     let (q, s) = (constants(&at.place.q), constants(&at.place.s));
     let tangent = reduced.tangent(at.choice, &q)?;
     for (column, &j) in places.iter().enumerate().filter(|(_, j)| at.records[**j]) {
@@ -755,18 +756,18 @@ fn goes_on(
     Ok(())
 }
 
-/// Whether nothing has a corner or a jump at the state: `abs`, `sign`, `min` or `max` where their arguments change sides.
+/// Checks that no term has a corner or a jump at the state, as `abs`, `sign`, `min` and `max` have where their arguments change sides.
 ///
-/// All that the equations are made of is evaluated on both sides of the state, with its derivative, at two distances. Where it
-/// is smooth what it differs by falls with the distance; beside a corner it stays. In 32 digits there is no rounding at these
-/// distances.
+/// All terms of the equations are evaluated on both sides of the state, with their derivatives, at two distances. For a smooth
+/// term the difference of the sides falls with the distance; at a corner it stays. With 32 digits there is no round-off at
+/// these distances.
 fn smooth(reduced: &mut Reduced<'_>, asked: &Asked<'_>, at: &At<'_>) -> Result<(), NoModel> {
     let (q, s) = (constants(&at.place.q), constants(&at.place.s));
     let here = respond(reduced, asked, at.choice, &q, &s)?;
     let (n, u) = (q.len(), reduced.inputs_mut().to_vec());
     let time = reduced.time();
     let state = [&q[..], &here.rates, &u, &here.all].concat();
-    // A direction in which nothing is alone; then one number after the other, to name it.
+    // A generic direction first; then one number after the other, to name the culprit.
     let weight = |k: usize| 0.5 + (k * 29 % 97) as f64 / 97.0;
     let m = reduced.constraints();
     let mut jump = |only: Option<usize>| -> Option<usize> {
@@ -804,7 +805,7 @@ fn smooth(reduced: &mut Reduced<'_>, asked: &Asked<'_>, at: &At<'_>) -> Result<(
                 [
                     off(x.value, y.value),
                     off(x.derivative, y.derivative),
-                    // At a corner itself dual numbers take some slope between those of the sides.
+                    // At a corner itself dual numbers take some slope between the slopes of the two sides.
                     off(x.derivative, z.derivative),
                 ]
             });
@@ -841,7 +842,7 @@ fn smooth(reduced: &mut Reduced<'_>, asked: &Asked<'_>, at: &At<'_>) -> Result<(
     }))
 }
 
-/// How many numbers the equations are made of, before the outputs.
+/// How many terms precede the outputs.
 fn numbers_of_equations(n: usize, m: usize) -> usize {
     n * (n + 1) / 2 + n + m * n + 3 * m
 }

@@ -1,15 +1,15 @@
-//! A steady motion that was found, and the motions near it.
+//! A steady motion as found by the search, and the small motions about it.
 //!
-//! A motion is steady if nothing accelerates along it, `ṡ = 0`, and goes on so: where the machine moves, the equations stay as
-//! they are. What is displaced by δz, and by δs in its rates, then moves with constant coefficients,
+//! A motion is steady if nothing accelerates along it, `ṡ = 0`, and if the equations do not change where the machine moves. A
+//! deviation δz of the coordinates and δs of the rates then obeys equations with constant coefficients,
 //!
 //! ```text
 //! δṡ = (Tᵀ M T)⁻¹ (∂r/∂z δz + ∂r/∂s δs)
 //! δż_F = ∂v_F/∂z δz + T_F δs                                                        (E40)
 //! ```
 //!
-//! But coordinates that only record where the machine has come, the place on a table that a coin goes round, follow with
-//! coefficients that turn along with it. Nothing depends on them, and they are left out.
+//! Coordinates that only record how far the machine has moved, such as the place on a table around which a coin circles,
+//! are an exception: their coefficients turn with the motion. Nothing depends on them, and they are left out.
 
 use nalgebra::{Complex, DMatrix};
 
@@ -17,39 +17,40 @@ use crate::reduced::{Choice, Fault, Linearized, Place, Reduced, divided};
 use crate::search::{Found, settled};
 use crate::spectrum::{self, Linear, Mode, Modes};
 
-/// How far what moves is moved, in rad, m or as a share of it, to see whether anything depends on where it is.
+/// By how much moving coordinates are shifted, in rad, m or relative to the coordinate, to test whether anything
+/// depends on them.
 const SHIFTS: [f64; 2] = [0.0625, -0.21875];
 
-/// Numbers in 32 digits that differ by this share of the largest beside them differ by rounding.
+/// Numbers of 32 digits that differ by at most this fraction of the largest number beside them differ by round-off.
 pub(crate) const SAME: f64 = 1e-22;
 
-/// A steady motion, and the motions near it.
+/// A steady motion and the small motions about it.
 #[derive(Clone)]
 pub struct Motion {
     /// The state.
     pub found: Found,
-    /// Rates of all coordinates, states of first order among them; 0 where they are but for rounding.
+    /// Rates of all coordinates, states of first order among them; set to 0 within round-off.
     pub v: Vec<f64>,
-    /// The motions near it, their shapes with a number for each coordinate.
+    /// The modes about the motion; their shapes have an entry for each coordinate.
     pub modes: Modes,
-    /// Coordinates that only record where the machine has come: they have no part in shapes. Those that are integrals of
-    /// states of first order are among them, and shapes have the amplitude of the state in their place.
+    /// Coordinates that only record how far the machine has moved: they have no part in shapes. The integrals of states
+    /// of first order are among them; in their place shapes have the amplitude of the state.
     pub records: Vec<bool>,
 }
 
-/// Why the motion is not steady.
+/// Why a motion is not steady.
 pub enum Unsteady {
-    /// The equations depend on where this coordinate is, which moves.
+    /// The equations depend on this coordinate, which moves.
     Depends(usize),
-    /// They depend on this one, whose rate changes while another one moves.
+    /// They depend on the first coordinate, whose rate changes while the second one moves.
     Follows(usize, usize),
-    /// No numbers.
+    /// The equations cannot be evaluated.
     Fault(Fault),
-    /// The eigenvalues cannot be found.
+    /// The eigenvalue iteration failed.
     NoEigenvalues,
 }
 
-/// What of a state is asked whether it goes on steadily.
+/// A state to be tested for steadiness.
 pub struct State<'a> {
     /// Which coordinates follow from which constraints.
     pub choice: &'a Choice,
@@ -57,12 +58,12 @@ pub struct State<'a> {
     pub place: &'a Place,
     /// The equations there.
     pub here: &'a Linearized,
-    /// What rounding may make of them.
+    /// Bounds on the effect of rounding on them.
     pub bounds: &'a Linearized,
 }
 
 impl Found {
-    /// The state, to be asked whether it goes on steadily.
+    /// The state in the form in which it is tested for steadiness.
     pub fn state(&self) -> State<'_> {
         State {
             choice: &self.choice,
@@ -73,8 +74,8 @@ impl Found {
     }
 }
 
-/// Places to which a coordinate has moved, and with it those that follow by constraints of positions; none where the
-/// constraints end before.
+/// Positions to which a coordinate may have moved, together with those that follow by constraints on positions; none
+/// where the constraints cannot be met there.
 pub(crate) fn elsewhere(
     reduced: &mut Reduced<'_>,
     choice: &Choice,
@@ -91,10 +92,10 @@ pub(crate) fn elsewhere(
     moved.collect()
 }
 
-/// Which coordinates only record where the machine has come.
+/// Which coordinates only record how far the machine has moved.
 ///
 /// # Errors
-/// If the equations do not stay as they are where the machine moves.
+/// If the equations change where the machine moves.
 pub fn records(reduced: &mut Reduced<'_>, state: &State<'_>) -> Result<Vec<bool>, Unsteady> {
     let State {
         choice,
@@ -104,14 +105,14 @@ pub fn records(reduced: &mut Reduced<'_>, state: &State<'_>) -> Result<Vec<bool>
     } = state;
     let places = choice.places();
     let mut records = vec![false; reduced.dimension()];
-    // Which of them moved when its rate changed.
+    // The index of the coordinate that moved when the rate of each one changed.
     let mut because = vec![0; reduced.dimension()];
     let largest = |m: &DMatrix<f64>| m.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     let fastest = largest(&here.rates);
     let moves = |j: &usize| here.rates[*j].abs() > bounds.rates[*j];
     for &j in places.iter().filter(|j| moves(j)) {
         for there in elsewhere(reduced, choice, place, j) {
-            // Where the equations end nothing can be compared.
+            // Positions at which the equations cannot be evaluated are skipped.
             let Ok(there) = reduced.linearized_only(choice, &there) else {
                 continue;
             };
@@ -124,7 +125,7 @@ pub fn records(reduced: &mut Reduced<'_>, state: &State<'_>) -> Result<Vec<bool>
                 let mut each = (0..rows).flat_map(|i| (0..columns).map(move |k| (i, k)));
                 each.all(|place| same(matrices, place, size))
             };
-            // What is 0 but for rounding is a difference of such numbers.
+            // Entries that are 0 but for round-off are differences of numbers of this size.
             let sizes = [&here.by_places, &there.by_places].map(largest);
             let rates = [&here.by_rates, &there.by_rates].map(largest);
             let (force, rate) = (sizes[0].max(sizes[1]), rates[0].max(rates[1]));
@@ -163,7 +164,7 @@ pub fn records(reduced: &mut Reduced<'_>, state: &State<'_>) -> Result<Vec<bool>
             }
         }
     }
-    // Nothing may depend on what only records.
+    // Nothing may depend on a coordinate that only records.
     for (column, &j) in places.iter().enumerate().filter(|(_, j)| records[**j]) {
         let depends = (0..here.by_places.nrows())
             .any(|i| here.by_places[(i, column)].abs() > bounds.by_places[(i, column)]);
@@ -178,10 +179,10 @@ pub fn records(reduced: &mut Reduced<'_>, state: &State<'_>) -> Result<Vec<bool>
     Ok(records)
 }
 
-/// The motions near a steady one.
+/// The small motions about a steady one.
 ///
 /// # Errors
-/// If it does not go on steadily, or has no eigenvalues.
+/// If the motion is not steady, or the eigenvalue iteration fails.
 pub fn near(reduced: &mut Reduced<'_>, found: Found, steady: &[bool]) -> Result<Motion, Unsteady> {
     let mut records = records(reduced, &found.state())?;
     let Found {
@@ -264,8 +265,8 @@ pub fn near(reduced: &mut Reduced<'_>, found: Found, steady: &[bool]) -> Result<
     })
 }
 
-/// Shapes with the amplitudes of states of first order in place of those of their integrals; and without the motions in
-/// which nothing but integrals is displaced, which are none of the machine.
+/// Shapes in which the amplitudes of states of first order replace those of their integrals. Modes in which only
+/// integrals are displaced do not belong to the machine and are removed.
 fn of_states(mut modes: Modes, integrals: &[bool]) -> Modes {
     let count = integrals.iter().filter(|is| **is).count();
     if count == 0 {
@@ -287,7 +288,7 @@ fn of_states(mut modes: Modes, integrals: &[bool]) -> Modes {
                 pairs.for_each(|(x, y)| *x -= along * y);
             }
             let norm = mode.shape.iter().map(|x| x.norm_sqr()).sum::<f64>().sqrt();
-            // The shapes are of size 1, and the remainder of a dependent one is rounding.
+            // The shapes are of size 1, so the remainder of a dependent one is round-off.
             if norm <= 1e-9 {
                 return false;
             }
@@ -306,7 +307,7 @@ fn of_states(mut modes: Modes, integrals: &[bool]) -> Modes {
     modes
 }
 
-/// A shape in z as one in coordinates, the largest number 1.
+/// Converts a shape in z into one in coordinates, scaled to a largest entry of 1.
 fn in_coordinates(tangent: &DMatrix<f64>, records: &[bool], mode: &Mode) -> Vec<Complex<f64>> {
     let is_own = |row: usize| {
         let mut row = tangent.row(row).into_iter().filter(|x| **x != 0.0);
@@ -331,7 +332,7 @@ fn in_coordinates(tangent: &DMatrix<f64>, records: &[bool], mode: &Mode) -> Vec<
         .iter()
         .find(|x| x.norm() >= (1.0 - 1e-9) * largest && largest > 0.0);
     let unit = first.copied().unwrap_or(Complex::new(1.0, 0.0));
-    // What is nothing but rounding, beside 1.
+    // Round-off relative to 1.
     let settle = |x: f64| if x.abs() <= 1e-12 { 0.0 } else { x };
     let scaled = shape.iter().map(|x| x / unit);
     scaled

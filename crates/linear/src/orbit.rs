@@ -1,28 +1,29 @@
-//! Periodic motions: a start from which the machine comes back to where it was, and what becomes of motions beside it.
+//! Periodic orbits: a start to which the machine returns after a period, and the stability of the orbit.
 //!
-//! With Φ(x) the state that a motion from x has a period T later, and Φ_T its rate there, the start of a periodic motion obeys
-//! `Φ(x) − x − d = 0`, where d is what coordinates go on by in a period: nothing, or whole turns. Newton's method solves it:
+//! Let Φ(x) be the state that a motion from x reaches one period T later, and Φ_T its rate there. The start of a periodic
+//! motion obeys `Φ(x) − x − d = 0`, where d is the amount by which coordinates advance in a period: nothing, or whole turns.
+//! Newton's method solves it:
 //!
 //! ```text
 //! (M − 1) δx + Φ_T δT = −(Φ(x) − x − d),   M = ∂Φ/∂x                                  (E55)
 //! ```
 //!
-//! M, the monodromy matrix, comes from the variational equations, which are integrated with the motion. Its eigenvalues are Floquet's
-//! multipliers: what is beside the motion is multiplied by them in each period (E. A. Coddington, N. Levinson, *Theory of Ordinary
-//! Differential Equations*, 1955, chapter 3, section 5, and chapter 13, section 2).
+//! M, the monodromy matrix, comes from the variational equations, which are integrated with the motion. Its eigenvalues are the
+//! Floquet multipliers: they multiply small deviations from the motion in each period (E. A. Coddington, N. Levinson, *Theory of
+//! Ordinary Differential Equations*, 1955, chapter 3, section 5, and chapter 13, section 2).
 //!
-//! Where the equations do not change with time, every state of the orbit is a start, and a machine that conserves energy has an orbit
-//! for every energy. (E55) then has many solutions, and that is taken which moves the start the least, measured by
-//! inertia, `δqᵀ M δq (2π/T)² + δvᵀ M δv`: so neither units nor the choice of coordinates matter. What is kept of a start does not
-//! move at all.
+//! Where the equations do not depend on time, every state of the orbit is a start, and a machine that conserves energy has an orbit
+//! for every energy. (E55) then has many solutions. The search takes the one that moves the start least in the norm given by
+//! inertia, `δqᵀ M δq (2π/T)² + δvᵀ M δv`, so neither units nor the choice of coordinates matter. Numbers of the start that are
+//! kept do not move at all.
 //!
-//! A start that constraints hold moves along them only. It is told by as many numbers as are independent there, coordinates that
-//! may be displaced at will and rates ([`crate::reduced`]), and (E55) is one of these numbers: M has a row and a column for
-//! each, and as many multipliers, which do not depend on the choice.
+//! A start that obeys constraints moves along them only. It is described by as many numbers as are independent there,
+//! coordinates that may be displaced freely and rates ([`crate::reduced`]), and (E55) is written in these numbers: M has a row
+//! and a column for each. There are as many multipliers, and they do not depend on the choice of these numbers.
 //!
-//! A coordinate on which nothing depends need not come back: a toy that goes down its pole, a cart that rolls on. It shifts, by as much
-//! as its rate says over a period, is none of the numbers of (E55), and its rate is one. A state of first order is the rate of such a
-//! coordinate, its integral over time.
+//! A coordinate on which no equation depends need not return: a toy that climbs down its pole, a cart that rolls on. Such a
+//! coordinate shifts by the integral of its rate over a period. It is not among the numbers of (E55), but its rate is. A state of
+//! first order is the rate of such a coordinate, its integral over time.
 
 use std::f64::consts::TAU;
 use std::fmt;
@@ -40,36 +41,38 @@ use crate::search::{MOST_STEPS, Wanted};
 use crate::varied::Direction;
 use crate::{starts, steady};
 
-/// Which period an orbit is to have.
+/// Which period an orbit should have.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Period {
-    /// This one, in s: that of what drives the machine, a multiple of it, or of a family of orbits the one that has it.
+    /// This period, in s: that of the excitation or a multiple of it; or, in a family of orbits, the period that
+    /// selects one of them.
     Given(f64),
-    /// One near this, in s; of a machine whose equations do not change with time.
+    /// A period near this, in s; for machines whose equations do not depend on time.
     Near(f64),
-    /// That after which the motion from the start comes nearest to it; of a machine whose equations do not change with time.
+    /// The period after which the motion from the start comes nearest to it; for machines whose equations do
+    /// not depend on time.
     Sought,
 }
 
-/// Where an orbit is sought.
+/// Where to search for an orbit.
 #[derive(Clone, Debug)]
 pub struct Sought {
-    /// The state to begin with.
+    /// The initial guess of the start.
     pub start: State<Named>,
     /// Its period.
     pub period: Period,
-    /// Which numbers of the start stay as they are: coordinates, then rates.
+    /// Which numbers of the start the search must not change: coordinates, then rates.
     pub kept: Vec<bool>,
-    /// What coordinates go on by in a period.
+    /// By how much each coordinate advances in a period.
     pub advance: Vec<f64>,
-    /// Which coordinates go on as far as they do; they are among those of [`shifting`].
+    /// Which coordinates may advance by any amount; they must be among those of [`shifting`].
     pub shifts: Vec<bool>,
-    /// Of the integration, relative and absolute.
+    /// Relative and absolute tolerance of the integration.
     pub tolerance: f64,
 }
 
 impl Sought {
-    /// An orbit near a start that comes back to it, by which nothing is kept.
+    /// A search near a start for an orbit that returns to it, with no number of the start kept.
     pub fn near(start: State<Named>, period: Period) -> Sought {
         let n = start.q.values.len();
         Sought {
@@ -83,8 +86,8 @@ impl Sought {
     }
 }
 
-/// On which coordinates of a machine no equation of motion depends, as its program shows: it does not read them for forces, constraints or
-/// contacts. Energies and outputs may depend on them. Integrals of states of first order are such coordinates.
+/// The coordinates on which no equation of motion depends: the program does not read them for forces, constraints or contacts.
+/// Energies and outputs may depend on them. Integrals of states of first order are such coordinates.
 pub fn shifting(machine: &InterpretedMachine) -> Vec<bool> {
     let program = machine.program();
     let mut shifts = vec![true; program.dimension()];
@@ -111,19 +114,19 @@ pub fn shifting(machine: &InterpretedMachine) -> Vec<bool> {
     shifts
 }
 
-/// What a period does to what is beside a motion.
+/// A Floquet multiplier: the factor by which one period multiplies a small deviation from the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Multiplier {
-    /// By what it is multiplied.
+    /// Its value.
     pub value: Complex<f64>,
-    /// The value is known up to this.
+    /// Bound on the error of the value.
     pub error: f64,
-    /// Whether it is 1 because the same motion a little later is a motion, too.
+    /// Whether it is 1 because a motion shifted in time is a motion too.
     pub is_trivial: bool,
 }
 
 impl Multiplier {
-    /// Whether it is greater than 1, less, or neither as far as it is known; the trivial one aside.
+    /// Whether its modulus is above 1, below 1, or within its error of 1. The caller leaves out the trivial one.
     fn side(&self) -> Side {
         match self.value.norm() - 1.0 {
             _ if self.is_trivial => Side::Neither,
@@ -141,19 +144,20 @@ enum Side {
     Neither,
 }
 
-/// What becomes of motions beside an orbit.
+/// The stability of an orbit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stability {
-    /// All come back to it.
+    /// All neighbouring motions approach it.
     Attracting,
-    /// Some go away, faster than any power of time.
+    /// Some neighbouring motions leave it exponentially.
     Unstable,
-    /// As far as multipliers are known some neither come back nor go away, and none goes away: what they do is not decided by (E55).
+    /// Some multipliers are on the unit circle as far as they are known, and none is outside: (E55) does not
+    /// decide the stability.
     Undecided,
 }
 
 impl Stability {
-    /// In one word.
+    /// The name in one word.
     pub fn name(self) -> &'static str {
         match self {
             Stability::Attracting => "stable",
@@ -170,30 +174,31 @@ pub struct Orbit {
     pub start: State<Named>,
     /// Its period, in s.
     pub period: f64,
-    /// By how much each coordinate goes on in a period: what was given, and of those that shift what was found.
+    /// By how much each coordinate advances in a period: as given, or as found for coordinates that shift.
     pub advance: Vec<f64>,
-    /// Which coordinates go on as far as they do.
+    /// Which coordinates may advance by any amount.
     pub shifts: Vec<bool>,
-    /// The numbers of a state that are independent, all of them without constraints, but for what shifts: coordinates, then rates.
+    /// The indices of the independent numbers of a state, coordinates, then rates: without constraints all numbers
+    /// except those that shift.
     pub states: Vec<usize>,
-    /// M, of these numbers.
+    /// M, in these numbers.
     pub monodromy: DMatrix<f64>,
-    /// What integration may have made of each number of M.
+    /// Bound on the error of integration in each entry of M.
     pub bounds: DMatrix<f64>,
-    /// The multipliers: the greatest first, of a conjugate pair that above the axis.
+    /// The multipliers, largest modulus first; of a conjugate pair the one above the real axis first.
     pub multipliers: Vec<Multiplier>,
-    /// The largest number of `Φ(x) − x − d`, each over `max(1, |x|)`.
+    /// The largest entry of `Φ(x) − x − d`, each relative to `max(1, |x|)`.
     pub residual: f64,
-    /// By how many further numbers an orbit near this one may be chosen, its phase aside.
+    /// The dimension of the family of orbits near this one, not counting the phase.
     pub family: usize,
     /// Whether the equations do not change with time.
     pub is_autonomous: bool,
-    /// How often (E55) was solved.
+    /// How many times (E55) was solved.
     pub rounds: usize,
 }
 
 impl Orbit {
-    /// What becomes of motions beside it.
+    /// The stability of this orbit.
     pub fn stability(&self) -> Stability {
         let own = || self.multipliers.iter().filter(|one| !one.is_trivial);
         match () {
@@ -204,38 +209,40 @@ impl Orbit {
     }
 }
 
-/// Why there is no orbit.
+/// Why no orbit was found.
 #[derive(Clone, Debug)]
 pub enum NoOrbit {
-    /// The machine has what has no variational equations; what that is.
+    /// The machine has a feature for which there are no variational equations; the message names it.
     Refused(String),
     /// The start cannot be projected onto the constraints; why.
     Start(String),
-    /// What is kept of the start depends on other numbers, or the constraints say nothing of rates there.
+    /// The kept numbers of the start depend on other numbers, or the constraints do not determine rates there.
     Constraints,
-    /// Its equations change with time, and no period was given; the parameters each of which stops that by being 0.
+    /// The equations depend on time, and no period was given; lists the parameters each of which removes the time
+    /// dependence when it is 0.
     Driven(Vec<String>),
-    /// They change with time, and not with this period: this, the acceleration of a coordinate or the rate of a state, is another one a
-    /// period later.
+    /// The equations depend on time, but not with this period: the named quantity, the acceleration of a coordinate or the rate of
+    /// a state, differs one period later.
     OtherPeriod(String, f64),
-    /// They are not the same where coordinates have gone on by what they are to: this is another one there.
+    /// The equations differ after coordinates have advanced by the given amounts: the named quantity changes.
     OtherPlace(String),
-    /// They depend on a coordinate that is to go on as far as it does.
+    /// The equations depend on a coordinate that was declared free to shift.
     Depends(String),
     /// The period is not greater than 0 or not finite.
     NoPeriod(f64),
-    /// The motion from the start does not come back near it.
+    /// The motion from the start does not return near it.
     NoReturn,
-    /// The start stays where it is, and so has no period of its own.
+    /// The start is at rest, and so has no period of its own.
     Rest,
     /// A run ended early; why.
     Run(String),
-    /// The search stopped at a start that comes back only up to this, relative to `max(1, |x|)`, after so many rounds.
+    /// The search stopped at a start that returns only up to this residual, relative to `max(1, |x|)`, after
+    /// this many rounds.
     Lost(f64, usize),
-    /// The variational equations do not say how runs differ, as where forces jump (`sign`): what they say for a change of the start,
-    /// and what runs do, over its size.
+    /// The variational equations do not describe how runs differ, as where forces jump (`sign`): the change of the end that they
+    /// predict for a change of the start, and the change that runs show, both relative to the size of the change of the start.
     Jump(f64, f64),
-    /// Eigenvalues cannot be found.
+    /// The eigenvalue iteration failed.
     Eigenvalues,
 }
 
@@ -294,40 +301,41 @@ impl fmt::Display for NoOrbit {
 
 impl std::error::Error for NoOrbit {}
 
-/// Steps between two changes of contacts.
+/// The most steps between two changes of contacts.
 const MOST_STEPS_OF_PART: usize = 10_000_000;
 
-/// How often (E55) is solved at most.
+/// How many times (E55) is solved at most.
 const MOST_ROUNDS: usize = 60;
 
-/// How often a step is halved that leads away.
+/// How many times a step that increases the residual is halved.
 const MOST_HALVINGS: usize = 12;
 
-/// Singular values below this share of the largest belong to changes of the start that lead to orbits again.
+/// Singular values below this fraction of the largest belong to changes of the start that lead to other orbits.
 const NOTHING: f64 = 1e-7;
 
-/// What a period may be off is no more than this part of it.
+/// The largest error of the period that is considered, relative to the period.
 const MOST_OF_PERIOD: f64 = 1e-3;
 
-/// An orbit closes up to so many tolerances of the integration: errors of a step, some hundred times.
+/// An orbit counts as closed when its gap is at most this many tolerances of the integration: the errors of
+/// some hundred steps.
 const CLOSED: f64 = 1e3;
 
-/// Steps of a run that is to come back.
+/// The most steps of a run that should return to its start.
 const STEPS_OF_RETURN: usize = 20_000;
 
-/// How often it may pass the start.
+/// How many passages of the start such a run may make.
 const RETURNS: usize = 24;
 
-/// Steps of a run that is to come to where no contact is closed.
+/// The most steps of a run that should reach a state at which no contact is closed.
 const STEPS_TO_OPEN: usize = 4_000;
 
-/// What a period does to a state.
+/// The result of integrating over one period.
 struct Passage {
-    /// The state behind it.
+    /// The state at the end.
     x: DVector<f64>,
     /// M.
     monodromy: DMatrix<f64>,
-    /// The rate of the independent numbers there.
+    /// The rate of the independent numbers at the end.
     rate: DVector<f64>,
 }
 
@@ -335,18 +343,18 @@ struct Search<'a> {
     machine: &'a InterpretedMachine,
     sought: &'a Sought,
     n: usize,
-    /// d, with nothing for rates.
+    /// d, zero for rates.
     advance: DVector<f64>,
     /// Which coordinates are integrals of states of first order.
     is_integral: Vec<bool>,
-    /// Which coordinates do not come back: these integrals, and what shifts.
+    /// Which coordinates do not return: these integrals, and those that shift.
     goes_on: Vec<bool>,
 }
 
-/// An orbit near a start.
+/// Finds a periodic orbit near a start.
 ///
 /// # Errors
-/// Why there is none.
+/// Why no orbit was found.
 pub fn find(machine: &InterpretedMachine, sought: &Sought) -> Result<Orbit, NoOrbit> {
     let system = machine.prepare();
     if system.contacts().len() > 0 {
@@ -395,7 +403,7 @@ impl Search<'_> {
         let is_autonomous = drive.is_ok();
         let x = self.state()?;
         if let Err(closed) = self.check_open(&x) {
-            // Every state of the orbit is a start of it where the equations do not change with time.
+            // Where the equations do not depend on time, any state of the orbit may serve as its start.
             if !is_autonomous || self.sought.kept.contains(&true) {
                 return Err(closed);
             }
@@ -418,14 +426,14 @@ impl Search<'_> {
         self.search_near(x, drive)
     }
 
-    /// An orbit near a start at which no contact is closed.
+    /// Searches for an orbit near a start at which no contact is closed.
     fn search_near(
         &self,
         x: DVector<f64>,
         drive: Result<(), Vec<String>>,
     ) -> Result<Orbit, NoOrbit> {
         let is_autonomous = drive.is_ok();
-        // Whether there are numbers that tell its neighbours.
+        // This fails early if no independent numbers describe the states near the start.
         self.chart(&x)?;
         let (mut period, is_free) = match (self.sought.period, drive) {
             (Period::Given(period), _) => (period, false),
@@ -447,7 +455,8 @@ impl Search<'_> {
         let chart = &self.chart(&x)?;
         let passage = self.passage(chart, &x, period, tolerance)?;
         self.check_differences(chart, &x, period, &passage)?;
-        // What ten times the tolerance changes is ten times what the tolerance leaves, or more.
+        // With ten times the tolerance the error is about ten times as large or more, so the difference of the two
+        // results bounds the error.
         let coarse = self.passage(chart, &x, period, (10.0 * tolerance).min(1e-4))?;
         let size = passage.monodromy.amax();
         let by_integration =
@@ -484,10 +493,10 @@ impl Search<'_> {
         })
     }
 
-    /// What M changes by with what the period may be off.
+    /// How much the uncertainty of the period changes M.
     ///
-    /// A motion closes up to its gap and to what integration leaves of its end, and by as much the state may be further along the orbit. There
-    /// is no other measure of that where M is 1, as of a harmonic motion: then all that is left of M − 1 is its error.
+    /// A motion closes up to its gap and to the integration error at its end, and the state may be further along the orbit by this
+    /// much. Where M is 1, as for a harmonic motion, no other measure exists, because M − 1 then holds only its own error.
     fn by_period(
         &self,
         chart: &Chart,
@@ -507,7 +516,7 @@ impl Search<'_> {
         Ok((there.monodromy - &passage.monodromy).abs())
     }
 
-    /// Whether the equations change with time, and what stops that.
+    /// Returns an error where the equations depend on time: the parameters that would remove this when set to 0.
     fn drives(&self) -> Result<(), Vec<String>> {
         let v = &self.sought.start.v.values;
         let wanted = Wanted {
@@ -519,7 +528,7 @@ impl Search<'_> {
         steady::drives(self.machine, &self.sought.start.q.values, &wanted)
     }
 
-    /// Gaps of contacts at a state, and the rates along normal and tangent that they have where the machine does not move.
+    /// The gaps of contacts at a state, and their normal and tangential rates when the machine is at rest.
     fn walls(&self, t: f64, x: &DVector<f64>) -> Vec<f64> {
         let system = self.machine.prepare();
         let contacts = system.unilateral_contacts().len();
@@ -531,7 +540,7 @@ impl Search<'_> {
         gaps
     }
 
-    /// Whether walls that contacts are with move by themselves.
+    /// Whether the walls of contacts move by themselves.
     fn walls_move(&self) -> bool {
         let start = &self.sought.start;
         let x = DVector::from_column_slice(&start.q.values);
@@ -543,7 +552,8 @@ impl Search<'_> {
         })
     }
 
-    /// An orbit begins where nothing touches: there its neighbours differ by every number of the state.
+    /// Checks that no contact is closed at the start: only there do neighbouring states differ in every
+    /// number of the state.
     fn check_open(&self, x: &DVector<f64>) -> Result<(), NoOrbit> {
         let system = self.machine.prepare();
         let mut gaps = vec![0.0; system.unilateral_contacts().len()];
@@ -560,8 +570,9 @@ impl Search<'_> {
         }
     }
 
-    /// A state that the motion from `x` comes to at which no contact is closed, at the time of the start: the middle of the longest such
-    /// time within a period, or, where that is not known, within so many steps. None where there is none.
+    /// A state on the motion from `x` at which no contact is closed, shifted to the time of the start: the middle of the
+    /// longest such interval within a period or, where the period is not known, within a limited number of steps. `None`
+    /// where there is none.
     fn opened(&self, x: &DVector<f64>) -> Result<Option<State<Named>>, NoOrbit> {
         let failed = |error: lagrangian::Error| NoOrbit::Run(error.to_string());
         let start = self.named(x);
@@ -583,7 +594,7 @@ impl Search<'_> {
                 (phase.since, is_open)
             })
             .collect();
-        // The last one has no end.
+        // The last phase has no end.
         let ended = phases.windows(2).filter(|pair| pair[0].1);
         let spans = ended.map(|pair| (pair[0].0, pair[1].0));
         let longest = spans.max_by(|a, b| (a.1 - a.0).total_cmp(&(b.1 - b.0)));
@@ -594,7 +605,7 @@ impl Search<'_> {
         Ok(Some(State { t, ..state }))
     }
 
-    /// The start, on the constraints.
+    /// The start, projected onto the constraints.
     fn state(&self) -> Result<DVector<f64>, NoOrbit> {
         let start = &self.sought.start;
         let all = |state: &State<Named>| {
@@ -623,7 +634,8 @@ impl Search<'_> {
         Ok(self.with_lengths(all(run.start())))
     }
 
-    /// The same state with four numbers of length 1 that stays. Only their ratios are part of the motion.
+    /// The same state with quaternions normalized to length 1, which then stay so. Only the ratios of the four
+    /// numbers are part of the motion.
     fn with_lengths(&self, mut x: DVector<f64>) -> DVector<f64> {
         for four in &self.machine.program().quaternions {
             let square: f64 = four.iter().map(|i| x[*i] * x[*i]).sum();
@@ -637,8 +649,8 @@ impl Search<'_> {
         x
     }
 
-    /// The signs with which the four numbers of each frame are nearest to those of the start. A frame that has turned once has the
-    /// other sign, and is where it was: so the state comes back up to these signs, and its derivatives with it.
+    /// The signs with which the quaternion of each frame is nearest to that of the start. A frame that has turned once has the
+    /// opposite sign and the same orientation, so the state returns up to these signs, and so do its derivatives.
     fn signs(&self, x: &DVector<f64>, there: &DVector<f64>) -> DVector<f64> {
         let mut signs = DVector::repeat(2 * self.n, 1.0);
         for four in &self.machine.program().quaternions {
@@ -652,7 +664,7 @@ impl Search<'_> {
         signs
     }
 
-    /// A passage whose end has these signs.
+    /// A passage with these signs applied to its end.
     fn signed(&self, chart: &Chart, passage: Passage, signs: &DVector<f64>) -> Passage {
         let own = chart.of(signs);
         let mut monodromy = passage.monodromy;
@@ -666,7 +678,7 @@ impl Search<'_> {
         }
     }
 
-    /// The numbers that tell states near `x`.
+    /// The chart of independent numbers for states near `x`.
     fn chart(&self, x: &DVector<f64>) -> Result<Chart, NoOrbit> {
         let chart = Chart::at(self.machine, x, &self.sought.kept, &self.goes_on);
         let chart = chart.map_err(|_| NoOrbit::Constraints)?;
@@ -685,7 +697,7 @@ impl Search<'_> {
         state
     }
 
-    /// `Φ(x) − x − d`, and nothing for what does not come back.
+    /// `Φ(x) − x − d`, with zeros for coordinates that do not return.
     fn gap(&self, x: &DVector<f64>, there: &DVector<f64>) -> DVector<f64> {
         let mut gap = there - x - &self.advance;
         for (gap, goes_on) in gap.iter_mut().zip(&self.goes_on) {
@@ -696,7 +708,7 @@ impl Search<'_> {
         gap
     }
 
-    /// The largest number, each over `max(1, |x|)`.
+    /// The largest entry, each relative to `max(1, |x|)`.
     fn share(&self, gap: &DVector<f64>, x: &DVector<f64>) -> f64 {
         let shares = gap.iter().zip(x.iter());
         shares.fold(0.0, |most, (gap, x)| most.max(gap.abs() / x.abs().max(1.0)))
@@ -746,7 +758,7 @@ impl Search<'_> {
         Ok(self.signed(chart, passage, &signs))
     }
 
-    /// The same with the four numbers of frames as the run has them.
+    /// The same, with the signs of quaternions as the run produced them.
     fn unsigned_passage(
         &self,
         chart: &Chart,
@@ -794,7 +806,7 @@ impl Search<'_> {
             of => v.by[j].values[of - n],
         });
         if chart.rank() > 0 {
-            // The motion itself is that of a run that is kept on the constraints.
+            // The values are taken from a run that is kept on the constraints.
             let end = self.end(x, period, tolerance)?;
             let signs = self.signs(&end, &there);
             there = end.component_mul(&signs);
@@ -872,8 +884,8 @@ impl Search<'_> {
         })
     }
 
-    /// S with `|S δx|² = δqᵀ M δq (2π/T)² + δvᵀ M δv` of the independent numbers, where the rates that `δv` is are those of places
-    /// that do not move; where there is no positive mass matrix, by the sizes of coordinates.
+    /// S with `|S δx|² = δqᵀ M δq (2π/T)² + δvᵀ M δv` for the independent numbers, where `δv` are the rates at fixed positions.
+    /// Where the mass matrix is not positive definite, the sizes of the coordinates are used instead.
     fn scale(&self, chart: &Chart, x: &DVector<f64>, period: f64) -> Result<DMatrix<f64>, NoOrbit> {
         let (n, omega) = (self.n, TAU / period);
         let system = self.machine.prepare();
@@ -910,12 +922,13 @@ impl Search<'_> {
         Ok(scale)
     }
 
-    /// The period after which the motion from a start comes nearest to it, passing it in the direction in which it left.
+    /// The period after which the motion from a start comes nearest to it while passing it in the direction
+    /// in which it left.
     fn first_return(&self, x: &DVector<f64>) -> Result<f64, NoOrbit> {
         let start = self.named(x);
         let rate = self.rate(start.t, x).ok_or(NoOrbit::NoReturn)?;
-        // About how long a radian takes: states are weighed with it, which decides nothing. States of first order are as large as
-        // they are at the start.
+        // A rough time per radian, with which states are weighted; nothing depends on its exact value. States of first order are
+        // as large as at the start.
         let n = self.n;
         let size = |part: &[f64], of_states: bool| {
             let own = part.iter().zip(&self.is_integral);
@@ -984,16 +997,16 @@ impl Search<'_> {
             .iter()
             .map(|(gap, _)| *gap)
             .fold(f64::INFINITY, f64::min);
-        // Of those that are about as near the first; and near is what a thousandth of the way around is: on an orbit all returns are,
-        // but for rounding.
+        // The first of those that are about equally near. Within a thousandth of the way around counts as near: on an orbit all
+        // returns are near but for round-off.
         let around = (&scale * &rate).norm() / omega;
         let near = (1.5 * least).max(1e-3 * around);
         let first = gaps.iter().find(|(gap, _)| *gap <= near);
         first.map(|(_, period)| *period).ok_or(NoOrbit::NoReturn)
     }
 
-    /// Divides a period by how often the motion comes back within it: what alternates about an orbit comes nearer to its start the second
-    /// time than the first. Whether there was anything to divide by.
+    /// Divides a period by the number of returns within it: a deviation that alternates about an orbit brings the motion nearer to
+    /// its start at the second return than at the first. Returns whether the period was divided.
     fn shorten(&self, x: &DVector<f64>, period: &mut f64) -> Result<bool, NoOrbit> {
         let tolerance = self.sought.tolerance;
         let whole = *period;
@@ -1013,7 +1026,7 @@ impl Search<'_> {
         Ok(*period < whole)
     }
 
-    /// Whether the equations are the same a period later, and where coordinates have gone on.
+    /// Checks that the equations are the same one period later and after coordinates have advanced.
     fn check_invariance(
         &self,
         x: &DVector<f64>,
@@ -1030,7 +1043,7 @@ impl Search<'_> {
             }
         };
         let t = self.sought.start.t;
-        // States beside the start, which have nothing in common with it, and times within the period.
+        // States beside the start in generic directions, and times within the period.
         for (k, part) in [0.0, 0.13, 0.31, 0.57, 0.83].into_iter().enumerate() {
             let mut state = x.clone();
             for (j, x) in state.iter_mut().enumerate() {
@@ -1044,11 +1057,11 @@ impl Search<'_> {
             let differs = |there: &DVector<f64>| {
                 let size = here.rows(self.n, self.n).amax();
                 let off = |k: &usize| (there[self.n + k] - here[self.n + k]).abs();
-                // A period that is rounded, or a turn, moves a phase by its rounding; forces may grow with it.
+                // The rounding of the period, or of a turn, changes a phase by as much, and forces may amplify it.
                 (0..self.n).find(|k| off(k) > 1e-6 * size)
             };
             if !is_autonomous {
-                // Walls that move are where they were a period ago, too.
+                // Moving walls must also be where they were one period earlier.
                 let [here, there] = [t, t + period].map(|t| self.walls(t, &state));
                 let size = here.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
                 let differs = |(here, there): (&f64, &f64)| (here - there).abs() > 1e-6 * size;
@@ -1078,7 +1091,8 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Newton's method, with steps that are halved where they lead away. The start, and how often (E55) was solved.
+    /// Newton's method, with steps that are halved where they increase the residual. Returns the start and the
+    /// number of times that (E55) was solved.
     fn newton(
         &self,
         mut x: DVector<f64>,
@@ -1105,7 +1119,8 @@ impl Search<'_> {
                     let t = self.sought.start.t;
                     let next = chart.moved(self.machine, t, &x, &(&dx * part));
                     let length = *period + dt * part;
-                    // A period that vanishes is none, and one that is doubled has left what was sought.
+                    // A step must not halve the period or double it: a vanishing period is no solution, and a
+                    // doubled one belongs to another orbit.
                     if let Ok(next) = next
                         && length > 0.5 * *period
                         && length < 2.0 * *period
@@ -1136,7 +1151,7 @@ impl Search<'_> {
                 None => return Err(NoOrbit::Lost(self.share(&gap, &x), rounds)),
             }
         }
-        // A state at rest comes back after any time.
+        // A state at rest returns after any time.
         let scale = self.scale(&chart, &x, *period)?;
         let moves = (&scale * &passage.rate).norm() * *period;
         let size = (&scale * chart.of(&x).map(|x| x.abs().max(1.0))).norm();
@@ -1147,7 +1162,7 @@ impl Search<'_> {
         }
     }
 
-    /// The least change of the start that solves (E55) as far as it can be solved, and that of the period.
+    /// The smallest change of the start that solves (E55) in the least-squares sense, and the change of the period.
     fn step(
         &self,
         chart: &Chart,
@@ -1169,19 +1184,19 @@ impl Search<'_> {
         let rate = scale * &passage.rate;
         let along = (is_free && rate.norm() > 0.0).then(|| &rate / rate.norm());
         if free.is_empty() {
-            // All of the start is kept: the period is all that is left.
+            // When the whole start is kept, only the period is left to solve for.
             let dt = along.map_or(0.0, |along| along.dot(&right) / rate.norm());
             return Some((DVector::zeros(size), dt));
         }
         let (full, whole) = (matrix.clone(), right.clone());
         if let Some(along) = &along {
-            // Whatever the period takes care of.
+            // Removes the component that the period takes care of.
             matrix -= along * (along.transpose() * &full);
             right -= along * along.dot(&whole);
         }
         let own = (scale * &passage.monodromy * &columns * &back).amax();
         let svd = matrix.svd(true, true);
-        // Of M − 1 where M is 1 all that is left is the error of M.
+        // Where M is 1, M − 1 holds only the error of M.
         let least = NOTHING * svd.singular_values.max().max(own);
         let z = svd.solve(&right, least).ok()?;
         let dt = along.map_or(0.0, |along| along.dot(&(whole - full * &z)) / rate.norm());
@@ -1189,7 +1204,7 @@ impl Search<'_> {
         (dx.iter().all(|x| x.is_finite()) && dt.is_finite()).then_some((dx, dt))
     }
 
-    /// Whether runs differ as the variational equations say, along a direction without any pattern.
+    /// Checks that runs differ as the variational equations predict, along a generic direction.
     fn check_differences(
         &self,
         chart: &Chart,
@@ -1215,8 +1230,8 @@ impl Search<'_> {
         let (coarse, fine) = (coarse?, fine?);
         let said = &passage.monodromy * &direction;
         let off = (&said - &fine).amax();
-        // The error of the finer difference is a third of what the two differ by, where it goes with the square of the change; and
-        // that of the ends of runs, over the change.
+        // The error of the finer difference is a third of the difference between the two where it is quadratic in the change; the
+        // error of the ends of runs, divided by the change, comes on top.
         let size = passage.monodromy.amax().max(1.0);
         let known = 4.0 * (&coarse - &fine).amax() + CLOSED * tolerance * size / 1e-5;
         let significant = 1e-3 * size;
@@ -1227,11 +1242,11 @@ impl Search<'_> {
         }
     }
 
-    /// Multipliers, and by how many numbers orbits near this one differ.
+    /// The multipliers, and the dimension of the family of orbits near this one.
     ///
-    /// Where the equations do not change with time the rate of the state is an eigenvector of 1. The others are those of what remains
-    /// across it: taken from the whole matrix, where 1 may be there twice with one eigenvector, they would be known to the root of
-    /// its error only.
+    /// Where the equations do not depend on time, the rate of the state is an eigenvector of the eigenvalue 1. The other
+    /// eigenvalues are taken from the complement of this direction: in the whole matrix, where 1 may be a double eigenvalue with
+    /// one eigenvector, they would be known only to the square root of its error.
     fn multipliers(
         &self,
         chart: &Chart,
@@ -1279,10 +1294,11 @@ impl Search<'_> {
         found.sort_by(|a, b| {
             let key = |one: &Multiplier| (one.value.norm(), one.value.im);
             let ((a1, a2), (b1, b2)) = (key(a), key(b));
-            // Both of a pair have one modulus, to the bit.
+            // Both of a conjugate pair have the same modulus, bit for bit.
             b1.total_cmp(&a1).then(b2.total_cmp(&a2))
         });
-        // Changes of the start that (E55) leaves open beside that along the motion: with the period free all that it may take care of.
+        // Changes of the start that (E55) leaves free besides the one along the motion; with a free period, also
+        // all that the period may absorb.
         let mut matrix = &scaled - DMatrix::identity(size, size);
         if is_free && rate.norm() > 0.0 {
             let along = &rate / rate.norm();
@@ -1297,7 +1313,7 @@ impl Search<'_> {
     }
 }
 
-/// An orbit at a value of what is varied.
+/// An orbit at one value of the varied quantity.
 #[derive(Clone, Debug)]
 pub struct Point {
     /// The value.
@@ -1306,19 +1322,19 @@ pub struct Point {
     pub orbit: Result<Orbit, NoOrbit>,
 }
 
-/// What happens to an orbit where multipliers go through the unit circle.
+/// What happens to an orbit where multipliers cross the unit circle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Change {
-    /// One goes through 1: the orbit turns back, or another one branches off, or meets it.
+    /// One crosses 1: the branch turns back, or another branch meets it or branches off.
     Fold,
-    /// One goes through −1: an orbit of twice the period branches off.
+    /// One crosses −1: an orbit of twice the period branches off.
     Doubling,
-    /// A pair goes through the circle elsewhere: a torus branches off.
+    /// A pair crosses the circle elsewhere: a torus branches off.
     Torus,
 }
 
 impl Change {
-    /// In words.
+    /// The name in words.
     pub fn name(self) -> &'static str {
         match self {
             Change::Fold => "fold or branching",
@@ -1331,31 +1347,31 @@ impl Change {
 /// Where the number of multipliers outside the unit circle changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Changed {
-    /// Between these two values of what is varied, which halving has brought together.
+    /// The two values of the varied quantity between which it happens, brought together by bisection.
     pub between: [f64; 2],
-    /// What happens.
+    /// The kind of change.
     pub change: Change,
     /// The multiplier outside that is nearest to the circle.
     pub multiplier: Complex<f64>,
 }
 
-/// Orbits along a range.
+/// Orbits along a range of values.
 #[derive(Clone, Debug)]
 pub struct Trace {
     /// An orbit for each value, or why there is none.
     pub points: Vec<Point>,
-    /// What happens on the way.
+    /// The changes along the range.
     pub changes: Vec<Changed>,
 }
 
-/// How often a step from one value to the next is halved where no orbit is found.
+/// How many times a step from one value to the next is halved where no orbit is found.
 const MOST_BETWEEN: u32 = 6;
 
-/// How often an interval is halved in which the number of multipliers outside the circle changes.
+/// How many times an interval in which the number of multipliers outside the circle changes is bisected.
 const HALVINGS: usize = 20;
 
-/// Follows an orbit along values of something. `make` gives the machine at a value, and the period that is given there, if one is.
-/// Each search begins where a straight line through the two orbits before leads to, or at the last orbit.
+/// Follows an orbit along a range of values. `make` returns the machine at a value, and the period there if one is given. Each
+/// search starts from the linear extrapolation of the last two orbits, or from the last orbit.
 ///
 /// # Errors
 /// Why there is no orbit at the first value.
@@ -1375,7 +1391,7 @@ where
         }
         Ok(find(&machine, &from))
     };
-    // Where to look at a value: beside the last orbits.
+    // Where to start a search at a value: at the extrapolation of the known orbits.
     let beside = |known: &[(f64, Orbit)], value: f64| -> Sought {
         let mut from = sought.clone();
         let Some((at, last)) = known.last() else {
@@ -1408,7 +1424,7 @@ where
     for (k, &value) in values.iter().enumerate() {
         let mut found = solve(value, &beside(&known, value))?;
         if let (Err(_), Some((at, _))) = (&found, known.last()) {
-            // In shorter steps, from the last orbit on.
+            // Shorter steps, starting from the last orbit.
             let (mut at, mut step) = (*at, 0.5 * (value - *at));
             let mut halved = 1;
             let mut way = known.clone();
@@ -1458,7 +1474,7 @@ where
 }
 
 impl Orbit {
-    /// How many multipliers are outside the unit circle.
+    /// The number of multipliers outside the unit circle.
     fn outside(&self) -> usize {
         let own = self.multipliers.iter();
         own.filter(|one| one.side() == Side::Grows).count()

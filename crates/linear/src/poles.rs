@@ -8,16 +8,16 @@ use crate::precise;
 /// An eigenvalue of a real matrix.
 #[derive(Clone, Debug)]
 pub struct Pole {
-    /// λ, in 1/s: exactly real, imaginary or zero where it is so but for rounding.
+    /// λ, in 1/s: set to exactly real, imaginary or zero where it is so within its error.
     pub lambda: Complex<f64>,
-    /// λ is known up to this, in 1/s.
+    /// Bound on the error of λ, in 1/s.
     pub error: f64,
-    /// Its eigenvector, the largest number 1.
+    /// Its eigenvector, scaled to a largest entry of 1.
     pub shape: Vec<Complex<f64>>,
 }
 
-/// All eigenvalues of a matrix whose entries are known up to `bounds`, both of each conjugate pair, the one above the axis
-/// first: slow oscillations before fast ones. `None` where the iterations do not end.
+/// All eigenvalues of a matrix whose entries are known up to `bounds`, slow oscillations before fast ones. Both of each
+/// conjugate pair are listed, the one above the real axis first. `None` where the iterations do not converge.
 pub fn poles(a: &DMatrix<f64>, bounds: &DMatrix<f64>) -> Option<Vec<Pole>> {
     let n = a.nrows();
     if n == 0 {
@@ -26,7 +26,7 @@ pub fn poles(a: &DMatrix<f64>, bounds: &DMatrix<f64>) -> Option<Vec<Pole>> {
     let mut balanced = a.clone();
     let scales = balance_parlett_reinsch(&mut balanced);
     let bounds = DMatrix::from_fn(n, n, |i, j| bounds[(i, j)] * scales[j] / scales[i]);
-    // An entry is a sum of some terms, as many as there are states, as a rule.
+    // An entry is typically a sum of as many terms as there are states.
     let roundings = 8.0 * n as f64;
     let mut poles = Vec::with_capacity(n);
     for pair in precise::pairs(&balanced, &(bounds / roundings))? {
@@ -50,12 +50,12 @@ pub fn poles(a: &DMatrix<f64>, bounds: &DMatrix<f64>) -> Option<Vec<Pole>> {
             error,
             shape,
         });
-        // Two that rounding has made conjugate are one, twice.
+        // A pair that is real within its error is a double eigenvalue.
         if raw.im > 0.0 {
             poles.push(conjugate);
         }
     }
-    // Both of a pair stand together: their keys have the same bits.
+    // The two of a conjugate pair stay adjacent because their keys are equal bit for bit.
     poles.sort_by(|a, b| {
         let key = |pole: &Pole| (pole.lambda.im.abs(), pole.lambda.norm(), pole.lambda.re);
         let ((a1, a2, a3), (b1, b2, b3)) = (key(a), key(b));

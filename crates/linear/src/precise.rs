@@ -1,8 +1,8 @@
 //! Eigenvalues and eigenvectors of a real matrix in twice the digits of an `f64`.
 //!
-//! In a heavily damped machine the slowest motion is slower than the fastest by c²/k, and an eigenvalue comes out with an
-//! error of some units in the last place of the largest one. With 32 digits c²/k may be 1e20 and every eigenvalue is still as
-//! good as the matrix; what the matrix says at all is another question, answered by [`Pair::error`].
+//! In a heavily damped machine the slowest motion is slower than the fastest by c²/k, and in `f64` an eigenvalue has an error
+//! of some units in the last place of the largest one. With 32 digits c²/k may be 1e20 and every eigenvalue is still as
+//! accurate as the matrix. How far the matrix itself determines an eigenvalue is what [`Pair::error`] tells.
 
 use core::ops::{Add, Mul, Sub};
 
@@ -19,7 +19,7 @@ pub struct Number {
 /// The most steps for one eigenvalue; it takes two or three.
 const MOST_STEPS: usize = 60;
 
-/// 2⁻¹⁰⁴: what is below this share of its neighbours is nothing.
+/// 2⁻¹⁰⁴: entries below this fraction of their neighbours are negligible.
 const NOTHING: f64 = 1.0 / (1_u128 << 104) as f64;
 
 const ZERO: Number = Number {
@@ -47,7 +47,7 @@ impl Number {
         }
     }
 
-    /// The modulus, to 16 digits.
+    /// The modulus, accurate to 16 digits.
     fn size(self) -> f64 {
         self.re.hi().hypot(self.im.hi())
     }
@@ -59,7 +59,7 @@ impl Number {
         }
     }
 
-    /// 1/z, over a power of 2 near |z|, so that nothing overflows.
+    /// 1/z, computed relative to a power of 2 near |z|, so that nothing overflows.
     fn reciprocal(self) -> Number {
         let unit = Some(self.size())
             .filter(|x| *x > 0.0 && x.is_finite())
@@ -76,7 +76,7 @@ impl Number {
         if modulus.hi() == 0.0 {
             return ZERO;
         }
-        // Without cancellation: the larger of the two parts by a root, the other by a quotient.
+        // Without cancellation: the larger of the two parts comes from a root, the other from a quotient.
         let large = ((modulus + self.re.abs()) / two).sqrt();
         let small = self.im.abs() / (two * large);
         let is_right = self.re >= DoubleDouble::ZERO;
@@ -137,7 +137,7 @@ impl Matrix {
         }
     }
 
-    /// Similar, with nothing below the first subdiagonal: by elimination with pivots
+    /// Makes a similar matrix with nothing below the first subdiagonal, by elimination with pivoting
     /// (J. H. Wilkinson, *The Algebraic Eigenvalue Problem*, 1965, section 6.8).
     fn reduce_to_hessenberg(&mut self) {
         let n = self.rows.len();
@@ -168,7 +168,7 @@ impl Matrix {
         }
     }
 
-    /// The eigenvalue of the 2 × 2 block that ends at `end` which is nearer to the last entry.
+    /// The eigenvalue of the 2 × 2 block ending at `end` that is nearer to its last entry.
     fn shift(&self, end: usize) -> Number {
         let (a, b) = (self.rows[end - 1][end - 1], self.rows[end - 1][end]);
         let (c, d) = (self.rows[end][end - 1], self.rows[end][end]);
@@ -257,7 +257,7 @@ impl Matrix {
                 return None;
             }
             let shift = match steps % 10 {
-                // Now and then one out of line, lest it goes round in circles.
+                // An occasional exceptional shift breaks cycles.
                 0 => self.rows[end][end] + Number::new(self.rows[end][end - 1].size(), 0.0),
                 _ => self.shift(end),
             };
@@ -282,7 +282,7 @@ impl Matrix {
         shifted
     }
 
-    /// The vector that a shifted matrix nearly maps to nothing.
+    /// The eigenvector of a nearly singular shifted matrix for the eigenvalue near 0.
     fn inverse_iteration(&self, start: Vec<Number>, tiny: f64) -> Option<Vec<Number>> {
         (0..3).try_fold(start, |x, _| normalized(&self.solve(&x, tiny)))
     }
@@ -298,7 +298,7 @@ impl Matrix {
         above * below.reciprocal()
     }
 
-    /// Solves `self x = b`, by elimination with pivots; a pivot of nothing counts as `tiny`.
+    /// Solves `self x = b` by elimination with pivoting; a zero pivot is replaced by `tiny`.
     fn solve(&self, b: &[Number], tiny: f64) -> Vec<Number> {
         let n = self.rows.len();
         let mut rows = self.rows.clone();
@@ -331,7 +331,7 @@ impl Matrix {
     }
 }
 
-/// Largest entry 1.
+/// The vector scaled to a largest entry of 1.
 fn normalized(x: &[Number]) -> Option<Vec<Number>> {
     let largest = x.iter().map(|x| x.size()).fold(0.0, f64::max);
     let unit = x.iter().find(|x| x.size() == largest)?;
@@ -340,7 +340,7 @@ fn normalized(x: &[Number]) -> Option<Vec<Number>> {
     x.iter().all(|x| x.size().is_finite()).then_some(x)
 }
 
-/// `M⁻¹ B`, each entry as exact as those of M and B are. `None` where M is singular.
+/// `M⁻¹ B`, with each entry as accurate as the entries of M and B. `None` where M is singular.
 pub fn solve(m: &DMatrix<f64>, b: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let matrix = Matrix::of(m);
     let mut solved = b.clone();
@@ -353,36 +353,36 @@ pub fn solve(m: &DMatrix<f64>, b: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     solved.iter().all(|x| x.is_finite()).then_some(solved)
 }
 
-/// An eigenvalue of a real matrix with its vector.
+/// An eigenvalue of a real matrix and its eigenvector.
 pub struct Pair {
-    /// The eigenvalue; of two conjugate ones that with the positive imaginary part.
+    /// The eigenvalue; of a conjugate pair the one with positive imaginary part.
     pub lambda: Complex<f64>,
-    /// `A right = λ right`, the largest entry 1.
+    /// The eigenvector, `A right = λ right`, scaled to a largest entry of 1.
     pub right: DVector<Complex<f64>>,
-    /// How far λ moves if each entry of A is off by one unit of its own last place, or by what is known of it; more where it has
-    /// been found less exactly.
+    /// How far λ moves if each entry of A changes by one unit in its last place, or by its known uncertainty; larger where the
+    /// iteration has found λ less accurately.
     pub error: f64,
 }
 
-/// All eigenvalues but the conjugate ones, those that are there several times as often, of a matrix whose entries are known up
-/// to `bounds`. `None` where the iterations do not end.
+/// All eigenvalues of a matrix whose entries are known up to `bounds`, one of each conjugate pair; a multiple eigenvalue is
+/// listed as often as it occurs. `None` where the iterations do not converge.
 pub fn pairs(a: &DMatrix<f64>, bounds: &DMatrix<f64>) -> Option<Vec<Pair>> {
     let n = a.nrows();
     let matrix = Matrix::of(a);
-    // A change that the iterations may have made.
+    // A perturbation of the size that the iterations may have made.
     let norm = Some(a.norm()).filter(|x| *x > 0.0).unwrap_or(1.0);
     let tiny = NOTHING * norm;
     let eigenvalues = matrix.clone().eigenvalues()?;
     let mut pairs: Vec<Pair> = Vec::new();
     for (index, lambda) in without_conjugates(&eigenvalues) {
-        // An eigenvalue that repeats has another vector, if there is one.
+        // A repeated eigenvalue should get another eigenvector, if there is one.
         let size = lambda.nearest().norm();
         let is_same = |other: &&Pair| (other.lambda - lambda.nearest()).norm() <= 1e-8 * size;
         let before: Vec<&Pair> = pairs.iter().filter(is_same).collect();
         let shifted = matrix.shifted(lambda);
         let mut right = Vec::new();
         for attempt in 0..=before.len() {
-            // Numbers without any pattern.
+            // A generic start vector.
             let start = (0..n).map(|i| {
                 let seed = (i + 1) * (7 * attempt + 3) * 29 + 11 * attempt;
                 Number::new(0.5 + (seed % 97) as f64 / 97.0, (seed % 89) as f64 / 89.0)
@@ -397,7 +397,7 @@ pub fn pairs(a: &DMatrix<f64>, bounds: &DMatrix<f64>) -> Option<Vec<Pair>> {
                 break;
             }
         }
-        // Of several left vectors that which is closest to this right one.
+        // Of several left eigenvectors this takes the one closest to the right one.
         let transposed = matrix.transposed().shifted(lambda.conj());
         let left = transposed.inverse_iteration(right.clone(), tiny)?;
         let (x, y) = (nearest(&right), nearest(&left));
@@ -410,12 +410,12 @@ pub fn pairs(a: &DMatrix<f64>, bounds: &DMatrix<f64>) -> Option<Vec<Pair>> {
                 y[i].norm() * off * x[j].norm()
             })
             .sum();
-        // A defective eigenvalue moves with the root of what the matrix does.
+        // A defective eigenvalue moves with the square root of a perturbation of the matrix.
         let condition = lengths / product.max(f64::EPSILON.sqrt() * lengths);
         let mut error = moved / lengths * condition;
-        // Of the vectors' own errors the quotient sees the product.
+        // The errors of the two vectors enter the quotient as their product.
         error = error.max((64.0 * n as f64 * NOTHING).powi(2) * norm * condition);
-        // Rayleigh's quotient finds what is far below the largest eigenvalue, unless several are.
+        // Rayleigh's quotient resolves eigenvalues far below the largest one, unless several of them are that small.
         let blurred = 64.0 * n as f64 * tiny * lengths / product;
         let neighbours = eigenvalues.iter().enumerate();
         let mut distances = neighbours
@@ -442,10 +442,10 @@ pub fn pairs(a: &DMatrix<f64>, bounds: &DMatrix<f64>) -> Option<Vec<Pair>> {
     Some(pairs)
 }
 
-/// The real eigenvalues, and of each two that are conjugate the one above the axis, with their places in the list.
+/// The real eigenvalues and, of each conjugate pair, the one above the real axis, with their indices in the list.
 ///
-/// Complex arithmetic does not know that the matrix is real: what is real has an imaginary part of some size, and has no
-/// partner on the other side that is nearer than its own place on the axis.
+/// Complex arithmetic does not know that the matrix is real. A real eigenvalue gets a small imaginary part, and no
+/// eigenvalue on the other side is nearer to its conjugate than it is itself.
 fn without_conjugates(eigenvalues: &[Number]) -> Vec<(usize, Number)> {
     let mut is_taken = vec![false; eigenvalues.len()];
     let mut kept = Vec::new();

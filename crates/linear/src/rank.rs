@@ -1,44 +1,45 @@
-//! Which directions a matrix maps to nothing but rounding errors.
+//! The numerical null space of a matrix: directions that it maps to round-off only.
 
 use std::rc::Rc;
 
 use nalgebra::{DMatrix, DVector};
 
-/// One of the singular values of a matrix: `K right = value · left`, vectors of length 1.
+/// A singular value of a matrix with its vectors: `K right = value · left`, vectors of length 1.
 pub struct Direction {
     /// The singular value.
     pub value: f64,
-    /// What of it may be rounding: below this it is nothing.
+    /// Bound on its error; a value below it counts as 0.
     pub rounding: f64,
-    /// The largest singular value of the part of the matrix that this one belongs to.
+    /// The largest singular value of the independent block that this one belongs to.
     pub largest: f64,
-    /// The indices of that part.
+    /// The indices of that block.
     pub part: Rc<[usize]>,
-    /// What `right` is mapped along.
+    /// The left singular vector.
     pub left: DVector<f64>,
-    /// The direction.
+    /// The right singular vector.
     pub right: DVector<f64>,
 }
 
 impl Direction {
-    /// Whether the matrix maps this direction to nothing, but for rounding.
+    /// Whether the matrix maps this direction to zero within round-off.
     pub fn is_free(&self) -> bool {
         self.value <= self.rounding
     }
 }
 
-/// The share of the largest singular value of a matrix of n rows below which others are nothing but rounding.
+/// The fraction of the largest singular value of a matrix with n rows below which others are round-off.
 pub fn tolerance(n: usize) -> f64 {
     64.0 * n as f64 * f64::EPSILON
 }
 
-/// The singular values of a square matrix whose numbers are known up to `bounds`, those of each of its independent parts by
-/// themselves.
+/// The singular values of a square matrix whose entries are known up to `bounds`, computed separately for each of its
+/// independent blocks.
 ///
-/// A spring is not soft because another one, to which it has no connection, is stiff. `None` where the iterations do not end.
+/// Separate blocks matter because a spring is not soft just because another one, not connected to it, is stiff. `None` where
+/// the iterations do not converge.
 ///
-/// Of a singular value σ = uᵀ K v it is |u|ᵀ B |v| that they may make (G. W. Stewart and J. Sun, *Matrix Perturbation Theory*,
-/// 1990, section V.4).
+/// The uncertainty B of the entries changes a singular value σ = uᵀ K v by at most |u|ᵀ B |v| to first order (G. W. Stewart
+/// and J. Sun, *Matrix Perturbation Theory*, 1990, section V.4).
 pub fn directions_beyond(matrix: &DMatrix<f64>, bounds: &DMatrix<f64>) -> Option<Vec<Direction>> {
     let n = matrix.nrows();
     let mut directions = Vec::new();
@@ -46,7 +47,7 @@ pub fn directions_beyond(matrix: &DMatrix<f64>, bounds: &DMatrix<f64>) -> Option
         let part: Rc<[usize]> = part.into();
         let size = part.len();
         let own = DMatrix::from_fn(size, size, |i, j| matrix[(part[i], part[j])]);
-        // Singular values are found relative to 1.
+        // The iteration uses an absolute tolerance, for values relative to 1.
         let scale = Some(own.amax()).filter(|x| *x > 0.0).unwrap_or(1.0);
         let svd = (own / scale).try_svd(true, true, f64::EPSILON, 10_000)?;
         let (u, v_t) = (svd.u?, svd.v_t?);
@@ -75,7 +76,7 @@ pub fn directions_beyond(matrix: &DMatrix<f64>, bounds: &DMatrix<f64>) -> Option
     Some(directions)
 }
 
-/// The sets of indices that no entry of the matrix connects, each in ascending order.
+/// The sets of indices that no entry of the matrix couples, each in ascending order.
 pub fn parts(matrix: &DMatrix<f64>) -> Vec<Vec<usize>> {
     let n = matrix.nrows();
     let mut is_seen = vec![false; n];

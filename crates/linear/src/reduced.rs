@@ -1,19 +1,20 @@
-//! The equations of motion in the rates that constraints leave, and their derivatives, in 32 digits.
+//! The equations of motion in the independent rates that constraints leave, and their derivatives, with 32 digits.
 //!
-//! The constraints `G v + b = 0` give the rates `v_D` of as many coordinates by those of the others, `s = v_I`: so
-//! `v = v(q, s)`, `∂v/∂s = T` with `G T = 0` and rows of the identity in `T_I`. With the accelerations a° that the constraints
-//! ask for where `ṡ = 0`, `a°_I = 0` and `G a° = γ`, the motion obeys
+//! The constraints `G v + b = 0` determine the rates `v_D` of as many coordinates from those of the others, `s = v_I`: so
+//! `v = v(q, s)` and `∂v/∂s = T` with `G T = 0`, where the rows `T_I` are those of the identity. With the accelerations a°
+//! that the constraints require where `ṡ = 0`, that is `a°_I = 0` and `G a° = γ`, the motion obeys
 //!
 //! ```text
 //! (Tᵀ M T) ṡ = r(q, s) = Tᵀ (f − M a°)                                              (E39)
 //! ```
 //!
-//! without multipliers. Constraints of positions tie coordinates too: `D` begins with as many, `q_H`, as there are of those. The
-//! others, `z` of I and of the other dependent coordinates, F, may be displaced at will, `δq = H δz`.
+//! without multipliers. Constraints on positions tie coordinates too: the first entries of `D`, `q_H`, are determined by
+//! them, one for each. The other coordinates, `z`, which are I and the remaining dependent coordinates F, may be displaced
+//! freely: `δq = H δz`.
 //!
-//! All of it is evaluated over dual numbers of 32 digits, which leaves derivatives without any differences (`Dual`), and
-//! none of them with a digit of an `f64` wrong. What rounding of parameters and of the state may make of each number is
-//! found by giving these other roundings, some times over ([`Reduced::linearized`]): a number that is as small may be 0.
+//! Everything is evaluated over dual numbers of 32 digits (`Dual`), so derivatives need no differences and are correct
+//! in every digit of an `f64`. To bound the effect of rounding in the parameters and the state, [`Reduced::linearized`]
+//! repeats the evaluation with perturbed roundings: a number within that bound may be 0.
 
 use lagrangian::System;
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem};
@@ -27,47 +28,48 @@ use crate::precise;
 /// A number of 32 digits with a derivative.
 pub(crate) type Number = Dual<DoubleDouble>;
 
-/// A row of G depends on others if its part that is orthogonal to them is shorter than this; a coordinate follows from no
-/// row in which its entry is smaller than this.
+/// A row of G depends on others if its part that is orthogonal to them is shorter than this. A row determines no
+/// coordinate in which its entry is smaller than this.
 const INDEPENDENT: f64 = 1e-8;
 
-/// Of coordinates that may follow, one on which nothing depends is preferred if it has this share in the row.
+/// Among coordinates that a row could determine, one on which nothing depends is preferred if its share of the row
+/// is at least this.
 const PREFERRED: f64 = 1e-2;
 
-/// How often parameters and state are rounded in another way.
+/// How many times the evaluation is repeated with parameters and state rounded differently.
 const ROUNDINGS: usize = 6;
 
-/// What that makes of a number may be this many times as much in other cases.
+/// Safety factor on the largest effect of rounding that these repetitions show.
 const SAFETY: f64 = 4.0;
 
-/// The most steps onto the constraints.
+/// The most iterations of the projection onto the constraints.
 const MOST_STEPS: usize = 200;
 
-/// Where the whole step is no longer than this, in rad, m, or as a share of its coordinate, residuals are rounding and
-/// need not become smaller.
+/// Where the full step is no longer than this, in rad, m, or relative to its coordinate, the residuals are round-off
+/// and need not decrease.
 const NEARLY_MET: f64 = 1e-14;
 
-/// The least damping beside nothing, where rows of the constraints have the length 1.
+/// The smallest nonzero damping, for constraint rows of length 1.
 const LEAST_DAMPING: f64 = 1e-3;
 
-/// With this much damping a step is too short to change the residuals: they have a minimum that is not 0.
+/// With this much damping a step is too short to change the residuals: the search is at a minimum that is not 0.
 const MOST_DAMPING: f64 = 1e8;
 
 /// Which coordinates follow from which constraints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
-    /// Constraints none of which follows from the others, those of positions first.
+    /// An independent set of constraints, those of positions first.
     pub rows: Vec<usize>,
-    /// I.
+    /// I, the independent coordinates.
     pub independent: Vec<usize>,
-    /// H: they follow from constraints of positions.
+    /// H, the coordinates determined by constraints of positions.
     pub tied: Vec<usize>,
-    /// F: only their rates follow.
+    /// F, the coordinates of which only the rates are determined.
     pub followers: Vec<usize>,
 }
 
 impl Choice {
-    /// The coordinates that may be displaced at will, I and F.
+    /// The coordinates that may be displaced freely, I and F.
     pub fn places(&self) -> Vec<usize> {
         [self.independent.as_slice(), &self.followers].concat()
     }
@@ -77,16 +79,16 @@ impl Choice {
     }
 }
 
-/// Why there are no numbers at a state.
+/// Why the equations cannot be evaluated at a state.
 #[derive(Clone, Debug)]
 pub enum Fault {
-    /// No inertia holds this coordinate.
+    /// The mass matrix is singular: this coordinate has no inertia independent of the others.
     Singular(usize),
-    /// Something about this coordinate is not finite.
+    /// A quantity of this coordinate is not finite.
     NotFinite(usize),
-    /// The rate of this coordinate follows from the others, though it is among those that are given.
+    /// The rate of this coordinate is given, but follows from the others.
     Follows(usize),
-    /// The constraints cannot be met near the state; the index of the one that is furthest off.
+    /// The constraints cannot be met near the state; the index of the one with the largest residual.
     Unmet(usize),
 }
 
@@ -106,7 +108,7 @@ impl Place {
     }
 }
 
-/// The equations at a state, and their derivatives.
+/// The equations at a state and their derivatives.
 #[derive(Clone, Debug)]
 pub struct Linearized {
     /// v, of all coordinates.
@@ -117,13 +119,13 @@ pub struct Linearized {
     pub mass: DMatrix<f64>,
     /// ∂r/∂z.
     pub by_places: DMatrix<f64>,
-    /// ∂r/∂z without the part that the change of T makes of unbalanced forces, `(∂T/∂z)ᵀ M b` with `b = T (Tᵀ M T)⁻¹ r`: what is 0 of
-    /// r in one choice of I is so in each.
+    /// ∂r/∂z without the part `(∂T/∂z)ᵀ M b`, `b = T (Tᵀ M T)⁻¹ r`, in which the change of T meets unbalanced forces. Which
+    /// displacements leave r at 0 then does not depend on the choice of I.
     pub as_balanced: DMatrix<f64>,
-    /// The covariant derivative of r in the metric M: that without what M itself bends,
-    /// `½ (∂M(Tᵢ) Hⱼ + ∂M(Hⱼ) Tᵢ) b − ½ Tᵢ ∂M(b) Hⱼ`. Newton's method with this goes the same way in each choice, and
-    /// `rᵀ (Tᵀ M T)⁻¹ r` falls along its steps. (P.-A. Absil, R. Mahony, R. Sepulchre, *Optimization Algorithms on Matrix
-    /// Manifolds*, 2008, sections 5.3 and 6.1.)
+    /// The covariant derivative of r in the metric M: `as_balanced` without the contribution of the curvature of M,
+    /// `½ (∂M(Tᵢ) Hⱼ + ∂M(Hⱼ) Tᵢ) b − ½ Tᵢ ∂M(b) Hⱼ`. Newton's method with this matrix takes the same path for each
+    /// choice of I, and `rᵀ (Tᵀ M T)⁻¹ r` falls along its steps. (P.-A. Absil, R. Mahony, R. Sepulchre, *Optimization
+    /// Algorithms on Matrix Manifolds*, 2008, sections 5.3 and 6.1.)
     pub covariant: DMatrix<f64>,
     /// ∂r/∂s.
     pub by_rates: DMatrix<f64>,
@@ -135,7 +137,7 @@ pub struct Linearized {
     pub tangent: DMatrix<f64>,
 }
 
-/// All matrices of a [`Linearized`], borrowed in one way.
+/// All matrices of a [`Linearized`], borrowed as `$borrow` says.
 macro_rules! matrices {
     ($of:expr, $($borrow:tt)+) => {
         [
@@ -162,7 +164,7 @@ impl Linearized {
         matrices!(self, &mut)
     }
 
-    /// The largest of two, number by number.
+    /// Widens bounds, entry by entry, to the difference of two evaluations times `SAFETY`.
     fn widen(&mut self, other: &Linearized, from: &Linearized) {
         let pairs = other.each().into_iter().zip(from.each());
         for (bound, (x, y)) in self.each_mut().into_iter().zip(pairs) {
@@ -171,17 +173,18 @@ impl Linearized {
         }
     }
 
-    /// How r changes where the machine is displaced as it may move, for Newton's method.
+    /// The derivative of r by displacements that the constraints allow, for Newton's method.
     pub fn stiffness(&self, choice: &Choice) -> DMatrix<f64> {
         &self.covariant * self.displaced(choice)
     }
 
-    /// How r depends on displacements, as [`as_balanced`](Linearized::as_balanced): what does not change r there stays where it is.
+    /// The derivative of r by displacements, from [`as_balanced`](Linearized::as_balanced): a displacement that
+    /// leaves r unchanged meets no restoring force.
     pub fn dependence(&self, choice: &Choice) -> DMatrix<f64> {
         &self.as_balanced * self.displaced(choice)
     }
 
-    /// How z changes along T.
+    /// The change of z along T.
     pub fn displaced(&self, choice: &Choice) -> DMatrix<f64> {
         let places = choice.places();
         DMatrix::from_fn(places.len(), self.along.ncols(), |i, j| {
@@ -200,15 +203,16 @@ pub struct Reduced<'a> {
     time: f64,
     /// Which constraints hold positions.
     holonomic: Vec<bool>,
-    /// The fours of coordinates that turn frames. Their lengths are no part of the motion: here they are held at 1 by constraints
-    /// `(e·e − 1)/2 = 0`, behind those of the machine, along which nothing that the machine does has a component.
+    /// The quaternions, as four indices of coordinates each. Their lengths are no part of the motion: here constraints
+    /// `(e·e − 1)/2 = 0` hold them at 1. These follow the constraints of the machine, and no force of the machine has a
+    /// component along them.
     fours: Vec<[usize; 4]>,
     /// Coordinates on which nothing depends.
     idle: Vec<bool>,
 }
 
 impl<'a> Reduced<'a> {
-    /// The equations of a machine that was prepared as `system`, looked at near `q` and `v`.
+    /// Sets up the equations of a machine that was prepared as `system`, and looks at them near `q` and `v`.
     pub fn new(
         machine: &'a InterpretedMachine,
         system: &'a InterpretedSystem,
@@ -235,13 +239,13 @@ impl<'a> Reduced<'a> {
         reduced
     }
 
-    /// Which coordinates are integrals of states of first order, and not places.
+    /// Which coordinates are integrals of states of first order.
     pub fn integrals(&self) -> Vec<bool> {
         let coordinates = self.system.coordinates();
         coordinates.map(|c| state_of(c.name).is_some()).collect()
     }
 
-    /// How many coordinates there are.
+    /// The number of coordinates.
     pub fn dimension(&self) -> usize {
         self.idle.len()
     }
@@ -261,19 +265,19 @@ impl<'a> Reduced<'a> {
         self.time = time;
     }
 
-    /// How many constraints there are, those of lengths of four numbers among them.
+    /// The number of constraints, including those on the lengths of quaternions.
     pub(crate) fn constraints(&self) -> usize {
         self.holonomic.len()
     }
 
-    /// The rows of the constraints, one after the other.
+    /// The rows of the constraint matrix, one after the other.
     pub(crate) fn constraint_rows(&mut self, q: &[Number]) -> Vec<Number> {
         let (n, m) = (q.len(), self.holonomic.len());
         let zero = vec![Number::ZERO; n];
         self.call(Role::ConstraintMatrix, (q, &zero), m * n, self.time)
     }
 
-    /// The output of this number.
+    /// Evaluates the output with this index.
     pub(crate) fn output(
         &mut self,
         index: usize,
@@ -287,7 +291,7 @@ impl<'a> Reduced<'a> {
             u: &self.inputs,
             a,
         };
-        // An output inverts nothing.
+        // An output has no pivots, so the call cannot fail.
         let _ = self
             .interpreter
             .call(Role::Output(index), arguments, &mut result);
@@ -309,14 +313,14 @@ impl<'a> Reduced<'a> {
             u: &self.inputs,
             a: &[],
         };
-        // What there is of lengths stands behind what there is of the machine's own constraints.
+        // The entries for quaternion lengths follow those of the machine's own constraints.
         let of_each = match role {
             Role::ConstraintMatrix => q.len(),
             Role::ConstraintRates | Role::ConstraintDrift | Role::ConstraintPositions => 1,
             _ => 0,
         };
         let (own, of_lengths) = results.split_at_mut(count - of_each * self.fours.len());
-        // None of these functions inverts anything; what there is no function for is 0.
+        // None of these functions has pivots, so the call cannot fail; a function that the program lacks leaves zeros.
         let _ = self.interpreter.call(role, arguments, own);
         let dot = |four: &[usize; 4], a: &[Number], b: &[Number]| {
             let terms = four.iter().map(|&i| a[i] * b[i]);
@@ -333,7 +337,7 @@ impl<'a> Reduced<'a> {
         results
     }
 
-    /// Everything that the equations are made of, at a state.
+    /// All terms of the equations at a state.
     pub(crate) fn ingredients(&mut self, q: &[Number], v: &[Number], t: f64) -> [Vec<Number>; 6] {
         let (n, m) = (q.len(), self.holonomic.len());
         [
@@ -347,12 +351,12 @@ impl<'a> Reduced<'a> {
         .map(|(role, count)| self.call(role, (q, v), count, t))
     }
 
-    /// Whether nothing changes with a coordinate.
+    /// Whether nothing depends on a coordinate.
     fn is_idle(&mut self, j: usize, q: &[f64], v: &[f64]) -> bool {
         let (mut q, v) = (constants(q), constants(v));
         q[j].derivative = DoubleDouble::ONE;
         let [all @ .., positions] = self.ingredients(&q, &v, 0.0);
-        // A constraint of positions changes with it as its row says.
+        // A constraint on positions depends on it through its row.
         drop(positions);
         all.iter().flatten().all(|x| x.derivative.hi() == 0.0)
     }
@@ -364,7 +368,7 @@ impl<'a> Reduced<'a> {
             let mut at = |t| {
                 let all = self.ingredients(&q, &v, t).concat();
                 let values: Vec<DoubleDouble> = all.iter().map(|x| x.value).collect();
-                // What has no value is no answer.
+                // A value that is not finite cannot be compared.
                 values.iter().all(|x| x.is_finite()).then_some(values)
             };
             let first = at(0.0);
@@ -372,7 +376,7 @@ impl<'a> Reduced<'a> {
         })
     }
 
-    /// Whether inertia holds every coordinate.
+    /// Whether the mass matrix is regular at all of these states.
     pub fn is_regular(&self, states: &[(Vec<f64>, Vec<f64>)]) -> bool {
         let mut masses = states.iter().map(|(q, _)| self.mass(q).cholesky());
         masses.all(|factors| factors.is_some())
@@ -396,7 +400,7 @@ impl<'a> Reduced<'a> {
         DMatrix::from_row_slice(m, n, &rows)
     }
 
-    /// What coordinates are measured by: `L` with `L Lᵀ = M`, or each by its own inertia where M is singular.
+    /// The metric of displacements: `L` with `L Lᵀ = M`, or the square roots of the diagonal where M is singular.
     fn metric(&self, q: &[f64]) -> DMatrix<f64> {
         let mass = self.mass(q);
         let own = |i: usize| {
@@ -409,7 +413,7 @@ impl<'a> Reduced<'a> {
             .unwrap_or_else(|| DMatrix::from_diagonal(&DVector::from_fn(q.len(), |i, _| own(i))))
     }
 
-    /// Which coordinates follow at a place, of those whose rates are not `given`.
+    /// Chooses the coordinates that follow at a position, among those whose rates are not `given`.
     ///
     /// # Errors
     /// If a given rate follows from the others.
@@ -428,14 +432,14 @@ impl<'a> Reduced<'a> {
                 let measured = measured.ok_or(Fault::Singular(0))?;
                 if let Some(unit) = across(&known, &measured, INDEPENDENT) {
                     known.push(unit);
-                    // Each coordinate in its own length.
+                    // Each coordinate is measured in its own length.
                     let scaled = DVector::from_fn(n, |j, _| row[j] / lower.row(j).norm());
                     let size = scaled.norm();
                     chosen.push((k, scaled / size));
                 }
             }
         }
-        // Gauss's elimination; which coordinate a row gives is decided by its largest number.
+        // Gaussian elimination; the largest entry of a row selects the coordinate that the row determines.
         let mut follows = vec![None; n];
         let mut left: Vec<usize> = (0..chosen.len()).collect();
         let mut order = [Vec::new(), Vec::new()];
@@ -486,7 +490,7 @@ impl<'a> Reduced<'a> {
         })
     }
 
-    /// The constraints of positions: 0 where they are met, each in its own unit.
+    /// The residuals of the constraints on positions, each in its own unit.
     fn positions(&mut self, q: &[DoubleDouble]) -> Vec<f64> {
         let wide: Vec<Number> = q.iter().copied().map(Dual::constant).collect();
         let still = vec![Number::ZERO; q.len()];
@@ -495,11 +499,11 @@ impl<'a> Reduced<'a> {
         values.iter().map(|x| x.value.hi()).collect()
     }
 
-    /// Moves coordinates onto the constraints of positions by the least that inertia allows; those that `may` not stay. Where whole
-    /// steps do not lead there from afar, damped ones may.
+    /// Projects coordinates onto the constraints on positions with the smallest change in the metric of inertia, moving only
+    /// coordinates that `may` move. Where full Newton steps fail far from the constraints, damped steps are tried.
     ///
     /// # Errors
-    /// If none is found.
+    /// If no position is found that meets them.
     pub fn project(
         &mut self,
         q: &mut [DoubleDouble],
@@ -512,11 +516,11 @@ impl<'a> Reduced<'a> {
         })
     }
 
-    /// [`project`](Self::project) from a place that is near the constraints: in whole steps, which would rather fail than lead to
-    /// another branch.
+    /// [`project`](Self::project) for a position near the constraints: it takes full steps only and fails rather than
+    /// reach another branch.
     ///
     /// # Errors
-    /// If that cannot be done near the place.
+    /// If no position near it meets the constraints.
     pub fn project_near(
         &mut self,
         q: &mut [DoubleDouble],
@@ -538,7 +542,7 @@ impl<'a> Reduced<'a> {
             return Ok(());
         }
         let mut before = f64::INFINITY;
-        // The damping of Levenberg and Marquardt: nothing, as long as whole steps lower the residuals.
+        // Damping as in the method of Levenberg and Marquardt; none as long as full steps lower the residuals.
         let mut damping = 0.0;
         for _ in 0..MOST_STEPS {
             let near: Vec<f64> = q.iter().map(|x| x.hi()).collect();
@@ -564,8 +568,8 @@ impl<'a> Reduced<'a> {
             let svd = matrix
                 .try_svd(true, true, f64::EPSILON, 10_000)
                 .ok_or(Fault::Unmet(worst))?;
-            // Far from the constraints a whole step may lead further away, as where links are nearly
-            // stretched: the damping grows until the residuals become smaller.
+            // Far from the constraints, as where links are nearly stretched, a full step may increase the
+            // residuals: the damping grows until they decrease.
             let (step, longest) = loop {
                 let step = damped(&svd, &residuals, damping).ok_or(Fault::Unmet(worst))?;
                 let step = lower.transpose().solve_upper_triangular(&step);
@@ -593,7 +597,7 @@ impl<'a> Reduced<'a> {
                     return Err(Fault::Unmet(worst));
                 }
             };
-            // The corrections are rounding, and become no smaller.
+            // The corrections are round-off and no longer decrease.
             if longest == 0.0 || (longest <= NEARLY_MET && longest >= 0.25 * before) {
                 break;
             }
@@ -603,7 +607,7 @@ impl<'a> Reduced<'a> {
             }
             before = longest;
         }
-        // Whether the rows hold, each beside what rounding makes of it.
+        // Checks each row against its round-off.
         let off = self.positions(q);
         let near: Vec<f64> = q.iter().map(|x| x.hi()).collect();
         let rows = self.rows(&near);
@@ -616,7 +620,7 @@ impl<'a> Reduced<'a> {
         unmet.map_or(Ok(()), |k| Err(Fault::Unmet(k)))
     }
 
-    /// Everything in the equations, over numbers with a derivative.
+    /// All terms of the equations, over numbers with a derivative.
     pub(crate) fn evaluate(
         &mut self,
         choice: &Choice,
@@ -707,7 +711,7 @@ impl<'a> Reduced<'a> {
         })
     }
 
-    /// How coordinates are displaced with z, in 32 digits.
+    /// The displacement of all coordinates with each entry of z, in 32 digits.
     pub(crate) fn tangent(
         &mut self,
         choice: &Choice,
@@ -813,10 +817,10 @@ impl<'a> Reduced<'a> {
         Ok(linearized)
     }
 
-    /// The equations at a state, and what rounding of parameters and state may make of each number.
+    /// The equations at a state, and bounds on the effect of rounding in parameters and state on each entry.
     ///
     /// # Errors
-    /// If there are none.
+    /// If they cannot be evaluated.
     pub fn linearized(
         &mut self,
         choice: &Choice,
@@ -836,7 +840,7 @@ impl<'a> Reduced<'a> {
         Ok((here, bounds))
     }
 
-    /// Does something at a state whose numbers are rounded in some other ways, with parameters and inputs that are so too.
+    /// Calls `work` several times, with state, parameters and inputs rounded differently each time.
     pub(crate) fn rounded(&mut self, place: &Place, mut work: impl FnMut(&mut Self, &Place)) {
         let mut next = noise();
         let values = self.machine.parameter_values().to_vec();
@@ -863,13 +867,13 @@ impl<'a> Reduced<'a> {
     /// The equations at a state, without bounds.
     ///
     /// # Errors
-    /// If there are none.
+    /// If they cannot be evaluated.
     pub fn linearized_only(&mut self, choice: &Choice, place: &Place) -> Result<Linearized, Fault> {
         self.linearize(choice, place)
     }
 }
 
-/// What the equations are made of, over numbers with a derivative.
+/// The terms of the equations, over numbers with a derivative.
 pub(crate) struct Evaluated {
     /// v, of all coordinates.
     pub rates: Vec<Number>,
@@ -885,10 +889,10 @@ pub(crate) struct Evaluated {
     pub held: Vec<Number>,
 }
 
-/// `A⁻¹ B` by elimination with pivots.
+/// `A⁻¹ B` by Gaussian elimination with pivoting.
 ///
 /// # Errors
-/// Where A is singular: the first column that depends on those before it.
+/// If A is singular: the first column that depends on those before it.
 pub(crate) fn solve(
     mut a: Vec<Vec<Number>>,
     mut b: Vec<Vec<Number>>,
@@ -926,7 +930,7 @@ pub(crate) fn solve(
     Ok(b)
 }
 
-/// Numbers between −ε and ε, always the same.
+/// A fixed sequence of pseudorandom numbers between −ε and ε.
 fn noise() -> impl FnMut() -> f64 {
     let mut state = 0x5DEE_CE66_u64;
     move || {
@@ -941,11 +945,11 @@ fn constants(values: &[f64]) -> Vec<Number> {
     values.iter().map(|x| Number::from_f64(*x)).collect()
 }
 
-/// The component of a vector across orthonormal ones, made a unit vector; none where it is shorter than the share
-/// `least` of the vector.
+/// The component of a vector orthogonal to orthonormal ones, as a unit vector; none where it is shorter than
+/// `least` times the vector.
 fn across(known: &[DVector<f64>], vector: &DVector<f64>, least: f64) -> Option<DVector<f64>> {
     let mut left = vector.clone();
-    // Twice is enough: W. Kahan in B. N. Parlett, The Symmetric Eigenvalue Problem, 6-9.
+    // Orthogonalizing twice is enough: W. Kahan in B. N. Parlett, The Symmetric Eigenvalue Problem, 6-9.
     for _ in 0..2 {
         for unit in known {
             left -= unit * unit.dot(&left);
@@ -955,9 +959,9 @@ fn across(known: &[DVector<f64>], vector: &DVector<f64>, least: f64) -> Option<D
     (length > least * vector.norm()).then(|| left / length)
 }
 
-/// The solution of least squares of `A x = r` by the decomposition of A, each part of it held back where its singular
-/// value is not large beside the damping: `x = V (S² + d²)⁻¹ S Uᵀ r` (Marquardt, An algorithm for least-squares
-/// estimation of nonlinear parameters, 1963). `None` where there are no singular vectors.
+/// The damped least-squares solution of `A x = r` from the singular value decomposition of A. Components whose
+/// singular value is not large beside the damping d are reduced: `x = V (S² + d²)⁻¹ S Uᵀ r` (Marquardt, An algorithm
+/// for least-squares estimation of nonlinear parameters, 1963). `None` where there are no singular vectors.
 fn damped(
     svd: &SVD<f64, Dyn, Dyn>,
     residuals: &DVector<f64>,
@@ -981,13 +985,13 @@ fn moved(q: &[DoubleDouble], step: &DVector<f64>) -> Vec<DoubleDouble> {
         .collect()
 }
 
-/// The largest of the changes, each in rad, m, or as a share of its coordinate.
+/// The largest change, each in rad, m, or relative to its coordinate.
 pub fn share(step: &DVector<f64>, q: &[f64]) -> f64 {
     let shares = step.iter().zip(q).map(|(x, q)| x.abs() / q.abs().max(1.0));
     shares.fold(0.0, f64::max)
 }
 
-/// `M⁻¹ B`, without any rounding but that of the results. `None` where M is singular.
+/// `M⁻¹ B`, in which only the results are rounded to `f64`. `None` where M is singular.
 pub fn divided(mass: &DMatrix<f64>, b: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     match b.ncols() {
         0 => Some(b.clone()),

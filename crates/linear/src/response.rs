@@ -1,4 +1,4 @@
-//! The answer to sinusoidal inputs: `G(iω) = C (iω − A)⁻¹ B + D`.
+//! The frequency response, `G(iω) = C (iω − A)⁻¹ B + D`.
 
 use nalgebra::{Complex, DMatrix};
 

@@ -1,20 +1,22 @@
-//! Where a machine stays, or moves steadily: Newton's method on the forces r of (E39), with their exact derivatives.
+//! The search for an equilibrium or a steady motion: Newton's method on the forces r of (E39), with exact derivatives.
 //!
-//! The machine is displaced as it may move, by `T ζ` with `ζᵀ (Tᵀ M T) ζ` as small as can be: inertia measures what is near. A
-//! coordinate on which r does not depend stays where it is. Directions in which r does not change but for rounding are free,
-//! and nothing moves along them; nor along those in which r itself is nothing but rounding. So a machine that stands stays.
+//! The machine is displaced by `T ζ`, which the constraints allow, with `ζᵀ (Tᵀ M T) ζ` as small as possible, so inertia
+//! defines distance. A coordinate on which r does not depend is not moved. Directions in which r changes only by round-off are
+//! free, and steps have no component along them, nor along those in which r itself is round-off. So a machine that is already
+//! in equilibrium is not moved.
 //!
-//! Rates that are to be found balance as much of r as they can; coordinates are displaced for its residual only.
+//! Rates that are to be found balance as much of r as they can; coordinates are displaced only for what remains.
 //!
-//! On the way to one of many equilibria the stiffness along the others is not yet 0, but as small as the forces that remain;
-//! what comes to less than those says nothing. So steps are damped as Levenberg and Marquardt do, by the size of these
-//! forces, which keeps the convergence quadratic where equilibria are not alone (N. Yamashita and M. Fukushima, *On the rate of
-//! convergence of the Levenberg–Marquardt method*, Computing Suppl. 15 (2001) 239–249). A step is kept if r falls by a share of
-//! what its linearization promises, or if the next step, taken with the same matrix, is shorter: the natural monotonicity test
-//! (P. Deuflhard, *Newton Methods for Nonlinear Problems*, 2004, section 3.3).
+//! On the way to one of a continuum of equilibria, the stiffness along the others is not yet 0, but as small as the
+//! remaining forces; a stiffness below these is meaningless. So steps are damped as in the method of Levenberg and
+//! Marquardt, in proportion to these forces, which keeps quadratic convergence where equilibria are not isolated (N.
+//! Yamashita and M. Fukushima, *On the rate of convergence of the Levenberg–Marquardt method*, Computing Suppl. 15 (2001)
+//! 239–249). A step is accepted if r falls by a fraction of the reduction that its linearization predicts, or if the next
+//! step, taken with the same matrix, is shorter: the natural monotonicity test (P. Deuflhard, *Newton Methods for Nonlinear
+//! Problems*, 2004, section 3.3).
 //!
-//! Between two branches of equilibria r may have a least length that is not 0, about which steps go to and fro. From there the
-//! machine falls along its accelerations, and Newton's method begins again.
+//! Between two branches of equilibria |r| may have a positive minimum, about which steps oscillate. From there the machine is
+//! moved along its accelerations, as if it fell, and Newton's method starts again.
 
 use lagrangian_scalar::DoubleDouble;
 use nalgebra::{DMatrix, DVector};
@@ -22,42 +24,44 @@ use nalgebra::{DMatrix, DVector};
 use crate::rank::{self, Direction};
 use crate::reduced::{Choice, Fault, Linearized, Place, Reduced, share};
 
-/// The most steps; Newton's method takes five, and a few more for each radian on the way.
+/// The most steps; Newton's method takes about five, and a few more for each radian of displacement.
 pub const MOST_STEPS: usize = 200;
 
 /// The most halvings of one step.
 const MOST_HALVINGS: usize = 30;
 
-/// A step is as long as this at most, in rad, m, or as a share of the coordinate.
+/// The greatest length of a step, in rad, m, or relative to the coordinate.
 const LONGEST_STEP: f64 = 1.0;
 
-/// Steps end where the next one changes no coordinate by more than this, in rad, m, or as a share of the coordinate: the
-/// error after it is about the square of that.
+/// The search ends where the next step changes no coordinate by more than this, in rad, m, or relative to the
+/// coordinate: the error after that step is about the square of this.
 const TOLERANCE: f64 = 1e-10;
 
-/// A stiffness counts if it is more than this share of what forces, off zero by a step of one, would make of it.
+/// The damping relative to the largest stiffness, where the remaining forces would displace the machine by a
+/// length of 1 or more.
 const DAMPING: f64 = 0.1;
 
-/// A force that cannot be taken away is none if it comes to no more than so many roundings of its terms.
+/// A force that no step can remove counts as zero if it is at most this many times the round-off of its terms.
 const BALANCED: f64 = 1e3;
 
-/// How far the machine falls where forces pull and nothing changes with the place, in rad, m, or as a share of the coordinate.
+/// The length of a fall, a displacement along the accelerations, where forces do not change with position; in rad,
+/// m, or relative to the coordinate.
 const FALL: f64 = 0.25;
 
-/// The most such falls.
+/// The most falls of this kind in a search.
 const MOST_FALLS: usize = 8;
 
-/// Forces that have not fallen by a tenth in so many steps have stopped falling.
+/// The search is stalled when the forces have not decreased by a tenth in this many steps.
 const STALLED: usize = 15;
 
-/// How far a machine falls then, in falls one after the other, and the most times that it does.
+/// How many falls follow each other where the search is stalled, and how many times this is repeated.
 const FALLS_AT_ONCE: usize = 4;
 const MOST_STALLS: usize = 8;
 
-/// What is given of a steady motion.
+/// What is known about a steady motion before the search.
 #[derive(Clone, Debug)]
 pub struct Wanted {
-    /// Coordinates that move steadily, at the rates of the start, whatever is found for them.
+    /// Coordinates that move steadily, at the rates of the start unless their rates are to be found.
     pub steady: Vec<bool>,
     /// Those of them whose rates are to be found.
     pub solved: Vec<bool>,
@@ -68,7 +72,7 @@ pub struct Wanted {
 }
 
 impl Wanted {
-    /// These quantities, and states of first order, which are the rates of these coordinates.
+    /// The same request with states of first order, which are the rates of these coordinates, added.
     pub fn with_states(&self, integrals: &[bool]) -> Wanted {
         let mut wanted = self.clone();
         for (j, _) in integrals.iter().enumerate().filter(|(_, is)| **is) {
@@ -78,7 +82,7 @@ impl Wanted {
         wanted
     }
 
-    /// Rates of the coordinates that move steadily, as far as they are given, and 0 of the others.
+    /// The given rates of coordinates that move steadily; 0 for all others.
     pub fn given(&self) -> Vec<f64> {
         let rates = self.rates.iter().zip(&self.steady);
         rates
@@ -90,25 +94,25 @@ impl Wanted {
 /// A state in which nothing accelerates.
 #[derive(Clone)]
 pub struct Found {
-    /// Where, and with which rates.
+    /// The coordinates and rates.
     pub place: Place,
     /// Which coordinates follow from which constraints.
     pub choice: Choice,
     /// The equations there.
     pub here: Linearized,
-    /// What rounding may make of each number of them.
+    /// Bounds on the effect of rounding on each entry of them.
     pub bounds: Linearized,
     /// How many steps it took.
     pub steps: usize,
 }
 
-/// Why there is none.
+/// Why the search found no state.
 pub enum Lost {
-    /// There are no numbers on the way.
+    /// The equations cannot be evaluated at a state on the way.
     Fault(Fault),
-    /// Nothing that Newton's method can do removes this acceleration, of a coordinate by its index.
+    /// No step of Newton's method removes this acceleration, of a coordinate by its index.
     Accelerates(usize, f64),
-    /// No end was reached.
+    /// The search did not converge within this many steps.
     NoEnd(usize),
 }
 
@@ -118,10 +122,10 @@ impl From<Fault> for Lost {
     }
 }
 
-/// The state that Newton's method reaches from `q`.
+/// Searches from `q` by Newton's method for a state without accelerations.
 ///
 /// # Errors
-/// If there is none on its way.
+/// If the search does not converge, or the equations cannot be evaluated on its way.
 pub fn find(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> Result<Found, Lost> {
     let mut q: Vec<DoubleDouble> = q.iter().map(|x| (*x).into()).collect();
     reduced.project(&mut q, &|_| true)?;
@@ -145,7 +149,7 @@ pub fn find(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> Result<Fou
             }
             (least, least_at, stalls) = (f64::INFINITY, steps, stalls + 1);
         }
-        // A pendulum that is held level: nothing that is near says where to go but the force itself.
+        // As for a pendulum held level: the stiffness gives no direction, only the force does.
         if falls < MOST_FALLS && here.is_stuck() {
             match here.fallen(reduced, &mut rates, wanted) {
                 Some(there) => {
@@ -158,11 +162,11 @@ pub fn find(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> Result<Fou
         let step = here.step();
         let longest = here.longest(&step);
         if longest <= TOLERANCE {
-            // The last step is taken too, unless it would leave what is exact already.
+            // The last step is taken too, unless that would move a state that is exact already.
             if longest > 0.0 {
                 match here.moved(reduced, &step, 1.0, &mut rates.clone(), wanted) {
                     Ok(there) if there.scaled.norm() < here.scaled.norm() => here = there,
-                    // Where it would end the coordinates fail: beside that place they say nothing.
+                    // The coordinates are singular at the end of this step, so a state beside it is meaningless.
                     Err(lost @ Lost::Fault(Fault::Singular(_))) => return Err(lost),
                     _ => {}
                 }
@@ -179,7 +183,7 @@ pub fn find(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> Result<Fou
                     break;
                 }
                 Ok(_) => {}
-                // A state without forces is one step too far.
+                // A step at whose end the equations cannot be evaluated is too long.
                 Err(lost) => fault = fault.or(Some(lost)),
             }
             part /= 2.0;
@@ -197,29 +201,29 @@ pub fn find(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> Result<Fou
     }
 }
 
-/// How the machine is displaced: along T, and in the rates that are to be found.
+/// A step: a displacement along T, and a change of the rates that are to be found.
 struct Step {
     along: DVector<f64>,
     rates: DVector<f64>,
 }
 
-/// A state on the constraints, with what a step from it needs.
+/// A state on the constraints with all that a step from it needs.
 struct Point {
     place: Place,
     choice: Choice,
     here: Linearized,
     bounds: Linearized,
-    /// Places in I of the rates that are to be found.
+    /// Indices in I of the rates that are to be found.
     solved: Vec<usize>,
-    /// `L` with `L Lᵀ = Tᵀ M T`, and the same with coordinates that stay apart from the others.
+    /// `L` with `L Lᵀ = Tᵀ M T`, and the same with coordinates that stay decoupled from the others.
     lower: DMatrix<f64>,
     apart: DMatrix<f64>,
-    /// L⁻¹ r, and what rounding may make of it.
+    /// L⁻¹ r, and a bound on the effect of rounding on it.
     scaled: DVector<f64>,
     rounding: DVector<f64>,
-    /// How it changes with L̃ᵀ ζ, without what the rates take.
+    /// The derivative of L⁻¹ r by L̃ᵀ ζ, without the components that the rates balance.
     stiffness: Vec<Direction>,
-    /// How it changes with the rates, each in the length of its own inertia.
+    /// The derivative of L⁻¹ r by the rates, each scaled by its own inertia.
     by_rates: Vec<Direction>,
     matrix: DMatrix<f64>,
     matrix_of_rates: DMatrix<f64>,
@@ -240,7 +244,7 @@ impl Point {
         let count = choice.independent.len();
         let lower =
             factor(&here.mass, &bounds.mass).map_err(|k| Fault::Singular(choice.independent[k]))?;
-        // A coordinate that is given, or that nothing depends on, stays.
+        // A coordinate that is given, or on which nothing depends, stays.
         let displaced = here.displaced(&choice);
         let of = |here: &DMatrix<f64>, rough: &DMatrix<f64>| {
             let (displaced, off) = (displaced.abs(), bounds.displaced(&choice));
@@ -267,7 +271,7 @@ impl Point {
             let solved = apart.solve_lower_triangular(&m.transpose());
             solved.map_or_else(|| m.clone(), |m| m.transpose())
         };
-        // Sizes pass through the same factors without their signs.
+        // Bounds propagate through the absolute values of the same factors.
         let inverse = |l: &DMatrix<f64>| {
             let one = DMatrix::identity(count, count);
             l.solve_lower_triangular(&one).unwrap_or(one).abs()
@@ -287,7 +291,7 @@ impl Point {
             .collect();
         let columns = |m: &DMatrix<f64>| {
             DMatrix::from_fn(count, count, |i, c| {
-                // Square, as the ranks of matrices are found.
+                // Padded to a square matrix, which the rank computation requires.
                 solved.get(c).map_or(0.0, |j| m[(i, *j)] / lower[(*j, *j)])
             })
         };
@@ -306,7 +310,7 @@ impl Point {
             matrix -= &direction.left * share;
         }
         if !solved.is_empty() {
-            // What the rates take from a row leaves roundings of the whole row.
+            // Projecting out the components that the rates balance leaves round-off of the size of the whole matrix.
             let size = rank::tolerance(count) * whole.norm();
             let size = DMatrix::from_element(count, count, size);
             rough += size;
@@ -331,16 +335,16 @@ impl Point {
         })
     }
 
-    /// The shortest step that removes r as far as any does.
+    /// The shortest step that reduces r as far as possible.
     fn step(&self) -> Step {
         self.step_for(&self.scaled)
     }
 
-    /// The step for other forces, with the damping that these ask for.
+    /// The step for other forces, with the damping that the forces of this point require.
     fn step_for(&self, forces: &DVector<f64>) -> Step {
         let count = self.scaled.len();
         let mut along = DVector::zeros(count);
-        // What the rates do not take.
+        // Removes the components that the rates balance.
         let without = |forces: &DVector<f64>| {
             let mut left = forces.clone();
             for direction in self.by_rates.iter().filter(|d| !d.is_free()) {
@@ -356,14 +360,14 @@ impl Point {
             if force.abs() <= rounding {
                 continue;
             }
-            // How far the stiffest direction of this part would yield to the whole residual of its forces, at most 1.
+            // How far the whole remaining force would displace the stiffest direction of this block, at most 1.
             let shares = direction.part.iter().map(|&i| {
                 let yields = damping[i] / direction.largest / self.lower[(i, i)];
                 yields.abs() / q[self.choice.independent[i]].hi().abs().max(1.0)
             });
             let damping = DAMPING * direction.largest * shares.fold(0.0, f64::max).min(1.0);
             let value = direction.value;
-            // 1/σ where σ is large.
+            // About 1/σ where σ is large beside the damping.
             let inverse = 1.0 / (value + damping * (damping / value));
             along -= &direction.right * (force * inverse);
         }
@@ -378,7 +382,7 @@ impl Point {
         Step { along, rates }
     }
 
-    /// A step in the coordinates themselves.
+    /// A step as a change of the coordinates.
     fn in_coordinates(&self, step: &Step) -> DVector<f64> {
         let along = self.apart.transpose().solve_upper_triangular(&step.along);
         &self.here.along * along.unwrap_or_else(|| step.along.clone())
@@ -389,14 +393,14 @@ impl Point {
         DVector::from_iterator(self.solved.len(), self.solved.iter().enumerate().map(rate))
     }
 
-    /// The largest of the changes, each in rad, m, or as a share.
+    /// The largest change, each in rad, m, or relative to its coordinate.
     fn longest(&self, step: &Step) -> f64 {
         let rates: Vec<f64> = self.solved.iter().map(|c| self.place.s[*c].hi()).collect();
         let change = share(&self.rates_of(step), &rates);
         share(&self.in_coordinates(step), &self.place.q()).max(change)
     }
 
-    /// A part of a step further.
+    /// The point after a fraction of a step.
     fn moved(
         &self,
         reduced: &mut Reduced<'_>,
@@ -410,7 +414,7 @@ impl Point {
         for (q, x) in q.iter_mut().zip(displaced.iter()) {
             *q = *q + DoubleDouble::from(part * x);
         }
-        // What is given and what stays does not give way to the constraints.
+        // Coordinates that are given or that stay are not moved by the projection onto the constraints.
         let gives = |j: usize| displaced[j] != 0.0 || self.choice.tied.contains(&j);
         let alone = q.clone();
         if reduced.project_near(&mut q, &gives).is_err() {
@@ -433,7 +437,7 @@ impl Point {
         if promised > 0.0 && after <= before - 0.25 * promised {
             return true;
         }
-        // In the same lengths as here, if the same coordinates are independent.
+        // The next step is measured in the metric of this point, if the same coordinates are independent there.
         if there.choice.independent != self.choice.independent {
             return false;
         }
@@ -447,12 +451,12 @@ impl Point {
             || length(&self.step_for(&(forces - predicted))) <= 0.75 * part * whole
     }
 
-    /// Whether forces that no step would remove are most of what there is.
+    /// Whether forces that no step can remove are most of the remaining forces.
     fn is_stuck(&self) -> bool {
         self.left_over().is_some() && self.remaining().norm() >= 0.5 * self.scaled.norm()
     }
 
-    /// Where forces that no step would remove pull it, if they are others there.
+    /// The point after a fall along the forces that no step can remove, provided that these change there.
     fn fallen(
         &self,
         reduced: &mut Reduced<'_>,
@@ -469,7 +473,7 @@ impl Point {
         is_other.then_some(there)
     }
 
-    /// Where forces pull it.
+    /// The point to which the forces pull the machine.
     fn fallen_by(
         &self,
         reduced: &mut Reduced<'_>,
@@ -493,7 +497,7 @@ impl Point {
             .ok()
     }
 
-    /// What no step would remove of the forces.
+    /// The part of the forces that no step can remove.
     fn remaining(&self) -> DVector<f64> {
         let mut left = self.scaled.clone();
         for directions in [&self.by_rates, &self.stiffness] {
@@ -504,10 +508,10 @@ impl Point {
         left
     }
 
-    /// Of the forces that no step would remove the one that is most off zero, if one is by more than rounding.
+    /// Of the forces that no step can remove, the one furthest from zero, if any exceeds round-off.
     fn left_over(&self) -> Option<usize> {
         let left = self.remaining();
-        // What comes to nothing in one coordinate may be rounded in another, that is coupled to it.
+        // A force that cancels in one coordinate may leave round-off in another one that is coupled to it.
         let together = self.rounding.norm();
         let share = |i: usize| {
             let limit = together.max(BALANCED * self.rounding[i]);
@@ -521,12 +525,12 @@ impl Point {
         (share(worst) > 0.0).then_some(worst)
     }
 
-    /// The end of the way, if forces are in balance there.
+    /// The result at the end of the search, if forces are in balance there.
     fn settled(self, steps: usize) -> Result<Found, Lost> {
         if let Some(worst) = self.left_over() {
             let a = self.lower.transpose().solve_upper_triangular(&self.scaled);
             let a = a.unwrap_or_else(|| self.scaled.clone());
-            // Inertia may hand the force on to another coordinate.
+            // Through inertia the force may show as the acceleration of another coordinate.
             let share = |i: &usize| (a[*i] * self.lower[(*i, *i)]).abs();
             let index = (0..a.len()).max_by(|i, j| share(i).total_cmp(&share(j)));
             let index = index.unwrap_or(worst);
@@ -542,9 +546,9 @@ impl Point {
     }
 }
 
-/// `L` of a positive definite matrix, or the index at which it is not.
+/// `L` of a positive definite matrix, or the index of the pivot that is not positive.
 ///
-/// `bounds` is what rounding may make of each number of it.
+/// `bounds` bounds the effect of rounding on each entry.
 fn factor(mass: &DMatrix<f64>, bounds: &DMatrix<f64>) -> Result<DMatrix<f64>, usize> {
     let n = mass.nrows();
     let mut lower = DMatrix::zeros(n, n);
@@ -553,7 +557,7 @@ fn factor(mass: &DMatrix<f64>, bounds: &DMatrix<f64>) -> Result<DMatrix<f64>, us
             let known: f64 = (0..j).map(|k| lower[(i, k)] * lower[(j, k)]).sum();
             let left = mass[(i, j)] - known;
             if i == j {
-                // The remainder is rounding.
+                // The remaining pivot is round-off.
                 let rounding = bounds[(j, j)].max(rank::tolerance(n) * mass[(j, j)].abs());
                 if left.is_nan() || left <= rounding {
                     return Err(j);
@@ -567,7 +571,7 @@ fn factor(mass: &DMatrix<f64>, bounds: &DMatrix<f64>) -> Result<DMatrix<f64>, us
     Ok(lower)
 }
 
-/// What may be rounding is 0.
+/// Sets entries within their bounds to 0.
 pub fn settled(matrix: &DMatrix<f64>, bounds: &DMatrix<f64>) -> DMatrix<f64> {
     matrix.zip_map(bounds, |x, bound| if x.abs() <= bound { 0.0 } else { x })
 }

@@ -1,10 +1,10 @@
-//! The eigenvalues and shapes of `ẍ = K x + C ẋ`, and of what follows such motions by constraints of rates.
+//! The eigenvalues and shapes of `ẍ = K x + C ẋ`, and of coordinates that follow such motions by constraints on rates.
 //!
-//! What costs digits is taken out first: coordinates that have nothing to do with one another go separate ways; time and
-//! coordinates are scaled; directions in which nothing pulls back, `K z = 0`, are eigenvectors of 0 and leave the matrix, in
-//! which they would stand as Jordan blocks whose eigenvalues come out as ±√ε. The eigenvalues of the remaining matrix are found in
-//! twice the digits, so that a slow decay is as good as a fast one. Each gets a bound on what the digits of K and C leave of
-//! it, by its left and right vectors (G. H. Golub and C. F. Van Loan, *Matrix Computations*, 4th ed. 2013, section 7.2.2).
+//! First the causes of lost digits are removed. Uncoupled coordinates are treated separately. Time and coordinates are scaled.
+//! Directions without restoring force, `K z = 0`, are eigenvectors of 0 and are removed from the matrix, in which they would form
+//! Jordan blocks whose eigenvalues come out as ±√ε. The eigenvalues of the remaining matrix are computed in twice the digits, so
+//! that a slow decay is as accurate as a fast one. Each gets a bound on the effect of rounding in K and C, from its left and right
+//! eigenvectors (G. H. Golub and C. F. Van Loan, *Matrix Computations*, 4th ed. 2013, section 7.2.2).
 
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Complex, DMatrix, DVector};
@@ -14,19 +14,19 @@ use crate::rank;
 
 type Vector = DVector<Complex<f64>>;
 
-/// One motion `x(t) = Re(shape e^{λt})`; of a pair of conjugate ones, that with the positive imaginary part.
+/// One mode `x(t) = Re(shape e^{λt})`; of a conjugate pair the one with positive imaginary part.
 #[derive(Clone)]
 pub struct Mode {
-    /// λ, in 1/s: exactly real, imaginary or zero where it is so but for rounding.
+    /// λ, in 1/s: set to exactly real, imaginary or zero where it is so within its error.
     pub lambda: Complex<f64>,
-    /// λ is known up to this, in 1/s. Of a free motion: what is slower could not be told from it.
+    /// Bound on the error of λ, in 1/s. For a free mode: anything slower cannot be distinguished from it.
     pub error: f64,
     /// The amplitudes of the coordinates, the largest of them 1.
     pub shape: Vec<Complex<f64>>,
 }
 
 impl Mode {
-    /// What it is: `oscillation`, `growing oscillation`, `decaying`, `growing` or `free`.
+    /// The kind: `oscillation`, `growing oscillation`, `decaying`, `growing` or `free`.
     pub fn kind(&self) -> &'static str {
         let Complex { re, im } = self.lambda;
         match (re > 0.0, re < 0.0, im > 0.0) {
@@ -39,28 +39,28 @@ impl Mode {
     }
 }
 
-/// The damping ratio of an oscillation, `−Re λ/|λ|`; a motion without one has no ratio.
+/// The damping ratio of an oscillation, `−Re λ/|λ|`; `None` for a mode that does not oscillate.
 pub fn damping(lambda: Complex<f64>) -> Option<f64> {
     (lambda.im != 0.0).then(|| 0.0 - lambda.re / lambda.norm())
 }
 
-/// All motions near an equilibrium.
+/// All modes about an equilibrium.
 #[derive(Clone, Default)]
 pub struct Modes {
     /// Slow ones first.
     pub modes: Vec<Mode>,
-    /// Along how many directions the machine may stand elsewhere as well.
+    /// The number of independent directions to other equilibria.
     pub free: usize,
-    /// In how many ways it may move at other constant rates.
+    /// The number of independent motions at other constant rates.
     pub drifts: usize,
-    /// How many more there are whose λ is 0 but for rounding, in ways that are not free.
+    /// How many further modes have a λ that is 0 within round-off, although no free direction accounts for them.
     pub lost: usize,
-    /// They are slower than this, in 1/s.
+    /// These are slower than this, in 1/s.
     pub lost_below: f64,
 }
 
-/// `ẍ = K x + C ẋ` of coordinates x₁ … that may move, and `ẏ = P x + B ẋ₁` of those that only follow, with x = (x₁, y) on
-/// the right.
+/// `ẍ = K x + C ẋ` for coordinates x₁ that may move, and `ẏ = P x + B ẋ₁` for those that only follow, with x = (x₁,
+/// y) on the right.
 pub struct Linear {
     /// K, with a column for each coordinate.
     pub k: DMatrix<f64>,
@@ -70,14 +70,14 @@ pub struct Linear {
     pub p: DMatrix<f64>,
     /// B.
     pub b: DMatrix<f64>,
-    /// What rounding may have made of each number in K over P.
+    /// Bounds on the effect of rounding on each entry of K over P.
     pub k_bounds: DMatrix<f64>,
-    /// What rounding may have made of each number in C.
+    /// Bounds on the effect of rounding on each entry of C.
     pub c_bounds: DMatrix<f64>,
 }
 
 impl Linear {
-    /// Of coordinates none of which only follows, with matrices that are exact.
+    /// A system without following coordinates, with exact matrices.
     #[cfg(test)]
     fn of(k: &DMatrix<f64>, c: &DMatrix<f64>) -> Linear {
         let n = k.nrows();
@@ -91,12 +91,12 @@ impl Linear {
         }
     }
 
-    /// How many coordinates there are, and how many of them may move.
+    /// The number of coordinates, and the number of those that may move.
     fn len(&self) -> (usize, usize) {
         (self.k.ncols(), self.c.ncols())
     }
 
-    /// Sizes of all numbers, each row over the number that is given for K, C, and P.
+    /// The absolute values of all entries, each row divided by the number given for K, C, and P.
     fn sizes(&self, [from_k, from_c, from_p]: [f64; 3]) -> DMatrix<f64> {
         let (n, moving) = self.len();
         DMatrix::from_fn(n, n, |i, j| {
@@ -131,7 +131,7 @@ impl Linear {
         })
     }
 
-    /// 1 over B: how all coordinates move with those that may.
+    /// 1 over B: the rates of all coordinates for those of the moving ones.
     fn along(&self) -> DMatrix<f64> {
         let (n, moving) = self.len();
         DMatrix::from_fn(n, moving, |i, j| {
@@ -143,7 +143,7 @@ impl Linear {
         })
     }
 
-    /// 0 over P: how coordinates drive those that follow.
+    /// 0 over P: the rates of followers by coordinates.
     fn driven(&self) -> DMatrix<f64> {
         let (n, moving) = self.len();
         DMatrix::from_fn(n, n, |i, j| {
@@ -155,7 +155,7 @@ impl Linear {
         })
     }
 
-    /// Some of the coordinates, in ascending order.
+    /// The subsystem of some coordinates, in ascending order.
     fn part(&self, part: &[usize]) -> Linear {
         let (_, moving) = self.len();
         let split = part.partition_point(|i| *i < moving);
@@ -175,7 +175,7 @@ impl Linear {
     }
 }
 
-/// The modes; `None` where the iterations do not end.
+/// The modes; `None` where the iterations do not converge.
 pub fn modes(linear: &Linear) -> Option<Modes> {
     let (n, _) = linear.len();
     let mut all = Modes::default();
@@ -203,7 +203,7 @@ pub fn modes(linear: &Linear) -> Option<Modes> {
     Some(all)
 }
 
-/// The modes of coordinates that are all connected, in any order.
+/// The modes of one coupled set of coordinates, in any order.
 fn connected(linear: Linear) -> Option<Modes> {
     let (_, n) = linear.len();
     let Scaled {
@@ -253,7 +253,7 @@ fn connected(linear: Linear) -> Option<Modes> {
         });
     }
     let mut zeros = 0;
-    // The entries of K and C are sums of some terms, as many as there are coordinates, as a rule.
+    // The entries of K and C are typically sums of as many terms as there are coordinates.
     let roundings = 8.0 * a.nrows() as f64;
     for pair in precise::pairs(&a, &(bounds / roundings))? {
         let Pair {
@@ -262,7 +262,7 @@ fn connected(linear: Linear) -> Option<Modes> {
         let error = roundings * pair.error;
         let settle = |x: f64| if x.abs() <= error { 0.0 } else { x };
         let lambda = Complex::new(settle(raw.re), settle(raw.im));
-        // Two that rounding has made conjugate are one, twice.
+        // A pair that is real within its error is a double eigenvalue.
         let times = if raw.im > 0.0 && lambda.im == 0.0 {
             2
         } else {
@@ -270,7 +270,7 @@ fn connected(linear: Linear) -> Option<Modes> {
         };
         if lambda == Complex::new(0.0, 0.0) {
             zeros += times;
-            // Drifts, along a direction that is there already.
+            // A drift along a direction that is counted already.
             if zeros > drifts {
                 found.lost = zeros - drifts;
                 found.lost_below = found.lost_below.max(error * rate);
@@ -289,8 +289,8 @@ fn connected(linear: Linear) -> Option<Modes> {
     Some(found)
 }
 
-/// The amplitudes of all coordinates, up to a factor, from an eigenvector `(w, v)`: what may move goes with `v/λ`, and
-/// `(λ − P) y = P x₁ + B v`.
+/// The amplitudes of all coordinates, up to a factor, from an eigenvector `(w, v)`: those of moving coordinates are
+/// `v/λ`, and followers obey `(λ − P) y = P x₁ + B v`.
 fn amplitudes(
     linear: &Linear,
     lambda: Complex<f64>,
@@ -307,23 +307,23 @@ fn amplitudes(
     let followers = n - moving;
     let own = complex(linear.p.columns(moving, followers).into_owned());
     let from_places = complex(linear.p.columns(0, moving).into_owned()) * &rates;
-    // All of it times λ.
+    // The equation multiplied by λ.
     let pull = from_places + complex(linear.b.clone()) * &rates * lambda;
     let matrix = DMatrix::from_diagonal_element(followers, followers, lambda) - own;
     let solved = matrix.lu().solve(&pull);
     match solved.filter(|y| y.iter().all(|y| y.is_finite()) && rates.norm() > 1e-9 * right.norm()) {
         Some(y) => DVector::from_fn(n, |i, _| if i < moving { rates[i] } else { y[i - moving] }),
-        // What follows moves by itself.
+        // The followers move on their own.
         None => complex(bound.clone()) * right.rows(0, m),
     }
 }
 
-/// The equations in coordinates and time of such a scale that no entry is large because of its unit.
+/// The equations with coordinates and time scaled such that no entry is large only because of its unit.
 struct Scaled {
     linear: Linear,
     /// x = scales · scaled x, powers of 2.
     scales: DVector<f64>,
-    /// About one radian of the fastest oscillation takes one unit of the scaled time, in 1/s.
+    /// The unit of scaled time: about one radian of the fastest oscillation, as a rate in 1/s.
     rate: f64,
 }
 
@@ -331,8 +331,9 @@ impl Scaled {
     fn of(mut linear: Linear) -> Scaled {
         let (n, moving) = linear.len();
         let mut scales = DVector::from_element(n, 1.0);
-        // Before balancing the largest entry says nothing of how fast the machine is: a force on an angle in a large unit of
-        // length is as large as one likes. So both are balanced as if they were equally large, then by what they are.
+        // Before balancing, the largest entry does not show how fast the machine is: a force on an angle may be
+        // arbitrarily large in a large unit of length. So K and C are balanced first as if they were equally large, then
+        // by their actual sizes.
         let largest = |m: &DMatrix<f64>| if m.is_empty() { 0.0 } else { m.amax() };
         let (mut from_k, mut from_c) = (largest(&linear.k), largest(&linear.c));
         let mut from_p = largest(&linear.p);
@@ -375,31 +376,32 @@ impl Scaled {
     }
 }
 
-/// All numbers with their places.
+/// All entries with their indices.
 fn indices(m: &DMatrix<f64>) -> Vec<((usize, usize), f64)> {
     let places = (0..m.nrows()).flat_map(|i| (0..m.ncols()).map(move |j| (i, j)));
     places.map(|place| (place, m[place])).collect()
 }
 
-/// A direction in which nothing pulls back.
+/// A direction without restoring force.
 struct Free {
     direction: DVector<f64>,
-    /// What pulls back may be hidden by rounding; then the motion is slower than this.
+    /// Rounding may hide a restoring force; the motion is then slower than this.
     slowest: f64,
 }
 
-/// Directions along which a displacement stays, and the others.
+/// Directions along which a displacement persists, and their complement.
 ///
-/// Those that K and P map to nothing; then, where coordinates follow, those that P maps along the ones that are found
-/// already, a heading for example, that lets a place go on steadily: the staircase of the Jordan blocks of 0.
+/// These are the directions that K and P map to zero. Where coordinates follow, those that P maps into the
+/// directions found so far are added, such as a heading that lets a position change steadily: the staircase of the
+/// Jordan blocks of 0.
 struct Split {
-    /// Those of them along which it may move, each with as few coordinates in it as can be.
+    /// Those of them along which the machine may move, each with as few coordinates as possible.
     free: Vec<Free>,
-    /// How many there are altogether.
+    /// How many there are in total.
     count: usize,
-    /// An orthonormal basis of what is across.
+    /// An orthonormal basis of the complement.
     bound: DMatrix<f64>,
-    /// In how many ways it may go on at other constant rates: there nothing brakes.
+    /// The number of independent motions at other constant rates, which nothing brakes.
     drifts: usize,
 }
 
@@ -413,7 +415,7 @@ impl Split {
                 .into_iter()
                 .partition(rank::Direction::is_free);
         let bound: Vec<DVector<f64>> = if free.is_empty() {
-            // Without any rounding.
+            // This is exact.
             (0..n)
                 .map(|i| DVector::from_fn(n, |j, _| f64::from(u8::from(i == j))))
                 .collect()
@@ -438,7 +440,7 @@ impl Split {
             bound = &bound * columns(bound.ncols(), &rest);
         }
         let count = n - bound.ncols();
-        // Along these directions it may move.
+        // The directions, in moving coordinates, along which the machine may move.
         let may: Vec<DVector<f64>> = if moving == n {
             rights.clone()
         } else {
@@ -447,8 +449,8 @@ impl Split {
         };
         let z = columns(moving, &may);
         let drifts = if is_driven {
-            // Constant rates s that some place w balances: P w + B s = 0, K w + C s = 0. Nothing may be asked of s but what
-            // is across all that w gives.
+            // Constant rates s that some displacement w balances: P w + B s = 0, K w + C s = 0. Only the part outside the
+            // range of w restricts s.
             let m = bound.ncols();
             let mut by_place = DMatrix::zeros(m + moving, m);
             by_place
@@ -467,7 +469,7 @@ impl Split {
             let terms = across.abs().tr_mul(&by_rate.abs());
             null_space(&asked, rank::tolerance(n) * terms.norm())?[0].len()
         } else {
-            // What brakes along free directions, and the size of its terms.
+            // The damping along free directions, and the size of its terms.
             let y = columns(n, &lefts).rows(0, moving).into_owned();
             let brakes = y.tr_mul(&(c * &z));
             let terms = y.abs().tr_mul(&(c.abs() * z.abs()));
@@ -513,13 +515,14 @@ fn columns(rows: usize, vectors: &[DVector<f64>]) -> DMatrix<f64> {
     }
 }
 
-/// Orthonormal vectors that a matrix maps to no more than `limit`, and the others. `None` where the iterations do not end.
+/// Orthonormal vectors that a matrix maps to at most `limit`, and their complement. `None` where the iterations
+/// do not converge.
 fn null_space(matrix: &DMatrix<f64>, limit: f64) -> Option<[Vec<DVector<f64>>; 2]> {
     let (rows, n) = matrix.shape();
     if n == 0 {
         return Some([Vec::new(), Vec::new()]);
     }
-    // With as many rows as columns all right vectors are there.
+    // Padded with zero rows, so that the decomposition returns all right vectors.
     let mut square = DMatrix::zeros(rows.max(n), n);
     square.rows_mut(0, rows).copy_from(matrix);
     let svd = square.try_svd(false, true, f64::EPSILON, 10_000)?;
@@ -533,7 +536,7 @@ fn null_space(matrix: &DMatrix<f64>, limit: f64) -> Option<[Vec<DVector<f64>>; 2
     Some([vectors(nothing), vectors(rest)])
 }
 
-/// A basis of the same space with many zeros: by Gauss and Jordan, each vector alone in one coordinate.
+/// A basis of the same space with many zeros, by Gauss–Jordan elimination: each pivot coordinate occurs in one vector only.
 fn sparse(mut rows: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
     let n = rows.first().map_or(0, DVector::len);
     for i in 0..rows.len() {
@@ -562,16 +565,16 @@ fn sparse(mut rows: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
     rows
 }
 
-/// The amplitudes in the coordinates themselves, the largest of them 1.
+/// The amplitudes in the original coordinates, scaled to a largest one of 1.
 ///
-/// What is nothing but rounding is told from the balanced amplitudes: in a large unit a length may be 1e-13 beside an angle
-/// of 1 and count as much.
+/// Round-off is recognized in the balanced amplitudes: in a large unit a length may be 1e-13 beside an angle of 1
+/// and matter as much.
 fn shape(balanced: &Vector, scales: &DVector<f64>) -> Vec<Complex<f64>> {
     let largest = |amplitudes: &mut dyn Iterator<Item = Complex<f64>>| {
         amplitudes.map(|x| x.norm()).fold(0.0, f64::max)
     };
     let own = |(x, d): (&Complex<f64>, &f64)| x * *d;
-    // Of several that are equally large but for rounding, the first.
+    // Of several amplitudes that are equal within round-off, the first.
     let limit = (1.0 - 1e-9) * largest(&mut balanced.iter().zip(scales).map(own));
     let first = balanced.iter().zip(scales).map(own);
     let unit = first.filter(|x| x.norm() > 0.0).find(|x| x.norm() >= limit);
@@ -590,7 +593,7 @@ fn shape(balanced: &Vector, scales: &DVector<f64>) -> Vec<Complex<f64>> {
 mod tests {
     use super::*;
 
-    /// Numbers between −1 and 1, always the same.
+    /// A fixed sequence of pseudorandom numbers between −1 and 1.
     fn random(seed: u64) -> impl FnMut() -> f64 {
         let mut state = seed;
         move || {
@@ -601,8 +604,8 @@ mod tests {
         }
     }
 
-    /// Every mode obeys the equation of motion, and all eigenvalues together have the trace of C: matrices without any
-    /// structure, in units that differ by many powers of ten.
+    /// Every mode obeys the equation of motion, and the sum of all eigenvalues is the trace of C. The matrices are
+    /// random, in units that differ by many powers of ten.
     #[test]
     fn modes_obey_the_equations_that_they_come_from() {
         for seed in 0..40 {
@@ -630,8 +633,9 @@ mod tests {
                         left -= term;
                         size += term.norm();
                     }
-                    // Backward error of a 2n × 2n problem, and what may be settled to 0 in a shape. Row by row, since
-                    // each is its own unit: the rows of a balanced matrix are of one size.
+                    // The backward error of a 2n × 2n problem, plus amplitudes that were set to 0 in a shape.
+                    // The test goes row by row, since each row has its own unit: the rows of a balanced matrix
+                    // are of one size.
                     let bound = rank::tolerance(2 * n) + 1e-12;
                     assert!(left.norm() <= bound * size, "seed {seed}: {left} of {size}");
                 }
@@ -645,7 +649,7 @@ mod tests {
 
     #[test]
     fn what_nothing_pulls_back_is_free_exactly() {
-        // Two masses and a spring, and a third on its own: 0, 0 and √2.
+        // Two masses and a spring, and an uncoupled third mass: 0, 0 and √2.
         let k = DMatrix::from_row_slice(3, 3, &[-1.0, 1.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, 0.0]);
         let modes = modes(&Linear::of(&k, &DMatrix::zeros(3, 3)))
             .expect("an end")
@@ -675,7 +679,7 @@ mod tests {
         assert!(shapes.determinant().norm() > 0.1, "{shapes}");
     }
 
-    /// A double eigenvalue with one vector comes out as two that are √ε apart, and the vector twice.
+    /// A double eigenvalue with one eigenvector comes out as two that are √ε apart, with the eigenvector repeated.
     #[test]
     fn critical_damping_is_no_trouble() {
         let k = DMatrix::from_element(1, 1, -9.0);

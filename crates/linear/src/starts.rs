@@ -1,14 +1,14 @@
-//! How a start on the constraints changes with a number that it depends on.
+//! The derivative of a start on the constraints by a number on which it depends.
 //!
-//! A run projects its start onto the constraints by rules of its own: the least move that inertia allows, with some numbers kept. What
-//! that makes of a changed number has no formula, so it is found by differences of such starts, of fourth order. They are then put
-//! onto what the constraints themselves say, which is exact (dual numbers): with y = ∂q/∂s and ẏ,
+//! A run projects its start onto the constraints with the smallest displacement in the metric of inertia, with some numbers kept.
+//! There is no formula for the derivative of that projection, so it is computed by differences of fourth order of such starts. The
+//! result is then projected onto the derivative of the constraints, which is exact (dual numbers): with y = ∂q/∂s and ẏ,
 //!
 //! ```text
 //! ∂g/∂q y + ∂g/∂s = 0,   ∂φ/∂q y + ∂φ/∂v ẏ + ∂φ/∂s = 0                              (E65)
 //! ```
 //!
-//! Both are kept by the variational equations from there on.
+//! The variational equations preserve both from there on.
 
 use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::{Machine, State, System};
@@ -18,43 +18,43 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::reduced::Reduced;
 
-/// Differences are taken over this share of a number. The error of fourth order is of the size of its fourth power, 1e-12, and what
-/// a projection leaves, 1e-13, over it 1e-10.
+/// The differences use this fraction of a number as step. Their truncation error is of fourth order, about 1e-12, and the residual
+/// 1e-13 of a projection divided by the step is 1e-10.
 const SHARE: f64 = 1e-3;
 
-/// Two differences of a start that has a derivative agree to this share of it.
+/// If the start has a derivative, two differences agree to this fraction of it.
 const AGREES: f64 = 1e-5;
 
-/// What a projection leaves in a number, as a share of the largest beside it, some ten times.
+/// About ten times the residual of a projection, relative to the largest number beside it.
 const LEFT: f64 = 1e-12;
 
-/// Singular values of the rows below this share of the largest are those of rows that follow from others.
+/// Singular values of the rows below this fraction of the largest belong to rows that follow from others.
 const INDEPENDENT: f64 = 1e-9;
 
-/// The derivative of a state: of its coordinates, and of its rates.
+/// The derivative of a state: of its coordinates, then of its rates.
 pub type Change = [Vec<f64>; 2];
 
 /// What a start depends on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
-    /// The parameter of this number.
+    /// The parameter with this index.
     Parameter(usize),
-    /// An input: no constraint reads one, so no start changes with it.
+    /// An input: no constraint reads one, so no start depends on it.
     Input,
-    /// The coordinate of this number, before constraints move it.
+    /// The coordinate with this index, before the constraints move it.
     Start(usize),
     /// Its rate.
     Rate(usize),
 }
 
-/// What steps may move a motion and its derivatives off the constraints by, as a share of their numbers.
+/// How far integration may move a motion and its derivatives off the constraints, relative to the size of their terms.
 pub const DRIFT: f64 = 1e-5;
 
-/// How a start on the constraints changes with what it depends on. `from` gives the start of a machine before constraints move it,
-/// and `brought` that on the constraints; `start` is where the machine itself starts on them.
+/// The derivative of a start on the constraints by its cause. `from` returns the start of a machine before the projection onto the
+/// constraints, and `brought` the projected one; `start` is the projected start of the machine itself.
 ///
 /// # Errors
-/// What `brought` says, or that the start has no derivative.
+/// Those of `brought`, or that the start has no derivative.
 pub fn change(
     machine: &InterpretedMachine,
     start: &State<Named>,
@@ -62,7 +62,7 @@ pub fn change(
     from: impl Fn(&InterpretedMachine) -> State<Named>,
     brought: impl Fn(&InterpretedMachine, State<Named>) -> Result<State<Named>, String>,
 ) -> Result<Change, String> {
-    // A number that is 0 has the size of the largest beside it, or 1.
+    // The scale of a number that is 0 is that of the largest one beside it, or 1.
     let size = |own: f64, others: &[f64]| {
         let largest = others.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         let mut sizes = [own.abs(), largest].into_iter();
@@ -99,8 +99,8 @@ pub fn change(
     derivative(machine, at, size, parameter)
 }
 
-/// How far the motion and its derivatives by some causes are off the constraints at the end of a run, as a share of their numbers:
-/// the first cause for which that is more than [`DRIFT`], and how far.
+/// Checks how far the motion and its derivatives by some causes are off the constraints at the end of a run, relative to the size
+/// of their terms. Returns the first cause for which this exceeds [`DRIFT`], with the value.
 pub fn drifted(
     machine: &InterpretedMachine,
     at: &State<Named>,
@@ -117,11 +117,11 @@ pub fn drifted(
     shares.find(|(_, off)| off.is_nan() || *off > DRIFT)
 }
 
-/// The derivative of a start on the constraints. `start` gives the start where the number is another one by so much, and `size` is
-/// the size of the number; `parameter` is the parameter that it is, if it is one.
+/// The derivative of a start on the constraints. `start` returns the start where the number is changed by its argument, and `size`
+/// is the scale of the number; `parameter` is its index if it is a parameter.
 ///
 /// # Errors
-/// What `start` says, or that the start has no derivative.
+/// Those of `start`, or that the start has no derivative.
 pub fn derivative(
     machine: &InterpretedMachine,
     start: impl Fn(f64) -> Result<State<Named>, String>,
@@ -142,7 +142,7 @@ pub fn derivative(
     let (wide, middle, close) = (wide?, middle?, close?);
     let coarse = (&middle * 4.0 - wide) / 3.0;
     let fine = (close * 4.0 - middle) / 3.0;
-    // Each number as a share of what it is in a change by the size of s, but for what projections leave.
+    // Each entry is compared relative to its change for a change of s by its size, plus the residual of projections.
     let at = vector(&here);
     let agrees = (0..2 * n).all(|k| {
         let level = if k < n { 0..n } else { n..2 * n };
@@ -160,7 +160,7 @@ pub fn derivative(
     Ok(on_constraints(machine, &here, change, parameter))
 }
 
-/// The name of a constraint that follows from others at a state: accelerations have no derivatives there.
+/// The name of a constraint that follows from others at a state: there accelerations have no derivatives.
 pub fn dependent_constraint(machine: &InterpretedMachine, at: &State<Named>) -> Option<String> {
     let system = machine.prepare();
     let inputs = system.default_inputs().values;
@@ -172,7 +172,7 @@ pub fn dependent_constraint(machine: &InterpretedMachine, at: &State<Named>) -> 
     dependent.map(|(_, constraint)| constraint.name.to_owned())
 }
 
-/// A derivative of a state, moved by the least that makes it obey (E65).
+/// A derivative of a state, changed by the least amount that makes it obey (E65).
 fn on_constraints(
     machine: &InterpretedMachine,
     at: &State<Named>,
@@ -191,9 +191,9 @@ fn on_constraints(
     [q, v]
 }
 
-/// How far a state and a derivative of it are off the constraints at the end of a run, each as a share of the numbers that the
-/// constraint is made of; the larger one. Of a derivative by a parameter, the parameter and by how much it changes: 1, or what the
-/// derivative was multiplied by.
+/// How far a state and a derivative of it are off the constraints at the end of a run; the larger of the two, relative to the size
+/// of the terms of the constraint. For a derivative by a parameter, the parameter is given with its change: 1, or the factor by
+/// which the derivative was scaled.
 pub fn off_constraints(
     machine: &InterpretedMachine,
     at: &State<Named>,
@@ -230,9 +230,9 @@ struct Rows {
     parameter: Option<(usize, f64)>,
     /// G.
     matrix: DMatrix<f64>,
-    /// Which constraints are of positions.
+    /// Which constraints are on positions.
     holonomic: Vec<bool>,
-    /// g, and φ.
+    /// g and φ.
     values: [Vec<f64>; 2],
 }
 
@@ -289,13 +289,13 @@ impl Rows {
                 u: &u,
                 a: &[],
             };
-            // Neither inverts anything.
+            // Neither function has pivots, so the call cannot fail.
             let _ = interpreter.call(role, arguments, &mut results);
             results.iter().map(|one| one.derivative).collect()
         })
     }
 
-    /// The least step that the rows, or those of positions, multiply to this.
+    /// The least-norm step whose product with the rows, or with those on positions, is this vector.
     fn least(&self, right: &[f64], of_positions: bool) -> DVector<f64> {
         let rows: Vec<usize> = (0..right.len())
             .filter(|k| self.holonomic[*k] || !of_positions)

@@ -1,4 +1,4 @@
-//! The steady motion of a machine, from its program and a start, and in words why there is none.
+//! The steady motion of a machine from its program and a start, and messages about why there is none.
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem};
 use lagrangian::{Machine, System};
@@ -10,25 +10,25 @@ use crate::search::{self, Lost, Wanted};
 
 /// Why there is no steady motion.
 pub enum NoMotion {
-    /// The search ended elsewhere.
+    /// The search failed.
     Lost(Lost),
-    /// What was found does not go on.
+    /// The state that was found is not steady.
     Unsteady(Unsteady),
 }
 
-/// What the options are called by which a caller says where to look.
+/// The names of the options with which the caller's user chooses the start, for messages.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
-    /// The start values, as in `--start`.
+    /// The option for start values, as in `--start`.
     pub start: &'static str,
-    /// Which coordinates move steadily, as in `--steady`.
+    /// The option for coordinates that move steadily, as in `--steady`.
     pub steady: &'static str,
 }
 
-/// The steady motion that is reached from `q`, and the motions near it.
+/// The steady motion that the search reaches from `q`, and the small motions about it.
 ///
 /// # Errors
-/// Why there is none.
+/// Why there is no steady motion.
 pub fn motion(
     machine: &InterpretedMachine,
     q: &[f64],
@@ -40,7 +40,7 @@ pub fn motion(
     let wanted = &wanted.with_states(&reduced.integrals());
     let found = search::find(&mut reduced, q, wanted);
     let found = found.map_err(|lost| match start_is_unsteady(&mut reduced, q, wanted) {
-        // What depends on where it is cannot be balanced for long either.
+        // If the equations depend on a moving coordinate, forces cannot stay in balance; that is the better explanation.
         Some(unsteady) => NoMotion::Unsteady(unsteady),
         None => NoMotion::Lost(lost),
     })?;
@@ -48,7 +48,7 @@ pub fn motion(
     motion.map_err(NoMotion::Unsteady)
 }
 
-/// Whether the equations depend, where the search begins, on what is to move steadily.
+/// Whether the equations depend, at the start of the search, on coordinates that should move steadily.
 fn start_is_unsteady(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> Option<Unsteady> {
     if !wanted.steady.contains(&true) {
         return None;
@@ -77,7 +77,7 @@ fn start_is_unsteady(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> O
     motion::records(reduced, &state).err()
 }
 
-/// The start, and two states beside it that have nothing in common.
+/// The start, and two generic states near it.
 pub(crate) fn states(q: &[f64], v: &[f64]) -> [(Vec<f64>, Vec<f64>); 3] {
     let beside = |list: &[f64], seed: usize| -> Vec<f64> {
         let shift = |k: usize| 0.01 + ((seed + 7 * k) * 29 % 97) as f64 / 997.0;
@@ -93,10 +93,10 @@ pub(crate) fn states(q: &[f64], v: &[f64]) -> [(Vec<f64>, Vec<f64>); 3] {
     ]
 }
 
-/// Whether the equations of a machine change with time, so that it is at rest nowhere.
+/// Checks that the equations of a machine do not depend on time; otherwise it is at rest nowhere.
 ///
 /// # Errors
-/// They do; the names of the parameters each of which stops the drive by being 0.
+/// If they do: the names of the parameters each of which removes the time dependence when it is 0.
 pub fn drives(machine: &InterpretedMachine, q: &[f64], wanted: &Wanted) -> Result<(), Vec<String>> {
     let reads_time = |role: &Role| {
         let function = machine.program().function(*role);
@@ -114,7 +114,8 @@ pub fn drives(machine: &InterpretedMachine, q: &[f64], wanted: &Wanted) -> Resul
         return Ok(());
     }
     let states = states(q, &wanted.given());
-    // A drive that parameters hold still, `cos(0*t)`, gives the same numbers at all times. What has none is no answer.
+    // A drive that parameters hold still, such as `cos(0*t)`, gives the same numbers at all times. Values that are
+    // not finite decide nothing.
     let stands_still = |machine: &InterpretedMachine| {
         let system = machine.prepare();
         let inputs = system.default_inputs().values;
@@ -123,7 +124,7 @@ pub fn drives(machine: &InterpretedMachine, q: &[f64], wanted: &Wanted) -> Resul
     if stands_still(machine) {
         return Ok(());
     }
-    // Nor is a machine without inertia, on which the drive has no hold either.
+    // A machine that loses its inertia when a parameter is 0 does not count either: the drive would have no effect on it.
     let is_regular = |machine: &InterpretedMachine| {
         let system = machine.prepare();
         Reduced::new(machine, &system, &[], &[]).is_regular(&states)
@@ -144,7 +145,7 @@ fn name(system: &InterpretedSystem, index: usize) -> String {
 }
 
 impl NoMotion {
-    /// Why, in one sentence.
+    /// The reason in one sentence.
     pub fn in_words(
         &self,
         system: &InterpretedSystem,
@@ -176,7 +177,7 @@ fn why_unsteady(system: &InterpretedSystem, unsteady: &Unsteady, options: Option
 }
 
 impl Fault {
-    /// What is wrong, in one sentence.
+    /// The reason in one sentence.
     pub fn in_words(&self, system: &InterpretedSystem, options: Options) -> String {
         let name = |index: &usize| name(system, *index);
         let Options { start, steady } = options;

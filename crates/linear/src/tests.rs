@@ -1,5 +1,5 @@
-//! Models against a second algorithm: the derivatives of the accelerations that the program itself computes, in `f64`, which are
-//! eliminated along another way than what models are made of.
+//! Models against a second algorithm: the derivatives of the accelerations that the program itself computes in `f64`, by a
+//! different elimination from that of the models.
 
 use std::path::Path;
 use std::time::SystemTime;
@@ -42,7 +42,7 @@ fn of(name: &str, text: &str) -> InterpretedMachine {
     InterpretedMachine::new(compiled.program.clone())
 }
 
-/// Numbers between −1 and 1; the seed is new in every run, and printed where a test fails.
+/// Pseudorandom numbers between −1 and 1. The seed is new in every run, and printed where a test fails.
 fn random() -> impl FnMut() -> f64 {
     let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
     let seed = std::env::var("LINEAR_SEED")
@@ -67,7 +67,7 @@ fn everything(machine: &InterpretedMachine) -> Request {
     }
 }
 
-/// Derivatives of accelerations by coordinates and by rates, as rows of n.
+/// Derivatives of accelerations by coordinates and rates, with n rows.
 fn slopes(machine: &InterpretedMachine, q: &[f64], v: &[f64]) -> DMatrix<f64> {
     let (system, n) = (machine.prepare(), q.len());
     let (mut a, mut by_q, mut by_v) = (vec![0.0; n], vec![0.0; n * n], vec![0.0; n * n]);
@@ -81,7 +81,8 @@ fn slopes(machine: &InterpretedMachine, q: &[f64], v: &[f64]) -> DMatrix<f64> {
     })
 }
 
-/// Some thousand roundings of the largest number: `f64` loses as many in the elimination, where masses differ by a thousand.
+/// The tolerance is some thousand roundings of the largest number: elimination in `f64` loses as many where masses
+/// differ by a factor of a thousand.
 fn assert_close(found: &DMatrix<f64>, exact: &DMatrix<f64>, what: &str) {
     let size = exact.amax().max(found.amax());
     let off = (found - exact).amax();
@@ -141,7 +142,7 @@ fn models_at_random_states_have_the_derivatives_of_the_program() {
     }
 }
 
-/// Where a machine with constraints stays, `J basis = basis A` with the derivatives J of its accelerations.
+/// At an equilibrium of a machine with constraints, `J basis = basis A` with the derivatives J of its accelerations.
 #[test]
 fn independent_directions_stay_on_the_constraints() {
     for name in ["four_bar", "slider_crank", "particle_pendulum"] {
@@ -161,12 +162,12 @@ fn independent_directions_stay_on_the_constraints() {
         assert!(model.is_reduced && model.a.nrows() < 2 * n);
         let whole = slopes(&machine, &model.q, &model.v);
         assert_close(&(&model.basis * &model.a), &(whole * &model.basis), name);
-        // C of all coordinates is the upper half of the basis.
+        // With all coordinates as outputs, C is the upper half of the basis.
         assert_eq!(model.c, model.basis.rows(0, n).into_owned());
     }
 }
 
-/// 1/(m (iω)² + c iω + k), and what of it the force takes that is needed to accelerate.
+/// The response of the oscillator, 1/(m (iω)² + c iω + k), and that of its acceleration.
 #[test]
 fn frequency_responses_are_those_of_the_textbook() {
     let text = "machine Oscillator in plane {
@@ -189,7 +190,7 @@ fn frequency_responses_are_those_of_the_textbook() {
         let exact = Complex::new(1.0, 0.0) / (s * s * 2.0 + s + 4.0);
         let found = response(&model, omega).expect("no pole");
         assert!((found[(0, 0)] - exact).norm() <= 1e-14 * exact.norm());
-        // Far above the resonance it is a difference from D = 1/m.
+        // Far above the resonance the response is a small difference from D = 1/m.
         assert!(
             (found[(1, 0)] - s * s * exact).norm() <= 1e-14 * 0.5_f64.max((s * s * exact).norm())
         );

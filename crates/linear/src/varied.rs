@@ -1,12 +1,12 @@
-//! A machine's motion together with its derivatives by whatever it depends on, equation (I.14.5) of E. Hairer, S. P. Nørsett,
-//! G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed. 1993.
+//! The motion of a machine together with its derivatives by anything it depends on, equation (I.14.5) of E. Hairer, S. P.
+//! Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed. 1993.
 //!
-//! The proved program itself is evaluated over dual numbers, once for each direction in which the machine may change. So a
-//! direction is whatever the motion depends on: parameters, inputs, starts that follow from parameters, and the state by way of
-//! formulas that drive inputs; and the same numbers give derivatives of outputs. The spec needs no `derivatives`.
+//! The proved program itself is evaluated over dual numbers, once for each direction of differentiation. A direction may change
+//! anything that the motion depends on: parameters, inputs, starts that follow from parameters, and the state through formulas
+//! that drive inputs. The same evaluation gives derivatives of outputs. The spec needs no `derivatives`.
 //!
-//! Unilateral contacts are what they are in one phase of a run: what is closed is a constraint, what slips has friction in one
-//! direction. [`crate::across`] puts phases together.
+//! Within one phase of a run the state of each unilateral contact is fixed: a closed contact is a constraint, and a slipping
+//! one has friction in one direction. [`crate::across`] joins the phases.
 
 mod contacts;
 
@@ -23,17 +23,17 @@ use lagrangian_scalar::Dual;
 pub use contacts::{Layer, Phase};
 pub(crate) use contacts::{Place, Sought, add};
 
-/// A direction in which a machine changes: by how much each of its parameters does, and each input that nothing drives.
+/// A direction of differentiation: the change of each parameter, and of each input that nothing drives.
 #[derive(Clone, Debug)]
 pub struct Direction {
-    /// By how much each parameter changes.
+    /// The change of each parameter.
     pub parameters: Vec<f64>,
-    /// By how much the value changes that each input has while nothing drives it.
+    /// The change of the value that each input has while nothing drives it.
     pub inputs: Vec<f64>,
 }
 
 impl Direction {
-    /// A direction in which neither parameters nor inputs of a machine change: its start may.
+    /// A direction in which neither parameters nor inputs change; the start may.
     pub fn of_start(machine: &InterpretedMachine) -> Direction {
         Direction {
             parameters: vec![0.0; machine.program().parameters.len()],
@@ -47,15 +47,16 @@ impl Direction {
 pub struct Varied<'m> {
     /// The machine.
     pub machine: &'m InterpretedMachine,
-    /// In which directions it changes.
+    /// The directions of differentiation.
     pub directions: Vec<Direction>,
-    /// What drives its inputs.
+    /// The signals that drive its inputs.
     pub signals: &'m Signals,
-    /// What its unilateral contacts do; all of them are open where nothing is said.
+    /// The phase of its unilateral contacts; `None` if all are open.
     pub phase: Option<Arc<Phase>>,
 }
 
-/// Its equations of motion. Vectors are the machine's own, one after another: the values, then the derivatives in each direction.
+/// Its equations of motion. Vectors hold those of the machine one after another: the values, then the derivatives
+/// in each direction.
 #[derive(Debug)]
 pub struct VariedSystem {
     system: InterpretedSystem,
@@ -64,9 +65,10 @@ pub struct VariedSystem {
     phase: Option<Arc<Phase>>,
     /// Derivatives of inputs that nothing drives, in each direction.
     inputs: Vec<Vec<f64>>,
-    /// The program with its parameters, for each direction.
+    /// The program with its parameters, one interpreter for each direction.
     duals: Mutex<Vec<Interpreter<Dual<f64>>>>,
-    /// Inputs that are formulas, with the numbers of these, in an order in which each reads only what was set before.
+    /// Inputs that are formulas, with the indices of these formulas, ordered such that each reads only
+    /// inputs set before it.
     formulas: Vec<(usize, usize)>,
 }
 
@@ -80,7 +82,7 @@ pub struct VariedInputs {
 }
 
 impl Varied<'_> {
-    /// Starts of the machine as its spec has them, in each direction: coordinates and rates.
+    /// The starts of the machine as its spec gives them, in each direction: coordinates and rates.
     pub fn starts(&self) -> Vec<[Vec<f64>; 2]> {
         let program = self.machine.program();
         let n = program.dimension();
@@ -127,7 +129,7 @@ impl Machine for Varied<'_> {
             .collect();
         let mut names = own.clone();
         for k in 1..=self.directions.len() {
-            // No coordinate of a spec has such a name, and derivatives have a unit that no coordinate has.
+            // These names cannot collide with those of a spec, and the unit is one that no coordinate has.
             names.extend(
                 own.iter()
                     .map(|(name, unit)| (format!("{name} by {k}"), format!("{unit} by {k}"))),
@@ -170,7 +172,7 @@ impl Machine for Varied<'_> {
 }
 
 impl VariedSystem {
-    /// Duals of the machine's own part of a vector in a direction.
+    /// The part of a vector that belongs to the machine, as dual numbers in a direction.
     fn part(&self, vector: &[f64], direction: usize) -> Vec<Dual<f64>> {
         let n = self.dimension;
         let derivatives = &vector[(direction + 1) * n..][..n];
@@ -182,7 +184,7 @@ impl VariedSystem {
     }
 
     fn interpreters(&self) -> std::sync::MutexGuard<'_, Vec<Interpreter<Dual<f64>>>> {
-        // An interpreter that a panic left is as good as any: each call writes what it reads.
+        // A poisoned lock is harmless: each call of an interpreter writes everything that it reads.
         self.duals.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -312,7 +314,7 @@ impl System for VariedSystem {
             let called = interpreter.call(Role::Accelerations, arguments, &mut row);
             let part = &mut a[(k + 1) * n..][..n];
             for (to, dual) in part.iter_mut().zip(&row) {
-                // What is singular for the values was an error above.
+                // If the pivot is singular, the call for the values has returned an error already.
                 *to = match called {
                     Ok(()) => dual.derivative,
                     Err(_) => f64::NAN,
@@ -322,7 +324,7 @@ impl System for VariedSystem {
         Ok(())
     }
 
-    /// Those of the machine alone are there, without its derivatives.
+    /// The mass matrix and the forces are those of the machine alone, so a run has no equations to check.
     fn equations(&self) -> usize {
         0
     }
@@ -350,16 +352,16 @@ impl System for VariedSystem {
     }
 }
 
-/// The signals of a machine, as those of the machine with its derivatives.
+/// The signals of a machine, as the input law of the machine with its derivatives.
 #[derive(Clone, Debug)]
 pub struct VariedLaw<'m>(pub &'m Signals);
 
 impl<'m> VariedLaw<'m> {
-    /// A run under this law. It is no generic function, so that runs of varied machines are compiled here, and not again where they
-    /// are made.
+    /// Runs a simulation under this law. The function is not generic, so runs of varied machines are compiled in this crate and not
+    /// again where they are called.
     ///
     /// # Errors
-    /// As of [`Simulation::run`].
+    /// Those of [`Simulation::run`].
     pub fn run<'a>(
         simulation: Simulation<'a, Varied<'m>, VariedLaw<'m>>,
         start: State<Vec<f64>>,

@@ -1,15 +1,15 @@
-//! Invariant zeros: values of λ at which some state and input leave every output 0.
+//! Invariant zeros: values of λ for which some nonzero state and input leave every output 0.
 //!
-//! They are where the rank of
+//! They are the values at which the rank of
 //!
 //! ```text
 //! ⎡ A − λ  B ⎤
 //! ⎣   C    D ⎦
 //! ```
 //!
-//! is less than elsewhere. Outputs and inputs are taken away by orthogonal transformations until D is regular (A. Emami-Naeini and
-//! P. Van Dooren, *Computation of zeros of linear multivariable systems*, Automatica 18 (1982) 415–430); of the reduced model the
-//! zeros are the eigenvalues of `A − B D⁻¹ C`. Those of a model all of whose modes inputs reach and outputs show are its transmission zeros.
+//! falls below its normal value. Orthogonal transformations deflate outputs and inputs until D is regular (A. Emami-Naeini and P.
+//! Van Dooren, *Computation of zeros of linear multivariable systems*, Automatica 18 (1982) 415–430); the zeros are the eigenvalues
+//! of `A − B D⁻¹ C` of the reduced model. If the model is controllable and observable they are its transmission zeros.
 
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Complex, DMatrix};
@@ -17,7 +17,7 @@ use nalgebra::{Complex, DMatrix};
 use crate::model::Model;
 use crate::poles::poles;
 
-/// A singular value counts if it is more than this share of the numbers of its scaled matrix, times their count.
+/// A singular value counts as nonzero if it exceeds this fraction of the size of its scaled matrix, times the dimension.
 const RANK: f64 = 256.0 * f64::EPSILON;
 
 /// A, B, C and D of a system.
@@ -29,7 +29,8 @@ struct System {
     d: DMatrix<f64>,
 }
 
-/// The zeros in 1/s, both of each conjugate pair; none without inputs or outputs. `None` where the iterations do not end.
+/// The zeros in 1/s, both of each conjugate pair; none without inputs or outputs. `None` where the iterations
+/// do not converge.
 pub fn zeros(model: &Model) -> Option<Vec<Complex<f64>>> {
     if model.b.ncols() == 0 || model.c.nrows() == 0 {
         return Some(Vec::new());
@@ -45,13 +46,13 @@ pub fn zeros(model: &Model) -> Option<Vec<Complex<f64>>> {
         a - b * d.lu().solve(&c)?
     };
     let n = left.nrows();
-    // Rotations leave roundings of the largest numbers everywhere.
+    // The transformations leave round-off of the largest entries everywhere.
     let bounds = DMatrix::from_element(n, n, 16.0 * f64::EPSILON * left.amax_or_zero());
     let zeros = poles(&left, &bounds)?;
     Some(zeros.into_iter().map(|zero| zero.lambda * rate).collect())
 }
 
-/// The largest entry, of a matrix that may have none.
+/// The largest entry of a matrix that may be empty.
 trait Largest {
     fn amax_or_zero(&self) -> f64;
 }
@@ -63,8 +64,8 @@ impl Largest for DMatrix<f64> {
 }
 
 impl System {
-    /// In time, states, inputs and outputs of such a scale that no number is large or small because of its unit; and what a
-    /// rate of 1 is, in 1/s.
+    /// The system with time, states, inputs and outputs scaled such that no number is large or small because of its unit;
+    /// and the value in 1/s of a scaled rate of 1.
     fn scaled(model: &Model) -> (System, f64) {
         let mut a = model.a.clone();
         let n = a.nrows();
@@ -115,7 +116,7 @@ impl System {
             if outputs == 0 {
                 return Some(self);
             }
-            // Outputs that inputs reach at once, then the others.
+            // Outputs with direct feedthrough first, then the others.
             let (left, rank) = rows(&self.d, tolerance)?;
             let (c, d) = (left.tr_mul(&self.c), left.tr_mul(&self.d));
             let first = |m: &DMatrix<f64>| m.rows(0, rank).into_owned();
@@ -123,7 +124,7 @@ impl System {
             if rank == outputs {
                 return Some(System { c, d, ..self });
             }
-            // These leave no freedom to the states that they show.
+            // The other outputs determine the states that they show.
             let rest = c.rows(rank, outputs - rank).into_owned();
             let (right, shown) = rows(&rest.transpose(), tolerance)?;
             if shown == 0 {
@@ -133,7 +134,7 @@ impl System {
                     ..self
                 });
             }
-            // The states that are shown last.
+            // The states that are shown come last.
             let order = |j: usize| (j + shown) % n;
             let right = DMatrix::from_fn(n, n, |i, j| right[(i, order(j))]);
             let a = right.tr_mul(&self.a) * &right;
@@ -159,13 +160,13 @@ impl System {
     }
 }
 
-/// An orthogonal matrix whose first columns are a basis of what the columns of a matrix make, and how many these are.
+/// An orthogonal matrix whose first columns are a basis of the range of a matrix, and its rank.
 fn rows(matrix: &DMatrix<f64>, tolerance: f64) -> Option<(DMatrix<f64>, usize)> {
     let (rows, columns) = matrix.shape();
     if rows == 0 {
         return Some((DMatrix::zeros(0, 0), 0));
     }
-    // With as many columns as rows all left vectors are there.
+    // Padded with zero columns, so that the decomposition returns all left vectors.
     let mut square = DMatrix::zeros(rows, columns.max(rows));
     square.columns_mut(0, columns).copy_from(matrix);
     let svd = square.try_svd(true, false, f64::EPSILON, 10_000)?;
@@ -221,9 +222,9 @@ mod tests {
         );
         // s − 4, of higher relative degree.
         same(&of(&a, &b, &[-4.0, 1.0, 0.0], &[0.0]), &[(4.0, 0.0)]);
-        // 1: none.
+        // 1: no zeros.
         same(&of(&a, &b, &[1.0, 0.0, 0.0], &[0.0]), &[]);
-        // 1 + 1/(s³ + 6 s² + 11 s + 6): the roots of s³ + 6 s² + 11 s + 7, of which with x = s + 2 is x³ − x + 1.
+        // 1 + 1/(s³ + 6 s² + 11 s + 6): the roots of s³ + 6 s² + 11 s + 7, which is x³ − x + 1 with x = s + 2.
         let found = of(&a, &b, &[1.0, 0.0, 0.0], &[1.0]);
         assert_eq!(found.len(), 3);
         for s in found {
@@ -232,8 +233,8 @@ mod tests {
         }
     }
 
-    /// Two inputs and two outputs that are not coupled, diag((s + 1)/(s + 2)/(s + 3), 1/(s + 4)): only the zero of the first.
-    /// And outputs more than inputs have none, as a rule.
+    /// Two uncoupled inputs and outputs, diag((s + 1)/(s + 2)/(s + 3), 1/(s + 4)): only the zero of the first. A system with
+    /// more outputs than inputs usually has none.
     #[test]
     fn zeros_of_several_outputs_are_where_the_rank_falls() {
         let a = [0.0, 1.0, 0.0, -6.0, -5.0, 0.0, 0.0, 0.0, -4.0];

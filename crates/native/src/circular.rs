@@ -1,4 +1,4 @@
-//! Sines and cosines of several angles at once: the polynomials for those that are near, the scalar library for the others.
+//! Sines and cosines of several angles at once: polynomials for angles within [`MOST`], the scalar library for the others.
 
 use crate::sincos::{MOST, is_near, sin_cos_near};
 use crate::vector::{Register, Vector};
@@ -7,16 +7,16 @@ use crate::{Lanes, Scalar};
 /// Sines and cosines of several angles.
 pub type Circular<V, const K: usize> = [(Register<V>, Register<V>); K];
 
-/// Numbers whose sines and cosines are known.
+/// Vectors that can compute sines and cosines.
 pub trait Sines: Vector {
-    /// Sine and cosine by the scalar library of those angles that are above
-    /// [`MOST`] or undefined; the others keep the given ones.
+    /// Replaces the sine and cosine of angles that are above [`MOST`] or NaN by those of the scalar library; the
+    /// others are returned as given.
     fn sin_cos_beyond(angle: Self, sin: Self, cos: Self) -> (Self, Self);
 
     /// Sines and cosines of several angles.
     #[inline(always)]
     fn sin_cos_all<const K: usize>(angles: [Register<Self>; K]) -> Circular<Self, K> {
-        // One question for all of them: between questions a compiler moves nothing.
+        // One test for all angles: the compiler cannot move code across several tests.
         let (mut all, are_near) = Self::sin_cos_all_near(angles);
         if !are_near {
             for (pair, angle) in all.iter_mut().zip(angles) {
@@ -26,12 +26,12 @@ pub trait Sines: Vector {
         }
         all
     }
-    /// Sines and cosines of several angles, unless one is above [`MOST`] or undefined: then anything for that one. And
-    /// whether none is.
+    /// Sines and cosines of several angles, and whether all are within [`MOST`]. The results for angles beyond it and
+    /// for NaN are arbitrary.
     #[inline(always)]
     fn sin_cos_all_near<const K: usize>(angles: [Register<Self>; K]) -> (Circular<Self, K>, bool) {
-        // A loop, as `map` would not be inlined, and what is not inlined has no instructions but
-        // the oldest.
+        // A loop instead of `map`, which would not be inlined; a function that is not inlined is compiled without
+        // the target features.
         let mut all = [(Register(Self::ZERO), Register(Self::ONE)); K];
         let Some(first) = angles.first() else {
             return (all, true);
@@ -59,7 +59,7 @@ pub trait Sines: Vector {
 #[cold]
 #[inline(never)]
 pub fn sin_cos_beyond(angle: f64, sin: f64, cos: f64) -> (f64, f64) {
-    // Not a `>`, as an undefined angle is beyond too.
+    // Not `>`, because NaN must count as beyond.
     if angle.abs() <= MOST {
         (sin, cos)
     } else {

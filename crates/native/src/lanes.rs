@@ -1,13 +1,13 @@
-//! Batch numbers side by side, as they are kept in memory.
+//! Several states side by side, as they are stored in memory.
 
 use core::ops::{Add, Div, Index, IndexMut, Mul, Neg, Sub};
 
 /// `N` numbers side by side: the same quantity of `N` states, or of `N` sets of parameters. `N` is
 /// 2, 4 or 8.
 ///
-/// This is what is kept in memory: `N` `f64`, one after another, at an address that `malloc` may
-/// return. The arithmetic of a machine goes through [`Number::run`](crate::Number::run), in whatever
-/// registers the processor has; sums and products of a few are those of each lane, with the bits of `f64`.
+/// This is the form in memory: `N` `f64`, one after another, at an address that `malloc` may return. The arithmetic
+/// of a machine goes through [`Number::run`](crate::Number::run), in the best registers of the processor. The
+/// operators of this type compute each lane as an `f64`, with the same bits.
 ///
 /// ```
 /// use lagrangian_native::Lanes;
@@ -66,7 +66,7 @@ macro_rules! lane_by_lane {
 
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                // A loop and no closure: what is called for each lane is not inlined into code for wide registers.
+                // A loop and no closure: a closure called for each lane is not inlined into code for wide registers.
                 let mut lanes = self;
                 for (lane, other) in lanes.0.iter_mut().zip(other.0) {
                     *lane $sign other;

@@ -1,9 +1,8 @@
 //! Arithmetic at the speed of the processor.
 //!
-//! Generated code is written once, for any [`Scalar`]. This crate has the scalars that make it
-//! fast, and chooses among them when a machine runs: [`Number::run`] takes a computation on numbers
-//! that are kept as `f64`, or as [`Lanes`] of them, and does it with whatever instructions the
-//! processor has.
+//! Generated code is written once, for any [`Scalar`]. This crate provides fast scalars and chooses among them at
+//! run time: [`Number::run`] takes a computation on numbers that are stored as `f64`, or as [`Lanes`] of them, and
+//! executes it with the best instructions of the processor.
 //!
 //! | processor | `f64` | `Lanes<2>` | `Lanes<4>` | `Lanes<8>` |
 //! | --- | --- | --- | --- | --- |
@@ -12,26 +11,25 @@
 //! | AArch64 | fused | one by one | one by one | one by one |
 //! | others, or `strict-libm` | plain | one by one | one by one | one by one |
 //!
-//! All rows but the last give the same bits: fused multiply-add where generated code asks for it,
-//! and the sine and cosine of [this crate](self#sine-and-cosine). The last row's bits are those of
-//! separate multiplications and additions and of `libm`, the same on every machine. In every row a
-//! lane's result is that of `f64`, whatever its neighbours hold.
+//! All rows but the last give the same bits: fused multiply-add where generated code asks for it, and the sine and
+//! cosine of [this crate](self#sine-and-cosine). The last row's bits are those of separate multiplications and
+//! additions and of `libm`, the same on every machine. In every row a lane's result is that of `f64`, whatever the
+//! other lanes hold.
 //!
 //! # Sine and cosine
 //!
-//! Within 0.96 units in the last place for |x| ≤ 100 000, `libm`'s beyond. `src/sincos.rs` has the
-//! proof.
+//! Within 0.96 units in the last place for |x| ≤ 100 000; beyond, those of `libm`. `src/sincos.rs` contains the proof.
 //!
 //! # Unsafe code
 //!
-//! Beside `lagrangian-jit` this is the only crate of the project that has any: instructions which only some processors have
-//! cannot be used without it. Types of registers are not public; a kernel meets them only where the
-//! processor has been asked.
+//! Besides `lagrangian-jit` this is the only crate of the project with unsafe code: instructions that only some
+//! processors have cannot be used without it. The register types are not public; a kernel receives them only after the
+//! processor has been checked.
 //!
 //! # Features
 //!
-//! * `std` (default): asks the processor what it can do. Without it only what the compiler was told
-//!   counts, and AArch64 is among the others, as `core` has no fused multiply-add.
+//! * `std` (default): detects the features of the processor at run time. Without it only the target features of the
+//!   build count, and AArch64 is among the others, as `core` has no fused multiply-add.
 //! * `strict-libm`: the last row everywhere.
 
 #![cfg_attr(not(feature = "std"), no_std)]
@@ -70,9 +68,9 @@ use lagrangian_scalar::{DoubleDouble, Dual, Interval, Kernel, Residue, Scalar};
 #[cfg(any(feature = "std", all(target_arch = "x86_64", target_feature = "fma")))]
 use lagrangian_scalar::{Piece, series};
 
-/// An `f64` with fused multiply-add and the sine and cosine of this crate, on every machine: an
-/// instruction where that is one for the compiler, correct but slow elsewhere. [`Number::run`] has
-/// the same bits at full speed.
+/// An `f64` with fused multiply-add and the sine and cosine of this crate, on every machine: an instruction
+/// where the build's target features include it, correct but slow elsewhere. [`Number::run`] gives the same
+/// bits at full speed.
 ///
 /// ```
 /// use lagrangian_native::Fused;
@@ -84,19 +82,20 @@ use lagrangian_scalar::{Piece, series};
 #[cfg(any(feature = "std", all(target_arch = "x86_64", target_feature = "fma")))]
 pub type Fused = vector::Register<f64>;
 
-/// A number that machines are evaluated on, and the arithmetic that is used for it.
+/// A number on which machines are evaluated, with the choice of its arithmetic.
 pub trait Number: Copy {
-    /// Runs a computation in the fastest arithmetic that there is for such numbers here.
+    /// Runs a computation in the fastest available arithmetic for such numbers.
     fn run<K: Kernel<Self>>(kernel: K) -> K::Output;
 
-    /// Runs a computation that may fail and puts its result where it belongs.
+    /// Runs a computation that may fail and stores its result in place.
     ///
-    /// Between the arithmetic and whoever asked for it stand functions, out of line because of their instructions. What
-    /// they return goes through memory, where it is copied in pieces of another size than it was stored in: several times
-    /// the length of an instruction, a good part of a small machine's evaluation.
+    /// Because of their target features, the functions between the arithmetic and the caller are not inlined. A
+    /// returned value would go through memory and be copied in pieces of a different size than it was stored in; the
+    /// resulting store-forwarding stalls take several times as long as an instruction, a good part of the evaluation of
+    /// a small machine.
     ///
     /// # Errors
-    /// Those of the computation; `result` is then left as it is.
+    /// Those of the computation; `result` is then left unchanged.
     #[inline(always)]
     fn run_in_place<R, E, K>(kernel: K, result: &mut R) -> Result<(), E>
     where
@@ -116,7 +115,7 @@ pub trait Number: Copy {
     }
 }
 
-/// A kernel and where its result goes.
+/// A kernel with the destination of its result.
 struct InPlace<'a, K, R, E> {
     kernel: K,
     result: &'a mut R,
@@ -168,8 +167,8 @@ macro_rules! fastest {
     )*};
 }
 
-/// Runs a kernel as any processor can. Out of line, so that a call of [`Number::run`] is a question
-/// and a jump.
+/// Runs a kernel with instructions that any processor has. Not inlined, so that a call of [`Number::run`] is one
+/// test and a jump.
 #[cfg(not(all(target_arch = "aarch64", feature = "std", not(feature = "strict-libm"))))]
 #[inline(never)]
 fn plainly<N: Scalar, K: Kernel<N::Stored>>(kernel: K) -> K::Output {

@@ -1,12 +1,11 @@
-//! Lanes on processors without fused multiply-add, or where none is wanted.
+//! Lanes for processors without fused multiply-add, or for builds that do not use it.
 
 use core::array::from_fn;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::{Lanes, Scalar};
 
-/// Lanes whose arithmetic is that of `f64`, each by itself: where there is no fused multiply-add,
-/// or none is wanted.
+/// Lanes with the arithmetic of `f64` for each number separately.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plain<const N: usize>([f64; N]);
 

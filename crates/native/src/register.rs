@@ -1,5 +1,4 @@
-//! Numbers in registers, as scalars: fused multiply-add and polynomial sines, one number or several
-//! at once.
+//! Numbers in registers as scalars: fused multiply-add and polynomial sines, for one or several numbers at once.
 
 use core::fmt;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -45,7 +44,7 @@ impl<V: Vector> Neg for Register<V> {
     }
 }
 
-/// Functions that are `f64`'s, on each number by itself.
+/// Functions of `f64`, applied to each number separately.
 macro_rules! each {
     ($($method:ident($($argument:ident)?)),* $(,)?) => {$(
         #[inline(always)]
@@ -171,14 +170,14 @@ impl<V: Sines> Scalar for Register<V> {
     #[inline(always)]
     fn sign(self) -> Self {
         let x = self.0;
-        // ±1 where x is not 0, 0 where it is, x where it is undefined.
+        // ±1 where x is not 0, 0 where it is, x where it is NaN.
         let one = V::splat(1.0).xor(x.and(V::splat(-0.0)));
         let defined = V::select(V::splat(0.0).less(x.abs()), one, V::splat(0.0));
         Register(V::select(x.at_most(x), defined, x))
     }
     #[inline(always)]
     fn min(self, other: Self) -> Self {
-        // An undefined operand gives an undefined result.
+        // A NaN operand gives NaN.
         let least = V::select(self.0.less(other.0), self.0, other.0);
         Register(V::select(self.0.at_most(self.0), least, self.0))
     }

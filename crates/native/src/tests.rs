@@ -1,5 +1,5 @@
-//! Every register gives the same bits; a lane never hears of its neighbours; the polynomials are as
-//! good as they claim.
+//! Every register type gives the same bits, lanes do not influence each other, and the polynomials are as
+//! accurate as claimed.
 
 use std::vec::Vec;
 
@@ -9,7 +9,7 @@ use crate::vector::Register;
 use crate::x86::{self, Eight, Four, FourOfMany, Native, One, TwiceFour, Two};
 use crate::{Fused, Lanes, Number, sincos};
 
-/// A xorshift of G. Marsaglia's: the same numbers in every run.
+/// The xorshift generator of G. Marsaglia, with the same numbers in every run.
 struct Random(u64);
 
 impl Random {
@@ -25,7 +25,7 @@ impl Random {
         (self.bits() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Of any size that is met, and of some that should not be.
+    /// A number of any magnitude that occurs, and of some that should not.
     fn number(&mut self) -> f64 {
         match self.bits() % 16 {
             0 => EXTREMES[self.bits() as usize % EXTREMES.len()],
@@ -74,7 +74,7 @@ impl<T: Copy> Kernel<T> for Sines<'_, T> {
     }
 }
 
-/// Those of the K angles of each state.
+/// Sines and cosines of the K angles of each state.
 struct States<'a, const K: usize>(&'a [f64]);
 
 impl<const K: usize> Kernel<f64> for States<'_, K> {
@@ -96,7 +96,7 @@ impl<const K: usize> Kernel<f64> for States<'_, K> {
     }
 }
 
-/// The sums of products of two times `P` lists, with more and more numbers.
+/// The sums of products of two times `P` lists, of growing length.
 struct Sums<'a, const P: usize>([&'a [[f64; P]]; 2]);
 
 impl<const P: usize> Kernel<f64> for Sums<'_, P> {
@@ -118,7 +118,8 @@ impl<const P: usize> Kernel<f64> for Sums<'_, P> {
     }
 }
 
-/// Packed and one by one, for lists that fill registers and that do not; and the sums are those of the products.
+/// Lists that fill registers and lists that do not give the same bits packed and one by one; and the sums are those
+/// of the products.
 #[test]
 fn sums_of_products_have_the_same_bits_in_every_register() {
     fn check<const P: usize>(random: &mut Random) {
@@ -152,7 +153,7 @@ fn sums_of_products_have_the_same_bits_in_every_register() {
     check::<29>(&mut random);
 }
 
-/// The sums of products of `L` pairs of lists, with more and more numbers, of which a number is given for each pair.
+/// The sums of products of `L` pairs of lists of growing length, with one number given for each pair.
 struct Swept<'a, T, const P: usize, const L: usize> {
     numbers: [&'a [[T; P]]; 2],
     places: [&'a [usize; L]; 2],
@@ -164,7 +165,7 @@ impl<T: Copy, const P: usize, const L: usize> Kernel<T> for Swept<'_, T, P, L> {
     #[inline(always)]
     fn run<N: Scalar<Stored = T>>(self) -> Vec<[T; L]> {
         let ([of_a, of_b], [first, second]) = (self.places, self.numbers);
-        // What was not kept must not be read.
+        // Numbers that were not stored must not be read.
         let nothing = N::from_f64(f64::NAN).store();
         let mut a = vec![[nothing; P]; first.len()];
         let mut b = a.clone();
@@ -183,7 +184,8 @@ impl<T: Copy, const P: usize, const L: usize> Kernel<T> for Swept<'_, T, P, L> {
     }
 }
 
-/// Lists that are in several pairs, kept once in registers of several states, and as often where one state is computed.
+/// Lists that occur in several pairs: stored once in registers of several states, and once per pair where one
+/// state is computed.
 #[test]
 fn sums_of_products_have_the_same_bits_in_lanes() {
     fn check<const W: usize, V: Native<Stored = Lanes<W>>, const P: usize, const L: usize>(
@@ -264,7 +266,7 @@ fn in_lanes<const N: usize>(angles: &[f64]) -> Vec<Lanes<N>> {
         .collect()
 }
 
-/// Out of the lanes.
+/// The pairs of all lanes, one after another.
 fn flat<const N: usize>(pairs: Vec<(Lanes<N>, Lanes<N>)>) -> Vec<(f64, f64)> {
     pairs
         .iter()
@@ -282,8 +284,7 @@ fn by_array<const N: usize>(angles: &[f64]) -> Option<Vec<(f64, f64)>> {
     Some(flat(Sines(&in_lanes(angles)).run::<Register<[f64; N]>>()))
 }
 
-/// Four million angles: uniform up to a little more than the polynomials take, of all sizes, and
-/// extremes.
+/// Four million angles: uniform up to slightly beyond the range of the polynomials, of all magnitudes, and extremes.
 #[test]
 fn sines_have_the_same_bits_in_every_register() {
     let mut random = Random(0x5eed_0001);
@@ -309,7 +310,7 @@ fn sines_have_the_same_bits_in_every_register() {
             ("[f64; 8]", by_array::<8>(&angles)),
         ];
         for (name, results) in registers {
-            // None where the processor lacks the register.
+            // `None` where the processor lacks the register.
             let Some(results) = results else { continue };
             assert_eq!(results.len(), expected.len());
             for ((x, found), expected) in angles.iter().zip(&results).zip(&expected) {
@@ -322,7 +323,7 @@ fn sines_have_the_same_bits_in_every_register() {
     }
 }
 
-/// However many there are: a full register, a part of one, more than stay in registers.
+/// For any number of angles: a full register, a part of one, and more than fit into registers.
 #[test]
 fn a_state_may_have_any_number_of_angles() {
     fn check<const K: usize>() {
@@ -359,7 +360,7 @@ fn a_state_may_have_any_number_of_angles() {
 /// Every operation of a scalar on three numbers; truth values as 0 and 1.
 struct Everything<T>([T; 3]);
 
-/// How many results there are.
+/// The number of results.
 const RESULTS: usize = 36;
 
 impl<T: Copy> Kernel<T> for Everything<T> {
@@ -418,7 +419,7 @@ fn lanes_are_strangers<const N: usize>(
     let mut random = Random(0x5eed_0002);
     for _ in 0..20_000 {
         let operands = [(); 3].map(|()| Lanes([(); N].map(|()| random.number())));
-        // None where the processor lacks the register.
+        // `None` where the processor lacks the register.
         let Some(results) = run(Everything(operands)) else {
             return;
         };
@@ -458,7 +459,7 @@ fn a_lane_is_a_number_alone_whatever_its_neighbours_hold() {
     }
 }
 
-/// What is asked of all lanes at once.
+/// Predicates that hold for all lanes at once.
 struct Questions<T>([T; 2]);
 
 impl<T: Copy> Kernel<T> for Questions<T> {
@@ -501,7 +502,7 @@ fn a_question_to_lanes_is_answered_by_all_of_them() {
     ask::<8>(&mut random);
 }
 
-/// The polynomials, evaluated in 106 bits, so that the error is their own.
+/// The polynomials are evaluated with 106 bits, so that the error is their own.
 #[test]
 fn the_polynomials_are_as_near_as_their_bounds() {
     let horner = |c: [f64; 6], z: DoubleDouble| {
@@ -532,7 +533,7 @@ fn the_polynomials_are_as_near_as_their_bounds() {
     assert!(worst_cos < 2.0_f64.powf(-63.9));
 }
 
-/// What the reduction stands on: the nearest that a number up to 10⁵ comes to a multiple of π/2.
+/// The assumption of the reduction: the smallest distance of a number up to 10⁵ from a multiple of π/2.
 #[test]
 fn no_number_comes_too_near_to_a_multiple_of_a_right_angle() {
     let right = DoubleDouble::pi() / DoubleDouble::from(2.0);
@@ -542,7 +543,7 @@ fn no_number_comes_too_near_to_a_multiple_of_a_right_angle() {
     assert!(nearest > 2.0_f64.powi(-61));
 }
 
-/// All operations on two numbers each, on every pair of the numbers of three lists.
+/// All operations on pairs of numbers, for every pair from three lists.
 struct Each<'a, T>([&'a [T]; 3]);
 
 impl<T: Copy> Kernel<T> for Each<'_, T> {

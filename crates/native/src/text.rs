@@ -1,4 +1,4 @@
-//! The text of modules of this crate, for libraries that are written as one file.
+//! The source text of modules of this crate, for libraries that are compiled from a single file.
 
 /// Sines and cosines of several angles.
 pub const CIRCULAR: &str = include_str!("circular.rs");

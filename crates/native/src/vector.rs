@@ -1,4 +1,4 @@
-//! What sine, cosine and the lanes ask of a processor: one trait, implemented by plain numbers, by
+//! The operations that sines, cosines and lanes need from a processor: one trait, implemented by plain numbers, by
 //! arrays of them, and by the registers of x86-64.
 
 use core::fmt::Debug;
@@ -12,10 +12,10 @@ pub struct Register<V>(pub(crate) V);
 
 /// Numbers that a processor works on at once: 1, 2, 4 or 8 of them.
 ///
-/// Every operation is IEEE 754's on each number by itself, so the same sequence of them gives the
-/// same bits in every implementation, whatever the neighbours hold.
+/// Every operation is that of IEEE 754 on each number separately, so the same sequence of operations gives the same
+/// bits in every implementation, whatever the other lanes hold.
 pub trait Vector: Copy {
-    /// What the numbers are kept as in memory.
+    /// The form in which the numbers are stored in memory.
     type Stored: Copy + Debug + PartialEq;
     /// A truth value for each number.
     type Mask: Copy;
@@ -24,12 +24,12 @@ pub trait Vector: Copy {
     const ZERO: Self;
     /// Ones.
     const ONE: Self;
-    /// [`Scalar::PAIRS_AT_ONCE`], by how many registers there are: two sums of each pair, and their factors.
+    /// [`Scalar::PAIRS_AT_ONCE`] for the available number of registers, which hold two sums and the factors of each pair.
     const PAIRS_AT_ONCE: usize;
 
-    /// The numbers from memory.
+    /// Loads the numbers from memory.
     fn load(stored: Self::Stored) -> Self;
-    /// The numbers to memory.
+    /// Stores the numbers to memory.
     fn store(self) -> Self::Stored;
     /// One number in every lane.
     fn splat(x: f64) -> Self;
@@ -51,7 +51,7 @@ pub trait Vector: Copy {
     /// Square root.
     fn sqrt(self) -> Self;
 
-    /// Two sums; as those below, in one instruction where two numbers fit a register.
+    /// Two sums; like the operations below, in one instruction where two numbers fit into a register.
     #[inline(always)]
     fn add_each(a: [Self; 2], b: [Self; 2]) -> [Self; 2] {
         [a[0].add(b[0]), a[1].add(b[1])]
@@ -75,19 +75,19 @@ pub trait Vector: Copy {
         [a[0].div(b[0]), a[1].div(b[1])]
     }
 
-    /// Two times `mul_add`.
+    /// Two `mul_add`.
     #[inline(always)]
     fn mul_add_each(a: [Self; 2], b: [Self; 2], c: [Self; 2]) -> [Self; 2] {
         [a[0].mul_add(b[0], c[0]), a[1].mul_add(b[1], c[1])]
     }
 
-    /// Two times `mul_sub`.
+    /// Two `mul_sub`.
     #[inline(always)]
     fn mul_sub_each(a: [Self; 2], b: [Self; 2], c: [Self; 2]) -> [Self; 2] {
         [a[0].mul_sub(b[0], c[0]), a[1].mul_sub(b[1], c[1])]
     }
 
-    /// Two times `neg_mul_add`.
+    /// Two `neg_mul_add`.
     #[inline(always)]
     fn neg_mul_add_each(a: [Self; 2], b: [Self; 2], c: [Self; 2]) -> [Self; 2] {
         [a[0].neg_mul_add(b[0], c[0]), a[1].neg_mul_add(b[1], c[1])]
@@ -98,34 +98,34 @@ pub trait Vector: Copy {
     fn abs(self) -> Self {
         self.and(Self::splat(f64::from_bits(!(1 << 63))))
     }
-    /// Bits that both have.
+    /// Bitwise and.
     fn and(self, other: Self) -> Self;
-    /// Bits that one has and the other has not.
+    /// Bitwise exclusive or.
     fn xor(self, other: Self) -> Self;
-    /// All bits moved up by `PLACES`, as those of an integer.
+    /// All bits shifted left by `PLACES`, as those of an integer.
     fn shift_left<const PLACES: u32>(self) -> Self;
 
     /// Whether the lowest bit is 1.
     fn is_odd(self) -> Self::Mask;
-    /// `self < other`; false for what is undefined.
+    /// `self < other`; false for NaN.
     fn less(self, other: Self) -> Self::Mask;
-    /// `self ≤ other`; false for what is undefined.
+    /// `self ≤ other`; false for NaN.
     fn at_most(self, other: Self) -> Self::Mask;
-    /// Where the mask is true, `yes`, elsewhere `no`.
+    /// `yes` where the mask is true, `no` elsewhere.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
-    /// Whether both masks are true.
+    /// The masks' logical and.
     fn both(a: Self::Mask, b: Self::Mask) -> Self::Mask;
     /// Whether the mask is true everywhere.
     fn all(mask: Self::Mask) -> bool;
 
-    /// A function of every number by itself.
+    /// Applies a function to every number.
     fn map(self, f: impl Fn(f64) -> f64) -> Self;
-    /// A function of every number and its counterpart by itself.
+    /// Applies a function to every pair of corresponding numbers.
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self;
     /// The first number.
     fn first(self) -> f64;
 
-    /// Runs a piece of a long function as a function that may use what this type stands for.
+    /// Calls a part of a long function as a function that may use this type's instructions.
     fn call<P: Piece>(piece: P) -> P::Output;
 }
 
@@ -137,14 +137,13 @@ fn fused(a: f64, b: f64, c: f64) -> f64 {
     #[cfg(not(feature = "std"))]
     {
         use core::arch::x86_64::*;
-        // SAFETY: without the standard library this is compiled only where the compiler was told of
-        // the instruction.
+        // SAFETY: without the standard library this is compiled only where the target features include the instruction.
         unsafe { _mm_cvtsd_f64(_mm_fmadd_sd(_mm_set_sd(a), _mm_set_sd(b), _mm_set_sd(c))) }
     }
 }
 
-/// One number, with the standard library's fused multiply-add: an instruction where it is one, and
-/// correct, if slow, elsewhere.
+/// One number, with the fused multiply-add of the standard library: an instruction where the target has it, correct
+/// but slow elsewhere.
 impl Vector for f64 {
     type Stored = f64;
     type Mask = bool;

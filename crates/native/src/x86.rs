@@ -1,8 +1,8 @@
 //! The registers of x86-64: AVX2 with fused multiply-add, and AVX-512.
 //!
-//! The types here are valid only on a processor that has their instructions. Nobody outside the
-//! crate can name them; they are handed to kernels by [`run`], which asks first. That is what every
-//! SAFETY comment below stands on.
+//! The types here are valid only on a processor that has their instructions. Code outside the crate cannot
+//! name them; kernels receive them from [`run`], which checks the processor first. Every SAFETY comment
+//! below relies on this.
 
 use core::arch::x86_64::*;
 use core::marker::PhantomData;
@@ -14,12 +14,12 @@ use crate::{Kernel, Lanes, Piece};
 
 /// A type of this module, and whether the processor has it.
 pub trait Native: Sines {
-    /// Whether the instructions are there. Asked of the processor once, and known to the compiler
-    /// if it was told.
+    /// Whether the processor has the instructions. The result is cached, and constant where the build's target
+    /// features include them.
     fn is_here() -> bool;
 }
 
-/// Runs a kernel in registers `V`, or gives it back where the processor has none.
+/// Runs a kernel in registers `V`, or returns it where the processor lacks them.
 #[inline(always)]
 pub fn run<V: Native, K: Kernel<V::Stored>>(kernel: K) -> Result<K::Output, K> {
     if V::is_here() {
@@ -29,7 +29,7 @@ pub fn run<V: Native, K: Kernel<V::Stored>>(kernel: K) -> Result<K::Output, K> {
     }
 }
 
-/// A kernel as one piece.
+/// A kernel as a single piece.
 struct Whole<V, K>(K, PhantomData<V>);
 
 impl<V: Sines, K: Kernel<V::Stored>> Piece for Whole<V, K> {
@@ -41,14 +41,14 @@ impl<V: Sines, K: Kernel<V::Stored>> Piece for Whole<V, K> {
     }
 }
 
-/// A function of its own that may use AVX2, and everything that is inlined into it with it.
+/// Compiled as a separate function that may use AVX2, together with everything inlined into it.
 #[inline(never)]
 #[target_feature(enable = "avx2,fma")]
 fn with_avx2<P: Piece>(piece: P) -> P::Output {
     piece.run()
 }
 
-/// A function of its own that may use AVX-512, and everything that is inlined into it with it.
+/// Compiled as a separate function that may use AVX-512, together with everything inlined into it.
 #[inline(never)]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
 fn with_avx512<P: Piece>(piece: P) -> P::Output {
@@ -102,8 +102,8 @@ macro_rules! register {
             }
         }
 
-        // SAFETY, of every block: a value of this type is only asked for where the processor has
-        // been asked (see the module). What is loaded and stored is as long as the register.
+        // SAFETY, of every block: values of this type exist only where the processor has been checked (see the
+        // module). Loads and stores are as long as the register.
         impl Vector for $name {
             type Stored = Lanes<$lanes>;
             type Mask = $mask;
@@ -176,7 +176,7 @@ macro_rules! register {
 
         impl $name {
             const fn constant(x: f64) -> Self {
-                // SAFETY: both are that many `f64`, of which every pattern of bits is one.
+                // SAFETY: both are that many `f64`, for which every bit pattern is valid.
                 $name(unsafe { core::mem::transmute::<[f64; $lanes], $raw>([x; $lanes]) })
             }
         }
@@ -227,8 +227,8 @@ register! {
 }
 
 register! {
-    /// Four numbers where there are 32 registers and not 16: of AVX-512. The arithmetic is the same, and
-    /// less of it goes to memory and back.
+    /// Four numbers where AVX-512 provides 32 registers instead of 16. The arithmetic is the same, with fewer
+    /// spills to memory.
     FourOfMany: __m256d, 4 lanes, mask __m256d, has_avx512, with_avx512, pairs 8;
     _mm256_loadu_pd _mm256_storeu_pd _mm256_set1_pd _mm256_cvtsd_f64
     _mm256_add_pd _mm256_sub_pd _mm256_mul_pd _mm256_div_pd _mm256_sqrt_pd
@@ -365,7 +365,7 @@ impl Vector for TwiceFour {
     }
 }
 
-/// One number, whose angles go four by four.
+/// One number, whose angles are computed four at a time.
 #[derive(Clone, Copy)]
 #[repr(transparent)]
 pub struct One(f64);
@@ -387,8 +387,8 @@ macro_rules! plain {
     )*};
 }
 
-/// Operations on two numbers at once. A compiler keeps results that go on as a pair in their register, and the moves that stand
-/// here are not there.
+/// Operations on two numbers at once. A compiler keeps a pair that is used as a pair in its register and removes the
+/// moves written here.
 macro_rules! in_one_register {
     ($($each:ident($($argument:ident),*)),* $(,)?) => {$(
         #[inline(always)]
@@ -530,8 +530,7 @@ impl Sines for One {
     #[inline(always)]
     fn sin_cos_all<const K: usize>(angles: [Register<One>; K]) -> Circular<One, K> {
         let mut all = [(Register(One::ZERO), Register(One::ONE)); K];
-        // Straight code as far as most states reach, so that angles stay in registers; a loop over
-        // the rest.
+        // Straight-line code for as many angles as most states have, so that angles stay in registers; a loop for the rest.
         macro_rules! straight {
             ($($start:literal)*) => {$(
                 if const { $start < K } {
@@ -547,12 +546,12 @@ impl Sines for One {
         }
         all
     }
-    /// Of one number, an angle that is far costs nothing but its own sine.
+    /// For a single number, an angle beyond the polynomials costs only its own sine.
     #[inline(always)]
     fn sin_cos_all_near<const K: usize>(angles: [Register<One>; K]) -> (Circular<One, K>, bool) {
         (Self::sin_cos_all(angles), true)
     }
-    /// As many numbers in a register as there are lists side by side, up to four. A compiler that is left to find them takes them apart.
+    /// Each register holds up to four of the lists side by side. A compiler left to vectorize this splits them.
     #[inline(always)]
     fn convolve_all<const P: usize>(a: &[[f64; P]], b: &[[f64; P]]) -> [Register<One>; P] {
         let mut sums = [Register(One::ZERO); P];
@@ -582,19 +581,19 @@ impl Sines for One {
 
 /// Several numbers that lie side by side in memory.
 trait SideBySide: Copy {
-    /// How many.
+    /// How many numbers.
     const COUNT: usize;
     /// Zeros.
     fn zero() -> Self;
-    /// Those from here on.
+    /// Reads them from an address.
     ///
     /// # Safety
-    /// There are as many.
+    /// The address must have this many numbers.
     unsafe fn read(from: *const f64) -> Self;
-    /// Puts them from here on.
+    /// Writes them to an address.
     ///
     /// # Safety
-    /// There is room.
+    /// The address must have room for this many numbers.
     unsafe fn write(self, to: *mut f64);
     /// `self·b + c`, rounded once.
     fn mul_add(self, b: Self, c: Self) -> Self;
@@ -608,27 +607,27 @@ macro_rules! side_by_side {
             const COUNT: usize = $count;
             #[inline(always)]
             fn zero() -> Self {
-                // SAFETY: the processor has been asked (see the module).
+                // SAFETY: the processor has been checked (see the module).
                 unsafe { $zero() }
             }
             #[inline(always)]
             unsafe fn read(from: *const f64) -> Self {
-                // SAFETY: the caller's; and the processor has been asked.
+                // SAFETY: guaranteed by the caller; the processor has been checked.
                 unsafe { $read(from) }
             }
             #[inline(always)]
             unsafe fn write(self, to: *mut f64) {
-                // SAFETY: the caller's; and the processor has been asked.
+                // SAFETY: guaranteed by the caller; the processor has been checked.
                 unsafe { $write(to, self) }
             }
             #[inline(always)]
             fn mul_add(self, b: Self, c: Self) -> Self {
-                // SAFETY: the processor has been asked (see the module).
+                // SAFETY: the processor has been checked (see the module).
                 unsafe { $mul_add(self, b, c) }
             }
             #[inline(always)]
             fn add(self, b: Self) -> Self {
-                // SAFETY: the processor has been asked (see the module).
+                // SAFETY: the processor has been checked (see the module).
                 unsafe { $add(self, b) }
             }
         }
@@ -648,12 +647,12 @@ impl SideBySide for f64 {
     }
     #[inline(always)]
     unsafe fn read(from: *const f64) -> f64 {
-        // SAFETY: the caller's.
+        // SAFETY: guaranteed by the caller.
         unsafe { *from }
     }
     #[inline(always)]
     unsafe fn write(self, to: *mut f64) {
-        // SAFETY: the caller's.
+        // SAFETY: guaranteed by the caller.
         unsafe { *to = self }
     }
     #[inline(always)]
@@ -738,14 +737,14 @@ fn sin_cos<V: Sines>(x: V) -> (V, V) {
     }
 }
 
-/// Sines and cosines of up to four of the angles, from a given one on.
+/// Sines and cosines of up to four angles, starting at an index.
 #[inline(always)]
 fn four_sines<const K: usize>(
     angles: &[Register<One>; K],
     all: &mut Circular<One, K>,
     start: usize,
 ) {
-    // What is missing to a full register is 0.
+    // A partly filled register is padded with 0.
     let angle = |i: usize| if i < K { angles[i].0.0 } else { 0.0 };
     let x = [
         angle(start),

@@ -1,8 +1,8 @@
-//! What a derivation says: the chapter on one machine that a book on mechanics would have.
+//! The derivation of a machine as a chapter of a book on mechanics.
 //!
-//! Everything in it is computed from the model and its equations; what it says is not there has been decided in the prime
-//! field ([`Facts`]). Long formulas are left out, and the members in the middle of a long family: the text says so, and where
-//! to find them.
+//! Everything in it is computed from the model and its equations; claims that something is absent have been decided in the
+//! prime field ([`Facts`]). Long formulas are left out, and so are the middle members of a long family; the text says so, and
+//! where to find them.
 
 mod conserved;
 mod constraints;
@@ -23,16 +23,16 @@ use lagrangian_mechanics::equations::groups::{self, Share};
 use lagrangian_mechanics::equations::integrals::Facts;
 use lagrangian_spec::model::{Model, Name};
 
-/// Expressions of a greater [`size`](Expr::size) are not printed: they would fill pages, and nobody reads them.
+/// Expressions of a greater [`size`](Expr::size) are not printed: they would fill pages that nobody reads.
 const READABLE: u64 = 3000;
 
-/// Of families with more members than this only the first ones and the last are shown.
+/// Of families with more members than this only the first few and the last are shown.
 const LONG_FAMILY: usize = 6;
 
-/// How many members of a long family are shown before the last.
+/// The number of members of a long family that are shown before the last.
 const FIRST_MEMBERS: usize = 2;
 
-/// What every section is written from.
+/// The data from which the sections are written.
 struct Chapter<'a, 'd> {
     compiled: &'a Compiled<'d>,
     model: &'a Model<'d>,
@@ -41,7 +41,7 @@ struct Chapter<'a, 'd> {
 }
 
 impl Document {
-    /// The derivation of a machine, a chapter to read.
+    /// The derivation of a machine, as a document.
     pub fn new(compiled: &Compiled<'_>) -> Document {
         Document {
             title: compiled.model.name.clone(),
@@ -50,7 +50,7 @@ impl Document {
     }
 }
 
-/// The sections of the chapter on a machine.
+/// The sections of a machine's chapter.
 fn sections(compiled: &Compiled<'_>) -> Vec<Section> {
     let chapter = Chapter {
         compiled,
@@ -85,19 +85,19 @@ fn sections(compiled: &Compiled<'_>) -> Vec<Section> {
         .collect()
 }
 
-/// A line of words from its pieces.
+/// Joins pieces to a line of words.
 macro_rules! words {
     ($($run:expr),* $(,)?) => { vec![$($crate::document::Run::from($run)),*] };
 }
 use words;
 
 impl<'d> Chapter<'_, 'd> {
-    /// A formula for an expression, arranged to be short.
+    /// An expression as a formula, arranged to be short.
     fn math(&self, expression: Expr<'d>) -> Math {
         math(expression, self.model.dag)
     }
 
-    /// The name of a symbol, or a formula for what is none.
+    /// The name of a symbol, or the formula of another expression.
     fn name(&self, symbol: Expr<'d>) -> Math {
         match symbol.as_symbol() {
             Some(symbol) => self.model.dag.math(symbol),
@@ -105,7 +105,7 @@ impl<'d> Chapter<'_, 'd> {
         }
     }
 
-    /// `left = right`; or words on how long it would be.
+    /// `left = right`, or a statement of its length if it is too long.
     fn equality(&self, left: Math, right: Expr<'d>, note: &str) -> Vec<Row> {
         if right.size() > READABLE {
             let long = Math::text(format!("{} symbols, not shown", right.size()));
@@ -115,15 +115,15 @@ impl<'d> Chapter<'_, 'd> {
     }
 }
 
-/// An item of a list to be shown, or members of a family that are not.
+/// An item of a list that is shown, or members of a family that are left out.
 enum Shown {
-    /// The item of this index.
+    /// The item with this index.
     Item(usize),
-    /// So many items from this index on, members of one family.
+    /// The first index and the number of items that are left out, members of one family.
     LeftOut(usize, usize),
 }
 
-/// Which items of a list are shown: of a long family the first two and the last.
+/// Which items of a list are shown: the first two and the last of a long family.
 fn shown<'n>(names: impl Iterator<Item = &'n Name>) -> Vec<Shown> {
     let names: Vec<&Name> = names.collect();
     let mut shown = Vec::new();
@@ -146,7 +146,7 @@ fn shown<'n>(names: impl Iterator<Item = &'n Name>) -> Vec<Shown> {
     shown
 }
 
-/// `bob[3]` and `x_left`, as an index of a letter.
+/// A name such as `bob[3]` or `x_left` as a subscript.
 fn label(name: &Name) -> Math {
     let base = name.base.replace('_', " ");
     match name.index {
@@ -159,7 +159,7 @@ fn code(text: impl ToString) -> Run {
     Run::Code(text.to_string())
 }
 
-/// What a doc comment says, in paragraphs.
+/// The text of a doc comment, in paragraphs.
 fn prose(docs: &str) -> Vec<Block> {
     let paragraphs = docs.split("\n\n").filter(|text| !text.trim().is_empty());
     paragraphs
@@ -183,7 +183,7 @@ fn listed(items: impl IntoIterator<Item = Words>) -> Words {
     words
 }
 
-/// A paragraph from pieces of lines.
+/// Joins pieces of lines to a paragraph.
 fn paragraph(parts: impl IntoIterator<Item = Words>) -> Block {
     Block::Paragraph(parts.into_iter().flatten().collect())
 }
@@ -192,7 +192,7 @@ fn head(titles: &[&str]) -> Vec<Words> {
     titles.iter().map(|title| words![*title]).collect()
 }
 
-/// `N*s/m^2` as people write it.
+/// A unit such as `N*s/m^2`, typeset.
 fn unit(text: &str) -> Words {
     let mut pretty = String::with_capacity(text.len());
     let mut raised = false;
@@ -228,7 +228,7 @@ fn counted(n: usize, thing: &str) -> String {
     format!("{number} {plural}")
 }
 
-/// With a capital at its beginning.
+/// The text with an initial capital.
 fn capital(text: &str) -> String {
     let mut letters = text.chars();
     let first = letters

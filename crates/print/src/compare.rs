@@ -1,10 +1,10 @@
-//! Equations as somebody printed them, held against the derived ones.
+//! Published equations, compared with the derived ones.
 //!
-//! Whether a printed formula agrees is decided in the prime field, at points that leave no doubt;
-//! only one that does not is written out term by term, to say what to add and what to drop, and
-//! which of these are one term with a slip in it. An equation of motion may be printed times or
-//! over any factor of parameters, and a potential energy may differ by a constant: neither changes
-//! the motion. Equations (E23), (E24) of `docs/equations.md`.
+//! Whether a printed formula agrees is decided in the prime field, at enough points to leave no doubt. Only one
+//! that disagrees is expanded term by term, to report which terms to add and which to drop, and which pairs of
+//! these are one term with a misprint. An equation of motion may be multiplied or divided by any factor of
+//! parameters, and a potential energy may differ by a constant: neither changes the motion. Equations (E23), (E24)
+//! of `docs/equations.md`.
 
 mod brackets;
 mod changes;
@@ -20,81 +20,79 @@ use lagrangian_spec::identity;
 use lagrangian_spec::model::{Model, PrintedTerm, PublishedItem, PublishedQuantity, stage};
 use lagrangian_spec::source::Span;
 
-/// The most terms that a formula is written out in, to say which of them are wrong; a longer one is
-/// replaced as a whole.
+/// The most terms to which a formula is expanded to find wrong terms; a longer one is reported as a whole.
 const BUDGET: usize = 5000;
 
-/// What became of one printed formula.
+/// The result of comparing one printed formula.
 #[derive(Clone, Debug)]
 pub struct Comparison<'d> {
     /// The title of the block.
     pub block: String,
     /// The item, as the spec writes its head: `kinetic_energy mortar`.
     pub item: String,
-    /// Where the spec says it.
+    /// Its place in the spec.
     pub span: Span,
-    /// Whether it is right.
+    /// Whether it agrees.
     pub agrees: bool,
-    /// What mends it: one difference for each component of a vector, and one for everything else.
+    /// The corrections: one difference for each component of a vector, and one for anything else.
     pub mend: Vec<Difference<'d>>,
-    /// Where the print adds what has different units.
+    /// Warnings about printed sums of different units.
     pub remarks: Vec<Diagnostic>,
-    /// Rates of what has none, for which it is meant itself: `der(m0)` for `m0`. The other mends hold
-    /// with these in place.
+    /// Dots that must be removed because the quantity is constant: `m0` for `der(m0)`. The other corrections assume
+    /// that these have been removed.
     pub undotted: Vec<Undotted>,
-    /// The terms as they stand in the print, for each component.
+    /// The terms as printed, for each component.
     printed: Vec<Vec<PrintedTerm<'d>>>,
 }
 
-/// A term of a print, quoted.
+/// A quoted term of a printed formula.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Quoted {
-    /// As the spec writes it, with the sign that it has on its side.
+    /// The term as the spec writes it, with the sign that it has on its side.
     pub text: String,
-    /// Whether it stands, or is to stand, right of the equals sign.
+    /// Whether it is, or should be, right of the equals sign.
     pub on_the_right: bool,
 }
 
-/// A dot too much, over what does not change, so that a term is zero.
+/// A superfluous dot over a constant, which makes a term zero.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Undotted {
     /// As printed: `der(m0)`.
     pub from: String,
-    /// As it should be: `m0`.
+    /// The corrected form: `m0`.
     pub to: String,
-    /// The term without the dot, all terms brought to the left of an equals sign.
+    /// The term without the dot, with all terms on the left of the equals sign.
     pub term: String,
 }
 
 impl<'d> Comparison<'d> {
-    /// Whether something stands right of an equals sign, so that it is to be said where terms are.
+    /// Whether a term is right of an equals sign, so that reports must state the side of each term.
     pub fn has_two_sides(&self) -> bool {
         let mut terms = self.printed.iter().flatten();
         terms.any(|term| term.on_the_right && term.value().is_some_and(|value| !value.is_zero()))
     }
 
-    /// The terms to add and the terms to drop, each on the side of the equals sign on which it
-    /// stands, or on which what it replaces does; any other on the left.
+    /// The terms to add and the terms to drop. Each is given for the side of the equals sign on which it is
+    /// printed, or on which the term that it replaces is printed; otherwise for the left side.
     pub fn terms(&self) -> [Vec<Quoted>; 2] {
         self.words(true)
     }
 
-    /// The terms to add to what is printed, all brought to the left of an equals sign, as the spec
-    /// writes them; terms of a vector as vectors: `(0, e*sin(phi))`.
+    /// The terms to add to the printed formula with all terms on the left of the equals sign, as the spec writes
+    /// them; terms of a vector as vectors: `(0, e*sin(phi))`.
     pub fn add(&self) -> Vec<String> {
         let [add, _] = self.words(false);
         add.into_iter().map(|term| term.text).collect()
     }
 
-    /// The terms to drop from what is printed: as they stand there, where they do.
+    /// The terms to drop from the printed formula, quoted as printed where possible.
     pub fn drop(&self) -> Vec<String> {
         let [_, drop] = self.words(false);
         drop.into_iter().map(|term| term.text).collect()
     }
 
-    /// Which of the terms to drop becomes which of the terms to add by a slip or two: their places
-    /// in [`Self::drop`] and [`Self::add`], where they stand as well. By the rule in the
-    /// documentation of `compare/changes.rs`.
+    /// Which terms to drop turn into which terms to add by one or two misprints: their indices in [`Self::drop`]
+    /// and [`Self::add`], which contain them as well. The documentation of `compare/changes.rs` defines the rule.
     pub fn changes(&self) -> Vec<(usize, usize)> {
         let (mut dropped, mut added) = (0, 0);
         let mut all = Vec::new();
@@ -135,7 +133,7 @@ impl<'d> Comparison<'d> {
     }
 }
 
-/// Holds everything that a machine publishes against its equations, in the order of the spec.
+/// Compares all published formulas of a machine with its equations, in the order of the spec.
 pub fn compare<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Comparison<'d>> {
     let mut comparisons = Vec::new();
     for block in &model.published {
@@ -156,8 +154,7 @@ pub fn compare<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Comparis
     comparisons
 }
 
-/// What mends a printed formula, after those dots over parameters are taken away without which less
-/// is to be mended.
+/// The corrections of a printed formula, after removing those dots over parameters whose removal leaves less to correct.
 fn without_dots<'d>(
     model: &Model<'d>,
     equations: &Equations<'d>,
@@ -187,7 +184,7 @@ fn without_dots<'d>(
     (mends, undotted)
 }
 
-/// A term that is zero because of one dot over a parameter, without that dot.
+/// A term that vanishes because of one dot over a parameter, with that dot removed.
 fn without_dot<'d>(
     model: &Model<'d>,
     term: &PrintedTerm<'d>,
@@ -209,7 +206,7 @@ fn without_dot<'d>(
     (!factor.divides && !is_zero).then_some((undotted, mended))
 }
 
-/// What mends a printed formula, component by component.
+/// The corrections of a printed formula, component by component.
 fn mend<'d>(
     model: &Model<'d>,
     equations: &Equations<'d>,
@@ -238,7 +235,7 @@ fn mend<'d>(
         .collect()
 }
 
-/// A formula is what it is.
+/// The correction of a formula that must agree exactly.
 fn mend_formula<'d>(right: Expr<'d>, printed: Expr<'d>) -> Difference<'d> {
     if equal(right, printed) {
         return Difference {
@@ -255,7 +252,7 @@ fn mend_formula<'d>(right: Expr<'d>, printed: Expr<'d>) -> Difference<'d> {
     }
 }
 
-/// A potential energy is what it is up to a constant, eq. (E24).
+/// The correction of a potential energy, which may differ by a constant, eq. (E24).
 fn mend_potential<'d>(right: Expr<'d>, printed: Expr<'d>) -> Difference<'d> {
     if identity::is_free_of_motion(printed - right) {
         return Difference {
@@ -270,7 +267,7 @@ fn mend_potential<'d>(right: Expr<'d>, printed: Expr<'d>) -> Difference<'d> {
     difference
 }
 
-/// An equation `M a + h − Q = 0` is what it is, times any factor of parameters, eq. (E23).
+/// The correction of an equation `M a + h − Q = 0`, which may have any factor of parameters, eq. (E23).
 fn mend_equation<'d>(
     model: &Model<'d>,
     equations: &Equations<'d>,
@@ -297,7 +294,7 @@ fn mend_equation<'d>(
     mend_formula(factor * right, printed)
 }
 
-/// The factor by which most accelerations of a printed equation differ from the derived one.
+/// The factor between a printed equation and the derived one for which most accelerations agree.
 fn common_factor<'d>(
     model: &Model<'d>,
     equations: &Equations<'d>,
@@ -310,14 +307,14 @@ fn common_factor<'d>(
         let ratio = c.a.as_symbol().map(|a| printed.diff(a) / right);
         let ratio = ratio.and_then(identity::as_function_of_parameters);
         let Some(ratio) = ratio.filter(|&ratio| !equal(ratio, model.dag.zero())) else {
-            continue; // not printed, or not in proportion
+            continue; // not printed, or not proportional
         };
         match factors.iter_mut().find(|(_, known)| equal(*known, ratio)) {
             Some((votes, _)) => *votes += 1,
             None => factors.push((1, ratio)),
         }
     }
-    // The first of those with the most votes.
+    // The first of the factors with the most votes.
     let best = factors.into_iter().rev().max_by_key(|(votes, _)| *votes);
     let one = model.dag.one();
     match best {
@@ -328,8 +325,8 @@ fn common_factor<'d>(
     }
 }
 
-/// Whether two formulas are equal: exactly, in the prime field; or, for logarithms and the like, of
-/// which the field knows no theorems, numerically.
+/// Whether two formulas are equal: exactly, in the prime field, or numerically if they contain functions such as
+/// logarithms, whose identities the field does not have.
 fn equal(a: Expr<'_>, b: Expr<'_>) -> bool {
     match identity::equal(a, b) {
         Some(equal) => equal || (is_transcendental(a.dag(), &[a, b]) && nearly_equal(a, b)),
@@ -337,7 +334,7 @@ fn equal(a: Expr<'_>, b: Expr<'_>) -> bool {
     }
 }
 
-/// Whether functions stand in the formulas that are opaque to the prime field.
+/// Whether the formulas contain functions that are opaque to the prime field.
 fn is_transcendental(dag: &Dag, formulas: &[Expr<'_>]) -> bool {
     use Function::{Cosh, Exp, Ln, Pow, Sinh, Sqrt, Tanh};
     reachable(dag, formulas)
@@ -350,8 +347,7 @@ fn is_transcendental(dag: &Dag, formulas: &[Expr<'_>]) -> bool {
         })
 }
 
-/// Whether two formulas have the same values at some points, all symbols between ½ and 1½, to 20 of
-/// 30 digits.
+/// Whether two formulas have the same values at some points, with all symbols between ½ and 1½, to 20 of 30 digits.
 fn nearly_equal(a: Expr<'_>, b: Expr<'_>) -> bool {
     const POINTS: u32 = 64;
     let tolerance = DoubleDouble::from_f64(1e-20);

@@ -1,50 +1,50 @@
-//! A text to read, before anyone says in which language: sections, words, formulas, tables.
+//! A document independent of the output format: sections, words, formulas, tables.
 //!
-//! [`markdown`](super::markdown), [`latex`](super::latex) and [`html`](super::html) print the same [`Document`]. Formulas
-//! in it are values, not texts in one of these languages.
+//! [`markdown`](super::markdown), [`latex`](super::latex) and [`html`](super::html) print the same [`Document`]. Its
+//! formulas are values, not texts in one of these formats.
 
 use lagrangian_symbolic::Math;
 use lagrangian_symbolic::print::{Mark, Sign};
 
-/// The width of a line of a formula, in the size of its font (em): less than the 47 of A4 paper with margins of 2 cm, since
+/// The width of a line of a formula in em: less than the 47 em of A4 paper with margins of 2 cm, since
 /// [`Math::width`] is an estimate.
 pub(super) const LINE: f32 = 43.0;
 
-/// What each step of an indent takes, in em.
+/// The width of a step of indentation, in em.
 pub(super) const INDENT: f32 = 1.0;
 
-/// How much wider a line may be where nothing can be broken: less than the margin of the page.
+/// By how much a line that cannot be broken may exceed the width: less than the margin of the page.
 const TOLERANCE: f32 = 2.0;
 
-/// What a note at the right margin takes, in em.
+/// The width of a note at the right margin, in em.
 const NOTE: f32 = 8.0;
 
 /// A derivation to read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Document {
-    /// What it is about: the machine's name.
+    /// The title: the machine's name.
     pub title: String,
-    /// Its chapters.
+    /// The chapters.
     pub sections: Vec<Section>,
 }
 
 /// A chapter.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Section {
-    /// What it is about.
+    /// Its title.
     pub title: String,
-    /// What it says.
+    /// Its contents.
     pub blocks: Vec<Block>,
 }
 
-/// A piece of a chapter.
+/// A block of a chapter.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Block {
     /// A heading below that of the section.
     Heading(Words),
-    /// Words.
+    /// A paragraph.
     Paragraph(Words),
-    /// Items, one below the other.
+    /// A list, one item below the other.
     List(Vec<Words>),
     /// A formula, line by line.
     Formula(Vec<Row>),
@@ -52,26 +52,26 @@ pub enum Block {
     Table(Vec<Words>, Vec<Vec<Words>>),
 }
 
-/// Words with mathematics and code among them.
+/// Text with formulas and code in it.
 pub type Words = Vec<Run>;
 
-/// A piece of a line of words.
+/// A piece of a line of text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Run {
-    /// Words, nothing in them escaped.
+    /// Plain text, not escaped.
     Text(String),
     /// Mathematics.
     Math(Math),
-    /// What a program or a spec would say.
+    /// Code of a program or a spec.
     Code(String),
-    /// Words that are stressed.
+    /// Emphasized text.
     Emphasis(String),
 }
 
-/// What a paragraph of a doc comment says: code between backticks, stressed words between asterisks.
+/// Parses a paragraph of a doc comment: code is between backticks, emphasized text between asterisks.
 ///
-/// As in CommonMark an asterisk opens before a word and closes after one, so those of `2*m*l` are asterisks; one that has no
-/// partner is one, too.
+/// As in CommonMark, an opening asterisk must precede a word and a closing one must follow one, so the asterisks of `2*m*l`
+/// are literal. An asterisk without a partner is literal too.
 pub fn of_docs(paragraph: &str) -> Words {
     let mut words = Vec::new();
     let mut plain = String::new();
@@ -104,12 +104,12 @@ pub fn of_docs(paragraph: &str) -> Words {
     words
 }
 
-/// What stands between the mark that a text begins with and the next one, and what follows.
+/// Splits a text that begins with a mark into the part up to the next mark and the rest.
 fn between<'t>(text: &'t str, mark: &str) -> Option<(&'t str, &'t str)> {
     text.strip_prefix(mark)?.split_once(mark)
 }
 
-/// The words between the asterisks that a text begins with and those that close them, and what follows.
+/// Splits a text that begins with asterisks into the words up to the closing ones and the rest.
 fn stressed(text: &str) -> Option<(&str, &str)> {
     let mark = if text.starts_with("**") { "**" } else { "*" };
     let inside = text.strip_prefix(mark)?;
@@ -129,11 +129,11 @@ fn stressed(text: &str) -> Option<(&str, &str)> {
 /// A line of a formula.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Row {
-    /// The line.
+    /// The formula on this line.
     pub math: Math,
-    /// How many steps it is indented by; lines that continue others are.
+    /// The steps of indentation; continuation lines are indented.
     pub indent: usize,
-    /// What is said about it at the right margin; nothing if empty.
+    /// The note at the right margin, if it is not empty.
     pub note: String,
 }
 
@@ -158,26 +158,26 @@ impl From<Math> for Run {
 /// How a column of a table is set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Column {
-    /// Numbers, one below the other, of this width in em.
+    /// Aligned numbers, with this width in em.
     Numbers(f32),
-    /// Each cell in one line, of this width in em.
+    /// Each cell on one line, with this width in em.
     Line(f32),
-    /// Cells are broken into lines of this width in em.
+    /// Cells broken into lines of this width in em.
     Wrapped(f32),
 }
 
 impl Column {
-    /// Its width in em, with the space around it.
+    /// Its total width in em, with the space around it.
     pub fn width(self) -> f32 {
-        // Twice 6 points.
+        // Two times 6 points.
         const SPACE: f32 = 1.2;
         let (Column::Numbers(width) | Column::Line(width) | Column::Wrapped(width)) = self;
         width + SPACE
     }
 }
 
-/// The columns of a table, so that it fits a page: what is said last is wrapped, and where the rest is
-/// too wide the widest words are.
+/// The columns of a table such that it fits on a page: the last column of text is wrapped, and if the rest is too
+/// wide the widest other one is wrapped too.
 pub fn columns(head: &[Words], rows: &[Vec<Words>]) -> Vec<Column> {
     let natural = |k: usize| {
         let rows = rows.iter().map(Vec::as_slice).chain([head]);
@@ -205,18 +205,18 @@ pub fn columns(head: &[Words], rows: &[Vec<Words>]) -> Vec<Column> {
     columns
 }
 
-/// The width of a table, in em: 17 cm in a font of 10 points, less what an estimate may be off by.
+/// The width of a table, in em: 17 cm in a 10 point font, minus the error of the estimate.
 const PAGE: f32 = 47.0;
 
-/// The width of a column that describes what the others name, in em: 7 cm.
+/// The width of a column that describes the entries of the others, in em: 7 cm.
 const DESCRIPTION: f32 = 19.9;
 
-/// The least width of words that are broken into lines, in em: a long word.
+/// The smallest width of wrapped text, in em: a long word.
 const LEAST_WRAPPED: f32 = 8.0;
 
-/// About how wide words are in one line, in em.
+/// The approximate width of text on one line, in em.
 fn width_of_words(words: &Words) -> f32 {
-    // Of typewriter type, all letters are as wide.
+    // In typewriter type all letters have the same width.
     let run = |run: &Run| match run {
         Run::Text(text) => Math::text(text.clone()).width(),
         Run::Math(math) => math.width(),
@@ -227,9 +227,10 @@ fn width_of_words(words: &Words) -> f32 {
 }
 
 impl Row {
-    /// A formula in lines: the first is indented by so many steps, the others by two more; the note stands at the first.
+    /// A formula broken into lines: the first is indented by this number of steps, the others by two more; the note
+    /// is on the first.
     ///
-    /// What does not fit the page even so, such as a very long fraction, is left out: the line says so.
+    /// A part that does not fit on the page even so, such as a very long fraction, is left out, and the line says so.
     pub fn lines(math: &Math, indent: usize, note: &str) -> Vec<Row> {
         let width = LINE - if note.is_empty() { 0.0 } else { NOTE };
         let width = |steps: usize| width - INDENT * steps as f32;
@@ -252,8 +253,7 @@ impl Row {
     }
 }
 
-/// A formula without what stands on its right side, or without its left side where that is too wide
-/// by itself, or without all but its sign.
+/// A formula without its right-hand side, or without its left-hand side if that alone is too wide, or reduced to its sign.
 fn left_out(math: &Math, width: f32) -> Math {
     let marks = math.marks();
     let row = |marks: &[Mark]| Math::row(marks.iter().cloned().map(Math::mark));
@@ -279,13 +279,13 @@ fn left_out(math: &Math, width: f32) -> Math {
 }
 
 impl Block {
-    /// A formula, in as many lines as it takes.
+    /// A block with a formula on as many lines as it needs.
     pub fn formula(math: &Math) -> Block {
         Block::Formula(Row::lines(math, 0, ""))
     }
 }
 
-/// Whether a column holds nothing but decimal numbers, or dashes in their place.
+/// Whether a column contains only decimal numbers, or dashes in their place.
 pub(super) fn is_numeric(rows: &[Vec<Words>], column: usize) -> bool {
     let is_number = |cells: &Vec<Words>| match cells.get(column).map(Vec::as_slice) {
         Some([Run::Text(text)]) => text

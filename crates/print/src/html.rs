@@ -1,10 +1,10 @@
-//! A derivation as HTML: formulas are MathML, nothing is fetched, nothing runs.
+//! The derivation as HTML: formulas are MathML, nothing is fetched, and no scripts run.
 
 use lagrangian_symbolic::markup_words;
 
 use super::document::{self, Block, Document, Row, Run, Words};
 
-/// What the article looks like: light and dark, on a screen and printed. Everything is inside of `.derivation`.
+/// The style sheet of the article: light and dark, for screen and print. All rules are within `.derivation`.
 pub const STYLE: &str = r#".derivation { --ink: #1b1f24; --faint: #5c6672; --line: #d4dae1; color: var(--ink); line-height: 1.5; }
 .derivation h2 { font-size: 1.25em; margin: 2em 0 .6em; padding-bottom: .2em; border-bottom: 1px solid var(--line); }
 .derivation h3 { font-size: 1.05em; margin: 1.6em 0 .4em; }
@@ -30,7 +30,7 @@ pub const STYLE: &str = r#".derivation { --ink: #1b1f24; --faint: #5c6672; --lin
 @media print { .derivation { --ink: #000; --faint: #444; --line: #bbb; font-size: 10pt; } .derivation .formula { overflow: visible; } .derivation h2, .derivation h3 { break-after: avoid; } .derivation tr { break-inside: avoid; } }
 "#;
 
-/// The style of a page that holds nothing but the article.
+/// The style sheet of a page that contains only the article.
 const PAGE: &str = r"html { color-scheme: light dark; background: Canvas; }
 body { margin: 0 auto; padding: 2.5em 1.5em 5em; max-width: 62em; font-family: Georgia, 'Times New Roman', serif; }
 h1 { font-size: 1.7em; }
@@ -47,7 +47,7 @@ pub fn text(document: &Document) -> String {
     )
 }
 
-/// The document as an element `article` without its title, to stand in another page that has [`STYLE`]. Well-formed XML.
+/// The document as an element `article` without its title, for inclusion in another page with [`STYLE`]. Well-formed XML.
 pub fn article(document: &Document) -> String {
     let mut html = String::from("<article class=\"derivation\">\n");
     for section in &document.sections {
@@ -76,7 +76,7 @@ fn block(block: &Block) -> String {
         }
         Block::Formula(rows) => formula(rows),
         Block::Table(head, rows) => {
-            // Columns of numbers are set as such.
+            // Columns of numbers are aligned as such.
             let numbers: Vec<bool> = (0..head.len())
                 .map(|k| document::is_numeric(rows, k))
                 .collect();

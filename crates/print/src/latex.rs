@@ -1,4 +1,4 @@
-//! A derivation as LaTeX, a whole document that needs `amsmath`, `longtable` and `geometry` only.
+//! The derivation as LaTeX: a complete document that requires only `amsmath`, `longtable` and `geometry`.
 
 use std::collections::BTreeSet;
 
@@ -16,7 +16,8 @@ pub fn text(document: &Document) -> String {
         ));
         let mut before: Option<&Block> = None;
         for block in &section.blocks {
-            // A formula belongs to the paragraph before it; right below a heading there is none, nor the line it would take.
+            // A formula belongs to the paragraph before it. Directly below a heading there is none, and the empty
+            // line of one must be removed.
             match (block, before) {
                 (Block::Formula(_), Some(Block::Heading(_))) => {
                     body.push_str("\\leavevmode\\vspace{-2\\baselineskip}\n");
@@ -61,8 +62,8 @@ fn preamble(body: &str) -> String {
         "\\setlength{\\LTleft}{0pt}\n",
         "\\raggedright\n",
     ));
-    // Letters that the fonts at hand may lack show by their number instead of ending the run; engines that read Unicode
-    // show them as they are.
+    // Letters that the available fonts may lack appear as their code number instead of ending the run; engines that
+    // read Unicode print them as they are.
     let foreign: BTreeSet<char> = body.chars().filter(|&c| c > '\u{17f}').collect();
     for letter in foreign {
         let number = letter as u32;
@@ -74,7 +75,7 @@ fn preamble(body: &str) -> String {
     text
 }
 
-/// The lines of a formula, the first at the left, notes at the right margin. A page may end between two of them.
+/// The lines of a formula, left-aligned, with notes at the right margin. A page break is allowed between lines.
 fn formula(rows: &[Row]) -> String {
     let line = |row: &Row| {
         let indent = indent(row.indent);
@@ -91,7 +92,7 @@ fn formula(rows: &[Row]) -> String {
     )
 }
 
-/// The space before a line, and what makes a sign after it one between terms.
+/// The space before a line, followed by an empty atom, so that a sign after it is typeset as a binary operator.
 pub(super) fn indent(steps: usize) -> String {
     match steps {
         0 => String::new(),
@@ -100,7 +101,7 @@ pub(super) fn indent(steps: usize) -> String {
 }
 
 fn table(head: &[Words], rows: &[Vec<Words>]) -> String {
-    // A font of 10 points has 28.45 of them in a centimetre.
+    // A 10 point font has 28.45 points in a centimetre.
     let columns = columns(head, rows).into_iter().map(|column| match column {
         Column::Numbers(_) => "r".to_owned(),
         Column::Line(_) => "l".to_owned(),

@@ -1,5 +1,5 @@
-//! The derivation for reading: a chapter on a machine as [`markdown`], [`latex`] and [`html`], and the [comparison](compare) of
-//! its equations with printed ones.
+//! The derivation for readers: a chapter on a machine as [`markdown`], [`latex`] and [`html`], and the [comparison](compare) of
+//! its equations with published ones.
 
 pub mod compare;
 pub mod document;

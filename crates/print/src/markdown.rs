@@ -1,4 +1,4 @@
-//! A derivation as Markdown; formulas between `$` and `$$`.
+//! The derivation as Markdown, with formulas between `$` and `$$`.
 
 use super::document::{Block, Document, Row, Run, Words};
 use super::latex::indent;
@@ -38,7 +38,7 @@ pub fn text(document: &Document) -> String {
     text
 }
 
-/// The lines of a formula, the first at the left, notes in a column of their own.
+/// The lines of a formula, left-aligned, with notes in a separate column.
 fn aligned(rows: &[Row]) -> String {
     match rows {
         [only] if only.note.is_empty() => only.math.latex(),
@@ -77,7 +77,8 @@ fn words(words: &Words) -> String {
         Run::Text(text) => escaped(text),
         Run::Emphasis(words) => format!("*{}*", escaped(words)),
         Run::Math(math) => format!("${}$", math.latex()),
-        // More backticks around than inside; what ends a cell of a table is escaped in code too.
+        // The delimiter needs more backticks than the code contains; characters that end a table cell are
+        // escaped in code too.
         Run::Code(code) => {
             let longest = code.split(|c| c != '`').map(str::len).max().unwrap_or(0);
             let fence = "`".repeat(longest + 1);
@@ -88,10 +89,10 @@ fn words(words: &Words) -> String {
     words.iter().map(run).collect()
 }
 
-/// Words with everything escaped that Markdown takes for its own.
+/// Text with all characters escaped that have a meaning in Markdown.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
-    // Whether only digits have been written in this line: `1.` would begin a list.
+    // Whether only digits have been written on this line: `1.` would begin a list.
     let mut number = true;
     let mut start = true;
     for letter in text.chars() {

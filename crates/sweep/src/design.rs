@@ -1,4 +1,4 @@
-//! Which runs there are: a function of a run's number and of the plan alone.
+//! The design of a sweep: the values of each run, as a function of the plan and the run's index alone.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,79 +6,79 @@ use crate::normal::quantile;
 use crate::philox::{Purpose, between, bits};
 use crate::sobol::Sobol;
 
-/// More runs than this are a slip of the hand.
+/// A sweep of more runs than this is assumed to be a mistake.
 pub const MOST_RUNS: u64 = 1 << 40;
 
-/// One of the things that are crossed with each other: so many sets of values.
+/// A factor of a design: a list of sets of values, which is crossed with the other factors.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Factor {
     /// Values from one end to the other, both included.
     Grid {
-        /// What is varied.
+        /// The varied name.
         name: String,
         /// The first value.
         from: f64,
         /// The last value.
         to: f64,
-        /// How many there are.
+        /// The number of values.
         count: u64,
-        /// Whether their quotients are equal, and not their differences.
+        /// Whether the values are spaced logarithmically instead of linearly.
         log: bool,
     },
-    /// Values as they are listed.
+    /// Listed values.
     List {
-        /// What is varied.
+        /// The varied names.
         names: Vec<String>,
-        /// For each of the sets a value for each name.
+        /// For each set, a value for each name.
         rows: Vec<Vec<f64>>,
     },
     /// Values drawn from distributions.
     Sample {
-        /// By which design.
+        /// The sampling design.
         design: Sampling,
-        /// How many sets.
+        /// The number of sets.
         count: u64,
-        /// Which of the many designs of this kind.
+        /// The seed.
         seed: u64,
-        /// What is varied, and how its values are distributed.
+        /// The varied names with their distributions.
         variables: Vec<(String, Distribution)>,
     },
-    /// Several of equal length, side by side.
+    /// Several factors of equal length, varied together.
     Together(
-        /// These.
+        /// The factors.
         Vec<Factor>,
     ),
 }
 
-/// How sets of values are drawn.
+/// How sets of values are sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Sampling {
-    /// Each by itself.
+    /// Independently of each other.
     Random,
-    /// Each variable has one value in each of as many equally probable strata as there are sets.
+    /// Latin hypercube: each variable has one value in each of as many equally probable strata as there are sets.
     Latin,
-    /// The sequence of I. M. Sobol, which fills the cube evenly.
+    /// The sequence of I. M. Sobol, which fills the unit cube evenly.
     Sobol,
 }
 
-/// How the values of a variable are distributed.
+/// The distribution of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Distribution {
-    /// Evenly between two ends.
+    /// Uniform between two ends.
     Uniform(f64, f64),
-    /// With a logarithm that is evenly distributed, between two ends of the same sign.
+    /// Log-uniform between two ends of the same sign.
     LogUniform(f64, f64),
-    /// Normally: mean and standard deviation.
+    /// Normal: mean and standard deviation.
     Normal(f64, f64),
-    /// Between two ends, with a density that rises to the third number and falls from there.
+    /// Triangular: the two ends and the mode.
     Triangular(f64, f64, f64),
 }
 
 impl Distribution {
-    /// The value below which a share `u` of all lies.
+    /// The quantile: the value below which the fraction `u` lies.
     pub fn value(self, u: f64) -> f64 {
         match self {
             Distribution::Uniform(a, b) => a + (b - a) * u,
@@ -94,14 +94,14 @@ impl Distribution {
         }
     }
 
-    /// Whether it has values beyond every bound.
+    /// Whether its range is unbounded.
     fn is_unbounded(self) -> bool {
         matches!(self, Distribution::Normal(..))
     }
 }
 
 impl Factor {
-    /// What it varies.
+    /// The varied names.
     pub fn names(&self) -> Vec<&str> {
         match self {
             Factor::Grid { name, .. } => vec![name],
@@ -113,7 +113,7 @@ impl Factor {
         }
     }
 
-    /// How many sets of values there are.
+    /// The number of sets of values.
     pub fn count(&self) -> u64 {
         match self {
             Factor::Grid { count, .. } | Factor::Sample { count, .. } => *count,
@@ -122,7 +122,7 @@ impl Factor {
         }
     }
 
-    /// Adds set number `index`.
+    /// Appends the set with this index.
     fn values(&self, index: u64, to: &mut Vec<f64>) {
         match self {
             &Factor::Grid {
@@ -160,7 +160,7 @@ impl Factor {
     }
 }
 
-/// Where between 0 and 1 a variable of a set is.
+/// The position of a variable of a set between 0 and 1.
 fn share(
     (design, count, seed): (Sampling, u64, u64),
     index: u64,
@@ -172,7 +172,7 @@ fn share(
         Sampling::Latin => {
             let stratum = permuted(index, count, (seed, variable));
             let place = between(bits(seed, index, variable, Purpose::Place));
-            // Below 1 even where the sum is rounded up to the count.
+            // Stays below 1 even where the sum is rounded up to the count.
             ((stratum as f64 + place) / count as f64).min(1.0 - f64::EPSILON / 2.0)
         }
         Sampling::Sobol => {
@@ -180,8 +180,8 @@ fn share(
             let unit = 1.0 / (1u64 << Sobol::BITS) as f64;
             if seed == 0 {
                 let u = digits as f64 * unit;
-                // The sequence begins at 0, which is no value of a distribution without end: then each point is in the
-                // middle of its cell and not at its corner.
+                // The sequence begins at 0, where an unbounded distribution has no value: so each point is moved to
+                // the middle of its cell from the corner.
                 let cell = 1.0 / count.next_power_of_two() as f64;
                 return u + if distribution.is_unbounded() {
                     0.5 * cell
@@ -195,8 +195,8 @@ fn share(
     }
 }
 
-/// Where a number below `count` goes in a permutation of them: a Feistel network over a power of 4, walked along its
-/// cycle until it is below `count` again.
+/// The image of a number below `count` under a random permutation: a Feistel network over a power of 4 whose cycle
+/// is followed until the result is below `count` again.
 fn permuted(index: u64, count: u64, (seed, variable): (u64, u32)) -> u64 {
     let half = (64 - count.saturating_sub(1).leading_zeros())
         .div_ceil(2)
@@ -217,7 +217,7 @@ fn permuted(index: u64, count: u64, (seed, variable): (u64, u32)) -> u64 {
     }
 }
 
-/// How many runs factors make, crossed; none where there are too many.
+/// The number of runs of crossed factors; `None` if there are too many.
 pub fn runs(factors: &[Factor]) -> Option<u64> {
     let product = factors
         .iter()
@@ -225,7 +225,7 @@ pub fn runs(factors: &[Factor]) -> Option<u64> {
     product.filter(|runs| *runs <= MOST_RUNS)
 }
 
-/// The values of run number `run`, in the order of the names of all factors; the last factor is the fastest.
+/// The values of the run with this index, in the order of the names of all factors; the last factor varies fastest.
 pub fn values(factors: &[Factor], mut run: u64) -> Vec<f64> {
     let mut indices = vec![0; factors.len()];
     for (index, factor) in indices.iter_mut().zip(factors).rev() {
@@ -278,7 +278,7 @@ mod tests {
         }
         let decades = [grid("a", 1e-3, 1e3, 7, true)];
         for (run, known) in (0..7).zip([1e-3, 1e-2, 1e-1, 1.0, 10.0, 100.0, 1e3]) {
-            // exp and log within a unit in the last place each, of an exponent of 14.
+            // exp and log have an error of one unit in the last place each, here for an exponent of 14.
             assert!((values(&decades, run)[0] / known - 1.0).abs() < 1e-14);
         }
     }
@@ -313,8 +313,8 @@ mod tests {
         }
     }
 
-    /// Means and variances of the distributions in closed form, by a sequence that fills evenly: N points of it integrate a
-    /// function of bounded variation to about 1/N.
+    /// Means and variances of the distributions in closed form. N points of an evenly filling sequence integrate a function
+    /// of bounded variation to about 1/N.
     #[test]
     fn distributions_have_their_moments() {
         const COUNT: u64 = 1 << 14;

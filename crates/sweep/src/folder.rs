@@ -1,4 +1,4 @@
-//! Chunks on a disk: each is there whole or not at all, so that a sweep goes on after any interruption.
+//! A folder of chunks. Each chunk is there completely or not at all, so a sweep can be resumed after any interruption.
 //!
 //! ```text
 //! plan.json            the plan
@@ -16,20 +16,20 @@ use crate::rows::{Rows, Values};
 use crate::sweep::{Chunk, Sweep};
 use crate::table::{self, Format, Writer};
 
-/// How many rows of a Parquet file make a group, whatever the length of chunks.
+/// The number of rows in a row group of a Parquet file, whatever the length of chunks.
 const GROUP: usize = 65_536;
 
-/// How many errors of runs a summary has.
+/// The number of errors that a summary shows.
 const SHOWN_ERRORS: usize = 3;
 
-/// Why chunks cannot be kept.
+/// Why chunks cannot be stored.
 #[derive(Debug)]
 pub enum Trouble {
     /// A file cannot be read or written.
     File(PathBuf, io::Error),
-    /// Another process works there.
+    /// Another process uses the folder.
     Taken(String),
-    /// The plan that is there is another one; what differs.
+    /// The folder holds the chunks of another plan; lists the differences.
     OtherPlan(Vec<String>),
 }
 
@@ -55,19 +55,19 @@ pub struct Folder {
     _lock: File,
 }
 
-/// A chunk as the files that keep it.
+/// The contents of the files of a chunk.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Contents {
-    /// Of its rows.
+    /// The file of rows.
     pub rows: Vec<u8>,
-    /// Of its samples, where the plan asks for them.
+    /// The file of samples, if the plan asks for samples.
     pub samples: Option<Vec<u8>>,
 }
 
-/// What the files of a chunk hold, so that it can be made on one machine and kept on another.
+/// The contents of the files of a chunk, so that it can be made on one machine and stored on another.
 ///
 /// # Errors
-/// If the format is not in this build.
+/// If this build lacks the format.
 pub fn contents(chunk: &Chunk, format: Format) -> io::Result<Contents> {
     let bytes = |rows: &Rows| {
         let mut bytes = Vec::new();
@@ -90,22 +90,22 @@ fn write_chunk(format: Format, rows: &Rows, to: &mut (dyn Write + Send)) -> io::
     }
 }
 
-/// What is in all chunks.
+/// A summary of all chunks.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Summary {
-    /// How many runs.
+    /// The number of runs.
     pub runs: u64,
-    /// How many of them failed.
+    /// The number of failed runs.
     pub failed: u64,
-    /// The first of their errors, each with the number of its run.
+    /// The first errors, each with the index of its run.
     pub first_errors: Vec<(u64, String)>,
 }
 
 impl Folder {
-    /// Opens a folder, and makes it where it is not there. Several processes that each make chunks of their own may share it.
+    /// Opens a folder, or creates it. Several processes may share it if each makes chunks of its own.
     ///
     /// # Errors
-    /// If it cannot be, or another process works there.
+    /// If it cannot be opened, or another process uses it.
     pub fn open(path: &Path, format: Format, is_shared: bool) -> Result<Folder, Trouble> {
         let at = |error| Trouble::File(path.to_owned(), error);
         fs::create_dir_all(path).map_err(at)?;
@@ -130,7 +130,7 @@ impl Folder {
             }
             Err(TryLockError::Error(error)) => return Err(Trouble::File(name, error)),
         }
-        // For the message of a process that is refused. A process that is gone holds no lock, so this text decides nothing.
+        // This text is shown to a process that is refused. The lock itself decides: it ends with its process.
         if !is_shared {
             let _ = lock.set_len(0);
             let _ = writeln!(lock, "process {} on {}", std::process::id(), host());
@@ -146,10 +146,10 @@ impl Folder {
         Ok(folder)
     }
 
-    /// The plan of the chunks that are there, if there are any.
+    /// The plan of the chunks in the folder, if there is one.
     ///
     /// # Errors
-    /// If what is there is none.
+    /// If the file is not a valid plan.
     pub fn plan(&self) -> Result<Option<Plan>, Trouble> {
         let path = self.path.join("plan.json");
         match fs::read_to_string(&path) {
@@ -164,20 +164,20 @@ impl Folder {
         }
     }
 
-    /// Takes all chunks away, and writes a plan for others.
+    /// Removes all chunks, and writes a new plan.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn begin(&self, plan: &Plan) -> Result<(), Trouble> {
         self.forget()?;
         let text = plan.to_json() + "\n";
         self.write("plan.json", |to| to.write_all(text.as_bytes()))
     }
 
-    /// Writes a plan where there is none; others may do the same at the same time, with the same plan.
+    /// Writes a plan if there is none. Other processes may do so at the same time with the same plan.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn begin_shared(&self, plan: &Plan) -> Result<(), Trouble> {
         if self.path.join("plan.json").is_file() {
             Ok(())
@@ -187,7 +187,7 @@ impl Folder {
         }
     }
 
-    /// How many runs are in the chunks that are there.
+    /// The number of runs in the chunks that are there.
     pub fn runs(&self, sweep: &Sweep) -> u64 {
         let chunks = 0..sweep.plan().chunks();
         let there = chunks.filter(|&chunk| self.has(sweep, chunk));
@@ -195,12 +195,12 @@ impl Folder {
         runs.map(|runs| runs.end - runs.start).sum()
     }
 
-    /// Takes the plan and all chunks away.
+    /// Removes the plan and all chunks.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn forget(&self) -> Result<(), Trouble> {
-        // In this order: chunks without a plan are nobody's.
+        // The plan goes first: chunks without a plan are never used.
         self.tidy(|name| name == "plan.json")?;
         self.tidy(is_chunk)
     }
@@ -217,12 +217,12 @@ impl Folder {
         is_there && (sweep.no_samples().is_none() || self.chunk(chunk, ".samples").is_file())
     }
 
-    /// Writes a chunk.
+    /// Stores a chunk.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn keep(&self, number: u64, chunk: &Chunk) -> Result<(), Trouble> {
-        // What is there under the chunk's own name is complete.
+        // The file of rows is written last: where it exists the chunk is complete.
         if let Some(samples) = &chunk.samples {
             self.write_rows(&self.name(number, ".samples"), samples)?;
         }
@@ -233,22 +233,22 @@ impl Folder {
         self.write(name, |to| write_chunk(self.format, rows, to))
     }
 
-    /// Writes a chunk that was made elsewhere: its rows and its samples as [`contents`] gave them.
+    /// Stores a chunk that was made elsewhere, with rows and samples as returned by [`contents`].
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn keep_contents(&self, number: u64, contents: &Contents) -> Result<(), Trouble> {
-        // What is there under the chunk's own name is complete.
+        // The file of rows is written last: where it exists the chunk is complete.
         if let Some(samples) = &contents.samples {
             self.write(&self.name(number, ".samples"), |to| to.write_all(samples))?;
         }
         self.write(&self.name(number, ""), |to| to.write_all(&contents.rows))
     }
 
-    /// All rows of the chunks that are there, in order, and their samples where the plan asks for them.
+    /// All rows of the stored chunks in order, and their samples if the plan asks for samples.
     ///
     /// # Errors
-    /// What the file system says, or a file is none of this sweep.
+    /// Errors of the file system, or a file that does not belong to this sweep.
     pub fn rows(&self, sweep: &Sweep) -> Result<(Rows, Option<Rows>), Trouble> {
         let all = |suffix: &str, empty: Rows| {
             let mut rows = empty.clone();
@@ -269,16 +269,16 @@ impl Folder {
     /// Reads a chunk.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     fn read(&self, empty: &Rows, number: u64) -> Result<Rows, Trouble> {
         let path = self.chunk(number, "");
         table::read(&path, empty).map_err(|error| Trouble::File(path, error))
     }
 
-    /// What is in all chunks.
+    /// A summary of all chunks.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn summary(&self, sweep: &Sweep) -> Result<Summary, Trouble> {
         let mut summary = Summary::default();
         for number in 0..sweep.plan().chunks() {
@@ -295,10 +295,10 @@ impl Folder {
         Ok(summary)
     }
 
-    /// Joins all chunks in order to one file, and its samples to another beside it.
+    /// Joins all chunks in order into one file, and their samples into another beside it.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn join(&self, sweep: &Sweep, out: &Path) -> Result<(), Trouble> {
         if let Some(empty) = sweep.no_samples() {
             self.join_one(sweep, &samples_beside(out), ".samples", empty)?;
@@ -338,16 +338,16 @@ impl Folder {
         .map_err(|error| Trouble::File(out.to_owned(), error))
     }
 
-    /// Takes the folder away, with what a sweep has put there.
+    /// Removes the folder with everything that a sweep has stored there.
     ///
     /// # Errors
-    /// What the file system says.
+    /// Errors of the file system.
     pub fn remove(self) -> Result<(), Trouble> {
         self.forget()?;
         self.tidy(|name| name == "lock")?;
         match fs::remove_dir(&self.path) {
             Ok(()) => Ok(()),
-            // Somebody else has put something there.
+            // The folder also holds files that are not ours.
             Err(error) if error.kind() == io::ErrorKind::DirectoryNotEmpty => Ok(()),
             Err(error) => Err(Trouble::File(self.path.clone(), error)),
         }
@@ -361,7 +361,7 @@ impl Folder {
         self.path.join(self.name(number, suffix))
     }
 
-    /// Writes a file under another name, which it loses when it is complete and on the disk.
+    /// Writes a file under a temporary name and renames it when it is complete and flushed to disk.
     fn write(
         &self,
         name: &str,
@@ -373,7 +373,7 @@ impl Folder {
         written.map_err(|error| Trouble::File(path, error))
     }
 
-    /// Takes files away.
+    /// Removes the files that are meant.
     fn tidy(&self, is_meant: impl Fn(&str) -> bool) -> Result<(), Trouble> {
         let at = |error| Trouble::File(self.path.clone(), error);
         for entry in fs::read_dir(&self.path).map_err(at)? {
@@ -425,13 +425,13 @@ impl Summary {
     }
 }
 
-/// The file of samples beside that of rows: `a.samples.parquet` beside `a.parquet`.
+/// The path of the file of samples for a file of rows: `a.samples.parquet` for `a.parquet`.
 pub fn samples_beside(out: &Path) -> PathBuf {
     let ending = out.extension().unwrap_or_default().to_string_lossy();
     out.with_extension(format!("samples.{ending}"))
 }
 
-/// What is said of a file: the plan, but for the length of chunks, and the units of the columns.
+/// The metadata of a file: the plan without the length of chunks, and the units of the columns.
 fn said(plan: &Plan, rows: &Rows) -> Vec<(&'static str, String)> {
     let mut plan = serde_json::to_value(plan).unwrap_or_default();
     if let Some(plan) = plan.as_object_mut() {
@@ -456,7 +456,7 @@ fn is_chunk(name: &str) -> bool {
     stem.is_some_and(|(stem, _)| stem.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
-/// Writes a file beside the one that it takes the place of when it is complete.
+/// Writes a file under a temporary name beside its destination, which it replaces when it is complete.
 fn write_whole(
     path: &Path,
     content: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
@@ -481,10 +481,10 @@ fn write_as(
     };
     let written = attempt();
     if written.is_err() {
-        let _ = fs::remove_file(partial); // where it is not there, nothing is to be done
+        let _ = fs::remove_file(partial); // a file that does not exist need not be removed
     }
     written?;
-    // The new name, too, is on the disk where the system can promise that.
+    // Flushes the folder too, so that the new name is on disk, where the system supports that.
     let folder = path
         .parent()
         .filter(|folder| !folder.as_os_str().is_empty());
@@ -492,7 +492,7 @@ fn write_as(
     Ok(())
 }
 
-/// The name of this machine, for messages alone.
+/// The name of this computer, for messages only.
 fn host() -> String {
     let name = fs::read_to_string("/etc/hostname").unwrap_or_default();
     match name.trim() {

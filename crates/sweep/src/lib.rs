@@ -1,8 +1,8 @@
-//! One machine, many runs: over parameters, inputs and starts.
+//! Sweeps: many runs of one machine, over parameters, inputs and starts.
 //!
-//! A [`Plan`] says everything that the rows of a sweep depend on. [`Sweep`] derives its machine once and makes any chunk of
-//! its runs: row i depends on the plan and on i alone, whatever thread, host or order it is made in. [`Folder`] keeps chunks on a
-//! disk, so that a sweep that was killed goes on where it was.
+//! A [`Plan`] holds everything on which the rows of a sweep depend. [`Sweep`] derives its machine once and makes any chunk of its
+//! runs: row i depends only on the plan and on i, not on the thread, host or order of execution. [`Folder`] stores chunks on
+//! disk, so that a sweep that was killed can be resumed.
 
 pub mod design;
 mod folder;

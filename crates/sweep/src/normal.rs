@@ -1,6 +1,6 @@
 //! The quantile of the normal distribution.
 
-/// Where the integral of the normal density is `p`, between 0 and 1, to 1e-15 of it.
+/// The value below which the standard normal distribution has probability `p`, between 0 and 1; relative error 1e-15.
 ///
 /// M. J. Wichura, *Algorithm AS 241: The percentage points of the normal distribution*, Applied Statistics 37 (1988)
 /// 477–484, routine PPND16.
@@ -101,14 +101,14 @@ const FAR: Ratio = [
 mod tests {
     use super::*;
 
-    /// The integral itself, by the complementary error function.
+    /// The distribution function, by the complementary error function.
     #[test]
     fn it_inverts_the_integral() {
         let tails = (1..160).map(|k| libm::exp2(-f64::from(k) / 4.0));
         for p in tails.chain((1..100).map(|k| f64::from(k) / 200.0)) {
             let x = quantile(p);
             let back = 0.5 * libm::erfc(-x / core::f64::consts::SQRT_2);
-            // An error of x by 1e-15 of it is one of p by x² times as much, for x is about φ/Φ in the tail.
+            // In the tail a relative error of 1e-15 in x changes p by x² times as much, because x is about φ/Φ there.
             let bound = 4e-15 * (1.0 + x * x);
             assert!((back / p - 1.0).abs() < bound, "{p} {x} {back}");
             if 1.0 - (1.0 - p) == p {

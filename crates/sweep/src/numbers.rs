@@ -1,4 +1,4 @@
-//! Numbers as they are printed and written down.
+//! Numbers formatted for output.
 
 /// The shortest text that reads back to the same number.
 pub fn shortest(x: f64) -> String {

@@ -1,14 +1,14 @@
-//! Random numbers without a stream: a function of what they are for.
+//! A counter-based random number generator: each number is a function of its purpose, not the next one of a stream.
 //!
 //! J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, *Parallel random numbers: as easy as 1, 2, 3*, 2011: Philox4x32-10.
 
-/// What a number is drawn for; numbers for one purpose have nothing to do with those for another.
+/// The purpose of a random number; numbers for different purposes are independent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub(crate) enum Purpose {
     /// A value of a random design.
     Value = 0,
-    /// The place within a stratum of a Latin hypercube.
+    /// The position within a stratum of a Latin hypercube.
     Place = 1,
     /// A round of the permutation of strata.
     Round = 2,
@@ -46,7 +46,7 @@ pub(crate) fn bits(seed: u64, run: u64, variable: u32, purpose: Purpose) -> u64 
     u64::from(drawn[0]) | u64::from(drawn[1]) << 32
 }
 
-/// A number between 0 and 1, neither of them: the middle of one of 2⁵² equal parts.
+/// A number strictly between 0 and 1: the middle of one of 2⁵² equal intervals.
 pub(crate) fn between(bits: u64) -> f64 {
     ((bits >> 12) as f64 + 0.5) / (1u64 << 52) as f64
 }

@@ -1,4 +1,4 @@
-//! The plan of a sweep: everything that its rows depend on, as a value that can be written down.
+//! The plan of a sweep: everything on which its rows depend, as a value that can be serialized.
 
 use std::ops::Range;
 
@@ -15,21 +15,22 @@ pub const VERSION: u32 = 1;
 /// The longest chunk, in runs.
 pub const LONGEST_CHUNK: u64 = 65_536;
 
-/// A machine, how it is run, which runs there are, and what is kept of them. Row i of a sweep depends on this and on i alone.
+/// A machine, how to run it, which runs to make, and what to record of them. Row i of a sweep depends on
+/// this and on i alone.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Plan {
     /// The version of the format.
     pub version: u32,
-    /// The machine.
+    /// The spec of the machine.
     pub spec: SpecText,
-    /// Parameters and inputs that every run has, in the units that the spec declares.
+    /// Parameters and inputs that are the same in every run, in the units that the spec declares.
     pub set: Vec<(String, f64)>,
     /// Coordinates at the start.
     pub start: Vec<(String, f64)>,
     /// Rates at the start.
     pub rate: Vec<(String, f64)>,
-    /// Numbers of the start that stay as they are; those that the spec keeps where nothing is said.
+    /// Numbers of the start that the projection onto the constraints keeps; those of the spec where this is `None`.
     pub keep: Option<Vec<String>>,
     /// The end of a run, in s.
     pub until: f64,
@@ -37,73 +38,75 @@ pub struct Plan {
     pub tolerance: f64,
     /// The method of integration.
     pub method: String,
-    /// How many steps a run may take.
+    /// The most steps of a run.
     pub max_steps: u64,
-    /// What inputs do while the machine runs.
+    /// The laws that drive inputs during a run.
     pub inputs: Vec<(String, Law)>,
-    /// What is watched for.
+    /// The functions whose zeros are events.
     pub events: Vec<Watch>,
-    /// Instants whose states are recorded, in s.
+    /// Instants at which states are recorded, in s.
     pub at: Vec<f64>,
     /// The interval at which samples are recorded, in s.
     pub every: Option<f64>,
-    /// Events, by name, whose states are samples.
+    /// Events, by name, at which samples are recorded.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub at_events: Vec<String>,
-    /// What is made of each motion.
+    /// The reductions of each motion to a number.
     pub reduce: Vec<Reduction>,
-    /// From when on, in s.
+    /// The start of reductions, in s; from the start of the run where this is `None`.
     pub after: Option<f64>,
-    /// Which runs there are: all combinations of these, the last one fastest.
+    /// The design: all combinations of these factors, the last one varying fastest.
     pub design: Vec<Factor>,
-    /// How many runs a chunk has.
+    /// The number of runs in a chunk.
     pub chunk: u64,
 }
 
-/// A spec with everything that it is made from.
+/// A spec with everything from which it is made.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SpecText {
-    /// What messages call it, and what paths in it are relative to.
+    /// Its name in messages, to which paths in it are relative.
     pub name: String,
     /// The text.
     pub text: String,
-    /// The texts that it extends.
+    /// The texts that it extends or reads.
     pub files: Vec<ReadFile>,
     /// Values of constants.
     pub constants: Vec<(String, String)>,
-    /// Parameters that have values of their own, though the spec has formulas for them; a plan knows those that it sets itself.
+    /// Parameters that are given values although the spec has formulas for them. Those that the plan itself sets
+    /// need not be listed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub given: Vec<String>,
 }
 
-/// A file that a spec has named.
+/// A file that a spec names.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReadFile {
-    /// The path as it was written.
+    /// The path as written in the spec.
     pub path: String,
-    /// In which file.
+    /// The file that names it.
     pub from: Option<String>,
-    /// The name by which the file is known.
+    /// The resolved name of the file.
     pub name: String,
     /// Its text.
     pub text: String,
 }
 
-/// What an input does while the machine runs.
+/// The law of an input during a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Law {
     /// An expression of the spec's language in time and state.
     Formula(String),
-    /// A formula that is evaluated at the start and at a period after it, to act after a delay and to hold until the next.
+    /// A formula that is evaluated at the start and once in each period; its value takes effect after a delay and
+    /// holds until the next one.
     Sampled {
         /// The expression.
         formula: String,
-        /// The time between two looks, in s.
+        /// The sampling period, in s.
         every: f64,
-        /// How long after a look what is set begins to act, in s.
+        /// The delay after a sample until its value takes effect, in s.
         #[serde(default)]
         delay: f64,
     },
@@ -113,10 +116,10 @@ pub enum Law {
         times: Vec<f64>,
         /// The value at each, in the unit of the input.
         values: Vec<f64>,
-        /// What is between them; straight lines where nothing is said.
+        /// The interpolation between the times; linear by default.
         #[serde(default)]
         between: Between,
-        /// What is before the first and behind the last; their values where nothing is said.
+        /// The extrapolation before the first and after the last time; constant by default.
         #[serde(default)]
         beyond: Beyond,
     },
@@ -134,19 +137,19 @@ pub struct Watch {
     pub ends: bool,
 }
 
-/// A number made of a motion.
+/// A reduction of a motion to one number.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Reduction {
     /// The name of its column.
     pub name: String,
-    /// What is made of the motion.
+    /// The function applied.
     pub function: Function,
-    /// Of which expression, or of which event.
+    /// The expression, event or contact to which it is applied.
     pub of: String,
 }
 
-/// What can be made of an expression along a motion, or of an event.
+/// The reductions of an expression along a motion, of an event, or of a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[expect(missing_docs, reason = "they say what they are")]
@@ -161,20 +164,20 @@ pub enum Function {
     Last,
     WhenMax,
     WhenMin,
-    /// How often an event happens.
+    /// How often an event occurs.
     Count,
-    /// When an event happens first.
+    /// The time of the first occurrence of an event.
     FirstEvent,
-    /// When an event happens last.
+    /// The time of the last occurrence of an event.
     LastEvent,
-    /// How often an event happens a second.
+    /// The number of occurrences of an event per second.
     Frequency,
-    /// What a unilateral contact takes a second, by impacts, friction, damping and crushing.
+    /// The mean power that a unilateral contact dissipates by impacts, friction, damping and crushing.
     Power,
 }
 
 impl Function {
-    /// Their names; `first` and `last` are of events where an event has the name that stands behind.
+    /// Their names. `first` and `last` apply to an event if their argument names one.
     pub const NAMES: [(&'static str, Function); 13] = [
         ("max", Function::Max),
         ("min", Function::Min),
@@ -191,7 +194,7 @@ impl Function {
         ("power", Function::Power),
     ];
 
-    /// Whether it is of an event.
+    /// Whether it applies to an event.
     pub fn is_of_event(self) -> bool {
         matches!(
             self,
@@ -199,15 +202,15 @@ impl Function {
         )
     }
 
-    /// Whether it is of an expression along the motion, and neither of an event nor of a contact.
+    /// Whether it applies to an expression along the motion, not to an event or a contact.
     pub(crate) fn is_of_formula(self) -> bool {
         !self.is_of_event() && self != Function::Power
     }
 }
 
 impl Plan {
-    /// One run of a spec until an instant, in s, as its start says, with the settings that the command has where nothing is said:
-    /// `dop853` to a tolerance of 1e-9, rows of the end alone.
+    /// One run of a spec from its own start until an instant, in s, with the defaults of the command: `dop853` with a tolerance
+    /// of 1e-9, recording the end only.
     pub fn new(spec: SpecText, until: f64) -> Self {
         Plan {
             version: VERSION,
@@ -232,36 +235,36 @@ impl Plan {
         }
     }
 
-    /// The parameters and inputs that it gives values to: none of these parameters follows from others.
+    /// The names of parameters and inputs to which it gives values: such a parameter does not follow from others.
     pub(crate) fn given(&self) -> Vec<String> {
         let set = self.set.iter().map(|(name, _)| name.as_str());
         let varied = self.design.iter().flat_map(Factor::names);
         set.chain(varied).map(str::to_owned).collect()
     }
 
-    /// How many runs there are.
+    /// The number of runs.
     pub fn runs(&self) -> u64 {
         design::runs(&self.design).unwrap_or(0)
     }
 
-    /// How many chunks.
+    /// The number of chunks.
     pub fn chunks(&self) -> u64 {
         self.runs().div_ceil(self.chunk.max(1))
     }
 
-    /// The runs of a chunk.
+    /// The range of runs of a chunk.
     pub fn runs_of(&self, chunk: u64) -> Range<u64> {
         let runs = self.runs();
         let at = |chunk: u64| chunk.saturating_mul(self.chunk).min(runs);
         at(chunk)..at(chunk.saturating_add(1))
     }
 
-    /// Whether there are samples beside the rows.
+    /// Whether there are samples besides the rows.
     pub fn has_samples(&self) -> bool {
         self.every.is_some() || !self.at_events.is_empty()
     }
 
-    /// What is varied, in the order of the columns.
+    /// The varied names, in the order of the columns.
     pub fn varied(&self) -> Vec<&str> {
         self.design.iter().flat_map(Factor::names).collect()
     }
@@ -271,10 +274,10 @@ impl Plan {
         serde_json::to_string_pretty(self).unwrap_or_default()
     }
 
-    /// A plan from JSON.
+    /// Reads a plan from JSON.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// If the text is not a valid plan: what is wrong with it.
     pub fn from_json(text: &str) -> Result<Plan, String> {
         let value: serde_json::Value =
             serde_json::from_str(text).map_err(|error| error.to_string())?;
@@ -293,7 +296,7 @@ impl Plan {
         }
     }
 
-    /// What of another plan differs, as sentences; how the runs are cut into chunks does not matter.
+    /// How another plan differs, as sentences; the length of chunks does not count.
     pub fn differences(&self, was: &Plan) -> Vec<String> {
         let value = |plan: &Plan| serde_json::to_value(plan).unwrap_or_default();
         let (now, was) = (value(self), value(was));
@@ -320,7 +323,7 @@ impl SpecText {
     /// The values of its constants.
     ///
     /// # Errors
-    /// Which one is no number.
+    /// If a value is not a number: which one.
     pub fn constants(&self) -> Result<Vec<(String, Rational)>, String> {
         let constant = |(name, text): &(String, String)| {
             let (sign, digits) = match text.strip_prefix('-') {
@@ -338,7 +341,7 @@ impl SpecText {
     }
 }
 
-/// Files as they were read, instead of those that are there now.
+/// A file system of recorded files, instead of the files on disk.
 #[derive(Clone, Copy, Debug)]
 pub struct Kept<'a>(pub &'a [ReadFile]);
 
@@ -353,15 +356,15 @@ impl Files for Kept<'_> {
     }
 }
 
-/// Files, and what was read of them.
+/// A file system that records what is read from it.
 pub struct Recorded<'a> {
     files: &'a mut dyn Files,
-    /// What was read.
+    /// The files read so far.
     pub read: Vec<ReadFile>,
 }
 
 impl<'a> Recorded<'a> {
-    /// Nothing was read yet.
+    /// A recorder that has read nothing yet.
     pub fn new(files: &'a mut dyn Files) -> Self {
         Recorded {
             files,

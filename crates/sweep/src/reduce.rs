@@ -1,4 +1,4 @@
-//! Numbers made of a motion while it runs: extremes, integrals, ends.
+//! Reductions of a motion to numbers while it runs: extremes, integrals, end values.
 
 use std::cell::RefCell;
 
@@ -7,8 +7,7 @@ use lagrangian::{Error, StepMotion, System, extremes};
 
 use crate::plan::Function;
 
-/// Nodes and weights of Gauss's formula with five of them, on [−1, 1]: exact up to degree 9, where the motion within a step
-/// has degree 7.
+/// Nodes and weights of the Gauss formula with five nodes on [−1, 1], exact up to degree 9; the motion within a step has degree 7.
 const GAUSS: [(f64, f64); 5] = [
     (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
     (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
@@ -17,29 +16,29 @@ const GAUSS: [(f64, f64); 5] = [
     (0.906_179_845_938_664, 0.236_926_885_056_189_1),
 ];
 
-/// A step by Taylor series is of a much higher degree: its integral is taken in so many parts.
+/// A Taylor step has a much higher degree, so its integral is computed in this many parts.
 const PARTS_OF_SERIES: u32 = 4;
 
-/// A formula of the plan: which output it is, and what it needs.
+/// A formula of the plan.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Formula {
-    /// The number of the output.
+    /// The index of the output that computes it.
     pub output: usize,
     /// Whether it depends on accelerations.
     pub reads_accelerations: bool,
 }
 
-/// One reduction on its way along a run.
+/// The state of a reduction during a run.
 #[derive(Clone, Debug)]
 pub(crate) struct Tracker {
     function: Function,
     formula: Formula,
-    /// Whether the formula is to be taken by its size.
+    /// Whether the absolute value of the formula is reduced.
     of_size: bool,
-    /// The least and the greatest value, with their times.
+    /// The least and the greatest value so far, with their times.
     extent: [Option<(f64, f64)>; 2],
     integral: f64,
-    /// From when on there is an integral.
+    /// The time from which the integral is taken.
     since: Option<f64>,
     until: f64,
     first: Option<f64>,
@@ -61,7 +60,7 @@ impl Tracker {
         }
     }
 
-    /// Takes the last step, from a fraction of it on.
+    /// Updates the reduction with the last step, starting at a fraction of it.
     pub fn take(&mut self, step: &Looks<'_, '_>, from: f64) -> Result<(), Error> {
         let [start, end] = step.span;
         let value = |theta: f64| step.value(theta, self.formula);
@@ -78,7 +77,7 @@ impl Tracker {
                     _ => [true; 2],
                 };
                 let mut extent = self.extent;
-                // What is known already has a place of its own, which is none of this step.
+                // Values from earlier steps have no position in this step.
                 for (_, place) in extent.iter_mut().flatten() {
                     *place = f64::NAN;
                 }
@@ -123,7 +122,7 @@ impl Tracker {
         Ok(())
     }
 
-    /// What came of it; nothing where no step was taken.
+    /// The result; `None` if no step was taken.
     pub fn result(&self) -> Option<f64> {
         let [least, greatest] = self.extent;
         let mean = || {
@@ -133,7 +132,7 @@ impl Tracker {
         match self.function {
             Function::Max if self.of_size => {
                 let (least, greatest) = (least?.0, greatest?.0);
-                // Not `max`, which passes over what is not a number.
+                // `f64::max` would ignore NaN.
                 Some(if least.abs() > greatest.abs() || least.is_nan() {
                     least.abs()
                 } else {
@@ -167,7 +166,7 @@ impl Tracker {
     }
 }
 
-/// Time, state and inputs at a fraction of a step, and accelerations if they were asked for.
+/// Time, state and inputs at a fraction of a step, and accelerations if they were needed.
 #[derive(Debug)]
 struct Look {
     theta: f64,
@@ -179,15 +178,15 @@ struct Look {
     has_accelerations: bool,
 }
 
-/// What was seen of a step; kept from one step to the next, so that looking allocates nothing.
+/// The states evaluated within a step; kept from one step to the next to avoid allocation.
 #[derive(Debug, Default)]
 pub(crate) struct Seen {
-    /// Those of this step come first.
+    /// The first `of_step` entries belong to the current step.
     looks: Vec<Look>,
     of_step: usize,
 }
 
-/// A step that several formulas look at, at the same places: states are made once.
+/// A step that several formulas evaluate at the same points, so that each state is computed once.
 pub(crate) struct Looks<'s, 'm> {
     pub span: [f64; 2],
     pub is_series: bool,
@@ -212,7 +211,7 @@ impl<'s, 'm> Looks<'s, 'm> {
         }
     }
 
-    /// A formula at a fraction of the step.
+    /// The value of a formula at a fraction of the step.
     pub fn value(&self, theta: f64, formula: Formula) -> Result<f64, Error> {
         let mut motion = self.motion.borrow_mut();
         let mut seen = self.seen.borrow_mut();
@@ -250,7 +249,7 @@ impl<'s, 'm> Looks<'s, 'm> {
             look.has_accelerations = true;
         }
         let Look { t, q, v, u, a, .. } = look;
-        // What does not depend on accelerations is given none.
+        // Outputs that do not depend on accelerations get none.
         let a = if look.has_accelerations { &a[..] } else { &[] };
         Ok(self.system.output(formula.output, *t, q, v, a, &u.values))
     }

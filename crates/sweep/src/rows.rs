@@ -1,17 +1,17 @@
-//! Rows of a sweep, column by column.
+//! Rows of a sweep, stored by column.
 
-/// A column: its name, the unit of its numbers, and what it holds.
+/// A column: its name, the unit of its numbers, and the kind of its values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     /// Its name.
     pub name: String,
     /// The unit, where it has one.
     pub unit: Option<String>,
-    /// What it holds.
+    /// The kind of its values.
     pub kind: Kind,
 }
 
-/// What a column holds.
+/// The kind of the values of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Whole numbers.
@@ -22,7 +22,7 @@ pub enum Kind {
     Text,
 }
 
-/// The values of a column; nothing where there is none.
+/// The values of a column; `None` for missing ones.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Values {
     /// Whole numbers.
@@ -38,23 +38,23 @@ pub enum Values {
 pub enum Cell {
     /// A whole number.
     Count(u64),
-    /// A number, or none.
+    /// A number, or a missing value.
     Number(Option<f64>),
-    /// A text, or none.
+    /// A text, or a missing value.
     Text(Option<String>),
 }
 
-/// Rows, column by column; all columns are equally long.
+/// Rows, stored by column; all columns have equal length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rows {
-    /// The columns.
+    /// The descriptions of the columns.
     pub columns: Vec<Column>,
-    /// The values of each.
+    /// The values of each column.
     pub values: Vec<Values>,
 }
 
 impl Rows {
-    /// No rows yet.
+    /// An empty set of rows.
     pub fn new(columns: Vec<Column>) -> Rows {
         let empty = |column: &Column| match column.kind {
             Kind::Count => Values::Count(Vec::new()),
@@ -67,7 +67,7 @@ impl Rows {
         }
     }
 
-    /// How many there are.
+    /// The number of rows.
     pub fn len(&self) -> usize {
         self.values.first().map_or(0, Values::len)
     }
@@ -77,7 +77,7 @@ impl Rows {
         self.len() == 0
     }
 
-    /// Adds a row, a value for each column in order.
+    /// Appends a row, with a value for each column in order.
     pub fn push(&mut self, row: impl IntoIterator<Item = Cell>) {
         for (values, cell) in self.values.iter_mut().zip(row) {
             match (values, cell) {
@@ -89,7 +89,7 @@ impl Rows {
         }
     }
 
-    /// Adds the rows of others with the same columns.
+    /// Appends rows that have the same columns.
     pub fn extend(&mut self, other: Rows) {
         for (values, others) in self.values.iter_mut().zip(other.values) {
             match (values, others) {
@@ -101,7 +101,7 @@ impl Rows {
         }
     }
 
-    /// Takes the first rows away, as many as are asked for or there are.
+    /// Removes and returns the first `count` rows, or all if there are fewer.
     pub fn take(&mut self, count: usize) -> Rows {
         let values = self.values.iter_mut().map(|values| match values {
             Values::Count(values) => Values::Count(first(values, count)),
@@ -114,7 +114,7 @@ impl Rows {
         }
     }
 
-    /// The values of the column of this name.
+    /// The values of the column with this name.
     pub fn column(&self, name: &str) -> Option<&Values> {
         let place = self.columns.iter().position(|column| column.name == name)?;
         self.values.get(place)

@@ -1,4 +1,4 @@
-//! What drives inputs, as a call writes it: formulas, tables in files, and controllers that are sampled.
+//! Laws of inputs as a call writes them: formulas, tables in files, and sampled controllers.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -13,29 +13,30 @@ use lagrangian_spec::source::Sources;
 use crate::plan::Law;
 use crate::table;
 
-/// What a call writes behind `--input NAME=`.
+/// The text after `--input NAME=`, parsed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Written {
     /// A formula of the spec's language.
     Formula(String),
-    /// A formula that is evaluated at a period, to act after a delay and to hold until the next: both in s.
+    /// A formula that is evaluated once in each period; its value takes effect after a delay and holds until the
+    /// next one. Times in s.
     Sampled {
         /// The formula.
         formula: String,
-        /// The time between two looks.
+        /// The sampling period.
         every: f64,
-        /// How long after a look what is set begins to act.
+        /// The delay after a sample until its value takes effect.
         delay: f64,
     },
     /// A column of a table in a file.
     File {
         /// The file, `.csv` or `.parquet`.
         path: PathBuf,
-        /// The column; that of the input's name where none is named.
+        /// The column; by default the one with the name of the input.
         column: Option<String>,
-        /// What is between its rows.
+        /// The interpolation between rows.
         between: Between,
-        /// What is before and behind them.
+        /// The extrapolation before the first and after the last row.
         beyond: Beyond,
     },
 }
@@ -43,7 +44,7 @@ pub enum Written {
 /// Reads `FORMULA`, `FORMULA,every=TIME[,delay=TIME]` or `FILE[:COLUMN][,hold|linear|cubic][,end=hold|error|repeat]`.
 ///
 /// # Errors
-/// What is wrong, and what is expected instead.
+/// If the text is malformed: what is wrong, and what is expected instead.
 pub fn written(text: &str) -> Result<Written, String> {
     let text = text.trim();
     let Some(end) = end_of_file(text) else {
@@ -100,7 +101,7 @@ const FILE_OPTIONS: [&str; 6] = [
     "end=repeat",
 ];
 
-/// Where the name of a table ends with which a text begins; none if it is a formula.
+/// The end of the file name at the beginning of a text; `None` if the text is a formula.
 fn end_of_file(text: &str) -> Option<usize> {
     let lower = text.to_ascii_lowercase();
     let ends = [".csv", ".parquet"].iter().flat_map(|ending| {
@@ -114,7 +115,7 @@ fn end_of_file(text: &str) -> Option<usize> {
     ends.filter(is_end).min()
 }
 
-/// What stands between commas that are in no brackets.
+/// The parts between commas that are not inside brackets.
 fn parts(text: &str) -> Vec<&str> {
     let mut depth = 0_i32;
     let parts = text.split(|c: char| {
@@ -175,10 +176,10 @@ fn formula(text: &str) -> Result<Written, String> {
     }
 }
 
-/// A table in a file, comma-separated text or Parquet by its ending.
+/// Reads a table from a file, as comma-separated text or Parquet according to its ending.
 ///
 /// # Errors
-/// What is wrong with it.
+/// If the file cannot be read: what is wrong with it.
 pub fn table_file(path: &Path) -> Result<TableFile, String> {
     let shown = path.display().to_string();
     let is_parquet = path
@@ -196,7 +197,7 @@ pub fn table_file(path: &Path) -> Result<TableFile, String> {
 }
 
 impl Written {
-    /// The file that it reads.
+    /// The file that the law reads.
     pub fn file(&self) -> Option<&Path> {
         match self {
             Written::File { path, .. } => Some(path),
@@ -204,10 +205,10 @@ impl Written {
         }
     }
 
-    /// What an input of this name and unit does.
+    /// The law of an input with this name and unit.
     ///
     /// # Errors
-    /// What is wrong with its table.
+    /// If its table is invalid: what is wrong with it.
     pub fn law(&self, input: &str, unit: &str) -> Result<Law, String> {
         Ok(match self {
             Written::Formula(formula) => Law::Formula(formula.clone()),
@@ -245,7 +246,7 @@ impl Written {
 }
 
 impl Law {
-    /// The formula that it evaluates.
+    /// The formula of the law, if it has one.
     pub fn formula(&self) -> Option<&str> {
         match self {
             Law::Formula(formula) | Law::Sampled { formula, .. } => Some(formula),
@@ -253,7 +254,7 @@ impl Law {
         }
     }
 
-    /// The table that it follows, as that of an input.
+    /// The table of the law, if it has one, for this input.
     pub(crate) fn table(&self, input: &str) -> Result<Option<Table>, String> {
         let Law::Table {
             times,
@@ -270,10 +271,10 @@ impl Law {
     }
 }
 
-/// Inputs with what is written for each; the name of a family is that of all its members.
+/// The laws of inputs; the name of a family stands for all its members.
 ///
 /// # Errors
-/// If there is no such input, with the near name, or a table is wrong.
+/// If there is no such input, with a similar name as suggestion, or if a table is invalid.
 pub fn laws(
     written: &[(String, Written)],
     model: &Model<'_>,
@@ -302,7 +303,7 @@ pub fn laws(
     Ok(laws)
 }
 
-/// That there is no such input.
+/// The message for an unknown input.
 pub(crate) fn unknown(name: &str, model: &Model<'_>) -> String {
     let names: Vec<String> = model
         .inputs
@@ -318,10 +319,10 @@ pub(crate) fn unknown(name: &str, model: &Model<'_>) -> String {
     format!("--input {name}: no input named `{name}`; {help}")
 }
 
-/// The signals of a machine, whose formulas are the outputs that `next` numbers in their order.
+/// The signals of a machine. Their formulas are outputs whose indices `next` counts in order.
 ///
 /// # Errors
-/// Which of them cannot be.
+/// If a signal is not possible: which one, and why.
 pub fn signals(
     laws: &[(String, Law)],
     machine: &InterpretedMachine,
@@ -366,7 +367,7 @@ pub fn signals(
     }
 }
 
-/// Why signals have no Taylor series, if they have none.
+/// Why signals have no Taylor series; `None` if they have one.
 pub fn without_series(signals: &Signals, machine: &InterpretedMachine) -> Option<String> {
     let input = signals.first_varying()?;
     let name = machine.program().inputs.get(input)?.name.to_string();

@@ -1,22 +1,22 @@
-//! The sequence of Sobol, with the direction numbers of S. Joe and F. Y. Kuo.
+//! The Sobol sequence, with the direction numbers of S. Joe and F. Y. Kuo.
 
 use std::sync::OnceLock;
 
 /// Polynomials and initial direction numbers.
 const TABLE: &str = include_str!("sobol.txt");
 
-/// The most variables that a design may have.
+/// The most variables of a design.
 pub const MOST_VARIABLES: usize = 256;
 
 /// Points of the sequence.
 pub(crate) struct Sobol;
 
 impl Sobol {
-    /// Binary digits of each coordinate: as many points differ.
+    /// The number of binary digits of each coordinate; 2 to this power is the number of distinct points.
     pub const BITS: u32 = 52;
 
-    /// The digits of a coordinate of point number `index`, in the order of Gray's code, in which the first 2ᵏ points are
-    /// those of the natural order.
+    /// The digits of a coordinate of the point with this index, in Gray code order; the first 2ᵏ points are the same set
+    /// as in natural order.
     pub fn digits(index: u64, variable: u32) -> u64 {
         let gray = index ^ index >> 1;
         let numbers = directions().get(variable as usize);
@@ -29,7 +29,7 @@ impl Sobol {
     }
 }
 
-/// For each variable direction numbers, the highest digit of a coordinate being the highest bit.
+/// The direction numbers of each variable; the most significant digit of a coordinate is the highest bit.
 fn directions() -> &'static [Vec<u64>] {
     static DIRECTIONS: OnceLock<Vec<Vec<u64>>> = OnceLock::new();
     DIRECTIONS.get_or_init(|| {
@@ -38,14 +38,14 @@ fn directions() -> &'static [Vec<u64>] {
             let numbers = line.split(' ').filter_map(|word| word.parse().ok());
             numbers.collect::<Vec<u64>>()
         });
-        // The first coordinate is van der Corput's: every m is 1.
+        // The first coordinate is the van der Corput sequence, for which every m is 1.
         let first = vec![1; Sobol::BITS as usize];
         let others = rows.map(|row| initial(&row));
         std::iter::once(first).chain(others).map(scaled).collect()
     })
 }
 
-/// All m from a polynomial and the first of them: `mₖ = 2 a₁ mₖ₋₁ ⊕ … ⊕ 2ˢ mₖ₋ₛ ⊕ mₖ₋ₛ`.
+/// All m from a polynomial and the initial ones: `mₖ = 2 a₁ mₖ₋₁ ⊕ … ⊕ 2ˢ mₖ₋ₛ ⊕ mₖ₋ₛ`.
 fn initial(row: &[u64]) -> Vec<u64> {
     let Some((&polynomial, first)) = row.split_first() else {
         return Vec::new();
@@ -76,7 +76,7 @@ fn scaled(m: Vec<u64>) -> Vec<u64> {
 mod tests {
     use super::*;
 
-    /// `scipy.stats.qmc.Sobol(256, scramble=False)` of SciPy 1.17.1, in coordinates 0, 1, 2, 9, 50 and 255.
+    /// Values of `scipy.stats.qmc.Sobol(256, scramble=False)` of SciPy 1.17.1, in coordinates 0, 1, 2, 9, 50 and 255.
     #[test]
     fn points_are_those_of_scipy() {
         const COORDINATES: [u32; 6] = [0, 1, 2, 9, 50, 255];

@@ -1,4 +1,4 @@
-//! A plan made ready to run, and its runs.
+//! A plan prepared for running, and its runs.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -25,11 +25,12 @@ use crate::signals::{self, without_series};
 use crate::sobol::MOST_VARIABLES;
 use crate::verdict;
 
-/// More instants of one run than this are a slip of the hand.
+/// More instants in one run than this are assumed to be a mistake.
 const MOST_INSTANTS: f64 = 1e6;
 
-/// How many runs are begun at once where they may run in lanes: each holds as many numbers as its program has operations, and
-/// the more there are, the later lanes stand still.
+/// The size of a group of runs that are started together for execution in lanes, as the number of operations of the program,
+/// summed over the runs. Each run stores as many numbers as the program has operations, so this bounds the memory; and the larger
+/// the group, the later lanes run empty.
 const OPERATIONS_AT_ONCE: u64 = 1 << 20;
 const LEAST_GROUP: u64 = 16;
 const MOST_GROUP: u64 = 64;
@@ -37,42 +38,42 @@ const MOST_GROUP: u64 = 64;
 /// Why a plan cannot be run.
 #[derive(Debug)]
 pub enum Wrong {
-    /// The spec is wrong, or a formula.
+    /// The spec, or a formula, is invalid.
     Spec(Box<(Report, Sources)>),
-    /// The plan is.
+    /// The plan is invalid.
     Plan(String),
 }
 
-/// A plan made ready to run: shared by all threads.
+/// A plan prepared for running; it is shared by all threads.
 #[derive(Debug)]
 pub struct Sweep {
     plan: Plan,
     machine: InterpretedMachine,
     method: &'static Method,
-    /// What the method was replaced for, in a sentence.
+    /// Why another method is used than the plan asks for, as a sentence.
     warning: Option<String>,
     constants: Vec<(String, Rational)>,
     places: Vec<Place>,
     signals: Signals,
-    /// For each event the output that its function is.
+    /// For each event the index of the output that is its function.
     events: Vec<usize>,
     reductions: Vec<Made>,
     columns: Vec<Column>,
     sample_columns: Option<Vec<Column>>,
-    /// How many runs are begun at once where they may run in lanes.
+    /// How many runs are started together where they may run in lanes.
     group: u64,
 }
 
-/// How a reduction is made.
+/// How a reduction is computed.
 #[derive(Clone, Debug)]
 enum Made {
-    /// Of an expression.
+    /// From an expression along the motion.
     Along(Tracker),
-    /// Of the event of this name.
+    /// From the event or contact with this name.
     Of(Function, String),
 }
 
-/// What a name that is varied stands for.
+/// What a varied name stands for.
 #[derive(Clone, Debug)]
 enum Place {
     /// A parameter or an input.
@@ -88,14 +89,14 @@ enum Place {
 pub struct Chunk {
     /// A row for each run.
     pub rows: Rows,
-    /// The samples of all runs, where some are asked for.
+    /// The samples of all runs, if the plan asks for samples.
     pub samples: Option<Rows>,
-    /// How many runs failed.
+    /// The number of failed runs.
     pub failed: u64,
 }
 
 impl Place {
-    /// What a name stands for: `omega`, `start(x)`, `rate(x)`. A state of first order is the rate of its integral.
+    /// Resolves a name: `omega`, `start(x)`, `rate(x)`. A state of first order is the rate of its integral.
     fn of(name: &str, model: &Model<'_>) -> Place {
         let inner = |function: &str| {
             let inner = name.strip_prefix(function)?.strip_prefix('(')?;
@@ -119,17 +120,17 @@ impl Place {
         }
     }
 
-    /// Whether it is a member of a family, which comes after the family.
+    /// Whether it is a member of a family; members are set after the family.
     fn is_member(&self) -> bool {
         let (Place::Set(name) | Place::Start(name) | Place::Rate(name)) = self;
         name.contains('[')
     }
 }
 
-/// The unit of what a name of `--vary` stands for.
+/// The unit of a name given to `--vary`.
 ///
 /// # Errors
-/// If the machine has nothing of this name; with the near name.
+/// If the machine has nothing of this name; suggests a similar name.
 pub fn unit_of(model: &Model<'_>, name: &str) -> Result<String, String> {
     let place = Place::of(name, model);
     let (what, wanted) = match &place {
@@ -179,10 +180,10 @@ pub fn unit_of(model: &Model<'_>, name: &str) -> Result<String, String> {
 }
 
 impl Sweep {
-    /// Derives the machine of a plan, with its formulas, and checks everything that can be known before the first run.
+    /// Derives the machine of a plan with its formulas, and checks everything that can be checked before the first run.
     ///
     /// # Errors
-    /// What is wrong.
+    /// If the spec or the plan is invalid: what is wrong.
     pub fn new(plan: Plan, engine: Engine) -> Result<Sweep, Wrong> {
         let constants = plan.spec.constants().map_err(Wrong::Plan)?;
         let dag = Dag::new();
@@ -260,7 +261,7 @@ impl Sweep {
         let mut probe = machine.clone();
         for place in &places {
             if let Place::Set(name) = place {
-                let _ = probe.set(name, 1.0); // it was looked up
+                let _ = probe.set(name, 1.0); // the name was checked
             }
         }
         probe.check_parameters().map_err(|missing| {
@@ -354,41 +355,40 @@ impl Sweep {
         &self.plan
     }
 
-    /// Cuts the sweep into chunks of another length, which changes no row.
+    /// Changes the length of chunks, which changes no row.
     pub fn set_chunk(&mut self, chunk: u64) {
         self.plan.chunk = chunk;
     }
 
-    /// Whether its machine has code for several runs at once in the lanes of the processor: machine code and no
-    /// contacts. Of [`Engine::Auto`] only as soon as code has paid for one run.
+    /// Whether several runs may execute at once in the lanes of the processor: this requires machine code and no
+    /// contacts. With [`Engine::Auto`] it is true only once machine code has paid off for one run.
     pub fn may_run_in_lanes(&self) -> bool {
         self.machine.may_run_in_lanes()
     }
 
-    /// What is to be said of it although it runs.
+    /// A warning about the sweep, if there is one.
     pub fn warning(&self) -> Option<&str> {
         self.warning.as_deref()
     }
 
-    /// Rows of a sweep, none yet.
+    /// An empty set of rows of this sweep.
     pub fn empty(&self) -> Rows {
         Rows::new(self.columns.clone())
     }
 
-    /// Samples of a sweep, none yet; nothing where none are asked for.
+    /// An empty set of samples; `None` if the plan asks for none.
     pub fn no_samples(&self) -> Option<Rows> {
         self.sample_columns.clone().map(Rows::new)
     }
 
-    /// Makes the runs of a chunk: the unit of work, which depends on the plan and on the chunk's number alone. Nothing comes of it
-    /// once `stop` is set.
+    /// Makes the runs of a chunk, the unit of work, which depends only on the plan and the chunk's index. `None` once `stop` is set.
     pub fn run_chunk(&self, chunk: u64, stop: &AtomicBool) -> Option<Chunk> {
         self.run(self.plan.runs_of(chunk), stop, &|_| ())
     }
 
-    /// Makes these runs; `done` is told of each whether it failed.
+    /// Makes these runs; `done` is called after each with whether it failed.
     pub fn run(&self, runs: Range<u64>, stop: &AtomicBool, done: &dyn Fn(bool)) -> Option<Chunk> {
-        // What a spec says of its numbers is known to its model, which belongs to one thread.
+        // Checks of numbers need the model of the spec, which belongs to one thread.
         let dag = Dag::new();
         let sets = self
             .places
@@ -450,7 +450,7 @@ impl Sweep {
             .collect()
     }
 
-    /// Makes these runs, in lanes where the machine has code for that; nothing where they were stopped.
+    /// Makes these runs, in lanes where the machine has code for that; `None` if they were stopped.
     fn run_group(
         &self,
         runs: &[(u64, Vec<f64>)],
@@ -490,7 +490,7 @@ impl Sweep {
         outcomes.collect()
     }
 
-    /// A run with the values of what is varied, not yet under way.
+    /// A run with its varied values, ready to start.
     fn begin_one(&self, values: &[f64], refuses: Option<&Model<'_>>) -> Begun {
         let plan = &self.plan;
         let mut machine = self.machine.clone();
@@ -499,7 +499,7 @@ impl Sweep {
             let varied = self.places.iter().zip(values);
             for (place, value) in varied.filter(|(place, _)| place.is_member() == is_member) {
                 match place {
-                    // All names were looked up.
+                    // All names were checked.
                     Place::Set(name) => drop(machine.set(name, *value)),
                     Place::Start(name) => coordinates[0].1.push((name, *value)),
                     Place::Rate(name) => coordinates[1].1.push((name, *value)),
@@ -511,11 +511,11 @@ impl Sweep {
             for is_member in [false, true] {
                 let given = given.iter().map(|(name, value)| (name, *value));
                 for (name, value) in given.filter(|(name, _)| name.contains('[') == is_member) {
-                    let _ = numbers.set(name, value); // it was looked up
+                    let _ = numbers.set(name, value); // the name was checked
                 }
             }
             for (name, value) in varied {
-                let _ = numbers.set(name, *value); // it was looked up
+                let _ = numbers.set(name, *value); // the name was checked
             }
         }
         let trackers = self.reductions.iter().map(|made| match made {
@@ -588,7 +588,7 @@ impl Sweep {
         }
         for (watch, &output) in plan.events.iter().zip(&self.events) {
             if self.signals.is_sampled() {
-                // What a controller holds is known to the run.
+                // This copy evaluates formulas; the run itself knows the held values of controllers.
                 let system = system.clone();
                 let seen = move |seen: &Observation<InterpretedMachine>| {
                     let (q, v, u) = (&seen.q.values, &seen.v.values, &seen.inputs.values);
@@ -620,7 +620,7 @@ impl Sweep {
         simulation.stop_if(|_| stop.load(Ordering::Relaxed))
     }
 
-    /// What came of a run that was begun; nothing where it was stopped.
+    /// The outcome of a run that was started; `None` if it was stopped.
     fn outcome(
         &self,
         run: u64,
@@ -702,31 +702,31 @@ impl Sweep {
     }
 }
 
-/// A run before its simulation: its machine with the values of what is varied, its start, and what is watched.
+/// A run before its simulation: its machine with the varied values, its start, and its observers.
 struct Begun {
     machine: InterpretedMachine,
-    /// What evaluates formulas while the run has a system of its own.
+    /// Evaluates formulas while the run uses its own system.
     system: InterpretedSystem,
     start: State<Named>,
     watched: Watched,
-    /// What the spec says of numbers that no machine has.
+    /// Why the spec refuses these numbers, if it does.
     refused: Option<String>,
 }
 
-/// What is looked at while a run is made.
+/// What is recorded while a run is made.
 struct Watched {
     trackers: Vec<Option<Tracker>>,
     /// The states at recorded instants.
     at: Vec<Option<State<Named>>>,
     samples: Option<Rows>,
-    /// The number of the next sample.
+    /// The index of the next sample.
     due: u64,
-    /// What the trackers saw of the step.
+    /// The states that the trackers evaluated within the step.
     seen: Seen,
 }
 
 impl Watched {
-    /// Looks at a step.
+    /// Records a step.
     fn take(
         &mut self,
         plan: &Plan,
@@ -766,7 +766,7 @@ impl Watched {
         Ok(())
     }
 
-    /// Adds what is known at the ends of a run without a step.
+    /// Adds the recorded instants and samples at the ends of a run, which may have taken no step.
     fn end(&mut self, plan: &Plan, (run, start, end): (u64, &State<Named>, &State<Named>)) {
         for (t, state) in plan.at.iter().zip(&mut self.at) {
             if *t == start.t {
@@ -779,7 +779,7 @@ impl Watched {
     }
 }
 
-/// Whether a time is the end of a run, or before it by roundoff only.
+/// Whether a time is the end of a run, or before it only by round-off.
 fn is_end(t: f64, until: f64) -> bool {
     (until - t) * until.signum() <= 4.0 * f64::EPSILON * until.abs()
 }
@@ -792,7 +792,7 @@ fn sample(run: u64, state: &State<Named>) -> Vec<Cell> {
     std::iter::once(Cell::Count(run)).chain(numbers).collect()
 }
 
-/// What came of a run.
+/// The outcome of a run.
 struct Outcome {
     status: String,
     error: Option<String>,
@@ -805,7 +805,7 @@ struct Outcome {
 }
 
 impl Outcome {
-    /// A run that did not begin.
+    /// The outcome of a run that could not start.
     fn failed(start: State<Named>, instants: usize, reductions: usize) -> Outcome {
         Outcome {
             status: "failed".into(),
@@ -841,7 +841,7 @@ impl Outcome {
     }
 }
 
-/// What the spec of a plan means, with formulas beside it.
+/// The model of the plan's spec, with its formulas added.
 fn model<'d>(
     plan: &Plan,
     constants: &[(String, Rational)],
@@ -857,7 +857,7 @@ fn model<'d>(
     Model::resolve_with(spec, dag, constants, formulas, files, sources, report)
 }
 
-/// What a reduction is of, and whether it is of the size of that.
+/// The argument of a reduction, and whether its absolute value is reduced.
 fn subject(reduction: &Reduction) -> (&str, bool) {
     let text = reduction.of.trim();
     let is_extreme = matches!(reduction.function, Function::Max | Function::WhenMax);
@@ -869,7 +869,7 @@ fn subject(reduction: &Reduction) -> (&str, bool) {
     }
 }
 
-/// Whether every bracket that closes was opened before.
+/// Whether every closing bracket has been opened before.
 fn is_closed(text: &str) -> bool {
     let mut depth = 0_i32;
     let mut closed = text.chars().map(|c| {
@@ -883,7 +883,7 @@ fn is_closed(text: &str) -> bool {
     closed.all(|is_open| is_open)
 }
 
-/// Name, what messages call it, text and unit of every formula of a plan, in the order inputs, events, reductions.
+/// Name, description for messages, text and unit of every formula of a plan, in the order inputs, events, reductions.
 fn names(plan: &Plan, model: &Model<'_>) -> Vec<(String, String, String, Option<String>)> {
     let mut all = Vec::new();
     for (name, law) in &plan.inputs {
@@ -932,7 +932,7 @@ fn names(plan: &Plan, model: &Model<'_>) -> Vec<(String, String, String, Option<
     all
 }
 
-/// Checks names and numbers of a plan; what each varied name stands for.
+/// Checks names and numbers of a plan; returns what each varied name stands for.
 fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
     let wrong = |message: String| Err(Wrong::Plan(message));
     if design::runs(&plan.design).is_none() {
@@ -1084,7 +1084,7 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
         .collect())
 }
 
-/// What may happen to the unilateral contacts of a machine, as runs name it: `floor impact`.
+/// The events of the unilateral contacts of a machine, as runs name them: `floor impact`.
 fn contact_events(model: &Model<'_>) -> Vec<String> {
     let of_contact = |contact: &Contact<'_>| {
         let kinds = ContactEventKind::ALL.into_iter();
@@ -1096,7 +1096,7 @@ fn contact_events(model: &Model<'_>) -> Vec<String> {
     model.contacts.iter().flat_map(of_contact).collect()
 }
 
-/// Sets families first.
+/// Sets values, families before their members.
 fn set_all(machine: &mut InterpretedMachine, all: &[(String, f64)]) -> Result<(), String> {
     for is_member in [false, true] {
         for (name, value) in all
@@ -1111,7 +1111,7 @@ fn set_all(machine: &mut InterpretedMachine, all: &[(String, f64)]) -> Result<()
     Ok(())
 }
 
-/// The columns of rows and of samples.
+/// The columns of rows and those of samples.
 fn columns(
     plan: &Plan,
     model: &Model<'_>,

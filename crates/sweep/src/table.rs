@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::rows::{Rows, Values};
 
-/// The formats.
+/// The file formats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// Comma-separated text; numbers in the shortest form that reads back to the same bits.
@@ -15,7 +15,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// The ending of a file's name.
+    /// The extension of a file name.
     pub fn ending(self) -> &'static str {
         match self {
             Format::Csv => "csv",
@@ -29,16 +29,17 @@ impl Format {
     }
 }
 
-/// The line of comma-separated text that names the columns.
+/// The header line of comma-separated text.
 pub(crate) fn csv_header(rows: &Rows) -> String {
     let names = rows.columns.iter().map(|column| quoted(&column.name));
     names.collect::<Vec<_>>().join(",") + "\n"
 }
 
-/// The rows of a file of comma-separated text, which has columns like these; with a line of names, or without one as chunks are.
+/// Reads the rows of a file of comma-separated text whose columns are like these. `has_names` says whether there is a header
+/// line; files of chunks have none.
 ///
 /// # Errors
-/// What is wrong with the file.
+/// If the file is invalid: what is wrong with it.
 pub fn read_csv(path: &Path, like: &Rows, has_names: bool) -> io::Result<Rows> {
     let wrong = |why: &str| io::Error::other(why.to_owned());
     let text = std::fs::read_to_string(path)?;
@@ -98,7 +99,7 @@ pub(crate) fn csv_lines(rows: &Rows, to: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// A text as it stands in comma-separated text (RFC 4180).
+/// A text with the quotes that comma-separated text requires (RFC 4180).
 fn quoted(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
@@ -107,10 +108,10 @@ fn quoted(text: &str) -> String {
     }
 }
 
-/// The cells of lines of comma-separated text, quotes taken away.
+/// The cells of lines of comma-separated text, without quotes.
 ///
 /// # Errors
-/// Where a quote is not closed.
+/// If a quote is not closed.
 pub fn csv_cells(text: &str) -> Result<Vec<Vec<String>>, String> {
     let mut rows = Vec::new();
     let (mut row, mut cell) = (Vec::new(), String::new());
@@ -158,7 +159,7 @@ mod without_parquet {
         ))
     }
 
-    /// A Parquet file in the making, which cannot be.
+    /// A writer of Parquet files, which this build cannot make.
     pub(crate) struct Writer<W>(std::marker::PhantomData<W>);
 
     impl<W: Write + Send> Writer<W> {
@@ -178,7 +179,7 @@ mod without_parquet {
     /// The rows of a Parquet file.
     ///
     /// # Errors
-    /// There are none in this build.
+    /// Always: this build cannot read Parquet.
     pub fn read(_: &Path, _: &Rows) -> io::Result<Rows> {
         none()
     }
@@ -186,7 +187,7 @@ mod without_parquet {
     /// The columns of numbers of a Parquet file.
     ///
     /// # Errors
-    /// There are none in this build.
+    /// Always: this build cannot read Parquet.
     pub fn numbers(_: &Path) -> io::Result<(Vec<String>, Vec<Vec<f64>>)> {
         none()
     }
@@ -194,12 +195,12 @@ mod without_parquet {
     /// The columns and rows of a Parquet file as texts.
     ///
     /// # Errors
-    /// There are none in this build.
+    /// Always: this build cannot read Parquet.
     pub fn cells(_: &Path) -> io::Result<Vec<Vec<String>>> {
         none()
     }
 
-    /// What is said of a Parquet file under a name.
+    /// A metadata value of a Parquet file; this build reads none.
     pub fn metadata(_: &Path, _: &str) -> Option<String> {
         None
     }
@@ -228,11 +229,11 @@ mod with_parquet {
     use super::*;
     use crate::rows::Kind;
 
-    /// A Parquet file in the making.
+    /// A writer of a Parquet file.
     pub(crate) struct Writer<W: Write + Send>(SerializedFileWriter<W>);
 
     impl<W: Write + Send> Writer<W> {
-        /// Columns like those of these rows, and what is said of the file.
+        /// Starts a file with columns like those of these rows, and with metadata.
         pub fn new(to: W, rows: &Rows, said: &[(&str, String)]) -> io::Result<Self> {
             let field = |column: &crate::rows::Column| {
                 let (physical, logical) = match column.kind {
@@ -264,7 +265,7 @@ mod with_parquet {
             Ok(Writer(writer))
         }
 
-        /// Adds rows, as one group.
+        /// Writes rows as one row group.
         pub fn write(&mut self, rows: &Rows) -> io::Result<()> {
             let mut group = self.0.next_row_group()?;
             for values in &rows.values {
@@ -303,13 +304,13 @@ mod with_parquet {
             Ok(())
         }
 
-        /// Writes the end of the file.
+        /// Finishes the file.
         pub fn end(self) -> io::Result<W> {
             Ok(self.0.into_inner()?)
         }
     }
 
-    /// For each value whether it is there.
+    /// The definition level of each value: 1 if it is present, otherwise 0.
     fn levels<T>(values: &[Option<T>]) -> Vec<i16> {
         values
             .iter()
@@ -317,10 +318,10 @@ mod with_parquet {
             .collect()
     }
 
-    /// The rows of a Parquet file that has columns like these.
+    /// Reads the rows of a Parquet file whose columns are like these.
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// If the file is invalid: what is wrong with it.
     pub fn read(path: &Path, like: &Rows) -> io::Result<Rows> {
         let reader = SerializedFileReader::new(File::open(path)?)?;
         let fields = reader
@@ -380,10 +381,10 @@ mod with_parquet {
         Ok(())
     }
 
-    /// The columns of a Parquet file and its rows, all numbers.
+    /// The names and values of the columns of a Parquet file of numbers.
     ///
     /// # Errors
-    /// What is wrong with the file, or what in it is no number.
+    /// If the file is invalid, or a value is not a number.
     pub fn numbers(path: &Path) -> io::Result<(Vec<String>, Vec<Vec<f64>>)> {
         let reader = SerializedFileReader::new(File::open(path)?)?;
         let fields = reader
@@ -417,10 +418,10 @@ mod with_parquet {
         Ok((names, rows))
     }
 
-    /// The names of the columns of a Parquet file, and its rows, as texts as comma-separated text has them.
+    /// The column names and rows of a Parquet file, as texts like those of comma-separated text.
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// If the file is invalid: what is wrong with it.
     pub fn cells(path: &Path) -> io::Result<Vec<Vec<String>>> {
         let reader = SerializedFileReader::new(File::open(path)?)?;
         let fields = reader
@@ -444,7 +445,7 @@ mod with_parquet {
         Ok(rows)
     }
 
-    /// What is said of a Parquet file under a name.
+    /// The metadata value under a name in a Parquet file.
     pub fn metadata(path: &Path, name: &str) -> Option<String> {
         let reader = SerializedFileReader::new(File::open(path).ok()?).ok()?;
         let said = reader.metadata().file_metadata().key_value_metadata()?;
@@ -505,7 +506,7 @@ mod tests {
         let mut expected = rows();
         expected.extend(rows().take(2));
         let found = read(&path, &rows()).unwrap();
-        // What is no number is not equal to itself.
+        // Compared as text, because NaN is not equal to itself.
         assert_eq!(format!("{found:?}"), format!("{expected:?}"));
         assert_eq!(metadata(&path, "plan").as_deref(), Some("p"));
     }

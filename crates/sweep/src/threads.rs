@@ -1,4 +1,4 @@
-//! All chunks of a sweep, over the cores of one machine.
+//! Runs all chunks of a sweep on the cores of one computer.
 
 use std::num::NonZero;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
@@ -9,38 +9,39 @@ use crate::folder::{Folder, Trouble};
 use crate::plan::LONGEST_CHUNK;
 use crate::sweep::Sweep;
 
-/// How long a chunk is to take.
+/// The time that a chunk should take.
 const CHUNK: Duration = Duration::from_secs(1);
 
-/// How many runs fill the lanes of a processor twice, and how long a chunk may take alone so that they do.
+/// The number of runs that fills the lanes of a processor twice, and the longest time that a chunk may take
+/// for this purpose.
 const FILLS_LANES: u64 = 16;
 const LONGEST: Duration = Duration::from_secs(10);
 
-/// How many runs tell how long one takes.
+/// How many runs are timed to choose the length of chunks.
 const TRIED: u64 = 8;
 
-/// Chunks for each core, so that none waits long for the others at the end.
+/// The number of chunks per core, so that no core idles for long at the end.
 const CHUNKS_A_CORE: u64 = 4;
 
-/// How often progress is reported.
+/// The interval between progress reports.
 const BETWEEN: Duration = Duration::from_millis(100);
 
-/// How far a sweep is.
+/// The progress of a sweep.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Progress {
-    /// How many runs are done, those of before among them.
+    /// The number of finished runs, including those of earlier sessions.
     pub done: u64,
-    /// How many of those that were done now have failed.
+    /// The number of failed runs of this session.
     pub failed: u64,
 }
 
-/// How many threads there are where nobody says it.
+/// The default number of threads.
 pub fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, NonZero::get)
 }
 
-/// A length of chunks: as many runs as take about a second, by the first of them, and more where lanes wait for them; a power of
-/// two.
+/// Chooses a length of chunks: as many runs as take about a second, judged by the first ones, and more where this fills
+/// lanes; a power of two.
 pub fn chunk_length(sweep: &Sweep) -> u64 {
     let runs = sweep.plan().runs();
     let most = (runs / (CHUNKS_A_CORE * cores() as u64)).clamp(1, LONGEST_CHUNK);
@@ -75,11 +76,11 @@ pub fn chunk_length(sweep: &Sweep) -> u64 {
     1 << (63 - length.leading_zeros())
 }
 
-/// Makes all chunks that are not there yet, and keeps them. Stops where `stop` is set, or after as many runs as `limit` says and
-/// the chunks under way; `watch` is told ten times a second. How many runs were made.
+/// Makes and stores all missing chunks. Stops when `stop` is set or, after finishing the chunks under way, when `limit` runs are
+/// done; `watch` is called ten times a second. Returns the number of runs made.
 ///
 /// # Errors
-/// If a chunk cannot be kept. Those that are there stay.
+/// If a chunk cannot be stored. Chunks stored before remain.
 pub fn run_all(
     sweep: &Sweep,
     folder: &Folder,

@@ -1,37 +1,36 @@
-//! Whether a run counts.
+//! Decides whether a run counts as good.
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Energies, Error, InputLaw, Machine, Solution, Warning};
 
 use crate::shortest;
 
-/// More than this of the energy turned over may not be missing for a run to count as good.
+/// The largest part of the turned-over energy that may be missing in a good run.
 const MOST_MISSING: f64 = 1e-3;
 
-/// What ended a run, in the words of the command.
+/// The reason why a run ended, in the words of the command.
 pub fn said(error: &Error) -> String {
     match error {
-        // The library names its method.
+        // The library's message names its own method.
         Error::TooManySteps { .. } => error.to_string().replace("`max_steps`", "--max-steps"),
         error => error.to_string(),
     }
 }
 
-/// What is wrong with a run that came to its end: an energy that is no number, or too much of it missing.
+/// What is wrong with a run that reached its end: an energy that is not a number, or too much energy missing.
 pub fn objection<L: InputLaw<<InterpretedMachine as Machine>::System>>(
     run: &Solution<InterpretedMachine, L>,
 ) -> Option<String> {
     overflow(run.energies()).or_else(|| imbalance(run.warnings()))
 }
 
-/// Whether so much energy is missing, beyond what tolerance and rounding explain, that the motion is not that of the
-/// machine.
+/// Whether more energy is missing than tolerance and round-off explain, so that the motion is not that of the machine.
 fn imbalance(warnings: &[Warning]) -> Option<String> {
     let unexplained = |warning: &&Warning| matches!(warning, Warning::EnergyUnexplained { relative, .. } if relative.abs() > MOST_MISSING);
     warnings.iter().find(unexplained).map(ToString::to_string)
 }
 
-/// Whether an energy was greater than any number: then nothing is known of their balance.
+/// Whether an energy overflowed: its balance is then unknown.
 fn overflow(energies: &[Energies]) -> Option<String> {
     let mut energies = energies.iter();
     let is_finite = |e: &&Energies| {

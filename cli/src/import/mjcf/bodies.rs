@@ -1,9 +1,9 @@
-//! Bodies in bodies, with their joints, and what they weigh.
+//! Nested bodies with their joints and masses.
 
 use super::*;
 
 impl<'e> Reader<'_, '_, 'e> {
-    /// What stands in a body, or in a frame of it that has a pose.
+    /// The contents of a body, or of a frame in it, which has a pose.
     pub(super) fn parts(
         &mut self,
         owner: &'e Element,
@@ -41,7 +41,7 @@ impl<'e> Reader<'_, '_, 'e> {
         }
     }
 
-    /// A name that no link and no joint has yet.
+    /// A name that no link or joint has yet.
     fn name(&mut self, name: String) -> String {
         let mut given = name.clone();
         let mut number = 2_usize;
@@ -88,7 +88,7 @@ impl<'e> Reader<'_, '_, 'e> {
             ..Link::default()
         });
         let mut found = Found::default();
-        // Joints stand before those of bodies in this one, wherever they are in the file.
+        // Joints of a body come before those of the bodies in it, wherever they are in the file.
         let is_joint = |part: &&Element| matches!(part.name.as_str(), "joint" | "freejoint");
         let mut joints = Vec::new();
         for part in element.children.iter().filter(is_joint) {
@@ -102,7 +102,8 @@ impl<'e> Reader<'_, '_, 'e> {
         self.robot.links[place].inertial = inertial;
     }
 
-    /// The joints from a body to the one that it hangs on: each has its own place, and behind the last stands the body's frame.
+    /// The chain of joints from a body to its parent: each joint has its own position, and the body's frame
+    /// follows the last.
     fn chain(
         &mut self,
         link: &Parent,
@@ -115,7 +116,7 @@ impl<'e> Reader<'_, '_, 'e> {
         let mut above = parent.name.clone();
         let Pose { xyz, mut turns } = pose;
         let mut shift = xyz;
-        // Where the last joint was, in the body's frame.
+        // The position of the previous joint, in the body's frame.
         let mut last = Vector3::zeros();
         let mut held = Vec::new();
         for (number, item) in joints.iter().enumerate() {
@@ -144,7 +145,7 @@ impl<'e> Reader<'_, '_, 'e> {
                 } else {
                     (here - last).map(Number::computed).into()
                 };
-                // Behind the turns of the body's frame.
+                // This step follows the rotation of the body's frame.
                 let step = Pose {
                     xyz: shift,
                     turns: turns.clone(),
@@ -164,7 +165,7 @@ impl<'e> Reader<'_, '_, 'e> {
             above = if is_last {
                 link.name.clone()
             } else {
-                // No name of a file has a line's end in it.
+                // Names in a file contain no line break, so this name is unique.
                 let between = format!("{}\n{number}", link.name);
                 self.robot.links.push(Link {
                     name: between.clone(),
@@ -316,7 +317,7 @@ impl<'e> Reader<'_, '_, 'e> {
         joint
     }
 
-    /// Whether a range holds.
+    /// Whether a range is enforced.
     pub(super) fn is_limited(&mut self, item: &Item<'e>, flag: &str, range: &str) -> bool {
         let has_range = self.said(item, range).is_some();
         let otherwise = has_range && self.compiler.finds_limits;
@@ -399,7 +400,7 @@ impl<'e> Reader<'_, '_, 'e> {
         found.solids.push(Solid::of(shape, mass, own.0, &own.1));
     }
 
-    /// A mesh that geometry may name.
+    /// Registers a mesh, to which geometry may refer.
     pub(super) fn mesh(&mut self, element: &'e Element) {
         let item = self.item(element, 0);
         let file = self.word(&item, "file").unwrap_or_default();
@@ -411,7 +412,7 @@ impl<'e> Reader<'_, '_, 'e> {
         self.meshes.insert(name, item);
     }
 
-    /// The volume of the mesh of a geom in the geom's frame, or why it is not known.
+    /// The volume of a geom's mesh in the geom's frame, or why it is unknown.
     fn weight_of_mesh(&mut self, geom: &Item<'e>) -> Result<mesh::Volume, String> {
         let name = self.word(geom, "mesh").unwrap_or_default();
         let item = self.meshes.get(name).cloned();
@@ -482,14 +483,14 @@ impl<'e> Reader<'_, '_, 'e> {
             .ok_or_else(|| "its mesh has nothing inside".to_owned())
     }
 
-    /// The ends of a shape that is given by them.
+    /// The ends of a shape that is given by its ends.
     fn between(&mut self, item: &Item<'e>) -> Option<[Vector3<f64>; 2]> {
         let ends = self.numbers::<6>(item, "fromto")?;
         let ends = ends.map(|number| number.value);
         Some([[0, 1, 2], [3, 4, 5]].map(|places| Vector3::from(places.map(|place| ends[place]))))
     }
 
-    /// A shape whose mass is known, unless something is wrong with it.
+    /// A shape with known mass, unless it is invalid.
     fn shape(&mut self, item: &Item<'e>, kind: &str) -> Option<Shape> {
         if !matches!(
             kind,
@@ -547,7 +548,7 @@ impl<'e> Reader<'_, '_, 'e> {
         })
     }
 
-    /// What a body weighs: what is written, or what follows from geometry.
+    /// The inertia of a body: as given, or computed from geometry.
     fn weight(&mut self, link: &Parent, found: &Found<'e>) -> Option<Inertial> {
         let has_geometry = !found.solids.is_empty() || !found.unknown.is_empty();
         let from_geometry = match self.compiler.from_geometry {
@@ -587,7 +588,7 @@ impl<'e> Reader<'_, '_, 'e> {
         })
     }
 
-    /// An element `inertial`.
+    /// The inertia given by an element `inertial`.
     fn written(&mut self, element: &'e Element, link: &Parent) -> Option<Inertial> {
         let item = Item {
             element,
@@ -636,7 +637,7 @@ impl<'e> Reader<'_, '_, 'e> {
         })
     }
 
-    /// Scales all masses to what the compiler says that they come to.
+    /// Scales all masses to the total that the compiler settings give.
     pub(super) fn settle_mass(&mut self) {
         let Some(total) = self.compiler.total_mass else {
             return;

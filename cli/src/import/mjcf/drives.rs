@@ -1,4 +1,4 @@
-//! What acts on joints besides their own springs and dampers: actuators, equations between joints, tendons.
+//! Forces on joints besides their own springs and dampers: actuators, equations between joints, tendons.
 
 use super::*;
 
@@ -29,7 +29,7 @@ impl<'e> Reader<'_, '_, 'e> {
         found
     }
 
-    /// A tendon without spring, damper and friction does nothing by itself.
+    /// Reads a tendon; without spring, damper and friction it has no effect by itself.
     pub(super) fn tendon(&mut self, element: &'e Element) {
         let item = self.item(element, 0);
         let acts = [
@@ -111,8 +111,8 @@ impl<'e> Reader<'_, '_, 'e> {
         });
     }
 
-    /// MuJoCo keeps one default for actuators of all kinds, which each kind changes in turn. Where classes say something of several
-    /// kinds, an actuator has to say itself what its force is.
+    /// MuJoCo has a single default for actuators of all kinds, which each kind modifies in turn. If classes set attributes of
+    /// several kinds, an actuator must give the attributes of its force itself.
     fn says_itself(&mut self, item: &Item<'e>, kind: &str, needed: &[&str]) -> bool {
         let tags = self.classes.tags(item.class, &DRIVES);
         let is_clear =
@@ -134,7 +134,7 @@ impl<'e> Reader<'_, '_, 'e> {
         }
     }
 
-    /// How the force of an actuator follows from its input.
+    /// The force of an actuator as a function of its input.
     fn law(&mut self, item: &Item<'e>, kind: &str) -> Option<Law> {
         let number = |reader: &mut Self, name: &str, usual: f64| {
             reader
@@ -171,7 +171,7 @@ impl<'e> Reader<'_, '_, 'e> {
         }
     }
 
-    /// A gain that is constant, and a bias that is linear.
+    /// A general actuator with constant gain and affine bias.
     fn general(&mut self, item: &Item<'e>) -> Option<Law> {
         for (name, fine) in [
             ("dyntype", &["none"][..]),

@@ -1,20 +1,20 @@
-//! What closes loops of bodies, and the state in which a model begins.
+//! Closed loops of bodies, and the initial state of a model.
 
 use super::*;
 use crate::import::robot::Anchor;
 
-/// Axes as columns, and a place.
+/// A pose: axes as columns, and a position.
 #[derive(Clone, Copy)]
 struct Rest {
     axes: Matrix3<f64>,
     origin: Vector3<f64>,
 }
 
-/// Below this share of the lengths in a place it is rounding.
+/// Components below this fraction of the lengths in a position are round-off.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 impl<'e> Reader<'_, '_, 'e> {
-    /// Where a body is as long as its joints move nothing; none of that name.
+    /// The pose of a body in the reference configuration of all joints; `None` if there is no body of this name.
     fn at_rest(&self, body: &str) -> Option<Rest> {
         let mut rests = HashMap::from([(
             "world",
@@ -23,7 +23,7 @@ impl<'e> Reader<'_, '_, 'e> {
                 origin: Vector3::zeros(),
             },
         )]);
-        // Each joint stands behind the one that it hangs on.
+        // Each joint comes after its parent.
         for joint in &self.robot.joints {
             let above = *rests.get(joint.parent.as_str())?;
             let number = |number: &Number| number.value;
@@ -58,8 +58,8 @@ impl<'e> Reader<'_, '_, 'e> {
         Some((body, rest?))
     }
 
-    /// A point of one body that is one of another, and for `weld` axes that are the other's: as they are where joints move nothing, or as
-    /// `relpose` says.
+    /// A loop closure: a point of one body coincides with one of another, and for `weld` their axes do too, either as in the
+    /// reference configuration or as `relpose` gives.
     pub(super) fn closing(&mut self, element: &'e Element) {
         let kind = element.name.as_str();
         let item = self.item(element, 0);
@@ -122,7 +122,7 @@ impl<'e> Reader<'_, '_, 'e> {
             let mut there = between.origin + between.axes * place;
             if let Some(pose) = self.numbers::<7>(&item, "relpose") {
                 let [x, y, z, turn @ ..] = pose.map(|number| number.value);
-                // Its place is that of the anchor.
+                // The position of `relpose` is that of the anchor.
                 if turn.iter().any(|x| *x != 0.0) {
                     axes = of_quaternion(turn);
                     there = Vector3::new(x, y, z);
@@ -155,7 +155,7 @@ impl<'e> Reader<'_, '_, 'e> {
         });
     }
 
-    /// The state called `home`, in which the machine starts.
+    /// Reads the keyframe `home`, in which the machine starts.
     pub(super) fn home(&mut self, key: &'e Element) {
         let item = self.item(key, 0);
         if let Some((q, at)) = self.list(&item, "qpos") {
@@ -252,7 +252,7 @@ impl<'e> Reader<'_, '_, 'e> {
     }
 }
 
-/// The axes, as columns, that a quaternion leads to; those of no turn where it is zero.
+/// The rotation matrix of a quaternion; the identity if it is zero.
 fn of_quaternion([w, x, y, z]: [f64; 4]) -> Matrix3<f64> {
     let square = w * w + x * x + y * y + z * z;
     if square == 0.0 {

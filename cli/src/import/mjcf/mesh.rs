@@ -1,27 +1,27 @@
-//! Solids between triangles: STL (binary and text), OBJ, and numbers in the model's own file.
+//! Meshes: STL (binary and text), OBJ, and numbers in the model file.
 
 use nalgebra::{Matrix3, Vector3};
 
 /// The most triangles that are read.
 const MOST_FACES: usize = 2_000_000;
 
-/// Points, and triangles of three of them.
+/// Points, and triangles as triples of them.
 #[derive(Debug, Default)]
 pub struct Mesh {
     pub points: Vec<Vector3<f64>>,
     pub faces: Vec<[usize; 3]>,
 }
 
-/// What is counted of the pyramids between triangles and a point inside.
+/// How the volumes of pyramids between triangles and an inner point are summed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Inside {
-    /// Each with the sign that its triangle's order gives: the solid itself.
+    /// With the sign of the triangle's orientation: the volume of the solid itself.
     Signed,
-    /// Each as positive, as MuJoCo does where a file says nothing: the same where every triangle is seen from inside.
+    /// With absolute values, as MuJoCo does by default: the same if the point is on the inner side of every triangle.
     Absolute,
 }
 
-/// Volume, centre, and the tensor about the centre for a density of 1.
+/// The volume, its centre, and the tensor about the centre for a density of 1.
 #[derive(Debug)]
 pub struct Volume {
     pub volume: f64,
@@ -30,10 +30,10 @@ pub struct Volume {
 }
 
 impl Mesh {
-    /// A mesh by the ending of its file.
+    /// Reads a mesh in the format of its file extension.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// If the mesh is invalid: what is wrong with it.
     pub fn read(name: &str, bytes: &[u8]) -> Result<Mesh, String> {
         let ending = name.rsplit('.').next().unwrap_or_default();
         let mesh = match ending.to_ascii_lowercase().as_str() {
@@ -58,7 +58,7 @@ impl Mesh {
         }
     }
 
-    /// One triangle after another, each with points of its own.
+    /// Separate triangles, each with its own points.
     fn stl(bytes: &[u8]) -> Result<Mesh, String> {
         let cut = || "the file ends within the mesh".to_owned();
         let mut mesh = Mesh::default();
@@ -103,7 +103,7 @@ impl Mesh {
         Ok(mesh)
     }
 
-    /// Points, and faces that are cut into triangles from their first point.
+    /// Points, and faces that are divided into triangles from their first point.
     fn obj(bytes: &[u8]) -> Result<Mesh, String> {
         let text = std::str::from_utf8(bytes).map_err(|_| "the text is not UTF-8".to_owned())?;
         let mut mesh = Mesh::default();
@@ -117,7 +117,7 @@ impl Mesh {
                         let number = word.split('/').next()?.parse::<i64>().ok()?;
                         match number {
                             1.. => usize::try_from(number - 1).ok(),
-                            // Counted from the last point so far.
+                            // A negative index counts back from the last point so far.
                             _ => count.checked_sub(usize::try_from(-number).ok()?),
                         }
                     };
@@ -135,7 +135,7 @@ impl Mesh {
         Ok(mesh)
     }
 
-    /// What is inside. None where nothing is.
+    /// The enclosed volume; `None` if there is none.
     pub fn inside(&self, inside: Inside) -> Option<Volume> {
         let corners = |face: &[usize; 3]| face.map(|point| self.points[point]);
         let area = |[a, b, c]: [Vector3<f64>; 3]| (b - a).cross(&(c - a)).norm() / 2.0;
@@ -166,7 +166,7 @@ impl Mesh {
             moment += (a + b + c) / 4.0 * part;
         }
         let centre = middle + moment / volume;
-        // The second moments of a pyramid over a triangle, with its top at the origin.
+        // The second moments of a pyramid over a triangle, with its apex at the origin.
         let mut seconds = Matrix3::zeros();
         let mut again = 0.0;
         for face in &self.faces {
@@ -198,7 +198,7 @@ fn point<'t>(mut words: impl Iterator<Item = &'t str>) -> Result<Vector3<f64>, S
 mod tests {
     use super::*;
 
-    /// A box of 2 by 4 by 6 at (5, 0, -1), as quadrilaterals that are counted both ways, and as an STL of triangles.
+    /// A box of 2 by 4 by 6 at (5, 0, -1), as quadrilaterals with positive and negative indices, and as STL triangles.
     #[test]
     fn a_box_of_triangles_is_a_box() {
         let corners = (0..8).map(|i| {

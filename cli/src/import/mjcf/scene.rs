@@ -1,4 +1,4 @@
-//! A file of MJCF with the files that it includes as one tree of elements, and the defaults of its classes.
+//! A MJCF file with all included files as one tree of elements, and the defaults of its classes.
 
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
@@ -9,19 +9,19 @@ use crate::import::faults::Faults;
 use crate::import::names::quoted;
 use crate::import::xml;
 
-/// No file nests its elements deeper.
+/// The deepest nesting of elements that is accepted.
 const DEEPEST: usize = 200;
 
-/// The most files that one includes.
+/// The most files that may be included.
 const MOST_FILES: usize = 100;
 
-/// An element with what stands in it.
+/// An element with its children.
 #[derive(Debug)]
 pub struct Element {
     pub name: String,
     pub attributes: Vec<Attribute>,
     pub children: Vec<Element>,
-    /// Where it begins.
+    /// The position of its beginning.
     pub at: usize,
 }
 
@@ -30,18 +30,18 @@ pub struct Element {
 pub struct Attribute {
     pub name: String,
     pub value: String,
-    /// Where the value begins.
+    /// The position of its value.
     pub at: usize,
 }
 
 impl Element {
-    /// What is said of an attribute in the element itself.
+    /// An attribute of the element itself.
     pub fn own(&self, name: &str) -> Option<&Attribute> {
         self.attributes.iter().find(|known| known.name == name)
     }
 }
 
-/// Reads files, each once.
+/// Reads files, each at most once.
 struct Reading<'f> {
     folder: &'f Path,
     read: &'f dyn Fn(&Path) -> Result<Vec<u8>, String>,
@@ -49,7 +49,7 @@ struct Reading<'f> {
     faults: &'f mut Faults,
 }
 
-/// Reads a file and what it includes, by paths from `folder`.
+/// Reads a file and all that it includes, by paths relative to `folder`.
 pub fn read(
     text: &str,
     folder: &Path,
@@ -67,7 +67,7 @@ pub fn read(
 }
 
 impl Reading<'_> {
-    /// An element of a text whose places begin at `start`.
+    /// Converts an element of a text whose positions begin at `start`.
     fn element(&mut self, node: Node<'_, '_>, start: usize, depth: usize) -> Option<Element> {
         let at = start + node.range().start;
         if depth > DEEPEST {
@@ -97,7 +97,7 @@ impl Reading<'_> {
         Some(element)
     }
 
-    /// Puts what a file has in place of the element that includes it.
+    /// Replaces an `include` by the contents of its file.
     fn include(
         &mut self,
         node: Node<'_, '_>,
@@ -134,7 +134,7 @@ impl Reading<'_> {
     }
 }
 
-/// The defaults of elements, by class. The first class is the one of elements without any.
+/// The defaults of elements by class. The first class is that of elements without a class.
 pub struct Classes<'e> {
     list: Vec<Class<'e>>,
     by_name: HashMap<&'e str, usize>,
@@ -146,7 +146,7 @@ struct Class<'e> {
 }
 
 impl<'e> Classes<'e> {
-    /// The classes of the sections `default` of a file.
+    /// The classes in the `default` sections of a file.
     pub fn of(root: &'e Element, faults: &mut Faults) -> Classes<'e> {
         let mut classes = Classes {
             list: vec![Class {
@@ -194,19 +194,19 @@ impl<'e> Classes<'e> {
         }
     }
 
-    /// The class of a name.
+    /// The class with this name.
     pub fn named(&self, name: &str) -> Option<usize> {
         self.by_name.get(name).copied()
     }
 
-    /// Every element of every class.
+    /// All elements of all classes.
     pub fn elements(&self) -> impl Iterator<Item = &'e Element> + use<'e, '_> {
         self.list
             .iter()
             .flat_map(|class| class.elements.iter().copied())
     }
 
-    /// Which of some elements a class and those above it say something of.
+    /// Which of these elements a class or its ancestors set attributes for.
     pub fn tags<'t>(&self, class: usize, among: &[&'t str]) -> Vec<&'t str> {
         let mut found = Vec::new();
         let mut at = Some(class);
@@ -219,8 +219,7 @@ impl<'e> Classes<'e> {
         found
     }
 
-    /// What is said of an attribute: by the element itself, or by the nearest class that says it of an element whose name is among
-    /// `tags`.
+    /// The value of an attribute: from the element itself, or from the nearest class that sets it for an element with a name among `tags`.
     pub fn find(
         &self,
         element: &'e Element,

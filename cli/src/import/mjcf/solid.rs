@@ -1,19 +1,19 @@
-//! What simple solids weigh, and their moments of inertia.
+//! Volumes and moments of inertia of simple solids.
 
 use std::f64::consts::PI;
 
 use nalgebra::{Matrix3, Vector3};
 
-/// Of sums that cancel, what is smaller than this share of the largest entry comes from rounding.
+/// Entries of sums with cancellation below this fraction of the largest entry are round-off.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// Shapes by the numbers of `size`, in m: half of lengths, and radii.
+/// Shapes with the numbers of `size`, in m: half lengths, and radii.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
     Sphere {
         radius: f64,
     },
-    /// Half the length is that of the cylinder between the half balls.
+    /// The half length is that of the cylinder between the hemispheres.
     Capsule {
         radius: f64,
         half: f64,
@@ -31,7 +31,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// In m³.
+    /// The volume in m³.
     pub fn volume(self) -> f64 {
         match self {
             Shape::Sphere { radius } => 4.0 / 3.0 * PI * radius.powi(3),
@@ -60,7 +60,7 @@ impl Shape {
                 [across, across, radius * radius / 2.0]
             }
             Shape::Capsule { radius, half } => {
-                // Two half balls, whose centres of mass are 3/8 of the radius from their flat sides.
+                // Two hemispheres, whose centres of mass are 3/8 of the radius from their flat sides.
                 let ball = 4.0 * radius / (4.0 * radius + 6.0 * half);
                 let tube = 1.0 - ball;
                 let [square, length] = [radius * radius, half * half];
@@ -73,7 +73,7 @@ impl Shape {
     }
 }
 
-/// A solid in a body: its mass, its centre, and the tensor about this in the axes of the body.
+/// A solid in a body: its mass, its centre of mass, and the tensor about it in the axes of the body.
 #[derive(Clone, Debug)]
 pub struct Solid {
     pub mass: f64,
@@ -82,7 +82,7 @@ pub struct Solid {
 }
 
 impl Solid {
-    /// A shape whose axes are the columns of `axes`.
+    /// A shape with the columns of `axes` as its axes.
     pub fn of(shape: Shape, mass: f64, centre: Vector3<f64>, axes: &Matrix3<f64>) -> Solid {
         let moments = Matrix3::from_diagonal(&Vector3::from(shape.moments()));
         Solid {
@@ -92,7 +92,7 @@ impl Solid {
         }
     }
 
-    /// Several as one, about their common centre (Steiner).
+    /// Combines several solids, about their common centre (Steiner).
     pub fn joined(parts: &[Solid]) -> Solid {
         if let [only] = parts {
             return Solid {
@@ -134,7 +134,7 @@ fn cleaned(tensor: Matrix3<f64>) -> Matrix3<f64> {
 mod tests {
     use super::*;
 
-    /// Sums over a grid of points: another way to the same integrals, as fine as it costs little.
+    /// Sums over a grid of points: an independent way to compute the integrals, with a moderately fine grid.
     #[test]
     fn shapes_weigh_what_sums_over_points_say() {
         const POINTS: i32 = 60;
@@ -185,7 +185,8 @@ mod tests {
                     }
                 }
             }
-            // A cell at the surface is in or out: half a cell on all sides, of the smallest radius, and less as they average.
+            // A cell at the surface counts as inside or outside: the error is half a cell on all sides at the
+            // smallest radius, and less because errors average out.
             let share = cell / 0.2 / 4.0;
             assert!((volume / shape.volume() - 1.0).abs() < share, "{shape:?}");
             for (sum, exact) in moments.iter().zip(shape.moments()) {

@@ -1,4 +1,4 @@
-//! How much a search may do, counted and not timed: the same search does the same on any computer.
+//! The budget of a search, counted in evaluations and not timed, so that a search gives the same result on any computer.
 
 use std::cell::Cell;
 
@@ -7,8 +7,8 @@ use lagrangian_scalar::Scalar;
 use super::Terrain;
 use crate::solution::Contact;
 
-/// What a search may still do, in evaluations of inertia or resistance; over dual numbers an evaluation counts once for each
-/// real number in them.
+/// The remaining budget of a search, in evaluations of inertia or resistance. An evaluation over dual numbers counts once
+/// for each real component of such a number.
 #[derive(Debug)]
 pub struct Budget {
     most: Cell<u64>,
@@ -23,17 +23,17 @@ impl Budget {
         }
     }
 
-    /// From now on this much may be done in all.
+    /// Sets the total budget.
     pub fn allow(&self, most: u64) {
         self.most.set(most);
     }
 
-    /// How much was done.
+    /// The budget spent so far.
     pub fn spent(&self) -> u64 {
         self.spent.get()
     }
 
-    /// Whether nothing more is to be begun.
+    /// Whether the budget is exhausted, so that no further work may start.
     pub fn is_spent(&self) -> bool {
         self.spent() >= self.most.get()
     }
@@ -44,7 +44,7 @@ impl Budget {
     }
 }
 
-/// A machine whose evaluations are counted.
+/// A machine that counts its evaluations.
 #[derive(Debug)]
 pub struct Counted<'a, T> {
     terrain: &'a T,

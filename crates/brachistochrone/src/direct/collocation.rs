@@ -6,10 +6,11 @@
 //! ẋ = ∂H/∂π     π̇ = −∂H/∂x     ∂H/∂z = 0     H = 1
 //! ```
 //!
-//! On every stretch y is the polynomial that obeys the first two at the Gauss points; its end is accurate to the order 2 s.
-//! U. Ascher, R. Mattheij, R. Russell, *Numerical Solution of Boundary Value Problems* (1995), ch. 5. Newton's method is
-//! exact: the second derivatives of H are those of dual numbers. What stands at Gauss points is eliminated stretch by
-//! stretch, and the stretches one after the other, so that in the end there are as many equations as ends have.
+//! On every stretch y is the polynomial that satisfies the first two conditions at the Gauss points; the error at its end
+//! is of order 2 s. U. Ascher, R. Mattheij, R. Russell, *Numerical Solution of Boundary Value Problems* (1995), ch. 5.
+//! Newton's method is exact: the second derivatives of H come from dual numbers. The unknowns at Gauss points are
+//! eliminated for each stretch, then the stretches one after the other, so that the last system has only as many equations
+//! as there are boundary conditions.
 
 use super::Terrain;
 use super::budget::Budget;
@@ -20,23 +21,25 @@ use super::rule::{POINTS, Rule, sloping, through};
 use crate::linear::{Lu, dot};
 use crate::solution::Brachistochrone;
 
-/// Newton's iterations: a good guess needs five.
+/// The most Newton iterations; a good guess needs five.
 const MOST: usize = 30;
 
-/// A step this small, relative to the greatest value of each quantity, is the last: its square is below rounding.
+/// The iteration ends with a step this small, relative to the greatest value of each quantity: its square is
+/// below round-off.
 const LAST: f64 = 1e-10;
 
-/// On the way from one machine to another the digits of the last step are not needed, and a step that takes more iterations
-/// than these is too long.
+/// Limits for continuation from one machine to another: a step that needs more iterations than this is too long, and this
+/// tolerance is enough on the way.
 const ON_THE_WAY: (usize, f64) = (10, 1e-4);
 
-/// What moves less than this part of what moves most is held against that: rounding of others reaches it.
+/// A quantity that moves by less than this fraction of the largest one is scaled by that fraction, because
+/// round-off of the others affects it.
 const STILL: f64 = 1e-3;
 
-/// The polynomials of a first guess go through the ends of so many pieces.
+/// The polynomials of an initial guess interpolate the ends of this many pieces.
 const NEAR: usize = 4;
 
-/// The most times that a step is halved.
+/// How many times a Newton step may be halved.
 const HALVINGS: usize = 6;
 
 /// Rates of y, from the derivatives of H.
@@ -52,7 +55,7 @@ pub struct Stage {
     pub z: Vec<f64>,
 }
 
-/// A moment of a motion without multipliers.
+/// A point of a motion for which multipliers are not known yet.
 struct Passed {
     q: Vec<f64>,
     w: f64,
@@ -63,11 +66,11 @@ struct Passed {
     slope: f64,
 }
 
-/// The forces of a potential that resist at the ends of a motion from rest to rest.
+/// The extra boundary conditions of a conservative motion from rest to rest.
 ///
-/// Where nothing is lost, `½ W² + V(q)` stays, whatever the control. So a multiple of its gradient may be added to
-/// the multipliers, `p + α ∂V`, `λ + α W`, and nothing says which; and with W = 0 at the end the place there is
-/// level with the start by itself. These two take the places of λ = 0 and of one of the end's coordinates:
+/// Without losses `½ W² + V(q)` is constant for any control. So a multiple of its gradient may be added to the
+/// multipliers, `p + α ∂V`, `λ + α W`, which are not unique; and with W = 0 at the end, the end is automatically
+/// level with the start. The following two conditions replace λ = 0 and one of the coordinates of the end:
 ///
 /// ```text
 /// p·∂V = 0 at the start        W = 0 at the end
@@ -76,14 +79,14 @@ struct Passed {
 pub struct Level {
     /// `∂V` at the start.
     pub from: Vec<f64>,
-    /// The coordinate of the end that follows from the others: along it the potential rises most.
+    /// The coordinate of the end that the others determine: the one along which the potential rises most.
     pub follows: usize,
 }
 
-/// A motion: its duration, the ends of equal stretches, and their Gauss points.
+/// A motion: its duration, the ends of equal time stretches, and the Gauss points.
 #[derive(Clone, Debug)]
 pub struct Path {
-    /// Whether it ends at rest.
+    /// Present if it ends at rest.
     pub level: Option<Level>,
     pub time: f64,
     pub nodes: Vec<Vec<f64>>,
@@ -92,16 +95,16 @@ pub struct Path {
     pub last: Vec<f64>,
 }
 
-/// What a stretch does to changes: those at its points, by a row for each number, and those of its end.
+/// The linearization of a stretch.
 struct Stretch {
-    /// Changes of the stages: constant, by the change of the start, by the change of T.
+    /// Changes of the stages, a row for each number: constant, by the change of the start, by the change of T.
     inner: Vec<Vec<f64>>,
-    /// Changes of the end, the same.
+    /// Changes of the end, in the same form.
     outer: Vec<Vec<f64>>,
 }
 
 impl Path {
-    /// From the closed form of a machine with frozen coefficients; `None` where that has infinite multipliers.
+    /// A guess from the closed form of a machine with frozen coefficients; `None` where its multipliers are infinite.
     pub fn guess<T: Terrain>(
         system: &Driven<T>,
         motion: &Brachistochrone,
@@ -123,7 +126,7 @@ impl Path {
             y.push(w);
             y.extend(&p);
             y.push(0.0);
-            // H is 1, and linear in the last multiplier.
+            // H must be 1, and it is linear in the last multiplier.
             let without = system.value(&y, &z);
             y[2 * m - 1] = 1.0;
             let with = system.value(&y, &z);
@@ -151,18 +154,16 @@ impl Path {
         })
     }
 
-    /// From a way of straight pieces, made fast; `None` where the multipliers are not finite.
+    /// A guess from an improved polygon; `None` where the multipliers are not finite.
     ///
-    /// Places are those of a polynomial through the ends of a few pieces, `q₀ + t² u(t)`, since a motion from rest begins so.
-    /// Its rates give the control and W; λ obeys, linear in it with H = 1,
+    /// Positions are taken from a polynomial through the ends of a few pieces, `q₀ + t² u(t)`, since a motion from rest
+    /// starts like this. Its rates give the control and W; λ obeys an equation that is linear because H = 1:
     ///
     /// ```text
     /// λ̇ = −∂H/∂W = −(1 − λ F)/W − λ ∂F/∂W        F = Ẇ        λ = 1/F at rest, 0 at the end
     /// ```
     ///
-    /// or 0 half-way, if it ends at rest,
-    ///
-    /// and p follows from H = 1 and ∂H/∂z = 0.
+    /// For a motion that ends at rest λ is 0 half-way instead. Then p follows from H = 1 and ∂H/∂z = 0.
     pub fn along<T: Terrain>(
         system: &Driven<T>,
         way: &Way,
@@ -201,11 +202,11 @@ impl Path {
             let q: Vec<f64> = (0..n)
                 .map(|i| way.places[0][i] + t * t * u[i].value)
                 .collect();
-            // The direction is the same with the rate divided by t.
+            // Dividing the rate by t keeps its direction, also at t = 0.
             let v = u.iter().map(|u| 2.0 * u.value + t * u.derivative);
             let v: Vec<f64> = v.collect();
             let (z, w) = match states.last() {
-                // At rest as soon before it.
+                // At rest the control is that of the point before.
                 Some(known) if level.is_some() && *t == time => (known.z.clone(), 0.0),
                 _ => {
                     let z = system.control(&q, &v, before);
@@ -237,7 +238,7 @@ impl Path {
             Some(_) => last / 2,
             None => last,
         };
-        // From one moment to the next to it, of the two the one where λ is known first.
+        // One step of the trapezoidal rule for λ, from a moment where it is known to a neighbouring one.
         let beside = |known: usize, k: usize, lambda: f64| {
             let half = 0.5 * (moments[known] - moments[k]);
             let [there, here] = [&states[known], &states[k]];
@@ -262,7 +263,7 @@ impl Path {
         for k in (0..moments.len()).rev() {
             let Passed { q, w, z, .. } = &states[k];
             let (p, z) = match (k, found.last()) {
-                // At rest as soon after it.
+                // At rest the values are those of the point after it.
                 (0, Some(after)) => (after.y[m..m + n].to_vec(), after.z.clone()),
                 _ if k == last && level.is_some() => {
                     let before = &states[k - 1];
@@ -297,7 +298,7 @@ impl Path {
         })
     }
 
-    /// Where it leads at so many equal times after the start.
+    /// The positions at `count` equal intervals of time after the start.
     pub fn places(&self, count: usize) -> Vec<Vec<f64>> {
         let n = self.nodes[0].len() / 2 - 1;
         let points = Rule::new().points;
@@ -312,12 +313,12 @@ impl Path {
         (0..=count).map(place).collect()
     }
 
-    /// How many stretches there are.
+    /// The number of stretches.
     pub fn stretches(&self) -> usize {
         self.stages.len()
     }
 
-    /// This path on twice as many stretches, by the polynomials of each.
+    /// This path on twice as many stretches, by evaluating its polynomials.
     pub fn halved(&self) -> Path {
         let points = Rule::new().points;
         let mut nodes = std::vec![self.nodes[0].clone()];
@@ -353,8 +354,8 @@ impl Path {
         }
     }
 
-    /// The path between these ends, by Newton's method; `None` where that fails, finds a motion that stops on its way, or
-    /// has no budget.
+    /// The path between these ends, by Newton's method. `None` if it fails, finds a motion that stops on its way, or
+    /// exceeds the budget.
     pub fn corrected(
         self,
         system: &impl Pontryagin,
@@ -365,7 +366,7 @@ impl Path {
         self.converged(system, [from, to], budget, (MOST, LAST))
     }
 
-    /// [`corrected`](Self::corrected) to a few digits, from a guess that is near.
+    /// [`corrected`](Self::corrected) to a few digits, for continuation from a guess that is near.
     pub fn nearly_corrected(
         self,
         system: &impl Pontryagin,
@@ -376,7 +377,7 @@ impl Path {
         self.converged(system, [from, to], budget, ON_THE_WAY)
     }
 
-    /// By so many iterations at most, until a step is this small.
+    /// Newton's method with a limit on iterations, until a step is smaller than `small`.
     fn converged(
         mut self,
         system: &impl Pontryagin,
@@ -399,7 +400,7 @@ impl Path {
             for halving in 0..=HALVINGS {
                 let next = self.moved(&step, part);
                 let left = next.rest(system, from, to, &scales);
-                // At rounding a step cannot gain, and is taken.
+                // A step at the level of round-off cannot reduce the residual, and is accepted.
                 if left < rest || size < small {
                     (self, rest) = (next, left);
                     break;
@@ -416,7 +417,7 @@ impl Path {
         None
     }
 
-    /// Whether it moves on all the way, and its multiplier of speed is positive.
+    /// Whether the machine moves all the way, with a positive multiplier of speed.
     fn is_motion(&self, system: &impl Pontryagin) -> bool {
         let m = system.states();
         let count = self.stretches();
@@ -425,20 +426,21 @@ impl Path {
             None => &self.nodes[1..],
         };
         let before = &self.nodes[..count];
-        // Which multiplier goes with energy that nothing changes is a matter of convention.
+        // In a conservative motion the sign of this multiplier is arbitrary.
         let saves = self.level.is_some() || before.iter().all(|y| y[2 * m - 1] > 0.0);
         self.time > 0.0 && moves.iter().all(|y| y[m - 1] > 0.0) && saves
     }
 
-    /// The greatest value of each number.
+    /// The scale of each unknown.
     fn scales(&self, system: &impl Pontryagin) -> Vec<f64> {
         let greatest = |k: usize| {
             let sizes = self.nodes.iter().map(|y| y[k].abs());
             sizes.fold(f64::MIN_POSITIVE, f64::max)
         };
         let mut scales: Vec<f64> = (0..2 * system.states()).map(greatest).collect();
-        // A coordinate may end near where it starts, and its multiplier be 0: H is 1, and says what matters. What does not
-        // move at all is held against the others.
+        // A coordinate may end near its start, and its multiplier may vanish; because H is 1, travel and
+        // multiplier are scaled by the greatest rate instead. A coordinate that does not move is scaled by a
+        // fraction of the largest travel.
         let n = system.states() - 1;
         let mut travels = std::vec![0.0_f64; n];
         for stage in self.stages.iter().flatten() {
@@ -464,7 +466,7 @@ impl Path {
         let rule = Rule::new();
         let h = self.time / self.stretches() as f64;
         let mut most = 0.0_f64;
-        // A number that is none is not to be lost.
+        // `f64::max` would ignore NaN.
         let mut take = |x: f64| {
             most = if x.abs() > most || x.is_nan() {
                 x.abs()
@@ -518,14 +520,14 @@ impl Path {
         most
     }
 
-    /// Newton's step.
+    /// A Newton step.
     fn step(&self, system: &impl Pontryagin, from: &[f64], to: &[f64]) -> Option<Step> {
         let (m, n) = (system.states(), from.len());
         let stretches: Option<Vec<Stretch>> = (0..self.stretches())
             .map(|k| self.stretch(system, k))
             .collect();
         let stretches = stretches?;
-        // Changes of a node: constant, by the change of the first, by that of T.
+        // Changes of a node: constant, by the change of the first node, by the change of T.
         let width = 2 * m + 2;
         let mut chain: Vec<Vec<Vec<f64>>> = Vec::new();
         let mut first = std::vec![std::vec![0.0; width]; 2 * m];
@@ -602,7 +604,7 @@ impl Path {
         })
     }
 
-    /// The conditions of a stretch, solved for the changes at its points.
+    /// The conditions on a stretch, solved for the changes at its points.
     fn stretch(&self, system: &impl Pontryagin, k: usize) -> Option<Stretch> {
         let h = 1.0 / self.stretches() as f64;
         linearized(
@@ -615,7 +617,7 @@ impl Path {
         )
     }
 
-    /// How changes of the start of each stretch change its end, at this duration: matrices by rows.
+    /// The derivative of the end of each stretch by its start at fixed duration: matrices by rows.
     pub fn transitions(&self, system: &impl Pontryagin) -> Option<Vec<Vec<Vec<f64>>>> {
         let wide = 2 * system.states();
         let rows = |stretch: Stretch| -> Vec<Vec<f64>> {
@@ -627,7 +629,7 @@ impl Path {
             .collect()
     }
 
-    /// On the straight line from another path to this one, beyond it by this part of what is between them.
+    /// Linear extrapolation from another path through this one, by this fraction of the difference.
     pub fn beyond(&self, other: &Path, part: f64) -> Path {
         let ahead = |to: &[f64], from: &[f64]| -> Vec<f64> {
             let pairs = to.iter().zip(from);
@@ -668,7 +670,7 @@ impl Path {
         }
     }
 
-    /// How large a step is, relative to the scales.
+    /// The largest component of a step, relative to the scales.
     fn size(&self, step: &Step, scales: &[f64]) -> f64 {
         let nodes = step.nodes.iter().flat_map(|y| y.iter().zip(scales));
         let sizes = nodes.map(|(change, scale)| (change / scale).abs());
@@ -680,7 +682,7 @@ impl Path {
     }
 }
 
-/// Changes of everything in a path.
+/// Changes of all unknowns of a path.
 struct Step {
     time: f64,
     nodes: Vec<Vec<f64>>,
@@ -703,7 +705,7 @@ fn moved(stages: &[Stage], change: &[f64], part: f64) -> Vec<Stage> {
     moved
 }
 
-/// Rows `constant, by y, by T` after rows of the same kind.
+/// The composition of two linear maps, each with rows `constant, by y, by T`.
 fn composed(after: &[Vec<f64>], before: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let (count, width) = (before.len(), before[0].len());
     let row = |row: &Vec<f64>| {
@@ -720,7 +722,7 @@ fn composed(after: &[Vec<f64>], before: &[Vec<f64>]) -> Vec<Vec<f64>> {
     after.iter().map(row).collect()
 }
 
-/// The conditions on a stretch of the length `h T`, linear in all changes.
+/// The linearized conditions on a stretch of length `h T`.
 fn linearized(
     system: &impl Pontryagin,
     start: &[f64],
@@ -792,7 +794,8 @@ fn linearized(
     Some(Stretch { inner, outer })
 }
 
-/// One stretch of the length `time` from a known start: its end, by Newton's method from a guess of its points.
+/// Integrates one stretch of length `time` from a known start, by Newton's method from a guess of its points;
+/// returns the end.
 pub fn advanced(
     system: &impl Pontryagin,
     start: &[f64],
@@ -801,7 +804,7 @@ pub fn advanced(
 ) -> Vec<f64> {
     let m = system.states();
     let mut end = start.to_vec();
-    // Quadratic from a guess with five digits.
+    // Convergence is quadratic, and the guess has five digits.
     for _ in 0..3 {
         let Some(stretch) = linearized(system, start, &stages, &end, 1.0, time) else {
             break;

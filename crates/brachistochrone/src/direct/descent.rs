@@ -1,20 +1,20 @@
-//! Ways of straight pieces, made fast: where Newton's method starts.
+//! Polygons of least time, which serve as starts of Newton's method.
 //!
-//! Along a piece from q to q + Δ the velocity is `Δ σ̇`, and with the energy of motion `K = ½ Δ·A Δ σ̇²` the balance (8) is
+//! Along a piece from q to q + Δ the velocity is `Δ σ̇`. With the kinetic energy `K = ½ Δ·A Δ σ̇²` the balance (8) is
 //!
 //! ```text
 //! dK/dσ = −ρ        ρ = Δ·R(q, Δ σ̇) − ½ σ̇² Δ·∂A[Δ] Δ                                          (11)
 //! ```
 //!
-//! At a corner W of (9) stays, so a turn by y in the metric S changes K by the factor `exp(−2 κ y)`. A piece takes
-//! `2/(σ̇₀ + σ̇₁)`, exact where coefficients are constant, else to the second order of its length.
+//! At a corner W of (9) is continuous, so a turn by y in the metric S multiplies K by `exp(−2 κ y)`. The time of a
+//! piece is `2/(σ̇₀ + σ̇₁)`, exact for constant coefficients, otherwise of second order in its length.
 //!
-//! The places between the ends are moved until N times the sum of the squares of the N times is least. It is the square of the whole
-//! time where these are equal, and never less: so pieces become equal in time, and the least is the fastest way of N pieces.
-//! It is approached by the method of Broyden, Fletcher, Goldfarb and Shanno, J. Nocedal and S. J. Wright, *Numerical
-//! Optimization* (2006), alg. 7.4, from the Hessian that would be right if neither masses nor speeds changed with the place.
+//! The corners are moved to minimize N times the sum of the squares of the N times. This is at least the square of the total time,
+//! with equality where all times are equal: so pieces become equal in time, and the minimum is the fastest polygon of N pieces. The
+//! minimization uses the method of Broyden, Fletcher, Goldfarb and Shanno, J. Nocedal and S. J. Wright, *Numerical Optimization*
+//! (2006), alg. 7.4, starting from the Hessian for masses and speeds that do not depend on position.
 //!
-//! A way that the machine cannot go from rest is given a speed at the start, which is taken away while the way gets better.
+//! A polygon that the machine cannot traverse from rest is given an initial speed, which is reduced while the polygon improves.
 
 use lagrangian_scalar::{Dual, Scalar};
 
@@ -22,66 +22,66 @@ use super::Terrain;
 use super::budget::Counted;
 use crate::linear::{Cholesky, Matrix, dot};
 
-/// Armijo's condition: of the decrease that the slope foretells, so much is asked for.
+/// Armijo's condition: the decrease must be at least this fraction of the decrease that the slope predicts.
 const ENOUGH: f64 = 1e-4;
 
-/// A step moves no place by more than this part of the length of the way: it is not to leap over what is in between.
+/// A step moves no corner by more than this fraction of the length of the polygon, so that it does not skip over obstacles.
 const REACH: f64 = 0.2;
 
-/// The most halvings of a step.
+/// How many times a step may be halved.
 const HALVINGS: usize = 25;
 
-/// The most times that the added energy is made less.
+/// How many times the added energy may be reduced.
 const ROUNDS: usize = 40;
 
-/// Parts of the added energy that are tried next, the boldest first.
+/// Fractions of the added energy to try next, the smallest first.
 const LESS: [f64; 6] = [0.0, 0.25, 0.5, 0.75, 0.9, 0.97];
 
-/// Less energy may make the time greater, by this factor of its square at once.
+/// A reduction of the added energy may increase the squared time by at most this factor.
 const WORSE: f64 = 4.0;
 
-/// So often pieces are halved to see how much energy is lacking.
+/// How many times the pieces are halved to compute the lacking energy.
 const FINE: usize = 4;
 
-/// A way of straight pieces.
+/// A polygon in configuration space.
 #[derive(Clone, Debug)]
 pub struct Way {
-    /// Where the pieces meet, the ends among them.
+    /// The corners, including both ends.
     pub places: Vec<Vec<f64>>,
 }
 
-/// How a way is gone.
+/// The motion along a polygon.
 #[derive(Clone, Debug)]
 pub struct Walk {
     /// The time of each piece, in s.
     pub times: Vec<f64>,
-    /// The energy of motion at the end of each piece, in J, with the added one.
+    /// The kinetic energy at the end of each piece, in J, including the added energy.
     energies: Vec<f64>,
 }
 
 impl Walk {
-    /// What is made least, in s².
+    /// The objective, in s².
     fn objective(&self) -> f64 {
         self.times.len() as f64 * self.times.iter().map(|t| t * t).sum::<f64>()
     }
 
-    /// The time of the whole way, in s.
+    /// The total time, in s.
     pub fn time(&self) -> f64 {
         self.times.iter().sum()
     }
 }
 
-/// Why a way is not gone.
+/// Why a polygon was not traversed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stop {
-    /// This energy, in J, is lacking at the start; infinite where no speed helps.
+    /// This energy, in J, is lacking at the start; infinite if no initial speed suffices.
     Lacks(f64),
-    /// The budget is spent.
+    /// The budget is exhausted.
     Spent,
 }
 
 impl Way {
-    /// Twice as many pieces.
+    /// The same polygon with each piece halved.
     pub fn halved(&self) -> Way {
         let mut places = std::vec![self.places[0].clone()];
         for pair in self.places.windows(2) {
@@ -103,13 +103,13 @@ impl Way {
     }
 }
 
-/// A machine that goes along ways.
+/// A machine that traverses polygons.
 #[derive(Debug)]
 pub struct Descent<'a, T> {
     terrain: Counted<'a, T>,
-    /// Whether turns cost speed, or save friction.
+    /// Whether turns change the speed, because friction depends on them.
     rough: bool,
-    /// Whether ways end at rest, as nothing is lost and the end is level with the start.
+    /// Whether polygons end at rest, because there are no losses and the end is level with the start.
     level: bool,
 }
 
@@ -123,7 +123,8 @@ impl<'a, T: Terrain> Descent<'a, T> {
         }
     }
 
-    /// Time of a piece, and the energy at its end; `kinetic` is `None` at rest, `before` where no corner stands at the start.
+    /// The time of a piece, and the energy at its end. `kinetic` is `None` at rest, `before` is `None` where the
+    /// piece has no corner at its start.
     fn piece<N: Scalar>(
         &self,
         kinetic: Option<N>,
@@ -163,7 +164,7 @@ impl<'a, T: Terrain> Descent<'a, T> {
             let work = work.fold(N::ZERO, |sum, (d, r)| sum + *d * *r);
             work - half * square * mass.derivative
         };
-        // The rate from the energy, whose root has no slope at rest.
+        // The rate follows from the energy by a square root, whose slope is infinite at rest.
         let square = |energy: N| two * energy / mass.value;
         let first = if rests {
             N::ZERO
@@ -177,7 +178,7 @@ impl<'a, T: Terrain> Descent<'a, T> {
         [two / (first + last), after]
     }
 
-    /// Time of a piece at whose end there is rest.
+    /// The time of a piece that ends at rest.
     fn stopping<N: Scalar>(&self, kinetic: N, start: &[N], end: &[N]) -> N {
         let n = start.len();
         let half = N::from_f64(0.5);
@@ -195,7 +196,7 @@ impl<'a, T: Terrain> Descent<'a, T> {
         two / (two * kinetic / mass).sqrt()
     }
 
-    /// What a corner does to the energy.
+    /// The factor by which a corner changes the energy.
     fn turned<N: Scalar>(&self, before: &[N], corner: &[N], along: &[N]) -> N {
         let inertia = self.terrain.inertia(corner);
         let came = [corner[0] - before[0], corner[1] - before[1]];
@@ -210,7 +211,7 @@ impl<'a, T: Terrain> Descent<'a, T> {
         (-(turn + turn) * skew / root).exp()
     }
 
-    /// How the way is gone with this energy at the start; `None` where it is not.
+    /// The motion along a polygon with this energy at the start; `None` where it stops on the way.
     fn walk(&self, way: &Way, added: f64) -> Option<Walk> {
         let mut walk = Walk {
             times: Vec::new(),
@@ -220,7 +221,7 @@ impl<'a, T: Terrain> Descent<'a, T> {
         for (k, pair) in way.places.windows(2).enumerate() {
             let before = k.checked_sub(1).map(|k| way.places[k].as_slice());
             let [mut time, mut after] = self.piece(kinetic, before, &pair[0], &pair[1]);
-            // At the end all of the energy has gone, whatever the pieces add up to.
+            // At the end the kinetic energy is 0 by conservation, whatever the approximate sum over the pieces is.
             if self.level
                 && added == 0.0
                 && k + 2 == way.places.len()
@@ -239,12 +240,12 @@ impl<'a, T: Terrain> Descent<'a, T> {
         walk.objective().is_finite().then_some(walk)
     }
 
-    /// Derivatives of the objective by the places between the ends.
+    /// Derivatives of the objective by the inner corners.
     fn slopes(&self, way: &Way, added: f64, walk: &Walk) -> Vec<f64> {
         let n = way.places[0].len();
         let count = walk.times.len();
         let mut slopes = std::vec![0.0; (count + 1) * n];
-        // By the energy at the end of a piece.
+        // The derivative of the objective by the energy at the end of a piece.
         let mut by_energy = 0.0;
         for k in (0..count).rev() {
             let mut numbers: Vec<Dual<f64>> = Vec::new();
@@ -288,7 +289,7 @@ impl<'a, T: Terrain> Descent<'a, T> {
         slopes[n..count * n].to_vec()
     }
 
-    /// The Hessian, as if neither masses nor speeds changed with the place.
+    /// The Hessian for masses and speeds that do not depend on position.
     fn stiffness(&self, way: &Way, walk: &Walk) -> Option<Cholesky> {
         let n = way.places[0].len();
         let count = walk.times.len();
@@ -325,7 +326,7 @@ impl<'a, T: Terrain> Descent<'a, T> {
         Cholesky::new(&matrix).ok()
     }
 
-    /// The longest move of a place, relative to the way.
+    /// The longest displacement of a corner, relative to the length of the polygon.
     fn reach(&self, way: &Way, step: &[f64]) -> f64 {
         let n = way.places[0].len();
         let inertia = self.terrain.inertia(&way.places[way.places.len() / 2]);
@@ -341,8 +342,8 @@ impl<'a, T: Terrain> Descent<'a, T> {
         step.chunks(n).map(length).fold(0.0, f64::max) / whole
     }
 
-    /// Makes the way faster, with this energy at the start, until its objective is within this part of the least nearby, or
-    /// for so many steps.
+    /// Improves a polygon with this energy at the start until its objective is within this fraction of the local minimum,
+    /// or for this many steps.
     fn improve(
         &self,
         way: &mut Way,
@@ -382,7 +383,7 @@ impl<'a, T: Terrain> Descent<'a, T> {
             }
             let Some((next, there)) = found else {
                 if history.is_empty() {
-                    return Ok(()); // Rounding is reached.
+                    return Ok(()); // Round-off is reached.
                 }
                 history.clear();
                 continue;
@@ -399,10 +400,10 @@ impl<'a, T: Terrain> Descent<'a, T> {
         Ok(())
     }
 
-    /// Makes a way one that is gone from rest.
+    /// Changes a polygon until the machine can traverse it from rest.
     ///
     /// # Errors
-    /// If it cannot be gone, or the budget is spent.
+    /// If that is not possible, or the budget is exhausted.
     pub fn released(&self, way: &mut Way) -> Result<Walk, Stop> {
         let rest = std::vec![0.0; way.places[0].len()];
         let works = way.places.windows(2).map(|pair| {
@@ -456,8 +457,8 @@ impl<'a, T: Terrain> Descent<'a, T> {
         Err(Stop::Lacks(self.lacking(way, added)))
     }
 
-    /// The energy without which the way cannot be gone, as far as it is known not to be enough. Long pieces leap over what is in
-    /// between, so it is looked at in short ones.
+    /// An estimate of the energy without which a polygon cannot be traversed. Long pieces skip over obstacles, so it is
+    /// computed with short ones.
     fn lacking(&self, way: &Way, added: f64) -> f64 {
         let fine = (0..FINE).fold(way.clone(), |way, _| way.halved());
         let energies = (0..10).map(|k| added * f64::from(1 << k));
@@ -474,10 +475,10 @@ impl<'a, T: Terrain> Descent<'a, T> {
         f64::INFINITY
     }
 
-    /// Makes a way that is gone from rest the fastest nearby, as far as its pieces tell.
+    /// Improves a polygon that can be traversed from rest to the fastest one nearby, as far as its number of pieces allows.
     ///
     /// # Errors
-    /// If it cannot be gone, or the budget is spent.
+    /// If it cannot be traversed, or the budget is exhausted.
     pub fn fastest(&self, way: &mut Way) -> Result<Walk, Stop> {
         let mut walk = self.walk(way, 0.0).ok_or(Stop::Lacks(0.0))?;
         self.improve(way, &mut walk, 0.0, 1e-7, 150)?;
@@ -485,7 +486,7 @@ impl<'a, T: Terrain> Descent<'a, T> {
     }
 }
 
-/// The step of the quasi-Newton method: two loops over what was learnt on the way.
+/// The quasi-Newton direction, by the two-loop recursion over stored updates.
 fn direction(stiffness: &Cholesky, history: &[(Vec<f64>, Vec<f64>)], slopes: &[f64]) -> Vec<f64> {
     let mut step: Vec<f64> = slopes.iter().map(|g| -g).collect();
     let mut parts = Vec::new();

@@ -1,16 +1,16 @@
-//! A motion followed from one machine to another, in steps as long as Newton's method allows.
+//! Continuation of a motion from one machine to another, with steps as long as Newton's method allows.
 
 use super::budget::Budget;
 use super::collocation::Path;
 
-/// The first step, of the whole way; the next is twice as long where one succeeds, and half as long where one fails.
+/// The first step, as a fraction of the whole; a step is doubled after a success and halved after a failure.
 const FIRST_STEP: f64 = 0.25;
 
-/// The least step, of the whole way.
+/// The smallest step, as a fraction of the whole.
 const LEAST_STEP: f64 = 1.0 / 256.0;
 
-/// The path at the end of the way, from that at its start; and how far it came. `corrected` makes a path one of the machine at
-/// a part of the way, from 0 to 1. It is given the straight continuation of the two paths before.
+/// Continues a path from parameter 0 to 1; returns the path at the end if it was reached, and how far the continuation came.
+/// `corrected` solves for the path at a parameter, from a linear extrapolation of the last two paths.
 pub fn followed(
     start: Path,
     corrected: impl Fn(Path, f64) -> Option<Path>,

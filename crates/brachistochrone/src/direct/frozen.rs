@@ -1,4 +1,4 @@
-//! Machines with constant coefficients, whose fastest motion is a closed form, and parts of the way from there to a machine itself.
+//! Machines with constant coefficients, whose fastest motion has a closed form, and the homotopy from them to a machine.
 
 use lagrangian_scalar::Scalar;
 
@@ -7,7 +7,7 @@ use super::{between, rows, symmetric};
 use crate::linear::{dot, times};
 use crate::problem::Problem;
 
-/// A part θ of the way from constant coefficients to those of a machine.
+/// The machine at parameter θ of the homotopy from constant coefficients to those of a machine.
 pub struct Blend<'a, T> {
     terrain: &'a T,
     frozen: &'a Frozen,
@@ -51,7 +51,7 @@ impl<T> Blend<'_, T> {
     }
 }
 
-/// A machine with constant coefficients to start from.
+/// A machine with constant coefficients, where the homotopy starts.
 pub struct Frozen {
     inertia: Vec<f64>,
     resistance: Vec<f64>,
@@ -59,7 +59,7 @@ pub struct Frozen {
 }
 
 impl Frozen {
-    /// A part of the way from here to the machine itself.
+    /// The machine at this parameter of the homotopy to the machine itself.
     pub fn towards<'a, T>(&'a self, terrain: &'a T, part: f64) -> Blend<'a, T> {
         Blend {
             terrain,
@@ -69,8 +69,8 @@ impl Frozen {
     }
 }
 
-/// Machines to start from, the likeliest first: frozen half-way, at the start, half-way with the mean force of the straight
-/// way, and one that falls straight to the end.
+/// Machines to start from, the most promising first: coefficients frozen half-way, at the start, and half-way with the mean
+/// force of the straight path, then one that falls straight to the end.
 pub fn frozen(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Vec<Frozen> {
     let n = from.len();
     let half = between(from, to, 0.5);
@@ -83,7 +83,7 @@ pub fn frozen(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Vec<Frozen> {
     let mean: Vec<f64> = mean.collect();
     let way: Vec<f64> = to.iter().zip(from).map(|(to, from)| to - from).collect();
     let momentum = times(&rows(&even, n), &way);
-    // With the acceleration that the work on the straight way gives, or else of gravity.
+    // The acceleration follows from the work on the straight path, or else is that of gravity.
     let length = dot(&momentum, &way).max(f64::MIN_POSITIVE);
     let push = (dot(&mean, &way).abs() / length).max(f64::EPSILON);
     let falling = momentum.iter().map(|p| -push * p).collect();

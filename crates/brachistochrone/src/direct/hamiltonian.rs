@@ -1,7 +1,7 @@
-//! Pontryagin's function of a machine, over any numbers.
+//! Pontryagin's function of a machine, for any type of number.
 //!
-//! *Two coordinates.* Directions are `ê = F (cos x, sin x)` with a fixed frame `F`, and `v = U ê`. With
-//! `φ = ê·A ê`, `ρ = ê·A ê_x`, (8) is `φ U̇ + ρ U ẋ + ê·R = 0`. At a fixed place a turn keeps
+//! *Two coordinates.* Directions are `ê = F (cos x, sin x)` with a fixed frame `F`, and `v = U ê`. With `φ = ê·A ê`
+//! and `ρ = ê·A ê_x`, (8) is `φ U̇ + ρ U ẋ + ê·R = 0`. A turn at a fixed position leaves invariant
 //!
 //! ```text
 //! W = U E(q, x)        ln E = ∫ ρ/φ dx = ½ ln φ + κ y        κ = Ω(f₁, f₂)/√det S              (9)
@@ -13,13 +13,13 @@
 //! q̇ = U ê        Ẇ = E (U² ê·∂ln E/∂q − ê·R/φ)                                                (10)
 //! ```
 //!
-//! in which x has no rate: it is a control. A turn right round multiplies `E` by `exp(2π κ)`.
+//! in which x has no rate: it is a control. A full turn multiplies `E` by `exp(2π κ)`.
 //!
-//! *Any number*, where Ω = 0: `v = V e`, `e·S e = 1`, and `V̇ = ½ V² ∂S[e](e, e) − e·R`. The control is e, with a multiplier η
-//! of its length.
+//! *Any number of coordinates*, where Ω = 0: `v = V e`, `e·S e = 1`, and `V̇ = ½ V² ∂S[e](e, e) − e·R`. The control is e, with
+//! a multiplier η for its length.
 //!
-//! The function to be maximized is `H = p·q̇ + λ Ẇ`, which is 1 on the fastest motion.
-//! L. S. Pontryagin et al., *The Mathematical Theory of Optimal Processes* (1962), ch. 1.
+//! The function to be maximized is `H = p·q̇ + λ Ẇ`, which is 1 on the fastest motion. L. S. Pontryagin et al., *The
+//! Mathematical Theory of Optimal Processes* (1962), ch. 1.
 
 use lagrangian_scalar::{Dual, Scalar};
 
@@ -27,13 +27,13 @@ use super::Terrain;
 use super::pontryagin::Pontryagin;
 use crate::linear::{Lu, Matrix, dot};
 
-/// A machine with a free direction of motion.
+/// A machine whose direction of motion is the control.
 #[derive(Clone, Debug)]
 pub struct Driven<T> {
     pub(super) terrain: T,
-    /// Columns in which directions are counted.
+    /// The columns of the frame in which directions are expressed.
     frame: Matrix,
-    /// Whether directions are angles, with friction in them.
+    /// Whether the control is an angle and includes friction.
     plane: bool,
 }
 
@@ -47,12 +47,12 @@ impl<T: Terrain> Driven<T> {
         }
     }
 
-    /// Another machine with the same directions.
+    /// Another machine with the same frame.
     pub(super) fn of<U: Terrain>(&self, terrain: U) -> Driven<U> {
         Driven::new(terrain, self.frame.clone())
     }
 
-    /// How many coordinates there are.
+    /// The number of coordinates.
     pub(super) fn n(&self) -> usize {
         self.terrain.coordinates()
     }
@@ -62,7 +62,7 @@ impl<T: Terrain> Driven<T> {
         self.plane
     }
 
-    /// The direction of a control, in coordinates; not of length 1 where it is an angle.
+    /// The direction of a control, in coordinates; where the control is an angle its length is not 1.
     pub(super) fn direction<N: Scalar>(&self, control: &[N]) -> Vec<N> {
         if self.plane {
             let (sin, cos) = control[0].sin_cos();
@@ -83,9 +83,9 @@ impl<T: Terrain> Driven<T> {
             .collect()
     }
 
-    /// The control of a velocity; of angles the one nearest to `before`.
+    /// The control of a velocity; an angle is chosen nearest to `before`.
     pub(super) fn control(&self, q: &[f64], v: &[f64], before: f64) -> Vec<f64> {
-        // F is the inverse of Lᵀ, the metric of the start F⁻ᵀ F⁻¹: parts by elimination.
+        // F is the inverse of Lᵀ, and the metric of the start is F⁻ᵀ F⁻¹: components follow by back substitution.
         let parts = solve_columns(&self.frame, v);
         if self.plane {
             let angle = parts[1].atan2(parts[0]);
@@ -100,7 +100,7 @@ impl<T: Terrain> Driven<T> {
         unit.chain([1.0]).collect()
     }
 
-    /// `W` for a velocity of this direction, relative to its component along it: `E`, or the length.
+    /// The factor from the component of a velocity along this direction to `W`: `E`, or the length.
     pub(super) fn measure(&self, q: &[f64], v: &[f64], control: &[f64]) -> f64 {
         if self.plane {
             let direction = self.direction(control);
@@ -114,8 +114,8 @@ impl<T: Terrain> Driven<T> {
         square.sum::<f64>().sqrt()
     }
 
-    /// The multipliers of the coordinates, and the control with its own, where H is 1 and stationary: at a place, with `W`,
-    /// a control, and λ. `None` at rest, where every multiplier would do.
+    /// The multipliers of the coordinates, and the control with its own multiplier, such that H is 1 and stationary, at a
+    /// position with `W`, a control, and λ. `None` at rest, where every multiplier would do.
     pub(super) fn multipliers(
         &self,
         q: &[f64],
@@ -125,7 +125,7 @@ impl<T: Terrain> Driven<T> {
     ) -> Option<(Vec<f64>, Vec<f64>)> {
         let n = self.n();
         let free = if self.plane { 1 } else { n };
-        // H is linear in p, λ and η: one of them is 1, the others 0.
+        // H is linear in p, λ and η: its coefficients follow by setting one of them to 1 and the others to 0.
         let alone = |which: usize| {
             let mut y = std::vec![0.0; 2 * (n + 1)];
             y[..n].copy_from_slice(q);
@@ -161,7 +161,7 @@ impl<T: Terrain> Driven<T> {
         Some((found, z))
     }
 
-    /// `ln E` and `ln √φ` of (9), along a direction in which the place is dual.
+    /// `ln E` and `ln √φ` of (9), differentiated along the direction in which the position is dual.
     fn growth<N: Scalar>(&self, q: &[Dual<N>], x: N) -> (Dual<N>, Dual<N>) {
         let (sin, cos) = x.sin_cos();
         let (sin, cos) = (Dual::constant(sin), Dual::constant(cos));
@@ -185,7 +185,7 @@ impl<T: Terrain> Driven<T> {
         let below = even / first;
         let second = (entry(1, 1) - below * below).sqrt();
         let (ahead, aside) = (first * cos + below * sin, second * sin);
-        // The angle y in the metric is never half a turn away from x.
+        // The angle y in the metric differs from x by less than half a turn.
         let more = (aside * cos - ahead * sin).atan2(ahead * cos + aside * sin);
         let length = number(0.5) * (ahead * ahead + aside * aside).ln();
         let kappa = skew / (first * second);

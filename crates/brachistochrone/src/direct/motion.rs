@@ -1,4 +1,4 @@
-//! The fastest motion that was found, and everything about it at any moment.
+//! The fastest motion that was found, with all quantities along it.
 
 use std::f64::consts::PI;
 
@@ -11,10 +11,10 @@ use crate::linear::{Cholesky, Lu, dot};
 use crate::solution::{Lapse, Moment, lapses};
 use crate::trial::{Outcome, Trial};
 
-/// Moments at which guides, and sudden turns, are looked at.
+/// The number of moments at which guides and sudden turns are checked.
 const LOOKS: u32 = 64;
 
-/// The fastest motion of a [`Terrain`] from rest at one place to another.
+/// The fastest motion of a [`Terrain`] from rest at one position to another.
 #[derive(Clone, Debug)]
 pub struct Sought<T> {
     pub(super) system: Driven<T>,
@@ -26,32 +26,33 @@ pub struct Sought<T> {
 }
 
 impl<T: Terrain> Sought<T> {
-    /// From when on other directions would save time, in s after the start: Legendre's condition fails there, or Jacobi's.
+    /// The time from which other directions would be faster, in s after the start: Legendre's condition fails
+    /// there, or Jacobi's.
     pub(super) fn refused(&self) -> Option<f64> {
         self.saddle().or_else(|| self.conjugate())
     }
 
-    /// The time that it takes, in s.
+    /// The duration, in s.
     pub fn time(&self) -> f64 {
         self.path.time
     }
 
-    /// By how much the time changed when the stretches were halved for the last time, in s: more than the error.
+    /// How much the duration changed at the last halving of the stretches, in s: an upper bound of the error.
     pub fn change(&self) -> f64 {
         self.change
     }
 
-    /// In how many stretches, each of the order 8.
+    /// The number of stretches, each of order 8.
     pub fn stretches(&self) -> usize {
         self.path.stretches()
     }
 
-    /// What was tried, and what came of each; this motion is the fastest of those that were found.
+    /// All trials and their outcomes; this motion is the fastest of those that were found.
     pub fn tried(&self) -> &[Trial] {
         &self.tried
     }
 
-    /// The times of other motions that are faster than their neighbours, in s, the fastest first; none is less than this one's.
+    /// The durations of other local minima, in s, the fastest first; none is less than that of this motion.
     pub fn others(&self) -> Vec<f64> {
         let found = self.tried.iter().filter_map(|trial| match trial.outcome {
             Outcome::Found { time } => Some(time),
@@ -63,36 +64,37 @@ impl<T: Terrain> Sought<T> {
         times
     }
 
-    /// The times of ways of straight pieces, or of extremals, in s, that are less than this one's and could not be followed to a motion that is
-    /// faster than its neighbours: while there are any, this one may not be the fastest.
+    /// The durations of polygons or extremals, in s, that are less than that of this motion but could not be continued to a motion
+    /// that is a local minimum. While there are any, this motion may not be the fastest.
     pub fn doubts(&self) -> Vec<f64> {
         let time = self.time();
         let doubts = self.tried.iter().filter_map(|trial| trial.doubt(time));
         doubts.collect()
     }
 
-    /// How much the search did, in evaluations as [`Search::budget`](super::Search::budget) counts them.
+    /// The work of the search, in evaluations as counted by [`Search::budget`](super::Search::budget).
     pub fn evaluations(&self) -> u64 {
         self.evaluations
     }
 
-    /// The machine that moves.
+    /// The machine.
     pub fn terrain(&self) -> &T {
         &self.system.terrain
     }
 
-    /// Where it starts and where it ends.
+    /// The start and the end.
     pub fn ends(&self) -> [&[f64]; 2] {
         [&self.ends[0], &self.ends[1]]
     }
 
-    /// The multipliers `p` of the coordinates at the start, in s for a unit of each: by so much longer it takes from there.
+    /// The multipliers `p` of the coordinates at the start, in s per unit of each: the decrease of the duration per
+    /// displacement of the start along that coordinate.
     pub fn costs(&self) -> &[f64] {
         let n = self.system.n();
         &self.path.nodes[0][n + 1..2 * n + 1]
     }
 
-    /// How far Pontryagin's function is from 1, at most, at the ends of stretches and half-way.
+    /// The largest deviation of Pontryagin's function from 1 at the ends of stretches and half-way.
     pub fn residual(&self) -> f64 {
         let looks = 2 * self.stretches();
         let moments = (1..=looks).map(|k| {
@@ -102,7 +104,7 @@ impl<T: Terrain> Sought<T> {
         moments.fold(0.0, f64::max)
     }
 
-    /// States and multipliers at a time, by one stretch from the last end before it.
+    /// States and multipliers at a time, by integrating one stretch from the last node before it.
     fn stage(&self, time: f64) -> Stage {
         let count = self.stretches();
         let whole = (time / self.time()).clamp(0.0, 1.0) * count as f64;
@@ -131,7 +133,7 @@ impl<T: Terrain> Sought<T> {
         Stage { y, z }
     }
 
-    /// The control that makes H stationary, from a guess with some digits.
+    /// The control that makes H stationary, from a guess with a few digits.
     fn steered(&self, y: &[f64], mut z: Vec<f64>) -> Vec<f64> {
         let first = y.len();
         for _ in 0..4 {
@@ -149,13 +151,13 @@ impl<T: Terrain> Sought<T> {
         z
     }
 
-    /// The motion at a time, in s; before the start and after the end, at these.
+    /// The motion at a time, in s; times before the start or after the end are clamped.
     pub fn at(&self, time: f64) -> Moment {
         let n = self.system.n();
         let (m, wide) = (n + 1, 2 * (n + 1));
         let Stage { y, z } = self.stage(time);
         let (slopes, second) = self.system.curvatures(&y, &z);
-        // ẏ and ż, and so the rate of v = ∂H/∂p.
+        // ẏ and ż give the rate of v = ∂H/∂p.
         let mut rate: Vec<f64> = slopes[m..wide].to_vec();
         rate.extend(slopes[..m].iter().map(|x| -x));
         let right: Vec<f64> = second[wide..]
@@ -205,7 +207,7 @@ impl<T: Terrain> Sought<T> {
         }
     }
 
-    /// Guides that slide backwards, or whose reaction becomes negative.
+    /// Guides that slip backwards, or whose reaction becomes negative.
     pub fn lapses(&self) -> Vec<Lapse> {
         let looks = (0..=LOOKS).map(|k| self.at(self.time() * f64::from(k) / f64::from(LOOKS)));
         let moments: Vec<Moment> = looks.collect();
@@ -216,9 +218,9 @@ impl<T: Terrain> Sought<T> {
         lapses(&self.system.terrain.guides(), &moments, slip)
     }
 
-    /// Between which sudden turns of the direction, in rad, nothing would be faster at any moment (Weierstrass); of two
-    /// coordinates, in steps of a degree. A turn right round multiplies the speed by `exp(∓2π κ)`: with friction in it none
-    /// is the best there.
+    /// The range of sudden turns of the direction, in rad, among which none would be faster at any moment (Weierstrass);
+    /// for two coordinates, in steps of a degree. A full turn multiplies the speed by `exp(∓2π κ)`: with friction that
+    /// depends on turns no range reaches that far.
     pub fn best_among_turns(&self) -> [f64; 2] {
         const STEPS: u32 = 180;
         if !self.system.is_plane() {
@@ -242,7 +244,7 @@ impl<T: Terrain> Sought<T> {
         })
     }
 
-    /// Legendre's condition: H is greatest, and not least, for the directions of the motion.
+    /// Legendre's condition: H has a maximum, not a minimum, at the directions of the motion.
     fn saddle(&self) -> Option<f64> {
         let n = self.system.n();
         let first = 2 * (n + 1);
@@ -262,8 +264,8 @@ impl<T: Terrain> Sought<T> {
         None
     }
 
-    /// Jacobi's condition: extremals to the end, from whatever state they come, do not meet before it. With the state (q, W)
-    /// their family has n parameters beside the time, and its Jacobian vanishes where they meet.
+    /// Jacobi's condition: extremals that lead to the end, from whatever state, do not intersect before it. In the states
+    /// (q, W) their family has n parameters besides time, and its Jacobian vanishes where they intersect.
     fn conjugate(&self) -> Option<f64> {
         let (system, path) = (&self.system, &self.path);
         let n = system.n();
@@ -275,7 +277,7 @@ impl<T: Terrain> Sought<T> {
         if let Some(level) = &path.level {
             return self.conjugate_to_start(&transitions, level).map(moment);
         }
-        // At the end q stays and λ is 0; p and W change so that H stays 1.
+        // At the end q is fixed and λ is 0; p and W vary such that H stays 1.
         let (_, slopes) = system.slopes(&path.nodes[last], &path.last);
         let free: Vec<usize> = (n..m + n).collect();
         let greatest = |k: &usize| (slopes[*k] * path.nodes[last][*k]).abs();
@@ -306,9 +308,9 @@ impl<T: Terrain> Sought<T> {
         None
     }
 
-    /// The search for a motion that ends at rest, where no energy is lost: it can be gone backwards too, so extremals from the
-    /// start are looked at, which all have its energy. They differ by their multipliers p, but for the multiple of `∂V`
-    /// that changes nothing, and n of their places, q̇ among them, are to stay independent.
+    /// Jacobi's condition for a conservative motion that ends at rest: it can be reversed, so extremals from the start are
+    /// examined, which all have its energy. They differ by their multipliers p, except for the multiple of `∂V` that has no
+    /// effect, and n vectors in configuration space, q̇ among them, must stay independent.
     fn conjugate_to_start(&self, transitions: &[Vec<Vec<f64>>], level: &Level) -> Option<usize> {
         let (system, path) = (&self.system, &self.path);
         let n = system.n();

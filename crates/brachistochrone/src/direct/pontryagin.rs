@@ -2,11 +2,11 @@
 
 use lagrangian_scalar::{Dual, Scalar};
 
-/// What is known of an optimal process.
+/// An optimal control problem, given by its Pontryagin function.
 pub trait Pontryagin {
-    /// How many states, and as many multipliers.
+    /// The number of states, which is also that of multipliers.
     fn states(&self) -> usize;
-    /// How many controls.
+    /// The number of controls.
     fn controls(&self) -> usize;
     /// `H`.
     fn value<N: Scalar>(&self, y: &[N], z: &[N]) -> N;

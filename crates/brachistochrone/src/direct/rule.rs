@@ -2,28 +2,29 @@
 
 use lagrangian_scalar::{Dual, Scalar};
 
-/// Gauss points of a stretch.
+/// The number of Gauss points of a stretch.
 pub const POINTS: usize = 4;
 
-/// The rule on [0, 1]: points, weights up to each, and weights of the whole.
+/// The Gauss rule on [0, 1].
 pub struct Rule {
     /// The points.
     pub points: [f64; POINTS],
-    /// Weights up to each point.
+    /// Weights of the integrals from 0 up to each point.
     pub upto: [[f64; POINTS]; POINTS],
-    /// Weights of the whole.
+    /// Weights of the integral over the whole interval.
     pub whole: [f64; POINTS],
 }
 
 impl Rule {
-    /// The zeros of Legendre's polynomial of degree 4; weights that integrate polynomials of degree 3.
+    /// Computes the zeros of the Legendre polynomial of degree 4, and weights that integrate polynomials of
+    /// degree 3 exactly.
     pub fn new() -> Rule {
         let root = 2.0 / 7.0 * 1.2_f64.sqrt();
         let [far, near] = [(3.0 / 7.0 + root).sqrt(), (3.0 / 7.0 - root).sqrt()];
         let points = [-far, -near, near, far].map(|z| (1.0 + z) / 2.0);
         let integrals = |end: f64| -> [f64; POINTS] {
             core::array::from_fn(|l| {
-                // The polynomial that is 1 at one point and 0 at the others, by its values at two Gauss points.
+                // The Lagrange polynomial of a point; two Gauss points integrate it exactly.
                 let basis = |x: f64| {
                     let others = (0..POINTS).filter(|k| *k != l);
                     others

@@ -1,4 +1,4 @@
-//! The search for the fastest motion: many starts, each made fast, then smooth.
+//! The search for the fastest motion: several starts, each improved as a polygon, then as a smooth motion.
 
 use std::cmp::Ordering;
 
@@ -17,26 +17,28 @@ use crate::error::Unsolved;
 use crate::linear::{Cholesky, Matrix, dot};
 use crate::trial::{Outcome, Start, Trial};
 
-/// The time is settled when halving changes it by less than this part; at order 8 it is then good to the last digits.
+/// The duration has converged when halving changes it by less than this fraction; at order 8 it is then accurate to
+/// the last digits.
 const SETTLED: f64 = 1e-12;
 
-/// Straight pieces, and the stretches on which they are made smooth, the cheapest first.
+/// Numbers of pieces of a polygon and of the stretches of the smooth motion made from it, the cheapest first.
 const LEVELS: [[usize; 2]; 3] = [[16, 8], [32, 16], [64, 32]];
 
 /// The most stretches.
 const STRETCHES: usize = 256;
 
-/// Times of straight pieces are this near to those of the smooth motions, relatively: 16 pieces to a thousandth or so.
+/// The relative difference between the durations of a polygon and its smooth motion: 16 pieces are accurate to
+/// about a thousandth.
 const NEAR: f64 = 0.03;
 
-/// Ways nearer to each other than this part of their length are one; smooth ones, and those of straight pieces.
+/// Paths closer to each other than this fraction of their length are the same: smooth ones, and polygons.
 const SAME: [f64; 2] = [1e-5, 0.03];
 
-/// The most that a search may do, in numbers that inertia or resistance is evaluated with: some seconds for an interpreted
-/// machine, a fraction of one for a compiled machine.
+/// The default budget, in numbers with which inertia or resistance is evaluated: some seconds for an interpreted machine,
+/// a fraction of a second for a compiled one.
 const BUDGET: u64 = 4_000_000;
 
-/// How to look for the fastest motion.
+/// Settings of a search for the fastest motion.
 #[derive(Clone, Debug)]
 pub struct Search {
     guesses: Vec<Vec<Vec<f64>>>,
@@ -54,14 +56,14 @@ impl Default for Search {
     }
 }
 
-/// What one start led to.
+/// The polygon to which a start led.
 struct Candidate {
     trial: usize,
     way: Way,
     walk: Walk,
 }
 
-/// A smooth motion, and by how much its time changed at last.
+/// A smooth motion, with the last change of its duration.
 struct Smooth {
     trial: usize,
     path: Path,
@@ -69,36 +71,36 @@ struct Smooth {
 }
 
 impl Search {
-    /// From the straight way and from ways to either side of it, as far as a budget of some seconds goes.
+    /// The default search: from the straight path and paths on either side of it, with a budget of some seconds.
     pub fn new() -> Search {
         Search::default()
     }
 
-    /// Starts also from a way through these places, at least two. Where it begins and ends it is moved to the ends that are
-    /// asked for, so that the motion to a near end may be given.
+    /// Adds a start: a path through these places, at least two. Its ends are moved to the ends of the problem, so a
+    /// solution for nearby ends may be used.
     pub fn guess(mut self, places: Vec<Vec<f64>>) -> Search {
         self.guesses.push(places);
         self
     }
 
-    /// On so many equal stretches of time, instead of as many as it takes, for those who look at the error.
+    /// Uses this many equal time stretches instead of as many as convergence needs, for studies of the error.
     pub fn stretches(mut self, stretches: usize) -> Search {
         self.stretches = Some(stretches.max(1));
         self
     }
 
-    /// Does so much at most, in evaluations of [`Terrain::inertia`] and [`Terrain::resistance`], each counted once for every
-    /// real number in the type it is made with; and as much again from the motions of the machine without friction. What was
-    /// begun is ended, so somewhat more may be done. It is 4 million unless it is said.
+    /// Sets the budget, in evaluations of [`Terrain::inertia`] and [`Terrain::resistance`], each counted once for every real
+    /// component of the number type; the continuation from the machine without friction may use as much again. Work that has
+    /// started is finished, so the budget may be exceeded somewhat. The default is 4 million.
     pub fn budget(mut self, evaluations: u64) -> Search {
         self.budget = evaluations;
         self
     }
 
-    /// The fastest motion of a machine from rest at one place to another: the fastest of those that the starts lead to.
+    /// The fastest motion of a machine from rest at one position to another: the fastest of those to which the starts lead.
     ///
     /// # Errors
-    /// Why there is none, or none that was found; see [`Unsolved`].
+    /// Why there is no fastest motion, or none was found; see [`Unsolved`].
     pub fn solve<T: Terrain>(
         &self,
         terrain: T,
@@ -116,7 +118,7 @@ impl Search {
         let starts = self.starts(&counted, from, to);
         let rise = rise(&terrain, from, to);
         let falls = is_potential(&terrain, &starts);
-        // What a potential takes, no way gives back. Level ends are a matter of rounding.
+        // With a potential the end must be below the start; no path changes that. Ends count as level within round-off.
         let looks = rise.work <= 1e-9 * rise.size || !falls || skew.1 > SKEW;
         let is_level = rise.work.abs() <= 1e-9 * rise.size.max(drop(&terrain, &starts));
         let level = if is_level && skew.1 <= SKEW && conserves(&terrain, &starts) {
@@ -147,7 +149,7 @@ impl Search {
                 };
                 hunt.rub(&without, starts, &mut found, &mut tried);
             }
-            // Closed forms have no multipliers at level ends.
+            // Closed forms have no finite multipliers if the ends are level.
             if found.is_empty() && hunt.level.is_none() {
                 let (outcome, smooth) = hunt.thawed(tried.len());
                 tried.push(Trial {
@@ -178,7 +180,7 @@ impl Search {
         })
     }
 
-    /// The guesses, the straight way, and ways beside it.
+    /// The guesses, the straight path, and paths beside it.
     fn starts(&self, terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Vec<(Start, Way)> {
         let guesses = self.guesses.iter();
         let guesses = guesses.map(|places| (Start::Guess, guessed(terrain, places, from, to)));
@@ -218,19 +220,19 @@ impl Search {
     }
 }
 
-/// A search that goes on.
+/// The state of a search.
 struct Hunt<'a, T> {
     system: Driven<Counted<'a, T>>,
     descent: Descent<'a, T>,
     budget: &'a Budget,
     ends: [&'a [f64]; 2],
-    /// Where the end is level with the start, and nothing is lost on the way.
+    /// Present where the end is level with the start and there are no losses.
     level: Option<Level>,
     stretches: Option<usize>,
 }
 
 impl<T: Terrain> Hunt<'_, T> {
-    /// The motions that these starts lead to.
+    /// Adds the motions to which these starts lead.
     fn follow(&self, starts: Vec<(Start, Way)>, tried: &mut Vec<Trial>) -> Vec<Smooth> {
         let mut found: Vec<Smooth> = Vec::new();
         for candidate in self.candidates(starts, tried) {
@@ -242,7 +244,7 @@ impl<T: Terrain> Hunt<'_, T> {
         found
     }
 
-    /// Adds the motions to which those of the machine without friction lead while friction is added.
+    /// Adds the motions found by continuation in friction, from those of the machine without friction.
     fn rub(
         &self,
         without: &Self,
@@ -279,7 +281,7 @@ impl<T: Terrain> Hunt<'_, T> {
         }
     }
 
-    /// The motion of the machine itself, from one of the machine without friction.
+    /// The motion of the machine itself, continued from one of the machine without friction.
     fn rubbed(&self, trial: usize, path: Path, known: &[Smooth]) -> (Outcome, Option<Smooth>) {
         let [from, to] = self.ends;
         let corrected = |path: Path, share: f64| {
@@ -296,7 +298,7 @@ impl<T: Terrain> Hunt<'_, T> {
         }
     }
 
-    /// Different ways of straight pieces that are the fastest nearby, the fastest first; every start has its trial.
+    /// Distinct polygons of locally least time, the fastest first; every start is recorded as a trial.
     fn candidates(&self, starts: Vec<(Start, Way)>, tried: &mut Vec<Trial>) -> Vec<Candidate> {
         let mut found: Vec<Candidate> = Vec::new();
         for (start, mut way) in starts {
@@ -326,7 +328,7 @@ impl<T: Terrain> Hunt<'_, T> {
         found
     }
 
-    /// The smooth motion at a way of straight pieces.
+    /// The smooth motion near a polygon.
     fn smoothed(&self, candidate: Candidate, known: &[Smooth]) -> (Outcome, Option<Smooth>) {
         match self.corrected(candidate) {
             Ok((trial, path)) => self.judged(trial, path, known),
@@ -334,7 +336,7 @@ impl<T: Terrain> Hunt<'_, T> {
         }
     }
 
-    /// The smooth path at a way of straight pieces, on a few stretches, and the number of its trial; or why there is none.
+    /// The smooth path near a polygon, on a few stretches, with the index of its trial; or the outcome if there is none.
     fn corrected(&self, candidate: Candidate) -> Result<(usize, Path), Outcome> {
         let Candidate {
             trial,
@@ -344,7 +346,7 @@ impl<T: Terrain> Hunt<'_, T> {
         for [pieces, stretches] in LEVELS {
             while way.places.len() <= pieces {
                 way = way.halved();
-                // What long pieces leapt over may be in the way of shorter ones.
+                // An obstacle that long pieces skipped may block shorter ones.
                 let released = self.descent.released(&mut way);
                 match released.and_then(|_| self.descent.fastest(&mut way)) {
                     Ok(finer) => walk = finer,
@@ -356,7 +358,7 @@ impl<T: Terrain> Hunt<'_, T> {
             let [from, to] = self.ends;
             let path = Path::along(&self.system, &way, &walk, (stretches, self.level.clone()));
             let path = path.and_then(|path| path.corrected(&self.system, from, to, self.budget));
-            // Newton's method may have gone elsewhere.
+            // Newton's method may have converged to another path.
             let near = |path: &Path| (path.time / walk.time() - 1.0).abs() < NEAR;
             if let Some(path) = path.filter(near) {
                 return Ok((trial, path));
@@ -368,7 +370,7 @@ impl<T: Terrain> Hunt<'_, T> {
         Err(Outcome::NotSmooth { time: walk.time() })
     }
 
-    /// The path on as many stretches as it takes, if it is a new one and faster than its neighbours.
+    /// The path with converged duration, if it is new and a local minimum.
     fn judged(&self, trial: usize, path: Path, known: &[Smooth]) -> (Outcome, Option<Smooth>) {
         let Some((path, change)) = self.settled(path) else {
             return (Outcome::Unfinished, None);
@@ -403,7 +405,8 @@ impl<T: Terrain> Hunt<'_, T> {
         }
     }
 
-    /// Halves the stretches until the time stays, or the budget is spent; and by how much it changed at last, in s.
+    /// Halves the stretches until the duration converges, or the budget is exhausted; returns the path with the
+    /// last change of duration, in s.
     fn settled(&self, mut path: Path) -> Option<(Path, f64)> {
         let mut change = f64::INFINITY;
         let most = self.stretches.unwrap_or(STRETCHES);
@@ -416,7 +419,7 @@ impl<T: Terrain> Hunt<'_, T> {
             let before = change;
             change = (finer.time - path.time).abs();
             path = finer;
-            // Or rounding is reached, and halving changes no more.
+            // Otherwise round-off is reached, and halving improves nothing.
             if change <= SETTLED * path.time || (change >= before && change <= 1e-10 * path.time) {
                 break;
             }
@@ -424,7 +427,7 @@ impl<T: Terrain> Hunt<'_, T> {
         (self.stretches.is_some() || change <= 1e-6 * path.time).then_some((path, change))
     }
 
-    /// From closed forms.
+    /// A motion from the closed forms of frozen machines.
     fn thawed(&self, trial: usize) -> (Outcome, Option<Smooth>) {
         let [from, to] = self.ends;
         let mut reached = 0.0_f64;
@@ -453,7 +456,7 @@ impl<T: Terrain> Hunt<'_, T> {
     }
 }
 
-/// Of equal ones the first, as a mirror makes them equal.
+/// Among equally fast ones, as mirror images are, the first.
 fn fastest(found: Vec<Smooth>) -> Option<Smooth> {
     let by_time = |a: &Smooth, b: &Smooth| a.path.time.total_cmp(&b.path.time);
     found
@@ -464,14 +467,14 @@ fn fastest(found: Vec<Smooth>) -> Option<Smooth> {
         })
 }
 
-/// Whether nothing was found, or what was tried may be faster than what was found.
+/// Whether nothing was found, or a trial may lead to a faster motion than those found.
 fn leaves_doubts(found: &[Smooth], tried: &[Trial]) -> bool {
     let best = found.iter().map(|smooth| smooth.path.time);
     let best = best.fold(f64::INFINITY, f64::min);
     found.is_empty() || tried.iter().any(|trial| trial.doubt(best).is_some())
 }
 
-/// Whether two machines differ anywhere on the straight way, at rest.
+/// Whether two machines differ anywhere on the straight path, at rest.
 fn differs<T: Terrain>(one: &T, other: &T, from: &[f64], to: &[f64]) -> bool {
     let rest = std::vec![0.0; from.len()];
     [0.0, 0.25, 0.5, 0.75, 1.0].into_iter().any(|part| {
@@ -481,7 +484,7 @@ fn differs<T: Terrain>(one: &T, other: &T, from: &[f64], to: &[f64]) -> bool {
     })
 }
 
-/// How far ways with as many places are from each other, at most, in the metric of the middle, relative to the length.
+/// The greatest distance between corresponding corners of two paths, in the metric at the middle, relative to the length.
 fn distance(terrain: &impl Terrain, one: &[Vec<f64>], other: &[Vec<f64>]) -> f64 {
     let n = one[0].len();
     let metric = symmetric(terrain.inertia(&one[one.len() / 2]), n);
@@ -499,7 +502,7 @@ fn distance(terrain: &impl Terrain, one: &[Vec<f64>], other: &[Vec<f64>]) -> f64
     pairs.map(|(x, y)| apart(x, y)).fold(0.0, f64::max) / whole
 }
 
-/// Columns orthonormal in the metric `sym A` of the start, in which directions are measured.
+/// Columns orthonormal in the metric `sym A` of the start, which define the frame of directions.
 fn frame(terrain: &impl Terrain, from: &[f64]) -> Result<Matrix, Unsolved> {
     let n = from.len();
     let even = rows(&symmetric(terrain.inertia(from), n), n);
@@ -515,7 +518,8 @@ fn frame(terrain: &impl Terrain, from: &[f64]) -> Result<Matrix, Unsolved> {
         .collect())
 }
 
-/// The two coordinates in which `A` is skew most on the straight way, and how much, relative to the inertia of both.
+/// The two coordinates for which the skew part of `A` is greatest on the straight path, and its size relative to
+/// the inertia of both.
 fn skew(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> ([usize; 2], f64) {
     let n = from.len();
     let mut most = ([0, 0], 0.0_f64);
@@ -534,7 +538,7 @@ fn skew(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> ([usize; 2], f64) {
     most
 }
 
-/// With three coordinates or more, no fastest motion survives friction that makes `A` skew.
+/// With three coordinates or more there is no fastest motion if friction makes `A` skew.
 fn refuse_loops(n: usize, (coordinates, skew): ([usize; 2], f64)) -> Result<(), Unsolved> {
     if n > 2 && skew > SKEW {
         Err(Unsolved::LoopsFeed { coordinates, skew })
@@ -543,14 +547,14 @@ fn refuse_loops(n: usize, (coordinates, skew): ([usize; 2], f64)) -> Result<(), 
     }
 }
 
-/// Work against everything that resists at rest, in J.
+/// The work against all resistance at rest, in J.
 struct Rise {
     work: f64,
-    /// Of its parts, without their signs.
+    /// The sum of the absolute values of its terms.
     size: f64,
 }
 
-/// On the straight way.
+/// The work along the straight path.
 fn rise(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Rise {
     let way: Vec<f64> = to.iter().zip(from).map(|(to, from)| to - from).collect();
     let rest = std::vec![0.0; from.len()];
@@ -559,7 +563,7 @@ fn rise(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Rise {
         work: 0.0,
         size: 0.0,
     };
-    // Gauss' rule of two points, so that the work is good to the last digits.
+    // The two-point Gauss rule makes the work accurate to the last digits.
     for k in 0..steps {
         for z in [-1.0, 1.0] {
             let part = (f64::from(k) + 0.5 + 0.5 * z / 3.0_f64.sqrt()) / f64::from(steps);
@@ -572,7 +576,7 @@ fn rise(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Rise {
     rise
 }
 
-/// By how much the deepest of some places is below the start, in J: what levels are measured by.
+/// How far the lowest of the corners is below the start, in J: the scale by which levels are compared.
 fn drop(terrain: &impl Terrain, ways: &[(Start, Way)]) -> f64 {
     let ends = ways.iter().flat_map(|(_, way)| way.places.split_first());
     let depths = ends.flat_map(|(start, others)| {
@@ -582,7 +586,7 @@ fn drop(terrain: &impl Terrain, ways: &[(Start, Way)]) -> f64 {
     depths.fold(0.0, f64::max)
 }
 
-/// What is known of the ends of a motion from rest to rest; `None` where nothing drives at one of them.
+/// The extra conditions of a motion from rest to rest; `None` where no force acts at one of the ends.
 fn level(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Option<Level> {
     let rest = std::vec![0.0; from.len()];
     let [from, to] = [from, to].map(|q| terrain.resistance(q, &rest));
@@ -592,8 +596,8 @@ fn level(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Option<Level> {
     (drives(&from) && drives(&to)).then_some(Level { from, follows })
 }
 
-/// Whether nothing is lost and nothing gained at the places of these ways: there is a potential, and in motion
-/// `v·R(q, v) = v·R(q, 0) + ½ v·∂A[v] v` in either sense.
+/// Whether the machine is conservative along these paths: there is a potential, and in motion
+/// `v·R(q, v) = v·R(q, 0) + ½ v·∂A[v] v` for both directions of v.
 fn conserves(terrain: &impl Terrain, ways: &[(Start, Way)]) -> bool {
     ways.iter().all(|(_, way)| {
         let places = way.places.iter().step_by(3);
@@ -603,13 +607,13 @@ fn conserves(terrain: &impl Terrain, ways: &[(Start, Way)]) -> bool {
     })
 }
 
-/// Whether motion takes energy at a place, but for what a potential and inertia take and give.
+/// Whether motion dissipates energy at a position.
 fn takes(terrain: &impl Terrain, q: &[f64]) -> bool {
     let gains = gains(terrain, q);
     gains.iter().any(|[gain, size]| *gain < -1e-9 * size)
 }
 
-/// Whether what resists is a potential's force, and whatever depends on velocities gives no energy: at all places of these ways.
+/// Whether forces at rest have a potential, and velocity-dependent forces supply no energy, everywhere on these paths.
 fn is_potential(terrain: &impl Terrain, ways: &[(Start, Way)]) -> bool {
     ways.iter().all(|(_, way)| {
         let places = way.places.iter().step_by(3);
@@ -617,7 +621,7 @@ fn is_potential(terrain: &impl Terrain, ways: &[(Start, Way)]) -> bool {
     })
 }
 
-/// At one place: the force at rest is without curl, and in motion `v·R(q, v) ≥ v·R(q, 0) + ½ v·∂A[v] v`.
+/// At one position: the force at rest is free of curl, and in motion `v·R(q, v) ≥ v·R(q, 0) + ½ v·∂A[v] v`.
 fn loses(terrain: &impl Terrain, q: &[f64]) -> bool {
     let n = q.len();
     let still = std::vec![Dual::constant(0.0); n];
@@ -646,7 +650,8 @@ fn loses(terrain: &impl Terrain, q: &[f64]) -> bool {
     !curls && !feeds
 }
 
-/// `v·R(q, 0) + ½ v·∂A[v] v − v·R(q, v)` for velocities along each coordinate and against it, and the size of its terms.
+/// `v·R(q, 0) + ½ v·∂A[v] v − v·R(q, v)` for velocities along each coordinate in both directions, and the
+/// size of its terms.
 fn gains(terrain: &impl Terrain, q: &[f64]) -> Vec<[f64; 2]> {
     let n = q.len();
     let gain = |k: usize| {
@@ -664,7 +669,7 @@ fn gains(terrain: &impl Terrain, q: &[f64]) -> Vec<[f64; 2]> {
     (0..2 * n).map(gain).collect()
 }
 
-/// A place that moves at this rate.
+/// A position as dual numbers whose derivatives are this velocity.
 fn dual(q: &[f64], v: &[f64]) -> Vec<Dual<f64>> {
     let pairs = q.iter().zip(v);
     pairs

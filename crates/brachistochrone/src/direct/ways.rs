@@ -1,4 +1,4 @@
-//! Ways to start from.
+//! Initial paths of a search.
 
 use super::Terrain;
 use super::descent::Way;
@@ -6,13 +6,13 @@ use super::{between, symmetric};
 use crate::linear::dot;
 use crate::trial::Start;
 
-/// So many straight pieces at first.
+/// The initial number of pieces.
 pub const PIECES: usize = 16;
 
-/// How far aside ways go in the middle, of the length of the straight one: of two coordinates, and of more.
+/// How far paths deviate in the middle, relative to the length of the straight one: for two coordinates, and for more.
 const ASIDE: [&[f64]; 2] = [&[0.35, 1.0], &[0.5]];
 
-/// The straight way, and ways that leave it to either side of it, across it in the metric of its middle.
+/// The straight path, and paths that deviate to either side of it, orthogonally in the metric of its middle.
 pub fn ways(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Vec<(Start, Way)> {
     let n = from.len();
     let metric = symmetric(terrain.inertia(&between(from, to, 0.5)), n);
@@ -21,7 +21,7 @@ pub fn ways(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Vec<(Start, Way
     let straight: Vec<f64> = to.iter().zip(from).map(|(to, from)| to - from).collect();
     let length = product(&straight, &straight).max(0.0).sqrt();
     let mut found = std::vec![(Start::Straight, bowed(from, to, &std::vec![0.0; n]))];
-    // Schmidt's method; the unit that is nearest to the straight way is left out.
+    // Gram–Schmidt orthogonalization; the unit vector nearest to the straight path is left out.
     let mut across: Vec<Vec<f64>> = std::vec![straight.iter().map(|x| x / length).collect()];
     let share = |i: &usize| product(&across[0], &unit(n, *i)).abs() / metric[i * n + i].sqrt();
     let nearest = (0..n).max_by(|a, b| share(a).total_cmp(&share(b)));
@@ -52,7 +52,8 @@ fn unit(n: usize, i: usize) -> Vec<f64> {
     (0..n).map(|k| if k == i { 1.0 } else { 0.0 }).collect()
 }
 
-/// At the part `τ²` of the way at the part τ of the time, as from rest under a constant force, and aside by a half sine.
+/// The path is at the fraction `τ²` at the fraction τ of the time, as from rest under a constant force, and
+/// deviates by a half sine.
 fn bowed(from: &[f64], to: &[f64], by: &[f64]) -> Way {
     let place = |k: usize| {
         let part = (k as f64 / PIECES as f64).powi(2);
@@ -70,7 +71,8 @@ fn bowed(from: &[f64], to: &[f64], by: &[f64]) -> Way {
     }
 }
 
-/// A way through given places, whose ends are moved to these; what is between moves with them, by its part of the length.
+/// A path through given places with its ends moved to these; the displacement of places in between is
+/// interpolated by length.
 pub fn guessed(terrain: &impl Terrain, places: &[Vec<f64>], from: &[f64], to: &[f64]) -> Way {
     let n = from.len();
     let metric = symmetric(terrain.inertia(&between(from, to, 0.5)), n);
@@ -101,7 +103,7 @@ pub fn guessed(terrain: &impl Terrain, places: &[Vec<f64>], from: &[f64], to: &[
             .collect()
     };
     let mut places: Vec<Vec<f64>> = (0..=PIECES).map(place).collect();
-    // To the last digit.
+    // The ends must be exact.
     places[0] = from.to_vec();
     places[PIECES] = to.to_vec();
     Way { places }

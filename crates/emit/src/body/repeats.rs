@@ -1,9 +1,9 @@
-//! Statements with loops: what repeats itself is written once.
+//! Statements with loops: repeated code is written once.
 //!
-//! The body of a loop is the first iteration's. What it reads is a variable that is set again at
-//! the end of the body (*carried*), an element of an array that is counted up or down, or a
-//! variable from before. What is needed after the loop goes into an array, one element for each
-//! iteration, or, if only the last iteration's is needed, into a variable.
+//! The body of a loop is that of its first iteration. Each of its inputs is a variable that the end of the body
+//! sets again (*carried*), an element of an array at an increasing or decreasing index, or a variable defined
+//! before the loop. Values that are needed after the loop are stored in an array with one element for each
+//! iteration or, if only those of the last iteration are needed, in a variable.
 
 use std::collections::BTreeSet;
 
@@ -17,10 +17,10 @@ use lagrangian_program::{
     Contraction, Function, Guard, Kind, Op, Operand, Repeat, Source, Steps, Value,
 };
 
-/// The fewest elements that are copied by a loop; fewer are written out.
+/// The smallest number of elements that are copied by a loop; fewer are written out.
 const FEWEST_COPIES: usize = 4;
 
-/// An element of an array: what stands before its index, the index, and what behind.
+/// An element of an array: the text before its index, the index, and the text after it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
     before: String,
@@ -29,7 +29,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// `before`, the index, `after`.
+    /// The element with the text `before`, an index, and the text `after`.
     pub fn new(before: impl Into<String>, index: usize, after: impl Into<String>) -> Place {
         Place {
             before: before.into(),
@@ -38,7 +38,7 @@ impl Place {
         }
     }
 
-    /// It as text.
+    /// Its text.
     pub fn text(&self) -> String {
         self.at(&self.index.to_string())
     }
@@ -48,26 +48,26 @@ impl Place {
         format!("{}{index}{}", self.before, self.after)
     }
 
-    /// How far another element of the same array is.
+    /// The distance to another element of the same array.
     fn to(&self, other: &Place) -> Option<i64> {
         let is_same = self.before == other.before && self.after == other.after;
         is_same.then(|| other.index as i64 - self.index as i64)
     }
 }
 
-/// Elements of one array at even distances.
+/// Elements of one array at equal distances.
 #[derive(Clone, Debug)]
 pub struct Run {
-    /// How many of a list come before it.
+    /// The number of elements of a list before it.
     pub start: usize,
-    /// How many it has.
+    /// The number of its elements.
     pub count: usize,
-    /// The first, and from each to the next; nothing for one that stands nowhere.
+    /// The first element and the distance from each to the next; `None` for a single element that is in no array.
     pub first: Option<(Place, i64)>,
 }
 
 impl Run {
-    /// The element that a counter from 0 says.
+    /// The element for a counter that starts at 0.
     pub fn text(&self, counter: &str) -> Option<String> {
         let (first, step) = self.first.as_ref()?;
         Some(first.at(&counted(first.index, *step, counter)))
@@ -88,7 +88,7 @@ fn counted(first: usize, step: i64, counter: &str) -> String {
     }
 }
 
-/// A list of elements as runs, the longest first found from the front.
+/// Splits a list of elements into runs, each the longest that starts at its first element.
 pub fn runs(list: &[Vec<Place>]) -> Vec<Run> {
     let mut runs = Vec::new();
     let mut start = 0;
@@ -105,7 +105,7 @@ pub fn runs(list: &[Vec<Place>]) -> Vec<Run> {
     runs
 }
 
-/// The longest run that a list begins with, of two elements at least.
+/// The longest run at the beginning of a list, with at least two elements.
 fn longest(list: &[Vec<Place>]) -> Option<Run> {
     let (first, second) = (list.first()?, list.get(1)?);
     let pairs = first
@@ -130,21 +130,22 @@ fn longest(list: &[Vec<Place>]) -> Option<Run> {
 
 /// How a language writes loops and arrays.
 pub trait Loops: Language {
-    /// The elements of arrays that an argument is, if any.
+    /// The array elements that an argument is, if any.
     fn places(&self, source: Source) -> Vec<Place>;
     /// An array of numbers.
     fn array(&self, writer: &mut Writer, name: &str, items: Layout);
-    /// An array of so many numbers, to be set.
+    /// An array of `count` numbers, to be set.
     fn array_to_set(&self, writer: &mut Writer, name: &str, number: &str, count: usize);
     /// A variable that may be set again.
     fn variable_to_set(&self, writer: &mut Writer, name: &str, value: &str);
     /// Sets a variable or an element.
     fn set(&self, writer: &mut Writer, what: &str, value: &str);
-    /// The head of a loop that counts from 0; without a name nobody asks for the count.
+    /// The head of a loop that counts from 0; without a name the counter is not used.
     fn open_loop(&self, writer: &mut Writer, counter: Option<&str>, count: usize);
-    /// A guard of a coordinate that is counted.
+    /// A guard whose coordinate depends on the counter.
     fn guard_of(&self, writer: &mut Writer, guard: &Guard, names: [&str; 2], coordinate: &str);
-    /// The sines and cosines of all angles of an array; where those of the angle at an index stand.
+    /// Writes the sines and cosines of all angles of an array; returns the elements that hold those of the
+    /// angle at an index.
     fn all_circular(&self, writer: &mut Writer, name: &str, angles: &str, at: usize) -> [Place; 2];
 }
 
@@ -156,7 +157,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The loops of a function of at least so many steps, if it has any.
+    /// The loops of a function with at least `shortest` steps, if it has any.
     pub fn of(function: &Function, is_for_speed: bool, shortest: usize) -> Option<Plan> {
         if function.code.len() < shortest {
             return None;
@@ -180,7 +181,7 @@ impl Plan {
         self.steps.steps.len()
     }
 
-    /// The prepared values that loops count, each list in the order of a loop.
+    /// The prepared values that loops count through, each list in the order of a loop.
     pub fn prepared(&self, function: &Function) -> Vec<Vec<u32>> {
         let slot = |value: &Value| match function.op(*value) {
             Op::Read(Source::Prepared(slot)) => Some(*slot),
@@ -198,8 +199,8 @@ impl Plan {
     }
 }
 
-/// Writes the statements of a function, what repeats itself as loops; the texts of its results come
-/// back, and the arrays that they stand in.
+/// Writes the statements of a function with repeated code as loops. Returns the texts of its results and the
+/// arrays that hold them.
 pub fn statements_with_loops(
     writer: &mut Writer,
     language: &impl Loops,
@@ -233,7 +234,7 @@ pub fn statements_with_loops(
 }
 
 impl Plan {
-    /// Whether a value that a loop computes is needed by anything else.
+    /// Which values that a loop computes are used outside of it.
     fn used_outside(&self, function: &Function) -> Vec<bool> {
         let mut used = vec![false; function.code.len()];
         for value in &function.results {
@@ -264,7 +265,7 @@ impl Plan {
 }
 
 impl<L: Loops> Body<'_, L> {
-    /// Texts for arguments and constants.
+    /// Sets the texts of arguments and constants.
     fn leaves(&mut self) {
         for index in 0..self.function.code.len() {
             let value = Value(index as u32);
@@ -285,7 +286,7 @@ impl<L: Loops> Body<'_, L> {
         }
     }
 
-    /// A step that is no part of a loop.
+    /// Writes a step that is not part of a loop.
     fn step(&mut self, plan: &Plan, index: usize) {
         let step = &plan.steps.steps[index];
         match step.kind {
@@ -323,13 +324,13 @@ impl<L: Loops> Body<'_, L> {
         }
     }
 
-    /// A value that stands in an array.
+    /// Records the array element that holds a value.
     fn put(&mut self, value: Value, place: Place) {
         self.texts[value.index()] = Some(Expression::leaf(place.text()));
         self.places[value.index()] = vec![place];
     }
 
-    /// An array of values.
+    /// Writes an array of values.
     fn fill(&mut self, name: &str, values: &[Value]) {
         let places: Vec<Vec<Place>> = values
             .iter()
@@ -348,7 +349,7 @@ impl<L: Loops> Body<'_, L> {
         );
     }
 
-    /// A value beyond those of the function.
+    /// Adds a value beyond those of the function.
     fn alias(&mut self, text: String) -> Value {
         self.texts.push(Some(Expression::leaf(text)));
         Value(self.texts.len() as u32 - 1)
@@ -366,7 +367,7 @@ impl<L: Loops> Body<'_, L> {
         let counter = language.identifier(&mut self.scope.clone(), "i");
         let mut counts = false;
 
-        // What the operands are called in the loop.
+        // The names of the operands inside the loop.
         let mut aliases: FxHashMap<&Operand, Value> = FxHashMap::default();
         let mut carried: Vec<(Value, String)> = Vec::new();
         for operand in operands.iter().flatten() {
@@ -410,7 +411,7 @@ impl<L: Loops> Body<'_, L> {
             aliases.insert(operand, alias);
         }
 
-        // What is kept of each value: all of it, or the last.
+        // Which iterations of each value are kept: all, or the last.
         let mut kept: Vec<(Value, Kept)> = Vec::new();
         for (offset, step) in steps[start..start + period].iter().enumerate() {
             for (which, value) in step.defines.iter().enumerate() {
@@ -450,7 +451,7 @@ impl<L: Loops> Body<'_, L> {
         counts |= guards
             .clone()
             .any(|step| matches!(step.kind, Kind::Guard(_)));
-        // Whatever is set at the end of the body is a variable from when it is known.
+        // A value that is set at the end of the body becomes a variable as soon as it is known.
         let set: BTreeSet<Value> = carried
             .iter()
             .map(|(value, _)| *value)
@@ -556,17 +557,17 @@ impl<L: Loops> Body<'_, L> {
     }
 }
 
-/// What is kept of a value that a loop computes, and in which iterations.
+/// How a value that a loop computes is kept.
 enum Kept {
-    /// An array, and the values.
+    /// In an array, with the values of all iterations.
     All(String, Vec<Value>),
-    /// A variable, and the value of the last iteration.
+    /// In a variable, with the value of the last iteration.
     Last(String, Value),
-    /// A variable that is carried anyway, and the value of the last iteration.
+    /// In a variable that is carried anyway, with the value of the last iteration.
     Carried(String, Value),
 }
 
-/// An array of numbers, of which some stand in other arrays; `wrap` is done to each.
+/// Writes an array of numbers, some of which are elements of other arrays; `wrap` is applied to each.
 pub fn fill(
     writer: &mut Writer,
     language: &impl Loops,

@@ -1,5 +1,5 @@
-//! The same file of C, and behind it one set of functions whose names and arguments are those of every machine, for code that
-//! is written once and knows no machine; and the derivatives of accelerations and outputs, forwards and backwards.
+//! The same C file, followed by a set of functions whose names and arguments are the same for every machine, for generic
+//! code; and the derivatives of accelerations and outputs, in forward and reverse mode.
 //!
 //! Their names begin with `unit` and have no underscore, so none is a name of the file before them, which all have one.
 
@@ -11,8 +11,7 @@ use lagrangian_program::{Function, Program, Reads, Role, Shape, Slot, is_differe
 use super::{Emitter, sign, sum_error};
 use crate::layout::Writer;
 
-/// Beyond so many operations of what is differentiated, derivatives are not worth their length: the compiler of C would need
-/// minutes for them.
+/// Functions with more operations than this are not differentiated: a C compiler would need minutes for the derivatives.
 pub const MOST_OPERATIONS: usize = 20_000;
 
 /// Whether a machine is small enough for derivatives.
@@ -23,15 +22,15 @@ pub fn may_have_derivatives(program: &Program) -> bool {
     operations + program.prepare.code.len() <= MOST_OPERATIONS
 }
 
-/// The derivatives of a machine, proved as it is.
+/// The derivatives of a machine, each proved.
 pub struct Derivatives {
-    /// What [`Program::tangent`] makes of it.
+    /// The result of [`Program::tangent`].
     pub tangent: Proved,
-    /// What [`Program::adjoint`] makes of it.
+    /// The result of [`Program::adjoint`].
     pub adjoint: Proved,
 }
 
-/// The text of the file. `origin` are lines for its head, `formulas` those that the comments show.
+/// The text of the file. `origin` holds lines for its head, `formulas` those that comments show.
 pub fn file(
     program: &Proved,
     derivatives: Option<&Derivatives>,
@@ -63,12 +62,12 @@ pub fn file(
     writer.finish()
 }
 
-/// The arguments of every function but those of parameters alone.
+/// The arguments of every function except those that depend on parameters alone.
 fn arguments(of: &str) -> String {
     format!("const {of}Prepared *p, double t, const double *q, const double *v, const double *u")
 }
 
-/// What there is instead of derivatives that there are not.
+/// The definitions that replace missing derivatives.
 fn without_derivatives(writer: &mut Writer) {
     writer.gap();
     writer.line("/* This machine is too large for derivatives: these are not called. */");
@@ -110,7 +109,7 @@ fn without_derivatives(writer: &mut Writer) {
 }
 
 impl Emitter<'_> {
-    /// The functions that the machine has, by its own names.
+    /// The functions of the machine under its own names.
     fn functions(&self, writer: &mut Writer, formulas: &BTreeMap<Role, Vec<String>>) {
         self.prepare(writer);
         let program = self.program;
@@ -138,7 +137,7 @@ impl Emitter<'_> {
         writer.close("};");
     }
 
-    /// A struct of the machine from an array, where a function reads it.
+    /// Fills a struct of the machine from an array, where a function reads it.
     fn filled(
         &self,
         writer: &mut Writer,
@@ -156,7 +155,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// The call of a function by the arguments that all machines have; `result` are those behind what it reads.
+    /// The call of a function with the arguments that are common to all machines; `result` holds those after its inputs.
     fn call(&self, reads: Reads, role: Role, result: &[&str]) -> String {
         let passed = self
             .arguments(reads)
@@ -171,7 +170,7 @@ impl Emitter<'_> {
         format!("{}_{name}({})", self.prefix, passed.join(", "))
     }
 
-    /// What a function reads, as its signature has it.
+    /// The arguments that a function reads, as its signature requires.
     fn read_by(&self, function: &Function) -> Reads {
         let mut reads = function.reads();
         reads.parameters |= function.role == Role::Start;
@@ -180,7 +179,7 @@ impl Emitter<'_> {
         reads
     }
 
-    /// The type of what is prepared, and the function that prepares it.
+    /// The type of prepared values, and the function that computes them.
     fn uniform_prepare(&self, writer: &mut Writer, of: &str, name: &str) {
         writer.gap();
         writer.line(format!("typedef {}_prepared {of}Prepared;", self.prefix));
@@ -228,7 +227,7 @@ impl Emitter<'_> {
         writer.close("}");
     }
 
-    /// A function that fills an array, for machines with constraints; matrices row by row.
+    /// A function that fills an array, for machines with constraints; matrices are stored row by row.
     fn uniform_list(&self, writer: &mut Writer, name: &str, role: Role) {
         let arguments = arguments("Unit");
         writer.gap();
@@ -259,7 +258,7 @@ impl Emitter<'_> {
         writer.close("}");
     }
 
-    /// The derivatives forwards.
+    /// The derivatives in forward mode.
     fn tangent(&self, writer: &mut Writer) {
         self.types(writer);
         self.functions(writer, &BTreeMap::new());
@@ -275,7 +274,7 @@ impl Emitter<'_> {
         );
     }
 
-    /// The derivatives backwards.
+    /// The derivatives in reverse mode.
     fn adjoint(&self, writer: &mut Writer) {
         self.types(writer);
         self.functions(writer, &BTreeMap::new());
@@ -375,7 +374,7 @@ impl Emitter<'_> {
         );
     }
 
-    /// One function for all of a list of numbers.
+    /// One function that computes all numbers of a list.
     fn numbered(
         &self,
         writer: &mut Writer,
@@ -409,7 +408,7 @@ impl Emitter<'_> {
         writer.close("}");
     }
 
-    /// Arguments that nobody reads are no mistake.
+    /// Marks unused arguments, so that compilers do not warn.
     fn unread(&self, writer: &mut Writer, reads: Reads, further: &[&str]) {
         let all = [
             ("p", reads.prepared),

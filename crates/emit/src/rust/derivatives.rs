@@ -1,4 +1,4 @@
-//! What accelerations and their derivatives are returned as, and what they do for the runtime.
+//! The struct of accelerations with their derivatives, and its traits for the runtime.
 
 use super::Emitter;
 use super::docs::prose;
@@ -10,12 +10,12 @@ use lagrangian_spec::model::Variable;
 struct Field {
     name: &'static str,
     docs: String,
-    /// The columns of the matrix of [`Role::Derivatives`], the accelerations being column 0.
+    /// The columns of the matrix of [`Role::Derivatives`]; column 0 holds the accelerations.
     columns: std::ops::Range<usize>,
 }
 
 impl Emitter<'_> {
-    /// The fields, in the order of their columns.
+    /// The fields in the order of their columns.
     fn derivative_fields(&self) -> Vec<Field> {
         let columns = &self.program.derivatives;
         let kind = |variable: &Variable| match variable {
@@ -47,7 +47,7 @@ impl Emitter<'_> {
         fields.collect()
     }
 
-    /// The struct that the function returns, where there is one.
+    /// Writes the struct that the function returns, if there is one.
     pub(super) fn derivatives(&mut self) {
         if self.program.derivatives.is_empty() {
             return;
@@ -78,7 +78,7 @@ impl Emitter<'_> {
         self.writer.close("}");
     }
 
-    /// The value of the struct, from the texts of the matrix.
+    /// The struct literal, from the texts of the matrix.
     pub(super) fn derivatives_literal(&self, shape: Shape, texts: &[String]) -> Layout {
         let (n, width) = match shape {
             Shape::Matrix(rows, columns) => (rows, columns),
@@ -94,7 +94,7 @@ impl Emitter<'_> {
         Layout::Struct(self.types.derivatives.clone(), fields)
     }
 
-    /// `Linearize`, where the derivatives by all coordinates and rates are there.
+    /// Writes `Linearize`, if the derivatives by all coordinates and rates exist.
     pub(super) fn impl_linearize(&mut self) {
         let n = self.program.dimension();
         if !self.program.has_linearization() {
@@ -142,7 +142,7 @@ impl Emitter<'_> {
         self.impl_differentiate(&arguments, &call);
     }
 
-    /// `Differentiate`: the same with what else is differentiated by.
+    /// Writes `Differentiate`: the same with the derivatives by further variables.
     fn impl_differentiate(&mut self, arguments: &[String], call: &str) {
         let runtime = self.options.runtime.clone();
         let f64 = self.types.known("f64");
@@ -162,7 +162,7 @@ impl Emitter<'_> {
         });
         let table = Layout::nested(names);
         let width = others.len();
-        // The fields after the first two.
+        // All fields after the first two.
         let fields: Vec<&str> = self.derivative_fields()[2..]
             .iter()
             .map(|field| field.name)

@@ -1,4 +1,4 @@
-//! The words of a spec as documentation of Rust.
+//! The documentation of a spec as Rust documentation.
 
 use std::fmt::Write as _;
 
@@ -7,7 +7,7 @@ use lagrangian_program::Slot;
 use lagrangian_spec::model::Name;
 use lagrangian_units::{rate_unit, state_of};
 
-/// Documentation of the spec as documentation of Rust: nothing in it may turn into a test.
+/// Converts documentation of the spec to Rust documentation, such that nothing in it becomes a doc test.
 pub(super) fn prose(docs: &str) -> String {
     let mut is_open = false;
     let lines = docs.lines().map(|line| {
@@ -30,7 +30,7 @@ pub(super) fn prose(docs: &str) -> String {
     text
 }
 
-/// What a field is: the spec's words, its unit, its default.
+/// The documentation of a field: the spec's text, its unit, its default.
 pub(super) fn field_docs(field: &Field, slots: &[Slot], with_default: bool) -> String {
     let slot = &slots[field.slots[0]];
     if !field.is_family {
@@ -62,7 +62,7 @@ pub(super) fn slot_docs(name: &Name, slot: &Slot, with_default: bool) -> String 
     } else if !docs.ends_with(['.', '!', '?', ':', '`']) {
         docs.push('.');
     }
-    // Behind a list or a block of code a sentence needs a paragraph of its own.
+    // After a list or a code block a sentence must be a paragraph of its own.
     let is_plain = !docs.contains("```")
         && !docs
             .lines()

@@ -1,4 +1,4 @@
-//! The functions of a module: one for each role, or several where it is long.
+//! The functions of a module: one for each role, or several if it is long.
 
 use std::fmt::Write as _;
 
@@ -14,14 +14,14 @@ use lagrangian_program::quantity::{Entry, Extent, Kind};
 use lagrangian_program::{Function, Op, Reads, Role, Shape, Source, Statement};
 
 impl<'a> Emitter<'a> {
-    /// Whether a function does anything: one that gives zeros has no code.
+    /// Whether a function computes anything: one whose results are zero has no code.
     pub(super) fn is_emitted(&self, function: &Function) -> bool {
         let is_zero =
             |value: &_| matches!(function.op(*value), Op::Constant(rational) if rational.is_zero());
         function.role.is_kept() || !function.results.iter().all(is_zero)
     }
 
-    /// The function of a role, where it does anything.
+    /// The function of a role, if it computes anything.
     pub(super) fn emitted(&self, role: Role) -> Option<&'a Function> {
         self.program
             .function(role)
@@ -35,19 +35,19 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// What a function is to be given.
+    /// The arguments that a function must be given.
     pub(super) fn needs(&self, function: &Function) -> Reads {
         let mut reads = function.reads();
         reads.prepared |= self.may_be_singular_from_the_start(function);
         reads
     }
 
-    /// Whether a function has to look whether the parameters alone leave the machine without accelerations.
+    /// Whether a function must check if the parameters alone leave the machine without accelerations.
     pub(super) fn may_be_singular_from_the_start(&self, function: &Function) -> bool {
         self.fails(function) && !self.program.prepare.guards.is_empty()
     }
 
-    /// The arguments of a function that needs so much, with their types.
+    /// These arguments with their types.
     pub(super) fn arguments(&self, needs: Reads) -> Vec<(&'static str, String)> {
         let Types {
             prepared,
@@ -80,7 +80,7 @@ impl<'a> Emitter<'a> {
             .collect()
     }
 
-    /// A function of the state.
+    /// Writes a function of the state.
     pub(super) fn function(&mut self, function: &Function) {
         if function.role.is_fast() {
             return self.kernel(function);
@@ -112,7 +112,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// The type of what a function gives.
+    /// The type of a function's result.
     pub(super) fn result_type(&self, function: &Function) -> String {
         let scalar = &self.types.scalar;
         if let Some(name) = self.stage_type(function.role) {
@@ -126,7 +126,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// The results of a function as they are arranged.
+    /// The results of a function in the arrangement of its type.
     pub(super) fn arranged(&self, function: &Function, texts: &[String]) -> Layout {
         let text = |i: usize| Layout::Atom(texts[i].clone());
         let shape = function.shape;
@@ -145,7 +145,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// The body of a function that is cut into pieces; the texts of its results come back.
+    /// Writes the body of a function that is cut into pieces; returns the texts of its results.
     fn calls_of_pieces(&mut self, function: &Function, cut: &Cut) -> Vec<String> {
         let scalar = self.types.scalar.clone();
         let name = self.function_name(function.role);
@@ -170,7 +170,7 @@ impl<'a> Emitter<'a> {
         self.results_of_pieces(cut, false)
     }
 
-    /// Where the results of a function are once its pieces have run.
+    /// The texts of a function's results after its pieces have run.
     pub(super) fn results_of_pieces(&mut self, cut: &Cut, in_registers: bool) -> Vec<String> {
         let is_zero =
             |place: &Place| matches!(place, Place::Leaf(Op::Constant(value)) if value.is_zero());
@@ -196,7 +196,7 @@ impl<'a> Emitter<'a> {
         results
     }
 
-    /// What a piece is to be given; what it reads from `w` are no prepared values.
+    /// The arguments that a piece must be given; values that it reads from `w` do not count as prepared values.
     pub(super) fn needs_of_piece(&self, piece: &Piece) -> Reads {
         let is_prepared = |op: &Op| matches!(op, Op::Read(Source::Prepared(i)) if (*i as usize) < self.prepared.len());
         let mut reads = piece.function.reads();
@@ -226,13 +226,13 @@ impl<'a> Emitter<'a> {
         self.writer.close("}");
     }
 
-    /// What the results of a function should be called; nothing for a scalar.
+    /// The wanted names of a function's results; empty for a scalar.
     pub(super) fn result_names(&self, function: &Function) -> Vec<String> {
         let extent = function.role.row().extent;
         if extent == Extent::Number {
             return Vec::new();
         }
-        // Entries of a matrix by their numbers, from 1.
+        // Entries of a matrix are named by their indices, from 1.
         let joined = |i: usize, j: usize, separator: &str| format!("{}{separator}{}", i + 1, j + 1);
         let separator = match extent {
             Extent::Symmetric(_) if function.shape.order() < 10 => "",
@@ -279,7 +279,7 @@ impl<'a> Emitter<'a> {
         docs
     }
 
-    /// The statements of a function, computed in registers or on numbers as they are kept.
+    /// Writes the statements of a function, computed in registers or on numbers as stored.
     pub(super) fn statements(
         &mut self,
         function: &Function,
@@ -291,7 +291,7 @@ impl<'a> Emitter<'a> {
         })
     }
 
-    /// The statements of a function without its checks of pivots, in registers.
+    /// Writes the statements of a function in registers, without its checks of pivots.
     pub(super) fn unchecked(
         &mut self,
         function: &Function,
@@ -303,7 +303,7 @@ impl<'a> Emitter<'a> {
         })
     }
 
-    /// Writes statements, with the names taken that a function has anyway.
+    /// Writes statements in a scope in which the fixed names of a function are taken.
     fn in_scope<T>(
         &mut self,
         in_registers: bool,
@@ -319,7 +319,7 @@ impl<'a> Emitter<'a> {
         results
     }
 
-    /// The names that the code of a function finds taken.
+    /// The fixed names of a function.
     pub(super) fn scope(&self) -> Scope {
         Scope::with(&[
             "p", "t", "q", "v", "a", "at", "u", "f", "w", "n", "angles", "circular", "singular",
@@ -337,7 +337,7 @@ impl<'a> Emitter<'a> {
         format!("{name}({})", passed.join(", "))
     }
 
-    /// What the outputs together are to be given.
+    /// The arguments that the outputs together need.
     pub(super) fn needs_of_outputs(&self) -> Reads {
         let functions =
             (0..self.program.outputs.len()).filter_map(|i| self.program.function(Role::Output(i)));
@@ -346,7 +346,7 @@ impl<'a> Emitter<'a> {
             .fold(Reads::default(), union)
     }
 
-    /// The outputs together.
+    /// Writes the function for all outputs.
     pub(super) fn all_outputs(&mut self) {
         let Types {
             outputs, scalar, ..
@@ -373,7 +373,7 @@ impl<'a> Emitter<'a> {
     }
 }
 
-/// What either of two functions reads.
+/// What at least one of two functions reads.
 pub(super) fn union(a: Reads, b: Reads) -> Reads {
     Reads {
         parameters: a.parameters || b.parameters,

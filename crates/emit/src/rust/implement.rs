@@ -1,5 +1,5 @@
-//! What the runtime asks of a machine, as the rows of one macro: names, conversions, and which function a method of `System`
-//! calls. The macro is `src/emitted/implement.rs` of the runtime; its text says what the rows mean.
+//! A machine's interface to the runtime, as the rows of one macro call: names, conversions, and the function for each method
+//! of `System`. The macro is `src/emitted/implement.rs` of the runtime; its text documents the rows.
 
 use super::Emitter;
 use super::types::{Group, Types};
@@ -9,12 +9,12 @@ use lagrangian_program::quantity::{Extent, Kind, Needs};
 use lagrangian_program::{Fact, FrictionLayout, Reads, Role};
 use lagrangian_units::{Compliance, ImpactLaw, ImpactOrder, Painleve};
 
-/// About how many numbers a workspace may have on the stack: a quarter of a megabyte.
+/// The approximate limit for a workspace on the stack, in numbers: a quarter of a megabyte.
 const LARGEST_WORKSPACE: usize = 1 << 15;
 
 /// The numbers of a group as variables.
 struct Variables {
-    /// The fields of the struct as a pattern that names them, without its braces, by its commas.
+    /// The fields of the struct as a pattern without its braces, split at commas.
     fields: Vec<String>,
     /// A variable for each number.
     names: Vec<String>,
@@ -22,7 +22,7 @@ struct Variables {
 
 impl Variables {
     fn of(group: &Group<'_>) -> Variables {
-        // What a pattern takes for a variant.
+        // Names that a pattern would take for a variant or a constant.
         let mut scope = Scope::with(&["None", "Some", "Ok", "Err", "PIVOTS"]);
         let names = group.slots.iter();
         let names: Vec<String> = names.map(|slot| scope.take(&flat(&slot.name))).collect();
@@ -46,7 +46,7 @@ impl Variables {
 }
 
 impl Emitter<'_> {
-    /// The call of the macro.
+    /// Writes the call of the macro.
     pub(super) fn implementations(&mut self) {
         let runtime = self.options.runtime.clone();
         let Types {
@@ -117,7 +117,7 @@ impl Emitter<'_> {
         self.writer.close("}");
     }
 
-    /// Words between two texts, on one line or on as many as they need. A block begins behind them if it is to.
+    /// Writes words between two texts, on one line or on as many as needed; optionally a block begins after them.
     fn filled(&mut self, before: &str, words: &[String], after: &str, opens: bool) {
         let all = words.join(", ");
         let one = if all.is_empty() {
@@ -150,7 +150,8 @@ impl Emitter<'_> {
         }
     }
 
-    /// A struct of named numbers: its fields, and a row for each number. `empty` is the field of one that holds nothing.
+    /// Writes a struct of named numbers: its fields, and a row for each number. `empty` is the field of a struct
+    /// without numbers.
     fn group(
         &mut self,
         head: &str,
@@ -186,7 +187,7 @@ impl Emitter<'_> {
         self.writer.close(&format!("]{after}"));
     }
 
-    /// The fields of the prepared values.
+    /// Writes the fields of the prepared values.
     fn rows_of_prepared(&mut self, prepared: &str) {
         let mut fields: Vec<String> = self
             .prepared_fields()
@@ -205,7 +206,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// The accelerations, which integrators ask for in several numbers.
+    /// Writes the row of the accelerations, which integrators evaluate with several types of number.
     fn row_of_accelerations(&mut self) {
         let function = self.emitted(Role::Accelerations);
         let row = match function {
@@ -226,7 +227,7 @@ impl Emitter<'_> {
         self.writer.line(row);
     }
 
-    /// A method of `System`: the kind of what it gives, its arguments, and the call.
+    /// Writes a method of `System`: the kind of its result, its arguments, and the call.
     fn row(&mut self, kind: &str, method: &str, arguments: &[&str], value: Option<Layout>) {
         let head = format!("{kind} {method}({})", arguments.join(", "));
         match value {
@@ -243,7 +244,7 @@ impl Emitter<'_> {
         Layout::Atom(format!("{name}({names})"))
     }
 
-    /// The call of the function of a role, where it does anything.
+    /// The call of the function of a role, if it computes anything.
     fn called_role(&self, role: Role) -> Option<Layout> {
         let function = self.emitted(role)?;
         Some(self.called(&self.function_name(role), self.needs(function)))
@@ -274,7 +275,7 @@ impl Emitter<'_> {
         self.row_of_workspace();
     }
 
-    /// A method for each row of the table of quantities that this machine has, and that solves for nothing.
+    /// Writes a method for each quantity of this machine that requires no solution of equations.
     fn rows_of_quantities(&mut self) {
         let sizes = self.program.sizes();
         let is_method = |role: &Role| {
@@ -315,7 +316,7 @@ impl Emitter<'_> {
         self.row("facts", "assumptions", &arguments, Some(facts));
     }
 
-    /// Bilateral constraints, and what a description keeps of its start.
+    /// Writes bilateral constraints, and the numbers of the start that the spec keeps.
     fn rows_of_constraints(&mut self) {
         let program = self.program;
         if !program.constraints.is_empty() {
@@ -347,7 +348,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// Guided contacts with friction.
+    /// Writes guided contacts with friction.
     fn rows_of_contacts(&mut self) {
         let contacts = &self.program.contacts;
         if contacts.is_empty() {
@@ -379,7 +380,7 @@ impl Emitter<'_> {
         self.row("solved", "friction", &arguments, call);
     }
 
-    /// Unilateral contacts: what they are called, and how they bounce.
+    /// Writes unilateral contacts: their names and their restitution.
     fn row_of_unilateral_contacts(&mut self) {
         let contacts = &self.program.unilateral;
         if contacts.is_empty() {
@@ -430,7 +431,7 @@ impl Emitter<'_> {
         self.row("contacts", "unilateral_contacts", &["p"], Some(rows));
     }
 
-    /// A workspace for constraints and contacts: an array, where that is no burden to a stack.
+    /// Writes a workspace for constraints and contacts: an array, if it is small enough for the stack.
     fn row_of_workspace(&mut self) {
         let (n, m, contacts) = (
             self.program.coordinates.len(),

@@ -1,5 +1,4 @@
-//! The functions that integrators call: computed in registers, with whatever instructions the
-//! processor has.
+//! The functions that integrators call: computed in registers, with the best instructions of the processor.
 //!
 //! ```text
 //! accelerations(p, t, q, v, u)        picks the arithmetic for numbers kept as S
@@ -7,7 +6,7 @@
 //!     run::<N>()                      the code, on numbers N in registers, always inlined
 //! ```
 //!
-//! A function that is too long for that is cut into pieces, each a value of its own.
+//! A function that is too long for this is cut into pieces, each a value of its own.
 
 use super::Emitter;
 use super::language::Rust;
@@ -18,12 +17,12 @@ use crate::layout;
 use lagrangian_program::{Function, Guard, Op, Reads, Role, Shape, Source};
 
 impl Emitter<'_> {
-    /// The names of the call of a function, and of its pieces.
+    /// The names of the type of a call, and of its pieces.
     pub(super) fn names(&self, role: Role) -> [String; 2] {
         self.types.calls.get(&role).cloned().unwrap_or_default()
     }
 
-    /// A function that is called often.
+    /// Writes a function that is called often.
     pub(super) fn kernel(&mut self, function: &Function) {
         let (plan, cut) = self.parts(function);
         self.choice(function);
@@ -34,7 +33,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// How a function is written if not as one straight text: with loops, or in pieces.
+    /// How a function is written: with loops, in pieces, or neither.
     fn parts(&self, function: &Function) -> (Option<Plan>, Option<Cut>) {
         let longest = self.options.longest_whole;
         let plan = self
@@ -47,12 +46,12 @@ impl Emitter<'_> {
         }
     }
 
-    /// Whether a function is not written as one straight text.
+    /// Whether a function is written with loops or in pieces.
     pub(super) fn is_in_parts(&self, function: &Function) -> bool {
         !matches!(self.parts(function), (None, None))
     }
 
-    /// The function that everybody calls.
+    /// Writes the public function, which chooses the arithmetic.
     fn choice(&mut self, function: &Function) {
         let runtime = self.options.runtime.clone();
         let scalar = self.types.scalar.clone();
@@ -83,7 +82,7 @@ impl Emitter<'_> {
         self.writer.close("}");
     }
 
-    /// The call as a value.
+    /// Writes the call as a value.
     fn call_as_value(&mut self, function: &Function) {
         let scalar = self.types.scalar.clone();
         let [call, _] = self.names(function.role);
@@ -109,7 +108,7 @@ impl Emitter<'_> {
         self.writer.close("}");
     }
 
-    /// The code.
+    /// Writes the code.
     fn run(&mut self, function: &Function, plan: Option<&Plan>, cut: Option<&Cut>) {
         let runtime = self.options.runtime.clone();
         let Types {
@@ -171,7 +170,7 @@ impl Emitter<'_> {
         self.writer.close("}");
     }
 
-    /// The code with what repeats itself as loops.
+    /// Writes the code with repeated parts as loops.
     fn run_loops(&mut self, function: &Function, plan: &Plan) {
         let mut writer = std::mem::take(&mut self.writer);
         let rust = Rust {
@@ -203,19 +202,18 @@ impl Emitter<'_> {
         self.writer = writer;
     }
 
-    /// Checks all pivots, after everything has been computed.
+    /// Checks all pivots after everything has been computed.
     ///
-    /// A compiler moves what is not needed where a check fails behind it: were there a check within
-    /// the code, one recursion along a chain would have to wait until the one before it, with the
-    /// pivots, has come to its end. So there is one, and it waits for the result that is known last,
-    /// too.
+    /// A compiler moves code that is not needed where a check fails to after the check. With a check inside the
+    /// code, one recursion along a chain would therefore wait until the one before it, with the pivots, has
+    /// finished. So there is a single check, which also waits for the result that is computed last.
     fn checks(&mut self, function: &Function, body: &Unchecked, results: &[String]) {
         if body.guards.is_empty() {
             return;
         }
         let mut conditions = self.exceeding(function, body);
         conditions.push(format!("{}.is_finite()", results[body.latest]));
-        // As rustfmt has it, which generated code is held to: on one line of a method, on the next, or
+        // The layout of rustfmt, which generated code must have: on one line of a method, on the next line, or
         // on one line each.
         let value = format!("{};", conditions.join(" & "));
         let fits = |line: &str| line.chars().count() <= layout::WIDTH - 8;
@@ -244,7 +242,7 @@ impl Emitter<'_> {
         self.writer.close("}");
     }
 
-    /// The conditions that pivots have to meet.
+    /// The conditions that pivots must meet.
     pub(super) fn exceeding(&self, function: &Function, body: &Unchecked) -> Vec<String> {
         let exceeds = |(guard, [pivot, scale]): (&Guard, &[String; 2])| {
             format!("{}.hold({pivot}, {scale})", self.pivots_of(guard))
@@ -253,7 +251,7 @@ impl Emitter<'_> {
         guards.map(exceeds).collect()
     }
 
-    /// The results as they are kept outside of registers; their name comes back.
+    /// Converts the results to their stored form; returns the name of the variable.
     fn kept(&mut self, function: &Function, results: &[String]) -> String {
         let name = self.function_name(function.role);
         let kept: Vec<String> = results
@@ -266,7 +264,7 @@ impl Emitter<'_> {
         name
     }
 
-    /// Names for the fields, and `n`, which loads a number.
+    /// Writes names for the fields, and `n`, which loads a number.
     fn open_arguments(&mut self, needs: Reads, function: &Function) {
         let names: Vec<&str> = self
             .arguments(needs)
@@ -283,7 +281,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// Whether the code of a function reads anything that is kept outside of registers.
+    /// Whether the code of a function reads stored numbers.
     fn loads(&self, function: &Function) -> bool {
         let slots = self.prepared.len();
         function.code.iter().any(|op| match op {
@@ -293,7 +291,7 @@ impl Emitter<'_> {
         })
     }
 
-    /// The type of what comes back.
+    /// The type of the returned value.
     fn returned(&self, function: &Function) -> String {
         let result = self.result_type(function);
         if self.fails(function) {
@@ -303,7 +301,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// A result that there is not where the mass matrix is singular.
+    /// The type of a result that does not exist where the mass matrix is singular.
     fn fallible(&self, result: &str) -> String {
         let runtime = &self.options.runtime;
         format!(
@@ -312,7 +310,7 @@ impl Emitter<'_> {
         )
     }
 
-    /// Calls the pieces, one after the other.
+    /// Writes the calls of the pieces, one after the other.
     fn run_pieces(&mut self, role: Role, cut: &Cut) {
         let register = self.types.register.clone();
         let [_, name] = self.names(role);
@@ -341,7 +339,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// What the pieces are given, `w` apart: what any of them reads.
+    /// The arguments of all pieces except `w`: what at least one of them reads.
     fn fields_of_pieces(&self, cut: &Cut) -> Vec<(&'static str, String)> {
         let reads = cut.pieces.iter().map(|piece| self.needs_of_piece(piece));
         let all = reads.fold(Reads::default(), super::functions::union);
@@ -429,7 +427,7 @@ impl Emitter<'_> {
     }
 }
 
-/// `'a, ` where any argument is a reference.
+/// `'a, ` if any argument is a reference.
 fn lifetime(arguments: &[(&'static str, String)]) -> &'static str {
     if arguments.iter().any(|(_, kind)| kind.starts_with('&')) {
         "'a, "
@@ -438,7 +436,7 @@ fn lifetime(arguments: &[(&'static str, String)]) -> &'static str {
     }
 }
 
-/// `&'a [S; 2]` of `&[S; 2]`.
+/// `&'a [S; 2]` for `&[S; 2]`.
 pub(super) fn with_lifetime(kind: &str) -> String {
     match kind.strip_prefix('&') {
         Some(kind) => format!("&'a {kind}"),

@@ -1,4 +1,4 @@
-//! How Rust writes what is no operator: numbers, arguments, calls, variables.
+//! How Rust writes everything except operators: numbers, arguments, calls, variables.
 
 use lagrangian_symbolic::{self as symbolic, Rational};
 
@@ -8,11 +8,11 @@ use crate::layout::{Layout, Writer};
 use crate::names::{Scope, flat};
 use lagrangian_program::{Contracted, Guard, Source, What};
 
-/// How Rust writes what is no operator.
+/// The Rust implementation of `Language`.
 pub(super) struct Rust<'a> {
     pub(super) emitter: &'a Emitter<'a>,
-    /// Whether the code computes in registers: it then loads what it reads, contracts products into
-    /// sums, and takes the sines of all angles at once.
+    /// Whether the code computes in registers: it then loads what it reads, contracts products into sums, and
+    /// computes the sines of all angles at once.
     pub(super) in_registers: bool,
 }
 
@@ -26,7 +26,7 @@ impl Rust<'_> {
         }
     }
 
-    /// A number that is kept outside of registers.
+    /// Loads a stored number.
     fn loaded(&self, place: String) -> String {
         if self.in_registers {
             format!("n({place})")
@@ -68,7 +68,7 @@ impl Language for Rust<'_> {
             Source::Acceleration(i) => {
                 (format!("{}_ddot", name(i)), self.loaded(format!("a[{i}]")))
             }
-            // The others are no variables.
+            // Other arguments are not variables.
             _ => ("argument".into(), "argument".into()),
         }
     }
@@ -172,7 +172,7 @@ impl Language for Rust<'_> {
         }
     }
 
-    /// `theta1` of `n(p.theta1)`.
+    /// `theta1` for `n(p.theta1)`.
     fn angle_name(&self, angle: &str) -> String {
         let inner = angle
             .strip_prefix("n(")
@@ -298,18 +298,18 @@ fn method(function: symbolic::Function) -> &'static str {
     }
 }
 
-/// A rational number, exact in every type that can hold it.
+/// A rational number, exact in every type that can represent it.
 pub(super) fn rational(scalar: &str, value: &Rational) -> Text {
     let nearest = value.to_f64();
     Text::call(match (value.numerator(), value.denominator()) {
         (Some(0), Some(1)) => return Text::leaf(format!("{scalar}::ZERO")),
         (Some(1), Some(1)) => return Text::leaf(format!("{scalar}::ONE")),
-        // What a binary number holds exactly.
+        // Numbers that an `f64` represents exactly.
         (Some(n), Some(d)) if d.count_ones() == 1 && n.unsigned_abs() < 1 << 53 => {
             return Text::leaf(format!("{scalar}::from_f64({})", number(nearest)));
         }
         (Some(n), Some(d)) => format!("{scalar}::from_ratio({n}, {d})"),
-        // Longer than 64 bits: the nearest `f64`, then the nearest to what that lacks, for those who see the difference.
+        // Longer than 64 bits: the nearest `f64` plus the nearest `f64` to the remainder, for types with more digits.
         _ => {
             let exact = Rational::exactly(nearest);
             let rest = exact.map_or(0.0, |exact| (value - &exact).to_f64());

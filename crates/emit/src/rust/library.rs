@@ -1,5 +1,5 @@
-//! What a library that is called from C holds of a machine: its parameters, what is prepared of them, and the
-//! accelerations, with the numbers in a row as C passes them.
+//! The part of a machine for a library that is called from C: its parameters, the values prepared from them, and
+//! the accelerations, with numbers in arrays as C passes them.
 
 use super::kernel::with_lifetime;
 use super::language::number;
@@ -11,7 +11,8 @@ use crate::names::Field;
 use lagrangian_program::{Function, Role, Shape, Slot, Unilateral, early_angles};
 
 impl Emitter<'_> {
-    /// The content of the module: of the runtime it needs `Scalar`, `Number`, `Singular`, `Pivots` and `scalar::Kernel` only.
+    /// The content of the module. It uses only `Scalar`, `Number`, `Singular`, `Pivots` and
+    /// `scalar::Kernel` of the runtime.
     pub(super) fn library(mut self) -> String {
         for line in &self.options.origin {
             self.writer.comment("//", line);
@@ -48,7 +49,7 @@ impl Emitter<'_> {
         self.writer.finish()
     }
 
-    /// Of each contact its name, its law, and how it leans on the contact before it.
+    /// Writes for each contact its name, its law, and how it depends on the contact before it.
     fn table_of_contacts(&mut self) {
         let contacts = &self.program.unilateral;
         let row = |contact: &Unilateral| {
@@ -73,7 +74,8 @@ impl Emitter<'_> {
             .expression(&head, &Layout::nested(contacts.iter().map(row)), ";");
     }
 
-    /// A function of the description, and one that calls it with all that a library is given and puts its numbers in a row.
+    /// Writes a function of the spec, and a wrapper that takes all arguments of a library and stores the
+    /// results in an array.
     fn of_contacts(&mut self, role: Role) {
         let function = self.emitted(role);
         if let Some(function) = function {
@@ -112,7 +114,7 @@ impl Emitter<'_> {
         self.writer.close("}");
     }
 
-    /// Names, units and values of everything that has them.
+    /// Writes names, units and values of everything that has them.
     fn name_tables(&mut self) {
         let program = self.program;
         let tables = [
@@ -142,7 +144,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// `map`: what is prepared, over other numbers.
+    /// Writes `map`: the prepared values for another type of number.
     fn map_of_prepared(&mut self) {
         let Types {
             prepared, scalar, ..
@@ -177,7 +179,7 @@ impl Emitter<'_> {
         self.writer.close("}");
     }
 
-    /// `prepared`: of parameters in the order of the description.
+    /// Writes `prepared`: the prepared values from parameters in the order of the spec.
     fn prepared_of_a_row(&mut self, parameters: &Group<'_>) {
         let f64 = self.types.known("f64");
         let Types {
@@ -197,7 +199,7 @@ impl Emitter<'_> {
         self.writer.close("}");
     }
 
-    /// `evaluate`: the accelerations, whatever they need of all that a library is given; false at singular poses.
+    /// Writes `evaluate`: the accelerations from all arguments of a library, used or not; false at singular poses.
     fn evaluate(&mut self, function: &Function, inputs: &Group<'_>) {
         let in_parts = self.is_in_parts(function);
         if in_parts {
@@ -261,11 +263,11 @@ impl Emitter<'_> {
         self.in_place(function);
     }
 
-    /// The code of the accelerations as a kernel that puts them where they go, in one piece.
+    /// Writes the code of the accelerations as a single kernel that stores them in place.
     ///
-    /// Nothing waits for a check: results are left whether they hold or not, then all is asked at once, the size of the
-    /// angles with the pivots. So to a compiler, and to a processor, this is straight code, and whoever calls has the way
-    /// that is taken when something is wrong, out of sight.
+    /// Nothing waits for a check: results are stored whether valid or not, then all conditions are tested at once, the
+    /// size of the angles together with the pivots. So for compiler and processor this is straight-line code, and the
+    /// failure path is in the caller, out of the way.
     fn in_place(&mut self, function: &Function) {
         let runtime = self.options.runtime.clone();
         let Types {

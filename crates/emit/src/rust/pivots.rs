@@ -1,4 +1,4 @@
-//! The checks of pivots: a constant for how small a pivot may be, and lists of pivots that are held against it.
+//! The checks of pivots: a constant for each tolerance, and lists of the pivots compared with it.
 
 use super::Emitter;
 use super::language::number;
@@ -6,7 +6,7 @@ use crate::layout::Layout;
 use lagrangian_program::{Function, Guard};
 
 impl Emitter<'_> {
-    /// The tolerances of all pivots, each once.
+    /// The tolerances of all pivots, without duplicates.
     fn tolerances(&self) -> Vec<f64> {
         let mut tolerances = Vec::new();
         let guards = self.program.all_functions().flat_map(|f| &f.guards);
@@ -18,7 +18,7 @@ impl Emitter<'_> {
         tolerances
     }
 
-    /// The name of the constant that a guard is held against.
+    /// The name of the constant for a guard.
     pub(super) fn pivots_of(&self, guard: &Guard) -> String {
         let tolerances = self.tolerances();
         let place = tolerances.iter().position(|of| *of == guard.tolerance);
@@ -28,7 +28,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// The constants.
+    /// Writes the constants.
     pub(super) fn pivots(&mut self) {
         let path = format!("{}::Pivots", self.options.runtime);
         for (place, tolerance) in self.tolerances().into_iter().enumerate() {
@@ -51,7 +51,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// The pivots of a function with the constants that they are held against: row, pivot, diagonal element.
+    /// The pivots of a function grouped by constant: row, pivot, diagonal element.
     pub(super) fn lists_of_pivots(
         &self,
         function: &Function,

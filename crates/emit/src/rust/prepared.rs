@@ -1,4 +1,4 @@
-//! The fields of the prepared values: one for each, but arrays of those that a loop counts.
+//! The fields of the prepared values: one for each value, but arrays for values that a loop counts through.
 
 use std::collections::BTreeMap;
 
@@ -10,10 +10,10 @@ use crate::layout::Layout;
 use crate::names::{Field, Scope, flat};
 use lagrangian_program::{Function, Op, Program, Role, Source};
 
-/// The arrays of prepared values that the loops of a program count.
+/// The arrays of prepared values that the loops of a program count through.
 ///
-/// Lists that overlap share an array where they run alike; a value of which another list wants
-/// other neighbours is kept twice.
+/// Overlapping lists share an array if they have the same order; a value that needs other neighbours in another
+/// list is stored twice.
 pub(super) fn families(
     program: &Program,
     plans: &BTreeMap<Role, Plan>,
@@ -32,7 +32,7 @@ pub(super) fn families(
             lists.push(list);
         }
     }
-    // The longest first; those of equal length as they were met.
+    // The longest first; lists of equal length in the order of their occurrence.
     lists.sort_by_key(|list| std::cmp::Reverse(list.len()));
     let mut families: Vec<Vec<usize>> = Vec::new();
     for list in lists {
@@ -66,9 +66,9 @@ pub(super) fn families(
     families.into_iter().map(field).collect()
 }
 
-/// A family and a list as one, where they overlap, have the same neighbours, and the same order.
+/// Merges a family with a list if they overlap and have the same neighbours in the same order.
 fn joined(family: &[usize], list: &[usize]) -> Option<Vec<usize>> {
-    // How far the list begins before or behind the family.
+    // The offset of the list relative to the family.
     let (in_family, in_list) = list.iter().enumerate().find_map(|(in_list, slot)| {
         let in_family = family.iter().position(|other| other == slot)?;
         Some((in_family as isize, in_list as isize))
@@ -93,7 +93,7 @@ fn joined(family: &[usize], list: &[usize]) -> Option<Vec<usize>> {
     (sorted.len() == joined.len()).then_some(joined)
 }
 
-/// The path of each prepared value.
+/// The path to each prepared value.
 pub(super) fn paths(program: &Program, families: &[Field], scope: &mut Scope) -> Vec<String> {
     let mut anonymous = 0;
     let values = program.prepare.results.iter().enumerate();
@@ -132,8 +132,8 @@ impl Emitter<'_> {
         single.chain(families).collect()
     }
 
-    /// The struct of the prepared values, each number written by `value`; of some families there are
-    /// arrays already, by these names.
+    /// The struct literal of the prepared values, each number written by `value`; for some families arrays with
+    /// these names exist already.
     pub(super) fn prepared_literal(
         &self,
         value: impl Fn(usize) -> String,
@@ -154,7 +154,7 @@ impl Emitter<'_> {
         literal(&self.types.prepared, fields.collect())
     }
 
-    /// The loops of `prepare`, where others count what it prepares.
+    /// The loops of `prepare`, if other functions count through its results.
     pub(super) fn plan_of_prepare(&self, prepare: &Function) -> Option<Plan> {
         if self.prepared_families.is_empty() {
             None
@@ -163,7 +163,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// The code of `prepare`; the texts of its results and the arrays of the families come back.
+    /// Writes the code of `prepare`; returns the texts of its results and the arrays of the families.
     pub(super) fn prepare_with_loops(
         &mut self,
         prepare: &Function,

@@ -6,12 +6,12 @@
 //!                   what follows from w and the newest coefficients; residuals; accelerations; what these change
 //! ```
 //!
-//! Arithmetic is that of the interpreter (`lagrangian-program`, `series/recurrence.rs`), in the same order, and so are its
-//! bits. Factors of products lie in packs, `a0` and `b0`, that one order fills after the other; so the sum over orders is a
-//! loop over packs, which a compiler turns into vector instructions, and code does not grow with the order. A list that is
-//! a factor of several products stands in a pack as often; several trajectories at once, whose numbers fill registers by
-//! themselves, keep and read it once, in the place that the constants `A0` and `B0` give. The caller provides the packs, so that
-//! they need not be cleared for every step.
+//! The arithmetic is that of the interpreter (`lagrangian-program`, `series/recurrence.rs`) in the same order, and so are its
+//! bits. Factors of products are stored in packs, `a0` and `b0`, to which each order appends. So the sum over orders is a loop
+//! over packs, which a compiler vectorizes, and the code does not grow with the order. A list that is a factor of several
+//! products is stored in a pack once for each. For several trajectories at once, whose numbers fill registers by themselves, it
+//! is stored and read once, at the index given by the constants `A0` and `B0`. The caller provides the packs, so that they need
+//! not be cleared in every step.
 
 mod arithmetic;
 mod code;
@@ -30,23 +30,23 @@ use crate::layout::Layout;
 use arithmetic::Symbolic;
 use code::{Code, Part, X};
 
-/// How many streams lie in a pack.
+/// The number of lists in a pack.
 const WIDTH: usize = 24;
 
-/// Above so many products, what accelerations change in forces is a matrix times them.
+/// Above this number of products, the effect of accelerations on forces is computed by a matrix.
 const FEWEST_APPLIED: usize = 32;
 
-/// Above so many unknowns, that act on each other, the accelerations are solved for by a loop.
+/// Above this number of coupled unknowns, a loop solves for the accelerations.
 const MOST_STRAIGHT: usize = 3;
 
-/// A variable that one order leaves to the next.
+/// A variable that one order passes to the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 enum Carried {
     /// The newest coefficient of a row.
     Plain(RowId),
     /// A coefficient of a row times its order.
     Weighted(RowId),
-    /// What one of these two held an order before.
+    /// The value of one of these two one order before.
     Older(RowId, bool),
     /// The newest coefficient of a rate.
     Rate(u32),
@@ -67,34 +67,34 @@ impl Carried {
 /// The code of a series.
 struct Written {
     code: Code,
-    /// What the parameters decide, by rows.
+    /// The rows that depend on parameters alone.
     constants: Vec<RowId>,
     packs: Vec<Pack>,
-    /// For each carried variable what it begins with, and what an order leaves in it.
+    /// For each carried variable its initial value, and its value after each order.
     carried: BTreeMap<Carried, [X; 2]>,
-    /// For each list of lanes what is kept of both factors: at the start, and of each order.
+    /// For each list of products what is stored of both factors: at the start, and after each order.
     kept: [[Vec<[X; 2]>; 2]; 2],
-    /// The coefficients of the coordinates of order 2, and of each order.
+    /// The coefficients of order 2 of the coordinates, and those of each order.
     motion: [Vec<X>; 2],
-    /// The matrix by which accelerations change forces, column by column.
+    /// The matrix of the effect of accelerations on forces, column by column.
     applied: Option<Vec<Vec<X>>>,
 }
 
 /// The lists of up to [`WIDTH`] products side by side: of their first factors, and of their second.
 struct Pack {
-    /// Of positions and forces, or of everything else.
+    /// 0 for positions and forces, 1 for everything else.
     kind: usize,
     number: usize,
-    /// Which of the products of its kind.
+    /// The range of its products among those of its kind.
     range: Range<usize>,
-    /// How many lists there is room for.
+    /// The number of lists that it has room for.
     width: usize,
-    /// For each product which of the different lists of a side is its factor.
+    /// For each product the index of its factor among the distinct lists of a side.
     places: [Vec<usize>; 2],
 }
 
 impl Pack {
-    /// The packs of these products.
+    /// Divides these products into packs.
     fn all(lanes: &[Vec<Convolution>; 2]) -> Vec<Pack> {
         let mut packs = Vec::new();
         for (kind, lanes) in lanes.iter().enumerate() {
@@ -123,13 +123,13 @@ impl Pack {
         format!("{}{}", ["w", "s"][self.kind], self.number)
     }
 
-    /// How many products there are, and room for how many: arguments of functions.
+    /// The room and the number of its products, as arguments of functions.
     fn sizes(&self) -> String {
         format!("{}, {}", self.width, self.range.len())
     }
 }
 
-/// For each product which of the different factors of a side it has, in the order in which they come.
+/// For each product the index of its factor among the distinct lists of a side, in the order of their occurrence.
 fn places(products: &[Convolution], side: usize) -> Vec<usize> {
     let mut known: Vec<Stream> = Vec::new();
     let place = |product: &Convolution| {
@@ -144,7 +144,7 @@ fn places(products: &[Convolution], side: usize) -> Vec<usize> {
 }
 
 impl Emitter<'_> {
-    /// The series, if it is asked for.
+    /// The series, if it is requested.
     fn series(&self) -> Option<Arc<Series>> {
         let series = self.options.series.as_ref()?;
         Some(series.series().clone())
@@ -154,12 +154,12 @@ impl Emitter<'_> {
         written(series, &self.types.register, &self.inputs.paths)
     }
 
-    /// The type that a number is kept as.
+    /// The array type in which numbers are stored.
     fn array(&self, length: usize) -> String {
         format!("[{}; {length}]", self.types.scalar)
     }
 
-    /// The constants of the series, in `prepare`: their field, its type and its value.
+    /// The constants of the series in `prepare`: their field, its type and its value.
     pub(super) fn constants_of_series(&mut self) -> Option<(String, Layout)> {
         let series = self.series()?;
         let constants = self.written(&series).constants;
@@ -177,7 +177,7 @@ impl Emitter<'_> {
         Some(("series".to_owned(), Layout::array(values)))
     }
 
-    /// How many constants the series has.
+    /// The number of constants of the series.
     pub(super) fn number_of_constants_of_series(&self) -> Option<usize> {
         let series = self.series()?;
         let count = self.written(&series).constants.len();
@@ -189,7 +189,7 @@ impl Emitter<'_> {
         Pack::all(&Symbolic::new(series, &self.types.register, &self.inputs.paths).lanes)
     }
 
-    /// The type of the packs of the series over such numbers: of nothing, where there are none.
+    /// The type of the packs of the series for a number type; the unit type if there are none.
     pub(super) fn lists_of_series(&self, scalar: &str) -> String {
         let packs = self.series().map(|series| self.packs_of_series(&series));
         if packs.is_none_or(|packs| packs.is_empty()) {
@@ -199,7 +199,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// The struct of the packs.
+    /// Writes the struct of the packs.
     fn struct_of_lists(&mut self, packs: &[Pack]) {
         if packs.is_empty() {
             return;
@@ -236,7 +236,7 @@ impl Emitter<'_> {
         self.writer.close("}");
     }
 
-    /// The kernel.
+    /// Writes the kernel.
     pub(super) fn series_kernel(&mut self) {
         let Some(series) = self.series() else {
             return;
@@ -323,7 +323,7 @@ impl Emitter<'_> {
             .collect()
     }
 
-    /// The call of the series as a value, if it is asked for, with these lists.
+    /// The call of the series as a value, if the series is requested, with these lists.
     pub(super) fn call_of_series(&self, lists: &str) -> Option<Layout> {
         let series = self.series()?;
         let names = self.fields_of_series(&series).into_iter();
@@ -410,7 +410,7 @@ impl Emitter<'_> {
         self.writer.close("}");
     }
 
-    /// Writes what is kept of an order in both sides of a pack, of what is kept at the start and of each order.
+    /// Writes what both sides of a pack store at the start, or after each order.
     fn keep(&mut self, written: &Written, pack: &Pack, at: &str, which: fn([X; 2]) -> X) {
         let register = &self.types.register;
         let runtime = &self.options.runtime;
@@ -432,7 +432,7 @@ impl Emitter<'_> {
     }
 }
 
-/// Lanes as registers hold them.
+/// The number of lanes, rounded up to registers.
 fn padded(lanes: usize) -> usize {
     match lanes {
         0..=2 => 2,
@@ -440,7 +440,7 @@ fn padded(lanes: usize) -> usize {
     }
 }
 
-/// Writes a series.
+/// Generates the code of a series.
 fn written(series: &Series, number: &str, inputs: &[String]) -> Written {
     let mut to = Symbolic::new(series, number, inputs);
     let rows = || (0..series.rows.len() as u32).map(RowId);
@@ -496,7 +496,7 @@ fn written(series: &Series, number: &str, inputs: &[String]) -> Written {
         carried.insert(which, to.carried_by(which, &start, 2));
     }
 
-    // Every order after these.
+    // All higher orders.
     to.begin(Part::Order, 3);
     for row in &positions {
         to.coefficient(*row, Order::Later);
@@ -518,7 +518,7 @@ fn written(series: &Series, number: &str, inputs: &[String]) -> Written {
         }
     }
     to.is_of_positions = true;
-    // What was held an order before asks for what holds it now.
+    // A value of one order before requires the current value to be carried too.
     for which in to.carried.clone() {
         if let Carried::Older(row, weighted) = which {
             to.carry(Stream { row, weighted });
@@ -556,7 +556,7 @@ fn written(series: &Series, number: &str, inputs: &[String]) -> Written {
     }
 }
 
-/// Coefficients that are final: those of rows, and of coordinates and their rates.
+/// Final coefficients: of rows, and of coordinates and their rates.
 struct Finals {
     rows: Vec<Option<X>>,
     motion: Vec<X>,

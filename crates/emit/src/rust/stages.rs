@@ -1,4 +1,4 @@
-//! The accelerations in stages: what a stage leaves to the next, and what they are for the runtime.
+//! The accelerations in stages: the values that a stage passes to the next, and their interface to the runtime.
 
 use super::Emitter;
 use super::types::Types;
@@ -7,7 +7,7 @@ use lagrangian_program::{Function, Role};
 use lagrangian_spec::model::Stages;
 
 impl Emitter<'_> {
-    /// What a stage returns, if others follow it.
+    /// The type that a stage returns, if others follow it.
     pub(super) fn stage_type(&self, role: Role) -> Option<&str> {
         match role {
             Role::AtTime => Some(&self.types.at_time),
@@ -16,9 +16,9 @@ impl Emitter<'_> {
         }
     }
 
-    /// Whether a function may have to say that there are no accelerations.
+    /// Whether a function may report that there are no accelerations.
     ///
-    /// Where coordinates are a stage, that is said with them, and not again for the rates.
+    /// If there is a stage of coordinates, that stage reports it, and the stage of rates does not repeat it.
     pub(super) fn fails(&self, function: &Function) -> bool {
         let is_settled = function.role == Role::AccelerationsAt
             && self.program.stages.coordinates
@@ -26,7 +26,7 @@ impl Emitter<'_> {
         function.role.inverts() && !is_settled
     }
 
-    /// The structs that stages leave to each other.
+    /// Writes the structs that stages pass on.
     pub(super) fn stages(&mut self) {
         let Types {
             scalar,
@@ -76,7 +76,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// `Staged`, where any stage is asked for.
+    /// Writes `Staged`, if any stage is requested.
     pub(super) fn impl_staged(&mut self) {
         let Stages { time, coordinates } = self.program.stages;
         let Some(last) = self.program.function(Role::AccelerationsAt) else {

@@ -9,7 +9,7 @@ use crate::names::{Field, flat};
 use lagrangian_program::Function;
 
 impl Emitter<'_> {
-    /// A struct whose fields are named numbers.
+    /// Writes a struct whose fields are named numbers.
     pub(super) fn structure(
         &mut self,
         name: &str,
@@ -51,7 +51,7 @@ impl Emitter<'_> {
         self.writer.close("}");
     }
 
-    /// The struct of the parameters, and what can be done with them.
+    /// Writes the struct of the parameters with its methods.
     pub(super) fn machine(&mut self) {
         let name = self.types.machine.clone();
         let scalar = self.types.scalar.clone();
@@ -73,7 +73,7 @@ impl Emitter<'_> {
         self.writer.close("}");
     }
 
-    /// The whole families that lack a default, as fields.
+    /// The families without a default for some member, as fields.
     pub(super) fn required_fields(group: &Group<'_>) -> Vec<Field> {
         let lacks = |field: &&Field| {
             field
@@ -84,7 +84,7 @@ impl Emitter<'_> {
         group.fields.iter().filter(lacks).cloned().collect()
     }
 
-    /// `new`, where some parameters have no default.
+    /// Writes `new`, if some parameters have no default.
     pub(super) fn required(&mut self, name: &str, group: &Group<'_>) {
         let required = Self::required_fields(group);
         if required.is_empty() {
@@ -123,7 +123,7 @@ impl Emitter<'_> {
         self.writer.gap();
     }
 
-    /// `prepare`: what depends on parameters alone.
+    /// Writes `prepare`, which computes what depends on parameters alone.
     pub(super) fn prepare(&mut self) {
         let Types {
             prepared, scalar, ..
@@ -133,7 +133,7 @@ impl Emitter<'_> {
         self.docs("Computes what depends on the parameters alone, once.");
         self.writer
             .signature("pub fn prepare", &["&self".into()], Some(&result));
-        // A guard here says that no state has accelerations: it is kept until they are asked for.
+        // A guard here means that no state has accelerations: its result is kept until accelerations are evaluated.
         let guards = &function.guards;
         let mut with_guards = Function {
             guards: Vec::new(),
@@ -189,7 +189,7 @@ impl Emitter<'_> {
         self.writer.close("}");
     }
 
-    /// `start`: where the description lets the machine begin.
+    /// Writes `start`, the initial state of the spec.
     pub(super) fn start(&mut self) {
         let runtime = &self.options.runtime;
         let Types {
@@ -236,7 +236,7 @@ impl Emitter<'_> {
         self.writer.close("}");
     }
 
-    /// The coordinates by name, and as an array.
+    /// Writes the struct of the coordinates by name, and its conversion to an array.
     pub(super) fn coordinates(&mut self) {
         let name = self.types.coordinates.clone();
         let group = Group::new(&self.program.coordinates);
@@ -312,7 +312,7 @@ impl Emitter<'_> {
     }
 }
 
-/// A struct with one field more.
+/// A struct literal with one more field.
 pub(super) fn with_field(literal: Layout, field: Option<(String, Layout)>) -> Layout {
     match (literal, field) {
         (Layout::Struct(name, mut fields), Some(field)) => {

@@ -1,4 +1,4 @@
-//! What stands in for a machine whose description has errors.
+//! The placeholder for a machine whose spec has errors.
 
 use lagrangian_symbolic::Rational;
 
@@ -10,8 +10,8 @@ use lagrangian_spec::model::{Name, Stages};
 use lagrangian_spec::syntax::{Expression, ExpressionKind, Index, Item, Quantity, Spec};
 use lagrangian_spec::unit::Unit;
 
-/// What stands in for a machine whose description has errors: everything that user code may name, and no motion. So the
-/// errors of the description are not buried under others.
+/// The placeholder for a machine whose spec has errors: it has every name that user code may refer to, and no motion.
+/// So the errors of the spec are not buried under others.
 pub fn stub(spec: &Spec, options: &Options) -> String {
     if spec.name.text.is_empty() {
         String::new()
@@ -20,12 +20,12 @@ pub fn stub(spec: &Spec, options: &Options) -> String {
     }
 }
 
-/// A machine that has the names of a spec, as far as they can be told, and does not move.
+/// A machine with the names of a spec, as far as they can be determined, that does not move.
 fn standstill(spec: &Spec) -> Program {
     let slots = |items: &[Item<Quantity>]| {
         let mut slots: Vec<Slot> = Vec::new();
         for slot in items.iter().flat_map(|item| standing(spec, item)) {
-            // What is declared twice is one of the errors.
+            // A duplicate declaration is one of the reported errors.
             let clashes = |known: &Slot| {
                 known.name == slot.name
                     || (known.name.base == slot.name.base
@@ -110,9 +110,9 @@ fn standstill(spec: &Spec) -> Program {
     }
 }
 
-/// The members of an item, where their number can be told by looking; else one.
+/// The members of an item, if their number is evident; otherwise one.
 fn standing(spec: &Spec, item: &Item<Quantity>) -> Vec<Slot> {
-    /// The most members of a family that a stub has.
+    /// The most members of a family in a placeholder.
     const MOST: i64 = 1000;
     let number = |expression: &Expression| integer(spec, expression);
     let indices: Vec<Option<i64>> = match &item.name.index {
@@ -148,7 +148,7 @@ fn standing(spec: &Spec, item: &Item<Quantity>) -> Vec<Slot> {
     indices.into_iter().map(slot).collect()
 }
 
-/// The value of an expression that is a number, or the name of a constant that is one.
+/// The value of an expression that is a number or the name of a numeric constant.
 fn integer(spec: &Spec, expression: &Expression) -> Option<i64> {
     match &expression.kind {
         ExpressionKind::Number(text) => text.parse().ok(),

@@ -7,7 +7,7 @@ use crate::names::{Field, Scope, fields, identifier, paths};
 use lagrangian_program::quantity::Extent;
 use lagrangian_program::{Role, Slot};
 
-/// The emitted names that the user's machine must not hide.
+/// The emitted names, chosen not to collide with the user's machine.
 #[derive(Clone)]
 pub(super) struct Types {
     /// The machine itself.
@@ -18,21 +18,21 @@ pub(super) struct Types {
     pub(super) prepared: String,
     /// Accelerations with their derivatives.
     pub(super) derivatives: String,
-    /// For each function that is called often, a call of it, and what its pieces are.
+    /// For each function that is called often, the type of its call and the names of its pieces.
     pub(super) calls: BTreeMap<Role, [String; 2]>,
-    /// A call of the Taylor series, and what it keeps from order to order.
+    /// The type of a call of the Taylor series, and the lists that it keeps from order to order.
     pub(super) series: String,
     pub(super) lists: String,
-    /// What a stage of the accelerations leaves to the next one.
+    /// The types of the values that stages of the accelerations pass on.
     pub(super) at_time: String,
     pub(super) at_position: String,
-    /// The parameter that stands for the number.
+    /// The type parameter of the number.
     pub(super) scalar: String,
-    /// The parameter that stands for another number.
+    /// The type parameter of another number.
     pub(super) other: String,
-    /// The parameter that stands for the number in a register.
+    /// The type parameter of the number in a register.
     pub(super) register: String,
-    /// `f64`, `usize`, `Result`, …, by full path where the machine has that name.
+    /// The name of the machine: if it is `f64`, `usize`, `Result` or the like, that is written by its full path.
     pub(super) shadowed: String,
 }
 
@@ -58,7 +58,7 @@ impl Types {
         }
     }
 
-    /// A name that every Rust program knows.
+    /// A name of the standard prelude, by its full path where the machine hides it.
     pub(super) fn known(&self, name: &'static str) -> String {
         if name != self.shadowed {
             return name.to_owned();
@@ -76,7 +76,7 @@ impl Types {
     }
 }
 
-/// `AccelerationsAt` for `accelerations_at`; where results have a type of that name, `AtTimeCall`.
+/// `AccelerationsAt` for `accelerations_at`; `AtTimeCall` where a result type has that name.
 fn calls(scope: &mut Scope) -> BTreeMap<Role, [String; 2]> {
     let fast = Role::all().filter(|role| role.is_fast());
     fast.map(|role| {
@@ -116,7 +116,7 @@ impl<'a> Group<'a> {
         self.slots.is_empty()
     }
 
-    /// A struct literal, each number written by `value`.
+    /// A struct literal with each number written by `value`.
     pub(super) fn literal(&self, name: &str, value: impl Fn(usize) -> String) -> Layout {
         let field = |field: &Field| {
             let value = if field.is_family {
@@ -130,7 +130,7 @@ impl<'a> Group<'a> {
     }
 }
 
-/// A struct literal; one without fields says which numbers it is over.
+/// A struct literal; one without fields states its number type.
 pub(super) fn literal(name: &str, mut fields: Vec<(String, Layout)>) -> Layout {
     if fields.is_empty() {
         fields.push((

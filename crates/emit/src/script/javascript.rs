@@ -1,5 +1,5 @@
-//! JavaScript: one object with the tables and the functions. Sines may be one unit in the last place off those of other
-//! libraries; everything else has the same bits.
+//! JavaScript: one object with the tables and the functions. Sines may differ by one unit in the last place from those
+//! of other libraries; everything else has the same bits.
 
 use lagrangian_symbolic::Function;
 

@@ -1,4 +1,4 @@
-//! Julia: one module. Numbers may be of any type that has the functions.
+//! Julia: one module. Numbers may have any type that supports the functions.
 
 use lagrangian_symbolic::Function;
 
@@ -159,7 +159,7 @@ impl Syntax for Julia {
     }
 }
 
-/// A text in which `$` means itself.
+/// A string literal without interpolation: `$` is escaped.
 fn literal(text: &str) -> String {
     quoted(text).replace('$', "\\$")
 }

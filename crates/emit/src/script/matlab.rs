@@ -1,4 +1,4 @@
-//! MATLAB and Octave: one function that gives a struct of handles, the functions behind it.
+//! MATLAB and Octave: one function that returns a struct of handles, followed by the functions.
 
 use lagrangian_symbolic::Function;
 

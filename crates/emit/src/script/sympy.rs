@@ -1,4 +1,4 @@
-//! Python over SymPy. Constants are exact, so that formulas are; given numbers, it computes.
+//! Python with SymPy. Constants are exact, so formulas are exact; given numbers, the functions compute numbers.
 
 use lagrangian_symbolic::{Function, Rational};
 
@@ -121,11 +121,11 @@ impl Syntax for Sympy {
         }
     }
 
-    /// Exact numbers lose nothing.
+    /// Exact numbers have no rounding errors.
     fn error(&self, _: Rounded, _: &Expression, _: &Expression) -> Expression {
         Expression::leaf("sp.Integer(0)")
     }
 
-    /// Of symbols nobody knows; of numbers the quotient by nothing is not finite.
+    /// A symbolic pivot cannot be tested; with numbers, a division by zero gives a result that is not finite.
     fn guard(&self, _: &mut Writer, _: &str, _: &str, _: &str) {}
 }

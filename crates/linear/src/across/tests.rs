@@ -1,5 +1,5 @@
-//! Derivatives of runs across impacts: against closed forms, which dual numbers differentiate, against Liouville's theorem, and
-//! against central differences of runs, which know nothing of saltation.
+//! Derivatives of runs across impacts, against closed forms differentiated by dual numbers, against Liouville's theorem, and
+//! against central differences of runs, which are independent of saltation matrices.
 
 use lagrangian::Method;
 use lagrangian::interpreted::{InterpretedMachine, Signals};
@@ -10,7 +10,7 @@ use super::{Across, NoDerivatives, Wanted, run};
 use crate::tests::machine_with;
 use crate::varied::{Direction, Varied};
 
-/// What a motion is differentiated by.
+/// The number by which a motion is differentiated.
 #[derive(Clone, Copy, Debug)]
 enum By<'a> {
     Parameter(&'a str),
@@ -18,7 +18,7 @@ enum By<'a> {
     Rate(usize),
 }
 
-/// The derivatives are by numbers of size 1.
+/// The scale of the number: derivatives are taken by the number divided by its scale.
 fn size(machine: &InterpretedMachine, by: By<'_>) -> f64 {
     match by {
         By::Parameter(name) => match machine.parameter_values()[parameter(machine, name)].abs() {
@@ -78,7 +78,7 @@ fn across<'m>(
     run(&wanted, &start)
 }
 
-/// Where a run with something changed ends.
+/// The end of a run with a changed number.
 fn ends(machine: &InterpretedMachine, by: By<'_>, change: f64, until: f64) -> State<Vec<f64>> {
     let mut machine = machine.clone();
     if let By::Parameter(name) = by {
@@ -105,7 +105,8 @@ fn ends(machine: &InterpretedMachine, by: By<'_>, change: f64, until: f64) -> St
     }
 }
 
-/// Holds derivatives at the end of a run against differences of runs over `h`, and over `h/2` what these are good for.
+/// Compares derivatives at the end of a run with differences of runs over `h`; differences over `h/2` tell how
+/// accurate these are.
 fn agrees_with_differences(name: &str, set: &[(&str, f64)], by: &[By<'_>], until: f64, h: f64) {
     let machine = machine_with(name, set);
     let signals = Signals::default();
@@ -125,7 +126,8 @@ fn agrees_with_differences(name: &str, set: &[(&str, f64)], by: &[By<'_>], until
         let own = run.end().q[part.clone()].iter().chain(&run.end().v[part]);
         let largest = fine.iter().fold(1.0_f64, |most, x| most.max(x.abs()));
         for (i, (own, (coarse, fine))) in own.zip(coarse.iter().zip(&fine)).enumerate() {
-            // The finer difference is off by a third of what both differ by, beside the tolerance of a run over the distance.
+            // The error of the finer difference is a third of the difference between both, plus the tolerance of a
+            // run divided by the distance.
             let known = 2.0 * (coarse - fine).abs() + 1e-13 * 1e3 * largest / h;
             assert!(
                 (own - fine).abs() <= known.max(1e-9 * largest),
@@ -135,7 +137,7 @@ fn agrees_with_differences(name: &str, set: &[(&str, f64)], by: &[By<'_>], until
     }
 }
 
-/// The height of a ball at a time, bouncing from a fall from `h`: its flights are parabolas.
+/// The height at a given time of a ball that falls from `h` and bounces: its flights are parabolas.
 fn bouncing<N: Scalar>([h, e, g]: [N; 3], t: f64, value: fn(N) -> f64) -> N {
     let two = N::from_f64(2.0);
     let mut speed = (two * g * h).sqrt();
@@ -157,7 +159,7 @@ fn a_bouncing_ball_changes_as_its_parabolas_do() {
     let machine = machine_with("contacts/bouncing_ball", &[]);
     let signals = Signals::default();
     let by = [By::Start(0), By::Parameter("e"), By::Parameter("g")];
-    // √(2h/g) = 0.4515 s, and all is over at 4.06 s.
+    // √(2h/g) = 0.4515 s, and bouncing ends at 4.06 s.
     let run = across(&machine, &signals, &by, 3.9, 1e-12).expect("derivatives");
     for t in [0.3, 0.9, 1.7, 2.9, 3.3, 3.7, 3.9] {
         let at = run.at(t).expect("a state");
@@ -171,7 +173,7 @@ fn a_bouncing_ball_changes_as_its_parabolas_do() {
                 bouncing(numbers, t, |x| x.value)
             };
             let off = at.q[1 + k] - truth.derivative;
-            // Each of n bounces multiplies what the steps before have left.
+            // Each of n bounces amplifies the error of the steps before it.
             assert!(
                 off.abs() < 1e-9 * truth.derivative.abs().max(1.0),
                 "t = {t}, {k}: {} {}",
@@ -210,7 +212,7 @@ fn a_ball_that_slips_and_then_rolls_changes_as_its_closed_form_does() {
         numbers[k].derivative = numbers[k].value;
         let [mu, speed, g] = numbers;
         let number = Dual::<f64>::constant;
-        // It rolls with 5/7 of its speed from 2 v/(7 μ g) on.
+        // From 2 v/(7 μ g) on it rolls with 5/7 of its initial speed.
         let rolls = number(2.0 / 7.0) * speed / (mu * g);
         let slipped = speed * rolls - number(0.5) * mu * g * rolls * rolls;
         let truth = slipped + number(5.0 / 7.0) * speed * (number(until) - rolls);
@@ -222,7 +224,7 @@ fn a_ball_that_slips_and_then_rolls_changes_as_its_closed_form_does() {
     }
 }
 
-/// Areas of the plane of states shrink by e² in an impact, and by exp(−d t/m) in between.
+/// Areas in the state plane shrink by e² in an impact, and by exp(−d t/m) in between.
 #[test]
 fn an_impact_oscillator_shrinks_areas_as_liouville_says() {
     let set = [("d", 0.1), ("F", 1.5), ("w", 2.8), ("e", 0.8)];
@@ -245,8 +247,8 @@ fn an_impact_oscillator_shrinks_areas_as_liouville_says() {
     assert!((determinant - truth).abs() < 1e-9, "{determinant} {truth}");
 }
 
-/// A. B. Nordmark, J. Sound Vib. 145 (1991) 279–297: past an impact δx⁺ = −e δx⁻ and
-/// δv⁺ = −e δv⁻ + (a⁺ + e a⁻)/v⁻ δx⁻, of instants a little before and after it between which nothing else happens.
+/// The saltation matrix of A. B. Nordmark, J. Sound Vib. 145 (1991) 279–297: across an impact δx⁺ = −e δx⁻ and δv⁺
+/// = −e δv⁻ + (a⁺ + e a⁻)/v⁻ δx⁻, for instants shortly before and after it with no other change in between.
 #[test]
 fn an_impact_oscillator_has_the_saltation_matrix_of_nordmark() {
     let set = [("F", 1.5), ("w", 2.8), ("e", 0.6), ("k", 4.0)];
@@ -263,10 +265,10 @@ fn an_impact_oscillator_has_the_saltation_matrix_of_nordmark() {
     let told = impact.impact.expect("an impact");
     let [before, after] = told.gap_rate;
     assert!((after + 0.6 * before).abs() < 1e-12);
-    // At the stop the spring is slack.
+    // At the stop the spring is unstretched.
     let a = 1.5 * (2.8 * t).cos();
     let truth = [[-0.6, 0.0], [(a + 0.6 * a) / before, -0.6]];
-    // So near to the impact that the motion in between is that of δt alone.
+    // These instants are so near to the impact that the motion in between contributes only δt.
     let by = [By::Start(0), By::Rate(0)];
     let near = 1e-7;
     let matrix = |until: f64| {
@@ -286,7 +288,7 @@ fn an_impact_oscillator_has_the_saltation_matrix_of_nordmark() {
 #[test]
 fn machines_of_the_library_change_as_differences_of_runs_do() {
     use By::{Parameter, Rate, Start};
-    // Slip stops, reverses and begins; contacts lift; corners of a box, a beak, and pestle and mortar meet.
+    // Slip stops, reverses and begins; contacts lift off; corners of a box, a beak, and a pestle in a mortar touch.
     agrees_with_differences(
         "contacts/disc_over_hump",
         &[],
@@ -347,10 +349,10 @@ fn what_has_no_derivative_is_refused_by_name() {
             Err(why) => why.to_string(),
         }
     };
-    // The first ball meets the second where that touches the third: which pair comes first decides.
+    // The first ball hits the second while that touches the third: the result depends on which pair collides first.
     let said = refused("contacts/newtons_cradle", &[], &[By::Start(2)], 2.0);
     assert!(said.contains("`right` touches at the start"), "{said}");
-    // A block that falls flat meets the ground with both corners.
+    // A block that falls flat hits the ground with both corners at once.
     let said = refused(
         "contacts/rocking_block",
         &[("tilt", 0.0)],
@@ -358,7 +360,7 @@ fn what_has_no_derivative_is_refused_by_name() {
         0.1,
     );
     assert!(said.contains("at the start"), "{said}");
-    // The oscillator swings from 1 m to −1 m: there it grazes a stop, on which its speed is 0.
+    // The oscillator swings from 1 m to −1 m, where it grazes a stop with zero speed.
     let said = refused(
         "contacts/impact_oscillator",
         &[("stop", -1.0 + 3e-9)],

@@ -1,13 +1,14 @@
-//! Unilateral contacts with their derivatives: what they press while nothing changes, and what impacts do.
+//! Unilateral contacts with their derivatives: contact forces while the phase stays the same, and impulses at impacts.
 //!
-//! Both are one system of linear equations over dual numbers, with forces and accelerations, or impulses and changes of rates:
+//! Both follow from one system of linear equations over dual numbers, for forces and accelerations or for impulses
+//! and changes of rates:
 //!
 //! ```text
 //! M Δ − Gᵀ μ − Σ cⱼ λⱼ = k,   G Δ = 0,   wⱼ Δ = bⱼ                                                  (E67)
 //! ```
 //!
-//! where `wⱼ` is the row of a contact that is closed, or of one that sticks, `cⱼ` is `wⱼ` with the friction of a contact that slips, and `k` what
-//! yields presses.
+//! where `wⱼ` is the row of a closed contact, or the tangential row of a sticking one; `cⱼ` is `wⱼ` with the friction of a slipping
+//! contact added; and `k` holds the forces of compliant contacts.
 
 use lagrangian::{Compliance, ContactMode, Singular, System};
 use lagrangian_program::{Arguments, Interpreter, Role, Shape};
@@ -15,7 +16,7 @@ use lagrangian_scalar::Dual;
 
 type Number = Dual<f64>;
 
-/// Pivots below this share of their row are rounding: forces share a load in several ways.
+/// Pivots below this fraction of their row are round-off: the distribution of the load is not unique.
 const INDEPENDENT: f64 = 1e-12;
 
 const ZERO: Number = Dual {
@@ -23,34 +24,34 @@ const ZERO: Number = Dual {
     derivative: 0.0,
 };
 
-/// What unilateral contacts do between two changes of a run.
+/// The states of unilateral contacts between two changes of a run.
 #[derive(Clone, Debug, Default)]
 pub struct Phase {
-    /// What each contact does.
+    /// The mode of each contact.
     pub modes: Vec<ContactMode>,
-    /// By which law each contact presses, if it yields.
+    /// The force law of each compliant contact.
     pub compliances: Vec<Option<Compliance>>,
-    /// Whether each contact is the rolling of the contact before it.
+    /// Whether each contact is the rolling friction of the contact before it.
     pub rolls: Vec<bool>,
     /// Whether each contact has friction.
     pub rubs: Vec<bool>,
-    /// What each layer went through.
+    /// The loading history of each layer.
     pub layers: Vec<Layer>,
     /// How many constraints the machine has.
     pub constraints: usize,
 }
 
-/// What a layer went through.
+/// The loading history of a layer.
 #[derive(Clone, Debug, Default)]
 pub struct Layer {
-    /// Whether it is loaded further.
+    /// Whether it is being loaded beyond its greatest depth.
     pub is_loaded: bool,
-    /// How deep it was pressed at most, in m, with its derivative in each direction.
+    /// The greatest depth so far, in m, with its derivative in each direction.
     pub depth: Vec<Number>,
 }
 
 impl Phase {
-    /// The contacts of a machine, all open.
+    /// The phase in which all contacts of a machine are open.
     pub fn open<S: System>(system: &S, directions: usize) -> Phase {
         let contacts = || system.unilateral_contacts();
         let layer = Layer {
@@ -67,7 +68,7 @@ impl Phase {
         }
     }
 
-    /// Whether nothing touches.
+    /// Whether all contacts are open.
     pub fn is_free(&self) -> bool {
         self.modes.iter().all(|mode| *mode == ContactMode::Open)
     }
@@ -76,7 +77,7 @@ impl Phase {
         self.modes[contact] != ContactMode::Open
     }
 
-    /// The contact whose normal force is that of a contact: itself, or the one whose rolling it is.
+    /// The contact that provides the normal force of a contact: itself, or for rolling friction the contact before it.
     pub(crate) fn presses(&self, contact: usize) -> usize {
         if self.rolls[contact] {
             contact - 1
@@ -94,25 +95,26 @@ pub(crate) struct Place<'i> {
     pub v: Vec<Number>,
     u: &'i [Number],
     pub gaps: Vec<Number>,
-    /// Rates along normal and tangent of each contact.
+    /// Normal and tangential rates of each contact.
     pub rates: Vec<Number>,
     rows: Vec<Number>,
     drifts: Vec<Number>,
-    /// Restitution along normal and tangent, friction and static friction of each contact.
+    /// Normal and tangential restitution, friction and static friction of each contact.
     coefficients: Vec<Number>,
     mass: Vec<Number>,
-    /// Rows of the constraints of the machine.
+    /// The constraint rows of the machine.
     held: Vec<Number>,
 }
 
-/// Accelerations, and what contacts press.
+/// Accelerations and contact forces.
 pub(crate) struct Reaction {
     pub a: Vec<Number>,
-    /// Along normal and tangent, of each contact.
+    /// Normal and tangential force of each contact.
     pub forces: Vec<[Number; 2]>,
 }
 
-/// A direction whose rate, or acceleration, is to change by so much; and along what the force acts that does it.
+/// A prescribed change of the rate or acceleration along `row`, and the direction `along` in which the unknown
+/// force that brings it about acts.
 pub(crate) struct Sought {
     pub along: Vec<Number>,
     pub row: Vec<Number>,
@@ -120,7 +122,7 @@ pub(crate) struct Sought {
 }
 
 impl<'i> Place<'i> {
-    /// Time, coordinates and rates are one list.
+    /// Evaluates the machine at a state; `state` lists time, coordinates and rates.
     pub fn new(
         interpreter: &'i mut Interpreter<Number>,
         state: Vec<Number>,
@@ -166,23 +168,23 @@ impl<'i> Place<'i> {
         })
     }
 
-    /// The row of a direction: of a contact its normal, then its tangent.
+    /// The row of a direction; each contact has a normal and then a tangential one.
     pub fn row(&self, direction: usize) -> &[Number] {
         let n = self.q.len();
         &self.rows[direction * n..][..n]
     }
 
-    /// Restitution along normal and tangent, friction and static friction.
+    /// Normal and tangential restitution, friction and static friction.
     pub fn coefficients(&self, contact: usize) -> [Number; 4] {
         [0, 1, 2, 3].map(|i| self.coefficients[4 * contact + i])
     }
 
-    /// How fast the rate in a direction changes with accelerations.
+    /// The rate of change of the rate in a direction, for accelerations `a`.
     pub fn acceleration(&self, direction: usize, a: &[Number]) -> Number {
         self.drifts[direction] + dot(self.row(direction), a)
     }
 
-    /// What the machine would do if nothing touched.
+    /// The accelerations without contact forces.
     pub fn free(&mut self) -> Result<Vec<Number>, Singular> {
         let mut a = vec![ZERO; self.q.len()];
         let arguments = Arguments {
@@ -198,7 +200,7 @@ impl<'i> Place<'i> {
         Ok(a)
     }
 
-    /// `c` of a contact that presses: its normal with the friction that goes along with it, of itself and of what leans on it.
+    /// `c` of a closed contact: its normal plus the friction in proportion to it, that of rolling friction on it included.
     fn along(&self, phase: &Phase, contact: usize) -> Vec<Number> {
         let mut along = self.row(2 * contact).to_vec();
         for k in [contact, contact + 1] {
@@ -211,11 +213,11 @@ impl<'i> Place<'i> {
         along
     }
 
-    /// What a contact that yields presses.
+    /// The force of a compliant contact.
     fn pressed(&self, phase: &Phase, contact: usize, direction: usize) -> Option<Number> {
         let [first, second, ..] = self.coefficients(contact);
         let (depth, rate) = (ZERO - self.gaps[contact], ZERO - self.rates[2 * contact]);
-        // d^(3/2), which is flat where it begins.
+        // d^(3/2), whose slope is 0 at d = 0.
         let root = depth.value.max(0.0).sqrt();
         let power = Dual {
             value: depth.value * root,
@@ -235,15 +237,15 @@ impl<'i> Place<'i> {
         })
     }
 
-    /// How deep a contact is pressed.
+    /// The depth of penetration of a contact.
     pub fn depth(&self, contact: usize) -> Number {
         ZERO - self.gaps[contact]
     }
 
-    /// Accelerations and forces while everything stays as it is.
+    /// Accelerations and contact forces while the phase stays the same.
     ///
     /// # Errors
-    /// Where the forces are not the only ones.
+    /// If the forces are not unique.
     pub fn reaction(&mut self, phase: &Phase, direction: usize) -> Result<Reaction, Singular> {
         let n = self.q.len();
         let free = self.free()?;
@@ -295,7 +297,7 @@ impl<'i> Place<'i> {
         })
     }
 
-    /// (E67): Δ and the forces λ of what is sought; none where they are not the only ones.
+    /// Solves (E67) for Δ and the forces λ of the sought changes; `None` where the forces are not unique.
     pub fn respond(
         &self,
         sought: &[Sought],
@@ -332,12 +334,13 @@ impl<'i> Place<'i> {
     }
 }
 
-/// There are no accelerations, or no forces that are the only ones. Why is said where runs are made.
+/// The error for a missing or non-unique solution. The caller explains the cause.
 fn none() -> Singular {
     Singular::new(0, 0.0, 1.0)
 }
 
-/// Gauss's elimination with scaled rows and partial pivoting; rows end with the right-hand side. None where a pivot is rounding.
+/// Gaussian elimination with scaled rows and partial pivoting; rows end with the right-hand side. `None` where a
+/// pivot is round-off.
 fn eliminate(rows: &mut [Number], size: usize) -> Option<Vec<Number>> {
     let width = size + 1;
     for row in rows.chunks_exact_mut(width) {
@@ -347,7 +350,7 @@ fn eliminate(rows: &mut [Number], size: usize) -> Option<Vec<Number>> {
         if scale == 0.0 {
             return None;
         }
-        // A power of two rounds nothing.
+        // Scaling by a power of two is exact.
         let by = Dual::constant(scale.log2().round().exp2().recip());
         row.iter_mut().for_each(|x| *x = *x * by);
     }
@@ -380,7 +383,7 @@ fn eliminate(rows: &mut [Number], size: usize) -> Option<Vec<Number>> {
     Some(found)
 }
 
-/// Adds so many times a row.
+/// Adds a multiple of a row.
 pub(crate) fn add(to: &mut [Number], times: Number, row: &[Number]) {
     for (to, by) in to.iter_mut().zip(row) {
         *to = *to + times * *by;

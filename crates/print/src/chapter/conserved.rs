@@ -1,4 +1,4 @@
-//! What is conserved, and what the equations are free of; every line has been decided for this very machine.
+//! Conserved quantities and absent terms; every statement has been decided for this machine.
 
 use lagrangian_symbolic::{Expr, Math, math_as_built, substitute};
 
@@ -138,7 +138,7 @@ impl<'d> Chapter<'_, 'd> {
         let mut rows = Row::lines(&p().equals(momentum), 0, "");
         if !cyclic.force.is_zero() {
             let rate = Math::letter('p').dotted().with_index(q());
-            // By its sources, of which those that cancel are 0.
+            // The generalized force by sources, of which those that cancel are set to 0.
             let forces = self
                 .shares
                 .iter()
@@ -151,21 +151,21 @@ impl<'d> Chapter<'_, 'd> {
         vec![Block::Paragraph(words), Block::Formula(rows)]
     }
 
-    /// What acts beside all that the equations without it know of. Of unilateral contacts it is said where they are told that all
-    /// else is said of the machine while they are open.
+    /// Forces besides those in the equations, such as sliding friction. Unilateral contacts are not mentioned here: their own
+    /// section states that the rest of the chapter applies while they are open.
     fn touching(&self) -> Option<&'static str> {
         let mut sliding = self.compiled.equations.sliding.iter();
         let rubs = sliding.any(|one| !one.friction.is_zero());
         rubs.then_some("friction in the guides")
     }
 
-    /// Whether that acts on a coordinate.
+    /// Whether they act on a coordinate.
     fn is_touched(&self, coordinate: usize) -> bool {
         let mut sliding = self.compiled.equations.sliding.iter();
         sliding.any(|one| !one.friction.is_zero() && !one.row[coordinate].is_zero())
     }
 
-    /// `Σ Mᵢⱼ vⱼ`, and what is driven.
+    /// `Σ Mᵢⱼ vⱼ`, with the contribution of drives.
     fn momentum(&self, cyclic: &Cyclic<'d>) -> Math {
         let model = self.model;
         let dag = model.dag;
@@ -213,7 +213,7 @@ impl<'d> Chapter<'_, 'd> {
         if sum.is_empty() { Math::number(0) } else { sum }
     }
 
-    /// What the machine lacks, and what stands still.
+    /// What the machine lacks, and what is at rest.
     fn absent(&self) -> Vec<Words> {
         let model = self.model;
         let equations = &self.compiled.equations;
@@ -296,7 +296,7 @@ impl<'d> Chapter<'_, 'd> {
         items
     }
 
-    /// Which accelerations occur together.
+    /// Which accelerations are coupled.
     fn blocks(&self) -> Words {
         let (alone, together): (Vec<&Vec<usize>>, Vec<_>) =
             self.facts.blocks.iter().partition(|block| block.len() == 1);
@@ -329,7 +329,7 @@ impl<'d> Chapter<'_, 'd> {
         words
     }
 
-    /// The names of some coordinates.
+    /// The names of these coordinates.
     fn coordinates(&self, indices: &[usize]) -> Words {
         let name = |&i: &usize| words![math_as_built(self.model.coordinates[i].q, self.model.dag)];
         let mut words = listed(indices.iter().take(LONGEST_LIST).map(name));

@@ -1,4 +1,4 @@
-//! Bilateral constraints: what they say, what that asks of the accelerations, and how they act.
+//! Bilateral constraints: their equations, the conditions on accelerations that follow, and their reactions.
 
 use lagrangian_symbolic::{Expr, Math};
 
@@ -6,7 +6,7 @@ use super::{Chapter, words};
 use crate::document::{Block, Row};
 use lagrangian_mechanics::ConstraintEquation;
 
-/// Of more constraints than this only the first are written out.
+/// Of more constraints than this only the first ones are written out.
 const MOST: usize = 12;
 
 impl<'d> Chapter<'_, 'd> {
@@ -58,7 +58,7 @@ impl<'d> Chapter<'_, 'd> {
         blocks
     }
 
-    /// What is to be zero, its row of G and its γ.
+    /// The constraint function, its row of G and its γ.
     fn constraint(&self, constraint: &ConstraintEquation<'d>) -> Vec<Block> {
         let heading = Block::Heading(words!["Constraint ", constraint.name.clone()]);
         let mut rows = match constraint.position {

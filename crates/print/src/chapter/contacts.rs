@@ -1,4 +1,4 @@
-//! Guided contacts: how they slide, what presses, and what friction does with that.
+//! Guided contacts: their slip, their normal reactions, and their friction.
 
 use lagrangian_symbolic::print::{Form, Mark, Sign};
 use lagrangian_symbolic::{Expr, Math};
@@ -66,7 +66,7 @@ impl<'d> Chapter<'_, 'd> {
         let constraints = &self.compiled.equations.constraints;
         let multipliers: Vec<Expr<'d>> = constraints.iter().map(|one| one.multiplier).collect();
         let normals = if contact.is_second() {
-            // It stands with the first tangent.
+            // The second tangent is described with the first.
             Vec::new()
         } else {
             contact.normal(self.model, &multipliers)

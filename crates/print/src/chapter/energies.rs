@@ -1,4 +1,4 @@
-//! Energies, dissipation and applied forces, each by what it comes from.
+//! Energies, dissipation and applied forces, by their sources.
 
 use lagrangian_symbolic::print::Sign;
 use lagrangian_symbolic::{Expr, Math};
@@ -9,7 +9,7 @@ use lagrangian_mechanics::equations::groups::{Kind, Share};
 use lagrangian_spec::model::element::Element;
 use lagrangian_spec::model::{Name, Space};
 
-/// A sum of energies longer than this is not written out: its terms stand above it.
+/// A sum of energies longer than this is not written out, since its terms precede it.
 const LONGEST_SUM: u64 = 400;
 
 impl<'d> Chapter<'_, 'd> {
@@ -91,7 +91,7 @@ impl<'d> Chapter<'_, 'd> {
         blocks
     }
 
-    /// An energy by its sources, and its sum.
+    /// An energy by sources, then its sum.
     fn energy(
         &self,
         letter: char,
@@ -130,7 +130,7 @@ impl<'d> Chapter<'_, 'd> {
         ]
     }
 
-    /// Applied forces and torques: what each does along the coordinates.
+    /// Applied forces and torques, with their generalized forces.
     fn forces(&self) -> Vec<Block> {
         let parts = self.shares.iter().filter(|part| part.energy.is_none());
         let parts: Vec<(&Element<'d>, &Share<'d>)> =
@@ -176,7 +176,7 @@ impl<'d> Chapter<'_, 'd> {
         blocks
     }
 
-    /// Whose share it is.
+    /// The element that contributes a share.
     fn element(&self, share: &Share<'d>) -> &Element<'d> {
         &self.model.elements[share.element]
     }

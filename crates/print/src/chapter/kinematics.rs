@@ -1,4 +1,4 @@
-//! Kinematics: frames of reference; where bodies are, how fast they move, how they turn.
+//! Kinematics: frames of reference; positions, velocities and rotations of bodies.
 
 use lagrangian_symbolic::{Expr, Math, print::Sign};
 
@@ -76,7 +76,7 @@ impl<'d> Chapter<'_, 'd> {
         let model = self.model;
         let mut steps: Vec<Words> = Vec::new();
         let mut here = frame.pose;
-        // Up to the nearest frame that has a name and stands before this one.
+        // Searches for the nearest ancestor frame that has a name and precedes this one.
         let parent = loop {
             let pose = &model.poses[here.index()];
             match &pose.step {
@@ -183,7 +183,7 @@ impl<'d> Chapter<'_, 'd> {
     }
 }
 
-/// Bodies whose rotation carries no energy.
+/// Bodies whose rotation has no kinetic energy.
 pub(super) fn particles<'a, 'd>(bodies: &'a [Body<'d>]) -> Vec<&'a Body<'d>> {
     let is_particle = |body: &&Body<'d>| matches!(body.inertia, Inertia::Particle);
     bodies.iter().filter(is_particle).collect()

@@ -1,4 +1,4 @@
-//! The machine: what it is described by, what is assumed, what is neglected.
+//! The machine: its description, its assumptions, its simplifications.
 
 use lagrangian_symbolic::print::Mark;
 use lagrangian_symbolic::{Expr, Math, math_as_built};
@@ -152,13 +152,13 @@ impl<'d> Chapter<'_, 'd> {
         blocks
     }
 
-    /// The coordinates that are no integrals of states.
+    /// The coordinates other than integrals of states.
     fn places(&self) -> impl Iterator<Item = &Coordinate<'d>> {
         let coordinates = self.model.coordinates.iter();
         coordinates.filter(|c| c.rate.is_none())
     }
 
-    /// How fast it starts, where it does not start at rest.
+    /// The initial rates, if the machine does not start at rest.
     fn rates(&self) -> Option<Block> {
         const MOST: usize = 12;
         let moving = || self.places().filter(|c| !c.start_rate.is_zero());
@@ -209,7 +209,7 @@ impl<'d> Chapter<'_, 'd> {
                 }
             });
         let rows: Vec<Vec<Words>> = rows.collect();
-        // What says nothing in any row is no column.
+        // Columns that are blank in every row are left out.
         let keep: Vec<bool> = (0..titles.len())
             .map(|k| !titles[k].is_empty() || rows.iter().any(|row| !is_blank(&row[k])))
             .collect();
@@ -223,11 +223,11 @@ impl<'d> Chapter<'_, 'd> {
         Block::Table(kept(head(titles)), rows.into_iter().map(kept).collect())
     }
 
-    /// A default: a decimal where somebody may have typed it so.
+    /// A default value, as a decimal if it was probably written so.
     fn value(&self, value: Expr<'d>) -> Math {
         let decimal = value.as_constant().and_then(|number| {
             let (above, below) = (number.numerator()?, number.denominator()?);
-            // Powers of two and five only, and few enough digits for a number to hold.
+            // The denominator has only the prime factors two and five, and the numerator few enough digits.
             let is_decimal = 10_i64.pow(6) % below == 0 && above.abs() < 1_000_000_000;
             (below > 1 && is_decimal).then(|| above as f64 / below as f64)
         });
@@ -307,7 +307,7 @@ impl<'d> Chapter<'_, 'd> {
     }
 }
 
-/// How freely a machine with constraints moves.
+/// The degrees of freedom of a machine with constraints.
 fn constrained(freedom: Freedom) -> String {
     let coordinates = counted(freedom.coordinates, "generalized coordinate");
     let constraints = counted(freedom.constraints, "constraint");

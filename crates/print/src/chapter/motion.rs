@@ -9,19 +9,19 @@ use lagrangian_mechanics::Route;
 use lagrangian_mechanics::equations::groups::{self, Group, Kind, Term};
 use lagrangian_spec::model::stage;
 
-/// In an equation that is too long to be read, groups of a greater size get a name or are left out.
+/// In an equation that is too long to read, groups of a greater size get a name or are left out.
 const LONG_GROUP: u64 = 750;
 
-/// And entries of the mass matrix of a greater size get a name.
+/// In such an equation entries of the mass matrix of a greater size get a name.
 const LONG_ENTRY: u64 = 100;
 
 /// The most rows of a mass matrix that is written out.
 const LARGEST_MATRIX: usize = 9;
 
-/// The most entries that are named and written below the matrix; more of them are found in the equations as well.
+/// The most entries that are named and written below the matrix; the equations contain further ones as well.
 const MOST_NAMES: usize = 24;
 
-/// The widest entry that stands in a matrix of names by itself, in em.
+/// The widest entry that is written inside a matrix of names, in em.
 const SHORT_ENTRY: f32 = 3.5;
 
 impl<'d> Chapter<'_, 'd> {
@@ -111,7 +111,7 @@ impl<'d> Chapter<'_, 'd> {
         vec![heading, Block::Formula(rows)]
     }
 
-    /// Group by group, with names for what is long: entries of the mass matrix and the bias.
+    /// Group by group, with names for long parts: entries of the mass matrix and the bias.
     fn long_rows(&self, index: usize, groups: &[Group<'d>]) -> Vec<Row> {
         let is_velocity = |group: &&Group<'d>| {
             use Kind::{Centrifugal, Coriolis, Drive, Velocity};
@@ -145,7 +145,7 @@ impl<'d> Chapter<'_, 'd> {
         arranged(named, is_applied)
     }
 
-    /// The terms of inertia, long entries of the mass matrix by their names.
+    /// The inertia terms, with long entries of the mass matrix by name.
     fn inertia_terms(&self, index: usize, group: &Group<'d>) -> Math {
         let mut sum = Math::default();
         for (position, term) in group.terms.iter().enumerate() {
@@ -185,7 +185,7 @@ impl<'d> Chapter<'_, 'd> {
         sum
     }
 
-    /// A coefficient and its factor; a sum that varies keeps its parentheses and stands first.
+    /// A coefficient with its factor; a sum that depends on the motion keeps its parentheses and comes first.
     pub(super) fn term(&self, term: &Term<'d>) -> Math {
         let dag = self.model.dag;
         let (coefficient, factor) = (term.coefficient, term.factor);
@@ -276,7 +276,7 @@ impl<'d> Chapter<'_, 'd> {
     }
 }
 
-/// The groups one below the other, the last one on the right side if it `is_applied`.
+/// The groups below each other, with the last on the right-hand side if it `is_applied`.
 fn arranged(mut groups: Vec<(Math, &str)>, is_applied: bool) -> Vec<Row> {
     let applied = groups.pop_if(|_| is_applied);
     if groups.is_empty() {
@@ -299,7 +299,7 @@ fn arranged(mut groups: Vec<(Math, &str)>, is_applied: bool) -> Vec<Row> {
     rows
 }
 
-/// An entry of the mass matrix, by its place above the diagonal.
+/// The name of an entry of the mass matrix, by its position in the upper triangle.
 fn entry_name(i: usize, j: usize) -> Math {
     let place = [i.min(j), i.max(j)].map(|k| Math::number(k as i64 + 1));
     Math::letter('M').with_index(match i.max(j) {
@@ -308,7 +308,7 @@ fn entry_name(i: usize, j: usize) -> Math {
     })
 }
 
-/// How many symbols a group has written out.
+/// The number of symbols in a group when written out.
 fn size_of(group: &Group<'_>) -> u64 {
     let terms = group.terms.iter();
     terms.fold(0, |size: u64, term| {
@@ -316,7 +316,7 @@ fn size_of(group: &Group<'_>) -> u64 {
     })
 }
 
-/// Whether a product is written with a varying sum at its end: then nothing after it is taken for an argument.
+/// Whether a product ends with a sum that depends on the motion: then nothing after it can be read as an argument.
 fn ends_in_a_sum(product: Expr<'_>) -> bool {
     let dag = product.dag();
     let Node::Product(factors) = product.node() else {

@@ -1,4 +1,4 @@
-//! What the code costs.
+//! The cost of the code.
 
 use super::{Chapter, code, counted, head, words};
 use crate::document::{Block, Words};
@@ -52,7 +52,7 @@ impl Chapter<'_, '_> {
         blocks
     }
 
-    /// The programs from which that of the accelerations was chosen.
+    /// The candidates among which the program of the accelerations was chosen.
     fn ways_to_accelerations(&self) -> Vec<Block> {
         let program = &self.compiled.program;
         let Some(choice) = program.choice(program.solving()) else {

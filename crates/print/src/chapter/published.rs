@@ -1,4 +1,4 @@
-//! Equations that somebody printed, held against the derived ones.
+//! Published equations, compared with the derived ones.
 
 use lagrangian_symbolic::print::Sign;
 use lagrangian_symbolic::{Expr, Math, math_as_built};
@@ -46,7 +46,7 @@ impl<'d> Chapter<'_, 'd> {
 
     /// Terms to change, to add and to drop.
     fn changes(&self, comparison: &Comparison<'d>) -> Vec<Row> {
-        // Terms with the axis that they belong to, in the order in which the comparison counts them.
+        // Terms with the component to which they belong, in the order of the comparison.
         let (mut drop, mut add) = (Vec::new(), Vec::new());
         for (k, mend) in comparison.mend.iter().enumerate() {
             let axis = match comparison.mend.len() {
@@ -90,7 +90,7 @@ impl<'d> Chapter<'_, 'd> {
         rows
     }
 
-    /// A term on its side. What the algebra has simplified, as it does ṫ to 1, is shown as printed.
+    /// A term on its side of the equation. Where algebra has simplified it, as ṫ to 1, it is shown as printed.
     fn quoted(&self, term: Expr<'d>, said: &Quoted) -> Math {
         let dots = |text: &str| text.matches("der(").count();
         let term = if said.on_the_right { -term } else { term };

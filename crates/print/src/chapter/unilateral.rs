@@ -1,11 +1,11 @@
-//! Unilateral contacts: their gaps and rates, and what is not said of them here.
+//! Unilateral contacts: their gaps and rates, and what this chapter does not cover about them.
 
 use lagrangian_symbolic::Math;
 
 use super::{Chapter, words};
 use crate::document::Block;
 
-/// Of more contacts than this only the first are written out.
+/// Of more contacts than this only the first ones are written out.
 const MOST: usize = 12;
 
 impl Chapter<'_, '_> {
@@ -20,7 +20,7 @@ impl Chapter<'_, '_> {
              impacts and friction take is not what is said to be conserved.",
         ])];
         for (k, contact) in contacts.iter().enumerate().take(MOST) {
-            // The second tangent of a contact stands with the first.
+            // The second tangent of a contact is described with the first.
             if contact.across {
                 continue;
             }

@@ -1,9 +1,8 @@
-//! Terms with brackets, `½ c (y − x θ)²`, told as such where that takes no more terms than telling
-//! what comes out of them.
+//! Differences of terms with brackets, `½ c (y − x θ)²`, reported as such where that takes no more terms than
+//! the expanded form.
 //!
-//! Formulas are compared multiplied out: a bracket that is only written otherwise is no mistake.
-//! But who has to mend `½ c (y − x θ)²` looks for that in the print, and not for the `−c x y θ`
-//! that is in it.
+//! Formulas are compared in expanded form, so a bracket that is only written differently is no mistake. But to
+//! correct `½ c (y − x θ)²`, a reader looks for this term in print, not for the `−c x y θ` that it contains.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,19 +12,18 @@ use lagrangian_symbolic::{Expr, Id, Node, Rational};
 use super::changes;
 use lagrangian_spec::model::stage;
 
-/// The most terms in a bracket that is told as such: nobody reads more.
+/// The most terms of a bracket that is reported as such; longer ones are unreadable.
 const BRACKET: usize = 3;
 
-/// The most brackets that are considered: each costs multiplying out once more.
+/// The most brackets that are considered: each requires another expansion.
 const BRACKETS: usize = 32;
 
-/// What to add to `printed`, and what to drop from it, to get `right`, in as few terms as possible.
+/// The terms to add to `printed` and to drop from it to obtain `right`, as few as possible.
 ///
-/// Brackets that stand on both sides are struck out first. Then printed brackets are kept together
-/// with right ones from which they differ by a slip ([`changes`]), then single printed ones, then
-/// single right ones; each if that makes the list no longer, and of the last, which nobody can look
-/// for in the print, if it also takes no more symbols. `None` if multiplying out takes more terms
-/// than the budget.
+/// Brackets that occur on both sides are cancelled first. Then these are kept unexpanded, each if the list does not
+/// become longer: printed brackets together with right ones from which they differ by a misprint ([`changes`]),
+/// then single printed ones, then single right ones. The last must also need no more symbols, because a reader
+/// cannot find them in print. `None` if expansion exceeds the budget of terms.
 pub(super) fn difference<'d>(
     printed: Expr<'d>,
     right: Expr<'d>,
@@ -60,17 +58,17 @@ fn symbols_in(difference: &Difference<'_>) -> u64 {
     terms.map(|term| term.size()).sum()
 }
 
-/// A bracket: which side it stands on, and where among the brackets of that side.
+/// A bracket: its side, and its index among the brackets of that side.
 type Place = (usize, usize);
 
 const PRINTED: usize = 0;
 const RIGHT: usize = 1;
 
-/// The printed formula and the right one, term by term.
+/// The terms of the printed formula and of the right one.
 struct Sides<'d> {
-    /// The terms with brackets of either.
+    /// The terms with brackets, of both.
     brackets: [Vec<Expr<'d>>; 2],
-    /// The other terms of either.
+    /// The other terms, of both.
     rest: [Vec<Expr<'d>>; 2],
 }
 
@@ -89,7 +87,7 @@ impl<'d> Sides<'d> {
         }
     }
 
-    /// What may be kept: pairs that differ by a slip, then each bracket alone.
+    /// Candidates for keeping: pairs that differ by a misprint, then each bracket alone.
     fn candidates(&self) -> Vec<Vec<Place>> {
         let [printed, right] = &self.brackets;
         if printed.len() + right.len() > BRACKETS {
@@ -101,7 +99,7 @@ impl<'d> Sides<'d> {
         pairs.chain(alone(PRINTED)).chain(alone(RIGHT)).collect()
     }
 
-    /// The difference with some of the brackets kept, and all others multiplied out.
+    /// The difference with these brackets kept, and all others expanded.
     fn difference(&self, kept: &BTreeSet<Place>, budget: usize) -> Option<Difference<'d>> {
         let part = |side: usize, is_kept: bool| {
             let numbered = self.brackets[side].iter().copied().enumerate();
@@ -125,8 +123,7 @@ impl<'d> Sides<'d> {
     }
 }
 
-/// The terms of a list that are not in another one as well; a term that is twice in one is struck
-/// out as often as it is in the other.
+/// The terms of a list that are not in the other; repeated terms cancel as often as they occur in both.
 fn without<'d>(list: &[Expr<'d>], other: &[Expr<'d>]) -> Vec<Expr<'d>> {
     let mut common: BTreeMap<Id, usize> = BTreeMap::new();
     for term in other {
@@ -143,7 +140,7 @@ fn without<'d>(list: &[Expr<'d>], other: &[Expr<'d>]) -> Vec<Expr<'d>> {
     left.collect()
 }
 
-/// The terms of a formula as it is built, sums that are added or subtracted as a whole opened.
+/// The terms of a formula as built, with nested sums that are added or subtracted as a whole flattened.
 fn terms(formula: Expr<'_>) -> Vec<Expr<'_>> {
     let dag = formula.dag();
     let mut open = vec![formula];
@@ -173,7 +170,7 @@ fn terms(formula: Expr<'_>) -> Vec<Expr<'_>> {
     terms
 }
 
-/// Whether a term has a factor that is a short sum of what moves, and none that is a long one.
+/// Whether a term has a short sum that depends on the motion as a factor, and no long one.
 fn has_bracket(term: Expr<'_>) -> bool {
     let dag = term.dag();
     let product = match term.node() {

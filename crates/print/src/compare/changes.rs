@@ -1,43 +1,41 @@
-//! Which of the terms to add are terms to drop that somebody mistyped: the slips of a print.
+//! Finds pairs of a term to drop and a term to add that are one term with a misprint.
 //!
-//! Two terms are as far apart as the slips that lead from one to the other:
+//! The distance of two terms is the total of the misprints that lead from one to the other:
 //!
 //! | slip | distance |
 //! | --- | --- |
 //! | the sign | 1 |
-//! | the number in front | 1 |
-//! | a factor too much or too few, or in another power | 1 |
-//! | a dot too much or too few: `x`, `der(x)` | 1 |
+//! | the numerical coefficient | 1 |
+//! | a factor too many or missing, or in another power | 1 |
+//! | a dot too many or missing: `x`, `der(x)` | 1 |
 //! | another index: `s1`, `s2`; `m`, `m0` | 1 |
 //! | sine for cosine, or another angle in it | 1 |
-//! | another bracket | 1 |
+//! | a different bracket | 1 |
 //! | any other factor for another | 2 |
 //!
-//! Terms at a distance of two or less that have a factor in common, up to such slips, are a change.
-//! Of all ways to join terms to drop with terms to add, one at most with each, that with the
-//! smallest sum of distances is taken, where a term that is left alone counts for more than a
-//! change. Of equal ones the one in which the fewest slips are in what moves, and then that whose
-//! terms stand nearest to each other in the two lists.
+//! Two terms at a distance of at most two that share a factor, up to such misprints, form a change. Among all
+//! assignments of terms to drop to terms to add, the one with the smallest sum of distances is taken, where a term
+//! that stays alone costs more than a change. Ties are broken by the fewest misprints in factors that depend on the
+//! motion, then by the smallest distance of positions in the two lists.
 
 use lagrangian_symbolic::{Expr, Function, Node, Rational};
 
 use lagrangian_spec::model::stage;
 
-/// The most slips in a change.
+/// The largest distance of a change.
 const SLIPS: u64 = 2;
 
-/// The most terms that are joined: finding the best way takes time with the cube of their number.
+/// The most terms that are assigned: the time grows with the cube of their number.
 const TERMS: usize = 150;
 
-/// The changes among terms to drop and terms to add, by their places in the two lists, in the order
-/// of the first.
+/// The changes among terms to drop and terms to add, as pairs of indices in the two lists, in the order of the first.
 pub(super) fn pairs(drop: &[Expr<'_>], add: &[Expr<'_>]) -> Vec<(usize, usize)> {
     if drop.is_empty() || add.is_empty() || drop.len() + add.len() > TERMS {
         return Vec::new();
     }
     let [from, to] = [drop, add].map(|list| list.iter().map(|&e| Term::of(e)).collect::<Vec<_>>());
-    // What counts first weighs more than all together that counts later: `TERMS` slips, `TERMS²`
-    // places.
+    // Criteria are ordered by weight: each outweighs the largest total of the later ones, which is that of `TERMS`
+    // misprints or `TERMS²` positions.
     const SLIP: u64 = 1 << 32;
     const MOVING: u64 = 1 << 16;
     const { assert!(TERMS * TERMS < MOVING as usize) };
@@ -46,7 +44,7 @@ pub(super) fn pairs(drop: &[Expr<'_>], add: &[Expr<'_>]) -> Vec<(usize, usize)> 
             Some((slips, moving)) => slips * SLIP + moving * MOVING + i.abs_diff(j) as u64,
             None => 3 * SLIPS * SLIP,
         },
-        // Stays alone.
+        // The cost of staying alone.
         None => (SLIPS + 1) * SLIP,
     };
     let places = assignment(drop.len(), add.len() + drop.len(), cost);
@@ -54,14 +52,14 @@ pub(super) fn pairs(drop: &[Expr<'_>], add: &[Expr<'_>]) -> Vec<(usize, usize)> 
     joined.filter(|&(_, j)| j < add.len()).collect()
 }
 
-/// A power.
+/// A power, as base and exponent.
 pub(super) type Factor<'d> = (Expr<'d>, i32);
 
-/// A product, factor by factor.
+/// A product, as its factors.
 pub(super) struct Term<'d> {
-    /// The number in front.
+    /// The numerical coefficient.
     pub coefficient: Rational,
-    /// Everything else.
+    /// All other factors.
     pub factors: Vec<Factor<'d>>,
 }
 
@@ -84,8 +82,8 @@ impl<'d> Term<'d> {
         }
     }
 
-    /// How many slips lead to another term, and in how many factors that move; `None` if they are
-    /// too many, or the terms have nothing in common.
+    /// The distance to another term, and the number of misprinted factors that depend on the motion; `None` if the
+    /// distance is too large, or the terms share no factor.
     fn distance(&self, other: &Term<'d>) -> Option<(u64, u64)> {
         let mut slips = 0;
         slips += u64::from(self.coefficient.is_negative() != other.coefficient.is_negative());
@@ -93,7 +91,8 @@ impl<'d> Term<'d> {
         let (mut here, mut there) = (self.factors.clone(), other.factors.clone());
         let (mut common, mut moving) = (0, 0);
         let moves = |factor: &Factor<'d>| u64::from(factor.0.stage() > stage::PARAMETER);
-        // Equal factors first, then those that differ by their power alone, then by a slip.
+        // Equal factors are matched first, then factors that differ only in their power, then those that
+        // differ by a misprint.
         let alike: [fn(&Factor<'d>, &Factor<'d>) -> bool; 3] = [
             |a, b| a == b,
             |a, b| a.0 == b.0,
@@ -118,7 +117,7 @@ impl<'d> Term<'d> {
     }
 }
 
-/// Whether one factor is the other with one slip.
+/// Whether two factors differ by a single misprint.
 pub(super) fn differ_by_a_slip(a: Expr<'_>, b: Expr<'_>) -> bool {
     let dag = a.dag();
     match (a.node(), b.node()) {
@@ -141,7 +140,7 @@ pub(super) fn differ_by_a_slip(a: Expr<'_>, b: Expr<'_>) -> bool {
     }
 }
 
-/// How often a name is differentiated, and the name: `der(der(x))` is `x` with two dots.
+/// The number of derivatives of a name, and the name itself: `der(der(x))` is `x` with two dots.
 fn undotted(name: &str) -> (usize, &str) {
     let (mut dots, mut rest) = (0, name);
     while let Some(inside) = rest
@@ -153,22 +152,21 @@ fn undotted(name: &str) -> (usize, &str) {
     (dots, rest)
 }
 
-/// A name without the digits at its end, or the index of a member of a family: `phi` of `phi1`, `q`
-/// of `q[3]`.
+/// A name without trailing digits, or without the index of a member of a family: `phi` for `phi1`, `q` for `q[3]`.
 fn without_index(name: &str) -> &str {
     let base = name.split('[').next().unwrap_or(name);
     base.trim_end_matches(|c: char| c.is_ascii_digit())
 }
 
-/// The column of each row such that the sum of costs is least, no column taken twice; there are as
-/// many columns as rows, or more.
+/// Assigns to each row a different column such that the sum of costs is minimal; there must be at least as many
+/// columns as rows.
 ///
-/// H. W. Kuhn, *The Hungarian method for the assignment problem*, Naval Res. Logist. Quart. 2
-/// (1955) 83–97, as rows that join one after the other by a shortest path (R. Jonker, A. Volgenant,
-/// Computing 38 (1987) 325–340).
+/// H. W. Kuhn, *The Hungarian method for the assignment problem*, Naval Res. Logist. Quart. 2 (1955) 83–97, in
+/// the form that adds rows one by one along shortest augmenting paths (R. Jonker, A. Volgenant, Computing 38
+/// (1987) 325–340).
 fn assignment(rows: usize, columns: usize, cost: impl Fn(usize, usize) -> u64) -> Vec<usize> {
     let cost = |row: usize, column: usize| i64::try_from(cost(row, column)).unwrap_or(i64::MAX / 4);
-    // What rows and columns pay; no pair costs less than both together, a joined one exactly that.
+    // Dual variables: no pair costs less than the sum of both, and an assigned pair costs exactly that.
     let (mut of_row, mut of_column) = (vec![0i64; rows], vec![0i64; columns]);
     let mut row_in: Vec<Option<usize>> = vec![None; columns];
     for newcomer in 0..rows {
@@ -188,7 +186,7 @@ fn assignment(rows: usize, columns: usize, cost: impl Fn(usize, usize) -> u64) -
                 return Vec::new(); // fewer columns than rows
             };
             let step = shortest[nearest];
-            // The rows on the tree pay more, their columns less, so that all on it stays exact.
+            // Updates the dual variables of the rows and columns on the tree, so that its edges stay tight.
             of_row[newcomer] += step;
             for column in 0..columns {
                 if !settled[column] {
@@ -231,7 +229,7 @@ fn assignment(rows: usize, columns: usize, cost: impl Fn(usize, usize) -> u64) -
 mod tests {
     use super::*;
 
-    /// The least sum of costs, by trying every way.
+    /// The minimal sum of costs, by exhaustive search.
     fn least(rows: usize, columns: usize, cost: &dyn Fn(usize, usize) -> u64) -> u64 {
         fn from(
             row: usize,
@@ -259,7 +257,7 @@ mod tests {
         for seed in 0..300u64 {
             let rows = 1 + (seed % 5) as usize;
             let columns = rows + (seed / 5 % 3) as usize;
-            // Few different costs, so that there are ties.
+            // Only few different costs, so that there are ties.
             let cost = |row: usize, column: usize| {
                 let mixed = (seed * 31 + row as u64 * 7 + column as u64 * 3 + 1)
                     .wrapping_mul(0x9E37_79B9_7F4A_7C15);

@@ -1,4 +1,4 @@
-//! Terms as a reader finds them in the print: its factors in its order.
+//! Terms with their factors in the order in which a reader finds them in print.
 
 use lagrangian_symbolic::normal::Difference;
 use lagrangian_symbolic::{Expr, Node, Rational, text};
@@ -8,13 +8,13 @@ use super::changes::{Factor, Term, differ_by_a_slip};
 use lagrangian_spec::model::PrintedTerm;
 use lagrangian_spec::model::product;
 
-/// The terms to add and the terms to drop, in words.
+/// The terms to add and the terms to drop, as texts.
 ///
-/// A term to drop that stands in the print is written as it stands there, and the term that it is
-/// changed to in the same order. All others are written in the usual order.
+/// A term to drop that occurs in print is written as printed, and the term that replaces it is written in the same
+/// order of factors. All others have the usual order.
 ///
-/// With `own_sides` what stands right of an equals sign has the sign that it has there; without, all
-/// is brought to the left.
+/// With `own_sides`, terms right of an equals sign have the sign that they have there; without, all terms are
+/// brought to the left.
 pub(super) fn words<'d>(
     mend: &Difference<'d>,
     changes: &[(usize, usize)],
@@ -59,13 +59,13 @@ pub(super) fn words<'d>(
     [added.collect(), drop.collect()]
 }
 
-/// A factor in words.
+/// A factor as text.
 struct Word<'d> {
     text: String,
     divides: bool,
-    /// Its base and its power; none for a number.
+    /// Its base and exponent; `None` for a number.
     factor: Option<Factor<'d>>,
-    /// Whether the term that is written has it.
+    /// Whether the term to be written has this factor.
     kept: bool,
 }
 
@@ -82,15 +82,15 @@ impl<'d> Word<'d> {
         }
     }
 
-    /// By what factors are ordered in a product.
+    /// The sort key of factors in a product.
     fn order(&self) -> impl Ord + use<'d> {
         let base = self.factor.map(|(base, _)| base);
         base.map(|base| (base.stage(), base.as_symbol().is_none()))
     }
 }
 
-/// A term written with its factors where a printed one has the same, or such as differ by a slip;
-/// none if that gives something else.
+/// A term written with its factors in the places of the printed term's factors that are equal or differ by a
+/// misprint; `None` if the result is not the same term.
 fn in_the_order_of<'d>(printed: &PrintedTerm<'d>, term: Expr<'d>) -> Option<String> {
     let dag = term.dag();
     let Term {
@@ -137,7 +137,7 @@ fn in_the_order_of<'d>(printed: &PrintedTerm<'d>, term: Expr<'d>) -> Option<Stri
             words.insert(0, word);
         }
     }
-    // What differs by a slip takes the place of what it should be, then anything else.
+    // A factor that differs by a misprint takes the place of the printed one; then any other factor does.
     let alike: [fn(&Factor<'d>, &Factor<'d>) -> bool; 2] = [
         |a, b| a.0 == b.0 || (a.1 == b.1 && differ_by_a_slip(a.0, b.0)),
         |a, b| (a.1 > 0) == (b.1 > 0),

@@ -1,4 +1,4 @@
-//! The recurrences as code: what the interpreter computes is written down, operation by operation.
+//! The recurrences as code: records the operations that the interpreter would compute.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -11,37 +11,37 @@ use super::code::{Code, Op, Part, X};
 use super::{Carried, FEWEST_APPLIED, Finals, MOST_STRAIGHT, WIDTH};
 use crate::rust::language;
 
-/// Code that computes a series.
+/// A recorder of the code of a series.
 pub struct Symbolic<'s> {
     series: &'s Series,
     pub code: Code,
-    /// Where what is written now stands.
+    /// The part to which code is added.
     pub part: Part,
-    /// The order that is computed: 0, 1, 2, or 3 for that of the loop. Of what depends on rates it is that of the
-    /// accelerations, two less.
+    /// The order being computed: 0, 1, 2, or 3 in the loop. For rows that depend on rates it is the order of the
+    /// accelerations, which is two less.
     m: usize,
-    /// Whether what is computed now is of the order of positions.
+    /// Whether the current order is that of positions.
     pub is_of_positions: bool,
-    /// The names of parameters, where constants are computed; else these are read.
+    /// The names of parameters, while constants are computed; otherwise constants are read.
     parameters: Option<Vec<String>>,
     /// The names of inputs.
     inputs: Vec<String>,
-    /// What the parameters decide and the rest needs.
+    /// The rows that depend on parameters alone and are needed by the rest.
     pub constants: Vec<RowId>,
     pub first: Vec<Option<X>>,
-    /// Coefficients of positions of order 1.
+    /// Coefficients of order 1 of positions.
     pub linear: Vec<Option<X>>,
     pub newest: Vec<Option<X>>,
-    /// The coefficients times their order, where that is known.
+    /// The coefficients times their order, where known.
     scaled: Vec<Option<X>>,
     low: Vec<Option<X>>,
     circular: HashMap<RowId, [X; 2]>,
-    /// Derivatives of a row at the start by coordinates.
+    /// The gradients of rows by coordinates, at the start.
     gradients: Vec<Vec<X>>,
     pub lanes: [Vec<Convolution>; 2],
     places: HashMap<Convolution, (usize, usize)>,
     pub carried: BTreeSet<Carried>,
-    /// Rows of forces that are asked for by sums.
+    /// Rows of forces that sums use.
     forces: Vec<RowId>,
 }
 
@@ -84,7 +84,7 @@ impl<'s> Symbolic<'s> {
         symbolic
     }
 
-    /// The constants, from parameters of these names.
+    /// Records the constants, from parameters with these names.
     pub fn of_constants(series: &'s Series, number: &str, parameters: &[String]) -> Symbolic<'s> {
         Symbolic {
             code: Code::new(number, 'c'),
@@ -122,7 +122,7 @@ impl<'s> Symbolic<'s> {
         self.code.push(op, self.part)
     }
 
-    /// What is there already, wherever it is asked for.
+    /// A value that exists already, whenever it is needed.
     fn given(&mut self, text: String) -> X {
         self.push(Op::Given(text))
     }
@@ -138,11 +138,11 @@ impl<'s> Symbolic<'s> {
         self.given(carried.name())
     }
 
-    /// The order that is computed, plus so much, as a number.
+    /// The current order plus `more`, as a number.
     fn order(&mut self, more: usize) -> X {
         match self.m {
             3 => {
-                // Orders of accelerations are two less than those of positions.
+                // The order of accelerations is two less than that of positions.
                 let less = 2 * usize::from(!self.is_of_positions);
                 let function = match less - more.min(less) {
                     0 if more == less => "from_f64(order as f64)".to_owned(),
@@ -159,13 +159,13 @@ impl<'s> Symbolic<'s> {
         }
     }
 
-    /// Goes on to an order of positions.
+    /// Begins an order of positions.
     pub fn begin(&mut self, part: Part, m: usize) {
         (self.part, self.m, self.is_of_positions) = (part, m, true);
         self.forget(Level::Position);
     }
 
-    /// Goes on to an order of what depends on rates and accelerations.
+    /// Begins an order of rows that depend on rates and accelerations.
     pub fn begin_others(&mut self, m: usize) {
         (self.m, self.is_of_positions) = (m, false);
         self.forget(Level::Rate);
@@ -180,13 +180,13 @@ impl<'s> Symbolic<'s> {
         }
     }
 
-    /// Values of positions at the start, as many sines at once as there are.
+    /// Records the values of positions at the start, with as many sines at once as possible.
     pub fn values_of_positions(&mut self, positions: &[RowId]) {
         let angle = |row: &RowId| match self.series.rows[row.index()] {
             Row::Sin(a, _) | Row::Cos(a, _) => Some(a),
             _ => None,
         };
-        // What waits for no sine.
+        // Rows that depend on a sine wait until all sines are computed together.
         let mut waits = vec![false; self.series.rows.len()];
         let mut angles = Vec::new();
         for row in positions {
@@ -232,7 +232,7 @@ impl<'s> Symbolic<'s> {
         self.newest[row.index()] = Some(value);
     }
 
-    /// Sine and cosine turned by what rounding took from the angle.
+    /// Corrects sine and cosine for the rounding error of the angle.
     fn turned(&mut self, row: RowId, [sin, cos]: [X; 2]) -> [X; 2] {
         let low = if self.series.exact[row.index()] {
             self.low[row.index()].unwrap_or(X::Zero)
@@ -248,14 +248,14 @@ impl<'s> Symbolic<'s> {
         }
     }
 
-    /// The coefficient of a row at the order that has begun.
+    /// Records the coefficient of a row at the current order.
     pub fn coefficient(&mut self, row: RowId, order: Order) {
         let Coefficient { plain, weighted } = self.series.coefficient(row, order, self);
         self.newest[row.index()] = Some(plain);
         self.scaled[row.index()] = weighted;
     }
 
-    /// Gradients of all rows at the start.
+    /// Records the gradients of all rows at the start.
     pub fn differentiate(&mut self) {
         let series = self.series;
         for index in 0..series.rows.len() {
@@ -296,7 +296,7 @@ impl<'s> Symbolic<'s> {
         }
     }
 
-    /// The factored matrices of unknowns that act on each other.
+    /// Records the factored matrices of coupled unknowns.
     pub fn matrices(&mut self) -> Vec<(Vec<u32>, X)> {
         let mut matrices = Vec::new();
         for members in self.series.blocks() {
@@ -322,7 +322,7 @@ impl<'s> Symbolic<'s> {
         matrices
     }
 
-    /// What is solved for at the order that has begun.
+    /// Records the solution for the accelerations of the current order.
     pub fn accelerations(&mut self, matrices: &[(Vec<u32>, X)]) -> Vec<X> {
         let mut all = vec![X::Zero; self.series.unknowns()];
         for (members, matrix) in matrices {
@@ -362,7 +362,7 @@ impl<'s> Symbolic<'s> {
         all
     }
 
-    /// What accelerations change in forces as the columns of a matrix, where that is worth it.
+    /// Records the effect of accelerations on forces as the columns of a matrix, if that is worthwhile.
     pub fn matrix_of_forces(&mut self) -> Option<Vec<Vec<X>>> {
         let count = self
             .forces
@@ -385,8 +385,8 @@ impl<'s> Symbolic<'s> {
         Some(columns.collect())
     }
 
-    /// The final coefficients of an order, once the accelerations are known; `over` are the reciprocals of the orders of
-    /// rates and coordinates.
+    /// The final coefficients of an order, once the accelerations are known; `over` holds the reciprocals of the orders
+    /// of rates and coordinates.
     pub fn finals(&mut self, a: &[X], [over_v, over_q]: [X; 2], is_applied: bool) -> Finals {
         let series = self.series;
         let mut finals = Finals {
@@ -424,7 +424,7 @@ impl<'s> Symbolic<'s> {
                 _ => {
                     let known = self.newest[index].unwrap_or(X::Zero);
                     match series.depends[index][..] {
-                        // One product less to wait for.
+                        // This order of factors shortens the dependency chain by one multiplication.
                         [i] => {
                             let slope = self.multiply(self.gradients[index][0], share);
                             self.multiply_add(slope, a[i as usize], known)
@@ -451,7 +451,7 @@ impl<'s> Symbolic<'s> {
         sum
     }
 
-    /// What a stream keeps of an order that is final: that of positions has begun as `m`.
+    /// What a stream stores of an order that is final; the order of positions began as `m`.
     pub fn kept(&mut self, finals: &Finals, Stream { row, weighted }: Stream, m: usize) -> X {
         if !self.is_of_positions && self.series.level(row) == Level::Position {
             return self.variable(Carried::Older(row, weighted));
@@ -475,7 +475,7 @@ impl<'s> Symbolic<'s> {
 }
 
 impl Symbolic<'_> {
-    /// What a variable holds once an order is final.
+    /// The value of a carried variable once an order is final.
     pub fn carried_by(&mut self, carried: Carried, finals: &Finals, m: usize) -> X {
         let stream = |row: RowId, weighted: bool| Stream { row, weighted };
         match carried {
@@ -541,7 +541,7 @@ impl Arithmetic for Symbolic<'_> {
             return known;
         }
         if self.series.varies(row) {
-            // Asked for before it is known: no row does so.
+            // No row needs a value before it is known.
             return X::Zero;
         }
         let value = match (&self.series.rows[row.index()], &self.parameters) {
@@ -562,7 +562,7 @@ impl Arithmetic for Symbolic<'_> {
     fn newest(&mut self, row: RowId) -> X {
         match self.series.level(row) {
             Level::Constant => X::Zero,
-            // Its own order is two more.
+            // Its own order is higher by two.
             Level::Position if !self.is_of_positions && self.m == 0 => self.first(row),
             Level::Position if !self.is_of_positions => self.variable(Carried::Older(row, false)),
             _ => self.newest[row.index()].unwrap_or(X::Zero),
@@ -595,7 +595,7 @@ impl Arithmetic for Symbolic<'_> {
         self.multiply(order, coefficient)
     }
     fn second_derivative(&mut self, row: RowId) -> X {
-        // The row was computed at an order that is two more.
+        // The row was computed at an order higher by two.
         let scaled = match self.scaled[row.index()] {
             Some(scaled) => scaled,
             None => {
@@ -621,7 +621,7 @@ impl Arithmetic for Symbolic<'_> {
         let convolution = self.series.convolutions(row)[number];
         let [a, b] = convolution.factors;
         if self.m < 3 {
-            // Of positions alone: one term of the second order, none of the first.
+            // For positions alone: one term of the second order, none of the first.
             let of =
                 |symbolic: &Self, stream: Stream| match symbolic.series.rows[stream.row.index()] {
                     _ if symbolic.m < 2 => X::Zero,
@@ -772,7 +772,7 @@ impl Arithmetic for Symbolic<'_> {
     }
 }
 
-/// Whether a number is written as it is.
+/// Whether a number is written as a literal: 0 or ±1.
 fn is_plain(number: &Rational) -> bool {
     number.is_zero() || number.is_one() || *number == Rational::MINUS_ONE
 }

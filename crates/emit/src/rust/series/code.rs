@@ -1,4 +1,4 @@
-//! Straight code as it is made: operations that know what they need, of which only those that are needed are written.
+//! Straight-line code under construction: operations with their dependencies, of which only the needed ones are written.
 
 use std::collections::HashMap;
 
@@ -17,7 +17,7 @@ pub enum X {
     Value(u32),
 }
 
-/// Where an operation stands.
+/// The part of the code that contains an operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Part {
     /// Before the loop over orders.
@@ -29,9 +29,9 @@ pub enum Part {
 /// An operation.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Op {
-    /// What is there already, by its text.
+    /// A value that exists already, by its text.
     Given(String),
-    /// `a + b` and the like.
+    /// An infix operation such as `a + b`.
     Infix(&'static str, X, X),
     /// `−a`.
     Negative(X),
@@ -39,18 +39,18 @@ pub enum Op {
     Method(&'static str, Vec<X>),
     /// Sines and cosines of several angles.
     Circular(Vec<X>),
-    /// One of these: which angle, and whether its cosine.
+    /// A sine or cosine of several: the index of the angle, and whether it is the cosine.
     Member(X, usize, bool),
-    /// The factored matrix of unknowns that act on each other: its entries row by row, how many of the unknowns are
-    /// coordinates, and which they are.
+    /// The factored matrix of coupled unknowns: its entries row by row, how many of the unknowns are coordinates,
+    /// and their indices.
     Factored(Vec<X>, usize, Vec<u32>),
-    /// What is solved for: the matrix, and the right-hand sides.
+    /// The solution for a matrix and right-hand sides.
     Solved(X, Vec<X>),
-    /// An element of a matrix or of what was solved for.
+    /// An element of a matrix or of a solution.
     Element(X, usize),
-    /// The matrix of forces times numbers, and how long its columns are.
+    /// The matrix of forces times numbers, and the length of its columns.
     Applied(usize, Vec<X>),
-    /// An element of that.
+    /// An element of that product.
     OfApplied(X, usize),
 }
 
@@ -71,12 +71,12 @@ impl Op {
     }
 }
 
-/// Operations in the order in which they are done.
+/// Operations in the order of execution.
 #[derive(Debug)]
 pub struct Code {
     /// The type of the numbers.
     number: String,
-    /// What the names of results begin with.
+    /// The first letter of the names of results.
     letter: char,
     ops: Vec<(Op, Part)>,
     known: HashMap<Op, u32>,
@@ -108,7 +108,7 @@ impl Code {
         X::Value(id)
     }
 
-    /// Leaves out what none of these needs.
+    /// Marks the operations that these values need; others are not written.
     pub fn prune(&mut self, wanted: impl Iterator<Item = X>) {
         self.is_needed = vec![false; self.ops.len()];
         let mut open: Vec<X> = wanted.collect();
@@ -121,7 +121,7 @@ impl Code {
         }
     }
 
-    /// A number as it is written.
+    /// The text of a number.
     pub fn text(&self, x: X) -> String {
         match x {
             X::Zero => format!("{}::ZERO", self.number),
@@ -131,16 +131,16 @@ impl Code {
         }
     }
 
-    /// A number as it is written in front of a method's name.
+    /// The text of a number as the receiver of a method call.
     fn receiver(&self, x: X) -> String {
         match x {
-            // A method binds more tightly than the sign.
+            // A method call binds more tightly than the sign.
             X::MinusOne => format!("(-{}::ONE)", self.number),
             _ => self.text(x),
         }
     }
 
-    /// An array of numbers as they are kept, with zeros up to a length.
+    /// An array of stored numbers, padded with zeros to a length.
     pub fn kept(&self, all: &[X], length: usize) -> Layout {
         let rest = length.saturating_sub(all.len());
         let all = all
@@ -150,7 +150,7 @@ impl Code {
         Layout::array(all.map(|x| format!("{}.store()", self.receiver(x))))
     }
 
-    /// Writes the operations of a part. The machine has so many coordinates.
+    /// Writes the operations of a part, for a machine with this number of coordinates.
     pub fn write(&self, writer: &mut Writer, part: Part, runtime: &str, coordinates: usize) {
         let text = |x: &X| self.text(*x);
         let list = |all: &[X]| -> Vec<String> { all.iter().map(text).collect() };
