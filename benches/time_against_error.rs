@@ -5,6 +5,8 @@
 //! cargo bench --bench time_against_error [-- --only NAME,NAME] [--methods NAME;NAME] [--repeats COUNT]
 //! ```
 //!
+//! A second table compares the method that a simulation chooses, `auto`, with the best one at each error.
+//!
 //! `benches/peers/work_precision.py` asks it for one run at a time, between its peers, and draws all of them.
 
 #[path = "../tests/support/mod.rs"]
@@ -47,6 +49,12 @@ mod in_series {
     }
 }
 
+/// The method that a simulation chooses where none is given.
+const AUTO: &str = "auto";
+
+/// True errors at which `auto` is compared with the best method.
+const ERRORS: [f64; 6] = [1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13];
+
 /// Trajectories of an ensemble.
 const LANES: usize = 4;
 
@@ -81,29 +89,34 @@ impl Call {
         names.is_none_or(|names| names.iter().any(|name| name == method))
     }
 
-    /// All settings of a run.
-    fn race<M: Machine>(&self, name: &str, machine: &M)
+    /// Runs all settings of all methods; returns the row of `auto` beside the best method.
+    fn race<M: Machine>(&self, name: &str, machine: &M) -> Option<String>
     where
         M::System: Batched<LANES> + 'static,
     {
         if let Some(only) = &self.only
             && !only.iter().any(|wanted| wanted == name)
         {
-            return;
+            return None;
         }
         let known = KnownRun::named(name);
+        let mut alone = Vec::new();
         for method in Method::all().filter(|method| self.asks_for(method.tableau.name)) {
             for setting in settings(method, known.until) {
                 let point = self.alone(&known, machine, Some(method), setting);
-                if !print(name, method.tableau.name, setting, point) {
+                let goes_on = print(name, method.tableau.name, setting, point.as_ref());
+                alone.extend(point.map(|point| (method.tableau.name, point)));
+                if !goes_on {
                     break;
                 }
             }
         }
-        if self.asks_for("auto") {
+        if self.asks_for(AUTO) {
             for setting in settings(Method::DOP853, known.until) {
                 let point = self.alone(&known, machine, None, setting);
-                if !print(name, "auto", setting, point) {
+                let goes_on = print(name, AUTO, setting, point.as_ref());
+                alone.extend(point.map(|point| (AUTO, point)));
+                if !goes_on {
                     break;
                 }
             }
@@ -116,11 +129,12 @@ impl Call {
             }
             for setting in settings(method, known.until) {
                 let point = self.in_lanes(&known, machine, method, setting);
-                if !print(name, &label, setting, point) {
+                if !print(name, &label, setting, point.as_ref()) {
                     break;
                 }
             }
         }
+        beside_the_best(name, &alone)
     }
 
     /// Seconds of the quickest of several runs, evaluations, and the error; of the method that a simulation chooses where none is given.
@@ -214,7 +228,7 @@ impl Default for Point {
 }
 
 /// Prints a row; whether finer settings are worth running.
-fn print(name: &str, method: &str, setting: f64, point: Option<Point>) -> bool {
+fn print(name: &str, method: &str, setting: f64, point: Option<&Point>) -> bool {
     let Some(point) = point else {
         // Too coarse to get through, or nothing that this method can do.
         return true;
@@ -223,12 +237,30 @@ fn print(name: &str, method: &str, setting: f64, point: Option<Point>) -> bool {
         seconds,
         evaluations,
         error,
-    } = point;
+    } = *point;
     println!(
         "| {name} | {method} | {setting:.1e} | {evaluations} | {:.1} | {error:.2e} |",
         seconds * 1e6
     );
     seconds < LONG
+}
+
+/// The row of a run in the table of `auto`: at each error its time over that of the quickest method, and that method.
+fn beside_the_best(name: &str, points: &[(&str, Point)]) -> Option<String> {
+    let quickest = |is_auto: bool, error: f64| {
+        let reached = (points.iter())
+            .filter(|(method, point)| (*method == AUTO) == is_auto && point.error <= error);
+        reached.min_by(|(_, one), (_, other)| one.seconds.total_cmp(&other.seconds))
+    };
+    points.iter().find(|(method, _)| *method == AUTO)?;
+    let cell = |error: f64| match (quickest(true, error), quickest(false, error)) {
+        (Some((_, auto)), Some((method, best))) => {
+            format!(" {:.2} {method} |", auto.seconds / best.seconds)
+        }
+        (None, Some((method, _))) => format!(" – {method} |"),
+        (_, None) => " |".into(),
+    };
+    Some(format!("| {AUTO}, {name} |{}", ERRORS.map(cell).concat()))
 }
 
 /// Tolerances, or lengths of steps, from coarse to fine.
@@ -259,32 +291,37 @@ fn main() {
     let call = Call::read();
     println!("| run | method | tolerance or step | evaluations | microseconds | error |");
     println!("| --- | --- | --: | --: | --: | --: |");
+    let mut rows = Vec::new();
     let pendulum = DoublePendulum::default();
-    call.race("double_pendulum_regular", &pendulum);
-    call.race("double_pendulum_chaotic", &pendulum);
+    rows.extend(call.race("double_pendulum_regular", &pendulum));
+    rows.extend(call.race("double_pendulum_chaotic", &pendulum));
     let crusher = Crusher9::default();
-    call.race("crusher", &crusher);
+    rows.extend(call.race("crusher", &crusher));
     let stiff = Crusher9 {
         cx: 2e9,
         cy: 1.6e9,
         ..crusher
     };
-    call.race("stiff_crusher", &stiff);
-    call.race("kepler", &TwoBodyOrbit::default());
-    call.race("heavy_top", &in_series::HeavyTop::default());
-    call.race(
-        "spherical_pendulum",
-        &in_series::SphericalPendulum::default(),
-    );
+    rows.extend(call.race("stiff_crusher", &stiff));
+    rows.extend(call.race("kepler", &TwoBodyOrbit::default()));
+    rows.extend(call.race("heavy_top", &in_series::HeavyTop::default()));
+    let spherical = in_series::SphericalPendulum::default();
+    rows.extend(call.race("spherical_pendulum", &spherical));
     let elastic = in_series::ElasticPendulum::default();
-    call.race("elastic_pendulum", &elastic);
+    rows.extend(call.race("elastic_pendulum", &elastic));
     let stiff = in_series::ElasticPendulum { k: 4e6, ..elastic };
-    call.race("stiff_spring_pendulum", &stiff);
-    call.race("chain_8", &in_series::ChainOf8::default());
-    call.race("chain_16", &in_series::ChainOf16::default());
-    call.race("six_joint_arm", &in_series::SixJointArm::default());
-    call.race("four_bar", &in_series::FourBar::default());
-    call.race("closed_pendulum", &in_series::ClosedPendulum::default());
-    call.race("andrews_squeezer", &AndrewsSqueezer::default());
-    call.race("flyball_governor", &FlyballGovernor::default());
+    rows.extend(call.race("stiff_spring_pendulum", &stiff));
+    rows.extend(call.race("chain_8", &in_series::ChainOf8::default()));
+    rows.extend(call.race("chain_16", &in_series::ChainOf16::default()));
+    rows.extend(call.race("six_joint_arm", &in_series::SixJointArm::default()));
+    rows.extend(call.race("four_bar", &in_series::FourBar::default()));
+    rows.extend(call.race("closed_pendulum", &in_series::ClosedPendulum::default()));
+    rows.extend(call.race("andrews_squeezer", &AndrewsSqueezer::default()));
+    rows.extend(call.race("flyball_governor", &FlyballGovernor::default()));
+    let heads = ERRORS.map(|error| format!(" {error:.0e} |")).concat();
+    println!("\n| time over that of the best method, at error |{heads}");
+    println!("| --- |{}", " --- |".repeat(ERRORS.len()));
+    for row in rows {
+        println!("{row}");
+    }
 }
