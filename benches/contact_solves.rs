@@ -1,13 +1,13 @@
-//! Contact problems a second: all contacts of a pile at an instant, asked together what they do, with the residual of the answer.
+//! Contact problems solved per second: the forces of all contacts of a pile at one instant, with the residual of each solution.
 //!
 //! ```text
 //! cargo bench --bench contact_solves
 //! ```
 //!
-//! A column of discs without friction, whose normal forces are the weights above; a tower of blocks that leans, with two corners of each on the
-//! block below and Coulomb friction; and the same in space, with four corners and friction cones. Towers share their loads in several ways.
-//! The residual is worked out here, from accelerations and forces alone: of the equations of motion, as a part of the weight, and of each
-//! condition of each contact, forces as a part of the weight and accelerations of that of gravity.
+//! The piles are a column of discs without friction, whose normal forces are the weights above; a leaning tower of blocks with Coulomb
+//! friction, each with two corners on the block below; and the same in space, with four corners and friction cones. Towers can share their
+//! loads in several ways. The residual is computed here from accelerations and forces alone. For the equations of motion it is relative to the
+//! weight; for each condition of each contact, forces are relative to the weight and accelerations to that of gravity.
 
 mod timing;
 
@@ -34,7 +34,7 @@ fn main() {
     }
 }
 
-/// Discs of radius 1 on each other.
+/// Discs of radius 1 stacked on each other.
 fn column(n: usize) -> String {
     let mut pairs = String::new();
     for k in 1..n {
@@ -56,7 +56,7 @@ fn column(n: usize) -> String {
     )
 }
 
-/// Blocks of 1 m by 2 cm on each other, on ground that falls by 0.1 rad.
+/// Blocks of 1 m by 2 cm stacked on ground that slopes down at 0.1 rad.
 fn tower_in_plane(blocks: usize) -> String {
     let corners = "corners: ((-0.5, -0.01), (0.5, -0.01))";
     let law = format!("restitution: 0, friction: {FRICTION}");
@@ -80,7 +80,7 @@ fn tower_in_plane(blocks: usize) -> String {
     )
 }
 
-/// Square blocks on each other, on ground that falls by 0.1 rad along a direction between their sides.
+/// Square blocks stacked on ground that slopes down at 0.1 rad, in a direction between their sides.
 fn tower_in_space(blocks: usize) -> String {
     let corners =
         "corners: ((-0.5, -0.5, -0.01), (0.5, -0.5, -0.01), (0.5, 0.5, -0.01), (-0.5, 0.5, -0.01))";
@@ -139,7 +139,7 @@ fn row(what: &str, n: usize, text: &str) {
     }
 }
 
-/// By how much accelerations and forces miss the equations of motion or a condition of a contact, at rest.
+/// The largest violation of the equations of motion or of a contact condition, at rest.
 fn residual(
     system: &InterpretedSystem,
     q: &Vec<f64>,
@@ -156,7 +156,7 @@ fn residual(
     system.mass_matrix(0.0, q, &mut mass);
     let mut missing = vec![0.0; n];
     system.forces(0.0, q, &still, &system.default_inputs(), &mut missing);
-    // All that is pulled at, along the vertical and the slope.
+    // The sum of all forces of gravity, along the vertical and the slope.
     let weight: f64 = missing.iter().map(|force| force.abs()).sum();
     let is_across: Vec<bool> = system
         .unilateral_contacts()
@@ -179,7 +179,7 @@ fn residual(
             continue;
         }
         let (normal, opening) = (force.normal / weight, dot(rows[2 * k]) / GRAVITY);
-        // Which of both is 0, the other being positive: the smaller one is the error in either case.
+        // One of the two is 0 and the other positive, so the smaller one is the error in either case.
         worst = worst.max(normal.min(opening).abs());
         let pair = [
             Some(k),
@@ -199,7 +199,7 @@ fn residual(
                 0.0
             }
         });
-        // Friction is the point of its disc that is nearest to itself less the acceleration of the slip.
+        // Friction minus the acceleration of the slip, projected onto the friction disc, must give the friction itself.
         let wanted = [0, 1].map(|i| rubbing[i] - sliding[i]);
         let (radius, length) = (friction * normal.max(0.0), wanted[0].hypot(wanted[1]));
         let share = if length > radius {

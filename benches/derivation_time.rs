@@ -1,5 +1,5 @@
-//! From the text of a machine to its Rust: processor time of each stage, and how it grows with the
-//! machine.
+//! From the text of a machine to its Rust: the processor time of each stage, and how it grows with
+//! the size of the machine.
 //!
 //! ```text
 //! cargo bench --bench derivation_time
@@ -19,7 +19,8 @@ use lagrangian_symbolic::{Dag, Rational};
 use support::library;
 use timing::{median, seconds};
 
-/// Each machine is compiled so often, or more often until this many seconds are spent.
+/// Each machine is compiled at least this many times, and more often
+/// until `ENOUGH` seconds are spent.
 const LEAST: usize = 3;
 const ENOUGH: f64 = 1.0;
 
@@ -32,7 +33,7 @@ struct Times {
     derive: f64,
     /// Equations to a program.
     lower: f64,
-    /// The program held against Lagrange's equations.
+    /// Proof of the program against Lagrange's equations.
     prove: f64,
     /// Program to Rust.
     emit: f64,
@@ -44,13 +45,13 @@ impl Times {
     }
 }
 
-/// What came out.
+/// The sizes of the results.
 struct Outcome {
     coordinates: usize,
     nodes: usize,
     /// Multiplications and additions of the accelerations.
     operations: usize,
-    /// Of the Rust.
+    /// Size of the Rust code.
     bytes: usize,
 }
 
@@ -91,7 +92,7 @@ fn row(machine: &str, constants: &[(&str, i64)]) {
         of(|times| times.derive),
         of(|times| times.lower),
         of(|times| times.prove),
-        // Of the derivation in all: from the text to a program.
+        // Relative to the whole derivation, from the text to a program.
         of(|times| times.prove) / of(|times| times.resolve + times.derive + times.lower),
         of(|times| times.emit),
         of(Times::total),

@@ -1,12 +1,12 @@
-//! How many trajectories a second: one after another by a stepper, and 4 or 8 at a time by an ensemble.
+//! Trajectories per second: one after another by a stepper, and 4 or 8 at a time by an ensemble.
 //!
 //! ```sh
 //! cargo bench --bench ensemble
 //! cargo bench --bench ensemble -- --ends FOLDER
 //! ```
 //!
-//! The second runs 256 double pendulums and 256 crushers to many tolerances, and writes where they end, for
-//! `benches/peers/ensembles.py`.
+//! The second command runs 256 double pendulums and 256 crushers at many tolerances, and writes their end states
+//! for `benches/peers/ensembles.py`.
 
 mod timing;
 
@@ -15,7 +15,7 @@ use std::hint::black_box;
 use lagrangian::{Batched, Ensemble, Machine, Method, Stepper, System, Trajectory};
 use lagrangian_machines::{CartPole, Crusher9, DoublePendulum, VibratingCrusher};
 
-/// Trajectories of one kind, of several lengths and starts.
+/// Trajectories of one machine with various durations and starts.
 fn trajectories<M: Machine>(machine: &M, end: f64) -> Vec<Trajectory<M::System>>
 where
     M::System: Clone,
@@ -34,7 +34,7 @@ where
         .collect()
 }
 
-/// Trajectories a second of the processor's time, the best of twenty times.
+/// Trajectories per second of processor time, the best of twenty measurements.
 fn rate(count: usize, mut run: impl FnMut()) -> f64 {
     let seconds = (0..20).map(|_| timing::seconds(&mut run).0);
     count as f64 / seconds.fold(f64::INFINITY, f64::min)
@@ -75,8 +75,8 @@ where
     );
 }
 
-/// Runs to many tolerances, by each method: a line of JSON with the processor's seconds, the best of nine times, and a file of the
-/// ends, coordinates and then rates of each, as 64-bit numbers in little-endian order.
+/// Runs at many tolerances with each method. Prints a line of JSON with the seconds of processor time, the best of nine
+/// measurements, and writes a file of the end states, coordinates and then rates of each, as 64-bit numbers in little-endian order.
 fn ends<M: Machine, const W: usize>(
     folder: &str,
     name: &str,
@@ -119,14 +119,14 @@ fn ends<M: Machine, const W: usize>(
     }
 }
 
-/// 16 by 16 parts of 1.
+/// A grid of 16 by 16 points in the unit square.
 fn grid() -> impl Iterator<Item = [f64; 2]> {
     const SIDE: u32 = 16;
     (0..SIDE * SIDE).map(|i| [i / SIDE, i % SIDE].map(|k| f64::from(k) / f64::from(SIDE - 1)))
 }
 
-/// The runs that `benches/peers/ensembles.py` compares: double pendulums at rest from a grid of angles, for 5 s, and crushers from a
-/// grid of distances, for 0.5 s.
+/// The runs that `benches/peers/ensembles.py` compares: double pendulums released at rest from a grid of angles, for 5 s, and
+/// crushers from a grid of distances, for 0.5 s.
 fn all_ends(folder: &str) {
     let pendulum = Trajectory::of(&DoublePendulum::default(), 5.0);
     let pendulums = grid().map(|[i, k]| {

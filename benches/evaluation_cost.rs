@@ -1,5 +1,5 @@
-//! What one evaluation of the accelerations costs: time and operations for every machine of the
-//! library, compiled, in lanes and interpreted, and how exact it is.
+//! The cost of one evaluation of the accelerations: time and operations for every machine of the
+//! library, compiled, in lanes and interpreted, and the accuracy of the result.
 //!
 //! ```text
 //! cargo bench --bench evaluation_cost
@@ -21,16 +21,16 @@ use support::sampling::{Random, Sample};
 use support::states::{accelerations, vector};
 use timing::{median, per_call};
 
-/// Every call gets another of these, so that nothing can be computed once for all.
+/// Successive calls get different states, so that nothing can be computed once for all.
 const STATES: usize = 1024;
-/// The states at which the error is known.
+/// The number of states at which the error is measured.
 const JUDGED: usize = 256;
 
-/// Nanoseconds of a call.
+/// Nanoseconds per call.
 struct Cost {
-    /// Of calls that do not wait for one another: the processor works on several at a time.
+    /// For calls that do not depend on one another, so that the processor can overlap them.
     throughput: f64,
-    /// Of calls of which each needs the result of the one before, as in an integrator.
+    /// For calls of which each needs the result of the one before, as in an integrator.
     latency: f64,
 }
 
@@ -103,14 +103,14 @@ fn cost<S: System>(system: &S, samples: &[Sample]) -> Cost {
     let mut a = S::Vector::zeros(n);
     let throughput = per_call(|calls| {
         for (t, q, v) in states.iter().cycle().take(calls) {
-            // A singular state would be an error of the machine: tests look after that.
+            // A singular state would be an error of the machine, which tests look for.
             let _ = black_box(system.accelerations(*t, q, v, &u, &mut a));
             black_box(&a);
         }
     });
 
-    // Adding a number far below their roundoff leaves the states as they are, and makes them wait
-    // for the last result.
+    // Adding a number far below their round-off leaves the states unchanged, but makes
+    // them depend on the last result.
     const NOTHING: f64 = 1e-200;
     let (mut q, mut v) = (S::Vector::zeros(n), S::Vector::zeros(n));
     let latency = per_call(|calls| {
@@ -132,7 +132,7 @@ fn cost<S: System>(system: &S, samples: &[Sample]) -> Cost {
     }
 }
 
-/// Nanoseconds for each of several states at once; calls do not wait for one another.
+/// Nanoseconds for each of several states in lanes, for calls that do not depend on one another.
 fn cost_in_lanes<S: Batched<N>, const N: usize>(system: &S, samples: &[Sample]) -> f64
 where
     Lanes<N>: Number,
@@ -163,13 +163,13 @@ where
     1e9 * seconds / N as f64
 }
 
-/// The greatest error of an acceleration over the greatest acceleration, at each state, against 30
-/// digits.
+/// The largest error of an acceleration divided by the largest acceleration, at
+/// each state, against 30 digits.
 fn errors<M: Machine>(machine: &M, program: &Program, samples: &[Sample]) -> Vec<f64> {
     let parameters: Vec<f64> = machine.parameters().map(|(_, value)| value).collect();
     let mut judge = Judge::new(program, &parameters);
     let system = machine.prepare();
-    let inputs = system.default_inputs(); // what `accelerations` is given, too
+    let inputs = system.default_inputs(); // `accelerations` is given these, too
     let u: Vec<f64> = system.input_values(&inputs).map(|(_, u)| u).collect();
     let error = |at: &Sample| {
         let a = accelerations(&system, at.t, &at.q, &at.v).expect("not singular");

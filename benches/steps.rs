@@ -1,12 +1,12 @@
-//! What runs in `f64` cost: microseconds of processor time of the best of many runs, and a sum of the bits of their ends, by which
-//! two versions of the library are compared.
+//! The cost of runs in `f64`: the processor time of the best of many runs, in microseconds, and a checksum over the bits of the end
+//! state, for comparing two versions of the library.
 //!
 //! ```sh
 //! cargo bench --bench steps
 //! ```
 //!
-//! With a name and a number of runs, only that one, so many times: `valgrind --tool=callgrind` counts the instructions of a program
-//! that runs once, and of one that runs six times.
+//! With a name and a count as arguments, only that run is made, that many times: `valgrind --tool=callgrind` counts the
+//! instructions of a program that runs once, and of one that runs six times.
 
 mod timing;
 
@@ -15,14 +15,14 @@ use std::hint::black_box;
 use lagrangian::{Machine, Method, Simulation, Stepper, Vector};
 use lagrangian_machines::{CartPole, DoublePendulum, FourBars, VibratingCrusher};
 
-/// The runs that were asked for, and how often each is made.
+/// The runs that the command line selects, and how often each is made.
 struct Wanted {
     name: Option<String>,
     times: usize,
 }
 
 impl Wanted {
-    /// Prints a run and the least time that it takes.
+    /// Prints the least time of a run and its checksum.
     fn report(&self, name: &str, mut run: impl FnMut() -> u64) {
         if self.name.as_deref().is_some_and(|wanted| wanted != name) {
             return;
@@ -36,7 +36,7 @@ impl Wanted {
         println!("{name:40} {:10.1} us  {bits:016x}", best * 1e6);
     }
 
-    /// Both explicit methods, by a stepper and by a simulation with its balance of energy.
+    /// Runs both explicit methods, by a stepper and by a simulation with its energy balance.
     fn runs<M: Machine>(&self, machine: &M, name: &str, end: f64)
     where
         M::System: 'static,

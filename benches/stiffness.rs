@@ -1,7 +1,7 @@
-//! Steps and evaluations over the stiffness of a machine, by `radau5` and by the default method.
+//! Steps and evaluations depending on the stiffness of a machine, by `radau5` and by the default method.
 //!
-//! `cargo bench --bench stiffness` prints a table. It counts and times nothing: the numbers are the same on every
-//! machine, but for what rounding does to a step.
+//! `cargo bench --bench stiffness` prints a table. It counts steps and times nothing, so the numbers are the same
+//! on every computer, up to the effect of rounding on a step.
 
 use lagrangian::{Error, METHODS, Method, Simulation};
 
@@ -38,7 +38,7 @@ lagrangian::machine! {
     }
 }
 
-/// More than anybody would wait for.
+/// A run that needs more steps is given up.
 const MOST_STEPS: usize = 2_000_000;
 
 fn main() {

@@ -1,5 +1,5 @@
-//! Time against true error: how long a run takes to be how exact, by every method and over all tolerances, of every run whose end
-//! is known to 30 digits (`tests/data/references/`).
+//! Work-precision data: run time against true error, by every method and over all tolerances, for every run whose end is known to 30
+//! digits (`tests/data/references/`).
 //!
 //! ```sh
 //! cargo bench --bench time_against_error [-- --only NAME,NAME] [--methods NAME;NAME] [--repeats COUNT]
@@ -7,7 +7,7 @@
 //!
 //! A second table compares the method that a simulation chooses, `auto`, with the best one at each error.
 //!
-//! `benches/peers/work_precision.py` asks it for one run at a time, between its peers, and draws all of them.
+//! `benches/peers/work_precision.py` calls it for one run at a time, alternating with its peers, and plots all of them.
 
 #[path = "../tests/support/mod.rs"]
 mod support;
@@ -55,13 +55,13 @@ const AUTO: &str = "auto";
 /// True errors at which `auto` is compared with the best method.
 const ERRORS: [f64; 6] = [1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13];
 
-/// Trajectories of an ensemble.
+/// The number of trajectories in an ensemble.
 const LANES: usize = 4;
 
-/// A setting that takes longer than this, in s, is run once, and finer ones of its method are not run.
+/// A setting that takes longer than this, in s, is run only once, and finer settings of its method are skipped.
 const LONG: f64 = 0.5;
 
-/// What is asked for.
+/// The options of the command line.
 struct Call {
     only: Option<Vec<String>>,
     methods: Option<Vec<String>>,
@@ -137,7 +137,7 @@ impl Call {
         beside_the_best(name, &alone)
     }
 
-    /// Seconds of the quickest of several runs, evaluations, and the error; of the method that a simulation chooses where none is given.
+    /// Seconds of the fastest of several runs, evaluations, and the error; with the method that a simulation chooses if none is given.
     fn alone<M: Machine>(
         &self,
         known: &KnownRun,
@@ -171,7 +171,7 @@ impl Call {
         Some(best)
     }
 
-    /// The same of several trajectories at once, seconds for each of them.
+    /// The same for several trajectories at once, with seconds per trajectory.
     fn in_lanes<M: Machine>(
         &self,
         known: &KnownRun,
@@ -210,7 +210,7 @@ impl Call {
 
 const MOST_STEPS: usize = 2_000_000;
 
-/// What one setting takes and gives.
+/// The cost and the error of one setting.
 struct Point {
     seconds: f64,
     evaluations: usize,
@@ -230,7 +230,7 @@ impl Default for Point {
 /// Prints a row; whether finer settings are worth running.
 fn print(name: &str, method: &str, setting: f64, point: Option<&Point>) -> bool {
     let Some(point) = point else {
-        // Too coarse to get through, or nothing that this method can do.
+        // The setting is too coarse for the run to finish, or the method cannot run this machine.
         return true;
     };
     let Point {

@@ -8,7 +8,7 @@ use lagrangian::{Error, Simulation};
 
 lagrangian::machine!(file = "machines/cart_pole.machine");
 
-/// Place of the cart, in m, and angle of the pole, in rad, second by second.
+/// Position of the cart, in m, and angle of the pole, in rad, second by second.
 pub fn balance(angle: f64) -> Result<Vec<[f64; 2]>, Error> {
     let cart_pole = CartPole::default();
     let mut start = cart_pole.start();
@@ -24,7 +24,7 @@ pub fn balance(angle: f64) -> Result<Vec<[f64; 2]>, Error> {
         .collect())
 }
 
-/// Prints ten seconds of it.
+/// Prints ten seconds of the motion.
 pub fn main() -> Result<(), Error> {
     println!("  t       x   theta");
     for (t, [x, theta]) in balance(0.2)?.into_iter().enumerate() {

@@ -16,7 +16,7 @@ lagrangian::machine! {
     }
 }
 
-/// When the ball meets the floor, `count` times, in s.
+/// The first `count` times, in s, at which the ball meets the floor.
 pub fn bounces(restitution: f64, count: usize) -> Result<Vec<f64>, Error> {
     let ball = Ball::default();
     let floor = |state: &State<Coordinates<Ball>>| state.q.y;
@@ -27,10 +27,10 @@ pub fn bounces(restitution: f64, count: usize) -> Result<Vec<f64>, Error> {
         .run(ball.start())?;
     let mut times = Vec::new();
     while times.len() < count && *run.ending() != Ending::End {
-        // The end of the run is the state of the event.
+        // The run ends in the state of the event.
         let mut state = *run.end();
         times.push(state.t);
-        // The impact: the next run goes on from there, with another velocity. That it starts on the floor is no event.
+        // The impact: the next run continues with another velocity. Starting on the floor is no event.
         state.v.y *= -restitution;
         let next = run.resume();
         run = next
@@ -40,11 +40,11 @@ pub fn bounces(restitution: f64, count: usize) -> Result<Vec<f64>, Error> {
     Ok(times)
 }
 
-/// Prints when the ball is on the floor, and by how much that is wrong.
+/// Prints the times on the floor, and their errors.
 pub fn main() -> Result<(), Error> {
     let (restitution, count) = (0.8, 20);
     let times = bounces(restitution, count)?;
-    // It falls for √(2h/g), and every flight is shorter than the one before it by the restitution.
+    // It falls for √(2h/g), and each flight is shorter than the one before by the factor `restitution`.
     let ball = Ball::default();
     let fall = (2.0 * ball.start().q.y / ball.g).sqrt();
     let mut exact = fall;

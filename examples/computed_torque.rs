@@ -24,10 +24,10 @@ lagrangian::machine! {
 }
 
 const GOAL: [f64; 2] = [0.5, 1.0];
-/// How fast the arm reaches its goal, in 1/s.
+/// How fast the arm approaches its goal, in 1/s.
 const RATE: f64 = 4.0;
 
-/// The distance of each joint to the goal after `t` seconds, relative to the whole way.
+/// The distance of each joint from the goal after `t` seconds, relative to the initial distance.
 pub fn left(t: f64) -> Result<[f64; 2], Error> {
     let arm = Arm::default();
     let system = arm.prepare();
@@ -36,7 +36,7 @@ pub fn left(t: f64) -> Result<[f64; 2], Error> {
         .until(t)
         .inputs(|t, q, v, u| {
             let (q, v) = (q.to_array(), v.to_array());
-            // M a + h = Q: what the motors must add to Q so that a is what the law asks for.
+            // M a + h = Q: the motors must add to Q what gives the acceleration a of the law.
             let (mut m, mut h, mut rest) = ([0.0; 4], [0.0; 2], [0.0; 2]);
             system.mass_matrix(t, &q, &mut m);
             system.bias(t, &q, &v, &mut h);
@@ -50,7 +50,7 @@ pub fn left(t: f64) -> Result<[f64; 2], Error> {
     Ok([0, 1].map(|i| (end[i] - GOAL[i]) / (start[i] - GOAL[i])))
 }
 
-/// Prints how far the joints are from their goal, and what the law says.
+/// Prints the distance of the joints from their goal, and that of the linear law.
 pub fn main() -> Result<(), Error> {
     println!("  t  shoulder     elbow        (1 + kt) exp(-kt)");
     for t in [0.5, 1.0, 2.0] {

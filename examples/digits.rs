@@ -17,14 +17,14 @@ lagrangian::machine! {
     }
 }
 
-/// The first coordinate of any machine at a time, in any numbers, and the steps that it took.
+/// The first coordinate of any machine at a time, in any numbers, and the number of steps taken.
 pub fn at<N: Real, M: MachineIn<N>>(machine: &M, t: N) -> Result<(N, usize), StepError> {
     let mut stepper = ExplicitStepper::builder(machine.prepare()).start(machine.start())?;
     stepper.advance_to(t)?;
     Ok((stepper.q().as_slice()[0], stepper.work().steps))
 }
 
-/// Prints the place after ten seconds in several numbers.
+/// Prints the position after ten seconds in several kinds of numbers.
 pub fn main() -> Result<(), StepError> {
     let machine = Oscillator::default();
     let (x, steps) = at(&machine.map(|x| x as f32), 10.0)?;

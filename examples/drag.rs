@@ -11,17 +11,17 @@ lagrangian::machine! {
     }
 }
 
-/// Drag in N at 0, 1, 2, … m/s.
+/// Measured drag in N at 0, 1, 2, … m/s.
 pub const MEASURED: [f64; 6] = [0.0, 0.004, 0.016, 0.036, 0.064, 0.1];
 
-/// The drag at a speed, between the measured ones by straight lines.
+/// The drag at a speed, interpolated linearly between the measured values.
 pub fn drag(speed: f64) -> f64 {
     let below = (speed as usize).min(MEASURED.len() - 2);
     let [from, to] = [MEASURED[below], MEASURED[below + 1]];
     from + (speed - below as f64) * (to - from)
 }
 
-/// The amplitude after `t` seconds, and the balance of energy.
+/// The amplitude after `t` seconds, and the energy balance.
 pub fn swing(t: f64) -> Result<(f64, EnergyBalance), Error> {
     let pendulum = Pendulum::default();
     let l = pendulum.l;
@@ -43,7 +43,7 @@ pub fn swing(t: f64) -> Result<(f64, EnergyBalance), Error> {
     ))
 }
 
-/// Prints how it dies away.
+/// Prints how the motion decays.
 pub fn main() -> Result<(), Error> {
     println!("  t  amplitude  work of the drag  residual of the energies");
     for t in [10.0, 20.0, 40.0] {

@@ -16,7 +16,7 @@ const TEXT: &str = "machine Chain in plane {
     gravity (0, -g);
 }";
 
-/// The angle of the last rod of so many after a second; or what is wrong with the text.
+/// The angle of the last of `rods` rods after a second, or the errors in the text.
 pub fn last_angle(text: &str, rods: u8) -> Result<f64, Error> {
     let mut chain = InterpretedMachine::from_text(text)
         .named("chain")
@@ -27,7 +27,7 @@ pub fn last_angle(text: &str, rods: u8) -> Result<f64, Error> {
     Ok(run.end().q.values.last().copied().unwrap_or(f64::NAN))
 }
 
-/// What an editor shows at the line of each mistake.
+/// Line, column and message of each mistake, for an editor to show.
 pub fn marks(error: &Error) -> Vec<(usize, usize, String)> {
     let Error::Spec { diagnostics, .. } = error else {
         return Vec::new();
@@ -36,7 +36,7 @@ pub fn marks(error: &Error) -> Vec<(usize, usize, String)> {
     diagnostics.iter().map(mark).collect()
 }
 
-/// Prints what a slip of the user's leads to, and the chain when it is mended.
+/// Prints the messages for a misspelled function, and the result for the corrected text.
 pub fn main() -> Result<(), Error> {
     if let Err(error) = last_angle(&TEXT.replace("cos(", "cosine("), 3) {
         println!("{error}\nmarks at {:?}", marks(&error));

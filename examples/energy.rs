@@ -7,7 +7,7 @@
 use lagrangian::{EnergyBalance, Error, Simulation};
 
 lagrangian::machine! {
-    /// A mass on a spring and a damper, pushed to and fro.
+    /// A mass on a spring and a damper, pushed by an oscillating force.
     machine Shaker in plane {
         parameters { m: kg = 2, k: N/m = 50, b: N*s/m = 3, force: N = 10, omega: rad/s = 6 }
         coordinates { x: m }
@@ -20,7 +20,7 @@ lagrangian::machine! {
 
 const PERIODS: f64 = 10.0;
 
-/// Where the energy of a steady vibration goes, and what the force puts into it exactly, in J.
+/// The energy balance of a steady vibration, and the exact work of the force, in J.
 pub fn balance(tolerance: f64) -> Result<(EnergyBalance, f64), Error> {
     let shaker = Shaker::default();
     let Shaker {
@@ -30,7 +30,7 @@ pub fn balance(tolerance: f64) -> Result<(EnergyBalance, f64), Error> {
         force,
         omega,
     } = shaker;
-    // Steady: x = X sin(ωt − φ), with the force by φ ahead.
+    // The steady vibration is x = X sin(ωt − φ): the force is ahead by φ.
     let (stiff, drag) = (k - m * omega * omega, b * omega);
     let (amplitude, phase) = (force / stiff.hypot(drag), drag.atan2(stiff));
     let mut start = shaker.start();

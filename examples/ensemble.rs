@@ -16,8 +16,8 @@ lagrangian::machine! {
     }
 }
 
-/// How fast a pendulum of each length has to be at the lowest point to go over the top, by trying rates that are `step` apart:
-/// the least that does.
+/// The least initial rate at the lowest point, in multiples of `step`, with which a pendulum of each length goes over the top;
+/// found by trying all of them.
 pub fn least_rates(lengths: &[f64], step: f64) -> Vec<f64> {
     const MOST: usize = 500;
     let trajectories = (0..lengths.len() * MOST).map(|number| {
@@ -42,7 +42,7 @@ pub fn least_rates(lengths: &[f64], step: f64) -> Vec<f64> {
     least
 }
 
-/// Prints it for three lengths.
+/// Prints the rates for three lengths.
 pub fn main() {
     let lengths = [0.25, 0.5, 1.0];
     for (length, rate) in lengths.iter().zip(least_rates(&lengths, 0.05)) {

@@ -13,7 +13,7 @@ lagrangian::machine! {
     }
 }
 
-/// When the angle is measured, in s.
+/// The times of the measurements, in s.
 fn times() -> impl Iterator<Item = f64> {
     (1..=100).map(|i| f64::from(i) / 10.0)
 }
@@ -25,7 +25,7 @@ pub fn angles(pendulum: &Pendulum) -> Result<Vec<f64>, Error> {
     times().map(|t| Ok(run.at(t)?.q.theta)).collect()
 }
 
-/// The pendulum whose angles are nearest to those measured: Gauss and Newton's method, from a guess.
+/// The pendulum whose angles fit the measured ones best, by the Gauss–Newton method from a guess.
 pub fn fit(mut guess: Pendulum, measured: &[f64]) -> Result<Pendulum, Error> {
     for _ in 0..20 {
         let varied = Sensitive::new(&guess).by("l")?.by("b")?;
@@ -46,7 +46,7 @@ pub fn fit(mut guess: Pendulum, measured: &[f64]) -> Result<Pendulum, Error> {
     Ok(guess)
 }
 
-/// Finds a pendulum again.
+/// Recovers the parameters of a pendulum from its motion.
 pub fn main() -> Result<(), Error> {
     let mut other = Pendulum::default();
     (other.l, other.b) = (1.1, 0.15);

@@ -6,8 +6,8 @@
 
 use lagrangian::{Error, Machine, Simulation, State, System, Vector};
 
-/// How far two runs of `machine` part in `t` seconds, of which the second starts a little beside the first: by how much the
-/// length of the difference grows, coordinates and rates counted alike.
+/// The factor by which the distance of two runs of `machine` grows in `t` seconds, where the second starts close to the
+/// first; coordinates and rates count alike.
 pub fn parting<M: Machine>(machine: &M, t: f64) -> Result<f64, Error> {
     const BESIDE: f64 = 1e-7;
     let system = machine.prepare();
@@ -39,7 +39,7 @@ pub fn parting<M: Machine>(machine: &M, t: f64) -> Result<f64, Error> {
     Ok(squares.sum::<f64>().sqrt() / (BESIDE * count.sqrt()))
 }
 
-/// Prints it for machines of the library, by name, with their first parameter.
+/// Prints the factor for machines of the library, by name, with their first parameter.
 pub fn main() -> Result<(), Error> {
     fn print<M: Machine>(machine: &M) -> Result<(), Error> {
         let first = machine.parameters().next();

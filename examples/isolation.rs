@@ -7,7 +7,8 @@
 use lagrangian::{Error, Simulation};
 
 lagrangian::machine! {
-    /// A machine on a spring and a damper, on a floor that shakes; its height is measured from where it rests.
+    /// A machine on a spring and a damper, on a floor that shakes; its height is
+    /// measured from its rest position.
     machine OnFloor in plane {
         parameters {
             m: kg = 100, k: N/m = 1e4, b: N*s/m,
@@ -22,18 +23,18 @@ lagrangian::machine! {
     }
 }
 
-/// Amplitude of the machine over that of the floor: as simulated, and exactly.
+/// Amplitude of the machine divided by that of the floor: simulated, and exact.
 pub fn transmitted(damping: f64) -> Result<[f64; 2], Error> {
     let on_floor = OnFloor::new(damping);
     let OnFloor { m, k, b, a, omega } = on_floor;
-    // The free vibration falls by e^(−b t/2m): below 10⁻⁹ of itself at the end.
+    // The free vibration decays as e^(−b t/2m), to below 10⁻⁹ at the end.
     let settled = 2.0 * m / b * 1e9_f64.ln();
     let period = std::f64::consts::TAU / omega;
     let run = Simulation::new(&on_floor)
         .tolerance(1e-12)
         .until(settled + period)
         .run(on_floor.start())?;
-    // A quarter of a period apart, a vibration is its own sine and cosine.
+    // A quarter of a period apart, the displacements are the sine and the cosine component.
     let [sine, cosine] =
         [settled, settled + period / 4.0].map(|t| run.at(t).map(|state| state.q.y));
     let simulated = sine?.hypot(cosine?) / a;
@@ -41,7 +42,7 @@ pub fn transmitted(damping: f64) -> Result<[f64; 2], Error> {
     Ok([simulated, exact])
 }
 
-/// Prints what four dampers let through.
+/// Prints the transmitted amplitude for four dampers.
 pub fn main() -> Result<(), Error> {
     println!("damping [N s/m]  transmitted  exactly");
     for damping in [200.0, 400.0, 800.0, 1600.0] {

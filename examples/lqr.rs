@@ -17,9 +17,9 @@ lagrangian::machine! {
 const PERIOD: f64 = 0.02;
 const COSTS: [f64; 4] = [10.0, 10.0, 1.0, 1.0];
 
-/// The gain `k` of `u = −k x` that minimizes `Σ x Q x + u²` over all looks, with [`COSTS`] in Q.
+/// The gain `k` of `u = −k x` that minimizes `Σ x Q x + u²` over all samples, with [`COSTS`] on the diagonal of Q.
 pub fn gain() -> Result<[f64; 4], Error> {
-    // From one look to the next x becomes A x + b u: the derivatives of the motion at rest upright, column by column.
+    // From one sample to the next x becomes A x + b u: the derivatives of the motion at rest upright, column by column.
     let machine = Balancer::default();
     let linear = Sensitive::new(&machine).by_state()?.by("push")?;
     let mut start = linear.start_from(machine.start());
@@ -41,7 +41,7 @@ pub fn gain() -> Result<[f64; 4], Error> {
     Ok(k)
 }
 
-/// Place and angle after `t` seconds.
+/// Position and angle after `t` seconds.
 pub fn balanced(t: f64) -> Result<[f64; 2], Error> {
     let (k, machine) = (gain()?, Balancer::default());
     let run = Simulation::new(&machine)
@@ -52,7 +52,7 @@ pub fn balanced(t: f64) -> Result<[f64; 2], Error> {
     Ok(run.run(machine.start())?.end().q.to_array())
 }
 
-/// Prints the gain, and where it leads.
+/// Prints the gain, and the state that it leads to.
 pub fn main() -> Result<(), Error> {
     println!("k = {:.4?}, after 10 s {:.6?}", gain()?, balanced(10.0)?);
     Ok(())

@@ -2,7 +2,7 @@
 //! dependency has `default-features = false, features = ["macros"]`.
 
 lagrangian::machine! {
-    /// A motor with a flywheel on a shaft that gives way.
+    /// A motor with a flywheel on a compliant shaft.
     machine Drive in plane {
         parameters { motor: kg*m^2 = 0.01, wheel: kg*m^2 = 0.05, stiffness: N*m = 20, loss: N*m*s = 0.05 }
         coordinates { phi: rad, psi: rad }
@@ -17,22 +17,22 @@ lagrangian::machine! {
     }
 }
 
-/// What stands in the firmware: it names `core` and the library only, and is of a fixed size.
+/// The code in the firmware: it uses only `core` and the library, and has a fixed size.
 pub mod firmware {
     use super::{Drive, drive};
     use lagrangian::{ControlledStepper, Method, StepError, Stepper};
 
-    /// The model, and how many milliseconds it has run.
+    /// The model, and the number of milliseconds that it has run.
     pub struct Model(ControlledStepper<drive::Prepared>, u32);
 
     impl Model {
-        /// At rest.
+        /// Starts at rest.
         pub fn new(machine: &Drive) -> Result<Self, StepError> {
             let stepper = Stepper::builder(machine.prepare()).method(Method::BS32);
             Ok(Self(stepper.tolerance(1e-5).start(machine.start())?, 0))
         }
 
-        /// Goes on by a millisecond with a torque of the motor; the twist of the shaft then, in rad.
+        /// Advances by a millisecond with this torque of the motor, and returns the twist of the shaft, in rad.
         pub fn tick(&mut self, torque: f64) -> Result<f64, StepError> {
             let Self(stepper, ticks) = self;
             *ticks += 1;

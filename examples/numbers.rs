@@ -17,7 +17,7 @@ lagrangian::machine! {
     }
 }
 
-/// The angular acceleration at the start, over any numbers.
+/// The angular acceleration at the start, in any numbers.
 pub fn acceleration<S: Number + Scalar>(machine: Pendulum<S>) -> Result<S, Singular> {
     let q = machine.start().q.to_array();
     let [a] = pendulum::accelerations(&machine.prepare(), &q)?;
@@ -31,7 +31,7 @@ pub fn by_length() -> Result<Dual<f64>, Singular> {
     acceleration(machine)
 }
 
-/// Prints one acceleration in several numbers.
+/// Prints one acceleration in several kinds of numbers.
 pub fn main() -> Result<(), Singular> {
     let machine = Pendulum::default();
     println!(

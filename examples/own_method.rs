@@ -3,7 +3,7 @@ use lagrangian::methods::{MethodError, Tableau};
 use lagrangian::{Error, Method, Simulation};
 use lagrangian_machines::SimplePendulum;
 
-/// Kutta's 3/8 rule of order 4, leaked because a simulation borrows its method for good; for the error, weights of order 3 beside it, `(1/12, 1/2, 1/4, 0, 1/6)`.
+/// Kutta's 3/8 rule of order 4, with weights of order 3 for the error, `(1/12, 1/2, 1/4, 0, 1/6)`; leaked because a simulation borrows its method for good.
 pub fn three_eighths() -> Result<&'static Method, MethodError> {
     let method = Method::try_new(Tableau {
         name: "kutta38",
@@ -31,7 +31,7 @@ pub fn three_eighths() -> Result<&'static Method, MethodError> {
     Ok(Box::leak(Box::new(method)))
 }
 
-/// The angle of a pendulum after two seconds, and how many evaluations it took.
+/// The angle of a pendulum after two seconds, and the number of evaluations.
 pub fn swing(method: &'static Method, tolerance: f64) -> Result<(f64, usize), Error> {
     let machine = SimplePendulum::default();
     let run = Simulation::new(&machine)
@@ -41,7 +41,7 @@ pub fn swing(method: &'static Method, tolerance: f64) -> Result<(f64, usize), Er
     Ok((run.end().q.to_array()[0], run.statistics().evaluations))
 }
 
-/// Prints what it costs beside the methods that are there.
+/// Prints its cost and that of the built-in methods.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     for method in [
         three_eighths()?,

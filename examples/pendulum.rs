@@ -16,7 +16,7 @@ lagrangian::machine! {
     }
 }
 
-/// The period of a swing to `amplitude`, in s: as simulated, and exactly.
+/// The period of a swing to `amplitude`, in s: simulated, and exact.
 pub fn period(amplitude: f64) -> Result<[f64; 2], Error> {
     let pendulum = Pendulum::default();
     let mut start = pendulum.start();
@@ -27,7 +27,7 @@ pub fn period(amplitude: f64) -> Result<[f64; 2], Error> {
         .event("at the bottom", Crossing::Falling, |state| state.q.theta)
         .run(start)?;
     let [first, second, ..] = run.events() else {
-        return Ok([f64::NAN; 2]); // it swings for longer than ten seconds
+        return Ok([f64::NAN; 2]); // the period is longer than ten seconds
     };
 
     // T = 2π √(l/g) / agm(1, cos(θ₀/2)) (C. F. Gauss, 1799).

@@ -16,7 +16,7 @@ lagrangian::machine! {
     }
 }
 
-/// Calls `seen` with time and place at instants a tenth of a second apart; how many steps that took.
+/// Calls `seen` with time and position every tenth of a second, and returns the number of steps.
 pub fn steps(until: f64, mut seen: impl FnMut(f64, f64)) -> Result<usize, StepError> {
     let machine = Oscillator::default();
     let (system, start) = (machine.prepare(), machine.start());
@@ -30,7 +30,7 @@ pub fn steps(until: f64, mut seen: impl FnMut(f64, f64)) -> Result<usize, StepEr
     let mut ticks = (0..).map(|tick| f64::from(tick) / 10.0).peekable();
     while !stepper.is_done() {
         stepper.step()?;
-        // Steps are as long as the tolerance allows; between their ends the motion is known as well as there.
+        // Steps are as long as the tolerance permits; between their ends the motion is known as accurately as there.
         let (from, to) = (stepper.t_before(), stepper.t());
         let piece = stepper.interpolant()?;
         while let Some(t) = ticks.next_if(|&t| t <= to) {

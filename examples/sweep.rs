@@ -3,7 +3,7 @@ use lagrangian::{Crossing, Error, Machine, Simulation};
 use std::thread;
 
 lagrangian::machine! {
-    /// A ball in still air, whose drag grows with its speed.
+    /// A ball in still air with linear drag.
     machine Ball in plane {
         parameters { m: kg = 0.15, drag: N*s/m = 0.02, g: m/s^2 = 9.81 }
         coordinates { x: m, y: m }
@@ -13,7 +13,7 @@ lagrangian::machine! {
     }
 }
 
-/// How far it flies, thrown with 30 m/s at an angle in rad.
+/// How far it flies, thrown at 30 m/s at an angle in rad.
 pub fn range(ball: &Ball, angle: f64) -> Result<f64, Error> {
     let mut start = ball.start();
     (start.v.y, start.v.x) = (30.0 * angle.sin(), 30.0 * angle.cos());
@@ -22,7 +22,7 @@ pub fn range(ball: &Ball, angle: f64) -> Result<f64, Error> {
     Ok(run.run(start)?.end().q.x)
 }
 
-/// The angle of the farthest throw of so many, which the processors share, and how far it goes.
+/// The angle and the range of the farthest of `count` throws, which the processors share.
 pub fn best(ball: &Ball, count: usize) -> Result<(f64, f64), Error> {
     let processors = thread::available_parallelism().map_or(1, usize::from);
     let throws = |first: usize| -> Result<Vec<(f64, f64)>, Error> {

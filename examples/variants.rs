@@ -7,7 +7,7 @@
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Error, Machine, Simulation};
 
-/// The greatest crushing force of the first second, in N.
+/// The largest crushing force in the first second, in N.
 pub fn greatest_force(crusher: &InterpretedMachine) -> Result<f64, Error> {
     let run = Simulation::new(crusher)
         .until(1.0)
@@ -21,7 +21,7 @@ pub fn greatest_force(crusher: &InterpretedMachine) -> Result<f64, Error> {
     Ok(greatest)
 }
 
-/// Prints the greatest force for four speeds.
+/// Prints the largest force for four speeds.
 pub fn main() -> Result<(), Error> {
     let mut crusher = InterpretedMachine::from_file("machines/cushioned_crusher.machine")?;
     println!("omega [rad/s]  greatest crushing force [kN]");

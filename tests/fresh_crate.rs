@@ -1,30 +1,30 @@
-//! The macro in a crate of its own, outside of the workspace, as a user has it: inline and from a
-//! file, with an edit of the file, and with mistakes.
+//! The macro in a crate outside the workspace, as a user has it: with specs inline and in a file, after an edit of
+//! the file, and with mistakes.
 //!
-//! `UPDATE_UI=1 cargo test --test fresh_crate` writes what the compiler says now beside the
-//! programs in `tests/ui/macro/`. Read the difference as its reader would.
+//! `UPDATE_UI=1 cargo test --test fresh_crate` writes the compiler's current output beside the programs in `tests/ui/macro/`. Read
+//! the difference as a user would.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::{Mutex, MutexGuard};
 
-/// One cargo at a time: the crates share what they compile.
+/// Only one cargo runs at a time, because the crates share a build folder.
 static CARGO: Mutex<()> = Mutex::new(());
 
-/// A crate in a folder of its own, which goes when the test ends.
+/// A crate in a temporary folder, which is removed when the test ends.
 struct Crate {
     folder: PathBuf,
     _alone: MutexGuard<'static, ()>,
 }
 
 impl Crate {
-    /// A crate that depends on nothing but the library, as the checkout has it.
+    /// A crate that depends only on the library in this checkout.
     fn new(name: &str) -> Crate {
         Self::with(name, "")
     }
 
-    /// A crate with further settings of the dependency: `, default-features = false`.
+    /// A crate with further settings of the dependency, such as `, default-features = false`.
     fn with(name: &str, settings: &str) -> Crate {
         let alone = CARGO
             .lock()
@@ -42,7 +42,7 @@ impl Crate {
                  [dependencies]\nlagrangian = {{ path = {root:?}{settings} }}\n\n[workspace]\n"
             ),
         );
-        // The versions that are here already: nothing is downloaded.
+        // Uses the versions that are present already, so that nothing is downloaded.
         fs::copy(
             Path::new(root).join("Cargo.lock"),
             fresh.folder.join("Cargo.lock"),
@@ -58,7 +58,7 @@ impl Crate {
         fs::write(path, text).expect("a temporary file can be written");
     }
 
-    /// Where cargo builds, for all crates.
+    /// The build folder that all crates share.
     fn target() -> PathBuf {
         Path::new(env!("CARGO_TARGET_TMPDIR")).join("fresh-crate")
     }
@@ -75,7 +75,7 @@ impl Crate {
             .expect("cargo runs")
     }
 
-    /// What the program of the crate prints.
+    /// Runs the crate's program and returns its output.
     fn run(&self) -> String {
         let output = self.cargo(&["run"]);
         assert!(
@@ -89,7 +89,7 @@ impl Crate {
 
 impl Drop for Crate {
     fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.folder); // a folder that stays does no harm
+        let _ = fs::remove_dir_all(&self.folder); // a folder left behind does no harm
     }
 }
 
@@ -104,8 +104,8 @@ machine Oscillator in plane {
 }
 ";
 
-/// The machines of a program have no contacts and no constraints: so it has no function of the runtime that only these need, which
-/// would have been compiled once more for each machine. The debug information of a program names the functions that it is made of.
+/// The machines of a program have no contacts and no constraints, so the program must not contain the runtime's functions for
+/// these, which would otherwise be compiled once for each machine. The debug information of a program names its functions.
 fn has_no_code_of_absent_features(program: &str) {
     let path = Crate::target().join("debug").join(program);
     let program = fs::read(path).expect("the program has just run");
@@ -161,14 +161,14 @@ fn a_fresh_crate_follows_its_spec() {
     );
     assert_eq!(fresh.run(), "0.25 0.25 2\n");
     has_no_code_of_absent_features("oscillator");
-    // An edit of a file that the macro reads, or that such a file extends, compiles the crate anew.
+    // An edit of a file that the macro reads, or that such a file extends, recompiles the crate.
     fresh.write(
         "machines/oscillator.machine",
         &OSCILLATOR.replace("0.25", "0.5").replace("= 2", "= 4"),
     );
     fresh.write("src/main.rs.orig", "");
     let edited = fresh.cargo(&["run"]);
-    // The spring of the program starts elsewhere: its own check fails, which shows the edit.
+    // The program's spring now starts elsewhere, so its own assertion fails, which shows that the edit took effect.
     assert!(
         String::from_utf8_lossy(&edited.stderr).contains("assertion failed"),
         "{edited:?}"
@@ -252,7 +252,7 @@ fn machines_stand_inline_side_by_side() {
         }
         "#,
     );
-    // Casting is the program's own choice.
+    // The cast is the user's own code, so lints are allowed there.
     let text = fs::read_to_string(fresh.folder.join("src/main.rs")).expect("it was just written");
     fresh.write(
         "src/main.rs",
@@ -303,7 +303,7 @@ fn mistakes_are_told_at_the_users_tokens() {
         assert!(!output.status.success(), "{program} compiles");
         let said = String::from_utf8_lossy(&output.stderr)
             .replace(&*fresh.folder.to_string_lossy(), "$CRATE");
-        // How many errors there were is cargo's own remark.
+        // Cargo itself adds the line with the number of errors.
         let said: Vec<&str> = said
             .lines()
             .filter(|line| !line.starts_with("error: could not compile"))
@@ -320,7 +320,7 @@ fn mistakes_are_told_at_the_users_tokens() {
     }
 }
 
-/// What a spec lacks for a use of its machine is said with the line to add to it.
+/// If a spec lacks something that a use of its machine requires, the error states the line to add.
 #[test]
 fn a_missing_ability_names_the_line_to_add_to_the_spec() {
     let fresh = Crate::new("abilities");
@@ -371,7 +371,7 @@ fn a_missing_ability_names_the_line_to_add_to_the_spec() {
     ] {
         assert!(said.contains(part), "`{part}` is not in:\n{said}");
     }
-    // The machine without constraints is one in these numbers.
+    // The machine without constraints can be used with these numbers.
     assert_eq!(
         said.matches("is no machine in the numbers").count(),
         1,
@@ -379,8 +379,8 @@ fn a_missing_ability_names_the_line_to_add_to_the_spec() {
     );
 }
 
-/// A firmware has no standard library, and says itself what a panic does. Were the standard library anywhere in the tree, there
-/// would be two that say so, which the compiler refuses.
+/// A firmware has no standard library and defines its own panic handler. If any crate of the dependency tree used the standard
+/// library, there would be two panic handlers, which the compiler refuses.
 #[test]
 fn a_firmware_needs_no_standard_library() {
     let settings = ", default-features = false, features = [\"macros\"]";

@@ -1,5 +1,4 @@
-//! Time that work takes: seconds of the thread's own on the processor, so that what else runs there
-//! does not count.
+//! Processor time of this thread, so that other work on the processor does not count.
 #![allow(dead_code, reason = "each bench uses some of it")]
 
 use cpu_time::ThreadTime;
@@ -11,13 +10,13 @@ pub fn seconds<R>(work: impl FnOnce() -> R) -> (f64, R) {
     (clock.elapsed().as_secs_f64(), result)
 }
 
-/// The number in the middle.
+/// The median.
 pub fn median(mut numbers: Vec<f64>) -> f64 {
     numbers.sort_by(f64::total_cmp);
     quantile(&numbers, 0.5)
 }
 
-/// The median time of several calls, in s: at least `least` of them, and more until half a second
+/// The median time of several calls, in s: at least `least` calls, and more until half a second
 /// is spent.
 pub fn median_of<R>(least: usize, mut work: impl FnMut() -> R) -> (f64, R) {
     let (first, mut result) = seconds(&mut work);
@@ -30,15 +29,15 @@ pub fn median_of<R>(least: usize, mut work: impl FnMut() -> R) -> (f64, R) {
     (median(times), result)
 }
 
-/// A sample takes about so long: long beside the clock's own time, short beside the time between
-/// two interruptions.
+/// The approximate duration of a sample, in s: long compared with the clock's own time, short
+/// compared with the time between two interruptions.
 const SAMPLE: f64 = 200e-6;
 const SAMPLES: usize = 500;
 
 /// The time of one of many short calls, in s: `work(n)` makes n of them.
 ///
-/// The median over samples of about 200 µs; up to four series, while the median exceeds the first
-/// quartile by more than 5 %; of these the quietest.
+/// The result is the median over samples of about 200 µs. If the median exceeds the first quartile
+/// by more than 5 %, the series is repeated, up to four in all, and the smallest median counts.
 pub fn per_call(mut work: impl FnMut(usize)) -> f64 {
     let mut calls = 16;
     while seconds(|| work(calls)).0 < SAMPLE {

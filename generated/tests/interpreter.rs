@@ -1,6 +1,6 @@
-//! The committed code against the interpreter of the program that it was printed from: the same operations in the same
-//! order, so the same bits, over every kind of number. Accelerations are computed in the fastest arithmetic that the
-//! processor has; the interpreter is then run in that.
+//! Compares the committed code with the interpreter of the program from which it was printed: the same operations in
+//! the same order give the same bits, over every kind of number. Accelerations use the fastest arithmetic that the
+//! processor has, and the interpreter runs in that arithmetic, too.
 
 use std::fmt::Debug;
 
@@ -14,7 +14,7 @@ use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::{Disk, Files, Sources};
 use lagrangian_symbolic::Dag;
 
-/// How many states are tried.
+/// The number of states that are compared.
 const STATES: u64 = 20;
 
 /// The program of a machine of the library.
@@ -36,7 +36,7 @@ fn program(file: &str) -> Proved {
     .program
 }
 
-/// Numbers between −2 and 2, the same ones in every run.
+/// Pseudorandom numbers between −2 and 2, the same in every run.
 struct Numbers(u64);
 
 impl Numbers {
@@ -54,7 +54,7 @@ impl Numbers {
     }
 }
 
-/// Results with their bits, so that NaN equals itself and −0 is not 0.
+/// The bits of the results as text, in which NaN equals itself and −0 differs from 0.
 fn bits(values: &[f64]) -> Vec<String> {
     values
         .iter()
@@ -62,7 +62,7 @@ fn bits(values: &[f64]) -> Vec<String> {
         .collect()
 }
 
-/// Accelerations or multipliers by the interpreter, in whatever arithmetic is picked for `f64` here.
+/// Accelerations or multipliers by the interpreter, in the arithmetic that this processor selects for `f64`.
 struct Interpreted<'a> {
     interpreter: &'a mut Interpreter<f64>,
     role: Role,
@@ -81,7 +81,7 @@ impl Kernel<f64> for Interpreted<'_> {
     }
 }
 
-/// Every method of `System` gives what the interpreter gives, to the last bit.
+/// Checks that every method of `System` gives the result of the interpreter to the last bit.
 fn agrees_in_f64<M: Machine + Default>(
     file: &str,
     to_inputs: impl Fn(&[f64]) -> lagrangian::Inputs<M>,
@@ -324,7 +324,7 @@ fn agrees_in_f64<M: Machine + Default>(
     }
 }
 
-/// What generic code gives over `S`, beside what the interpreter gives over `S`.
+/// The results over `S` of generic code, and of the interpreter.
 type Pair<S> = (Option<Vec<S>>, Option<Vec<S>>);
 
 /// The accelerations of one state over `S`: those of the emitted code, and those of the interpreter.
@@ -358,7 +358,7 @@ fn accelerations<S: Scalar<Stored = S>, const N: usize>(
     )
 }
 
-/// One machine over one kind of number; the call that is written out is what its functions are given.
+/// Compares one machine over one kind of number; the call expression receives the arguments of its functions.
 macro_rules! over {
     ($scalar:ty, $machine:ident, $state:expr, $program:expr, |$p:ident, $t:ident, $q:ident, $v:ident| $call:expr) => {{
         let machine = machines::$machine::default();
@@ -370,7 +370,7 @@ macro_rules! over {
     }};
 }
 
-/// Double-double, `f32` and intervals: the same as the interpreter, and the interval holds what the others give.
+/// Double-double, `f32` and intervals give the interpreter's results, and the interval contains the other results.
 macro_rules! agrees_over_every_number {
     ($machine:ident, $file:literal, |$p:ident, $t:ident, $q:ident, $v:ident| $call:expr) => {{
         let program = program($file);

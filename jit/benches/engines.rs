@@ -1,5 +1,5 @@
-//! Machine code beside what rustc makes of the same program and beside the interpreter, in one run: one state, 4 and 8 lanes,
-//! and what compiling takes.
+//! Machine code compared with rustc's code for the same program and with the interpreter, in one run: one state, 4 and 8
+//! lanes, and the compile time.
 //!
 //! ```text
 //! cargo bench -p lagrangian-jit --bench engines
@@ -27,7 +27,7 @@ lagrangian::machine!(file = "../machines/vibrating_crusher.machine");
 lagrangian::machine!(file = "../machines/six_joint_arm.machine");
 lagrangian::machine!(file = "../machines/chain.machine", N = 64);
 
-/// Every call gets another of these, so that nothing can be computed once for all.
+/// Successive calls get different states, so that nothing can be computed once for all.
 const STATES: usize = 256;
 
 fn main() {
@@ -154,7 +154,7 @@ where
     );
 }
 
-/// Calls through `System`.
+/// Times calls through `System`.
 fn one<S: System>(system: &S, states: &[State]) -> f64 {
     let u = system.default_inputs();
     let vector = |values: &[f64]| {
@@ -175,7 +175,7 @@ fn one<S: System>(system: &S, states: &[State]) -> f64 {
     })
 }
 
-/// Calls of the code alone.
+/// Times calls of the machine code alone.
 fn direct(mut running: Running, states: &[State], inputs: &[f64]) -> f64 {
     let mut a = vec![0.0; states[0].q.len()];
     1e9 * per_call(|calls| {

@@ -3,7 +3,7 @@
 use super::toy::Toy;
 use lagrangian::{Assumption, Quantity, Singular, System};
 
-/// A machine of one coordinate over `Vec<f64>`.
+/// A machine of one coordinate whose vectors are `Vec<f64>`.
 pub struct AsList(pub Toy<1>);
 
 type List = Vec<f64>;
@@ -14,7 +14,7 @@ impl System for AsList {
     type Coordinates = List;
     type Inputs = ();
     type Outputs = ();
-    // Nothing of what handles constraints and contacts is compiled for it.
+    // These compile out all code that handles constraints and contacts.
     const MAY_BE_CONSTRAINED: bool = false;
     const MAY_SLIDE: bool = false;
     const MAY_COLLIDE: bool = false;

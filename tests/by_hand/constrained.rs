@@ -1,11 +1,11 @@
-//! Small machines with constraints, whose equations fit into a few lines.
+//! Small machines with constraints whose equations fit into a few lines.
 
 use lagrangian::{
     Assumption, Constraint, Machine, Quantity, Singular, State, System, constraint_workspace,
 };
 
-/// A machine of `N` coordinates and `M` constraints, given by its functions. `p` is its one
-/// parameter. The mass matrix, of `NN` = `N²` numbers, is diagonal.
+/// A machine of `N` coordinates and `M` constraints, given by its functions. `p` is its only
+/// parameter. The mass matrix has `NN` = `N²` entries and is diagonal.
 #[derive(Clone, Copy, Debug)]
 pub struct Constrained<const N: usize, const M: usize, const NN: usize> {
     pub coordinates: [(&'static str, &'static str); N],
@@ -25,12 +25,13 @@ pub struct Constrained<const N: usize, const M: usize, const NN: usize> {
     pub drift: fn(f64, &[f64; N], &[f64; N], f64) -> [f64; M],
     /// `V` at `(q, p)`.
     pub potential_energy: fn(&[f64; N], f64) -> f64,
-    /// Whether the workspace is an array on the stack, and not allocated.
+    /// Whether the workspace is an array on the stack instead of being allocated.
     pub on_stack: bool,
 }
 
 impl<const N: usize, const M: usize, const NN: usize> Constrained<N, M, NN> {
-    /// Accelerations and multipliers: `M a − Gᵀ λ = f`, `G a = γ`, by elimination in order.
+    /// Solves `M a − Gᵀ λ = f`, `G a = γ` for accelerations and multipliers, by
+    /// elimination without pivoting.
     fn solve(&self, t: f64, q: &[f64; N], v: &[f64; N]) -> Result<([f64; N], [f64; M]), Singular> {
         let f = (self.forces)(t, q, v, self.p);
         let g = (self.matrix)(t, q, self.p);
@@ -111,7 +112,7 @@ impl<const N: usize, const M: usize, const NN: usize> System for Constrained<N, 
     type Coordinates = [f64; N];
     type Inputs = ();
     type Outputs = ();
-    // Nothing of what handles contacts is compiled for it.
+    // This compiles out all code that handles contacts.
     const MAY_SLIDE: bool = false;
     const MAY_COLLIDE: bool = false;
 
@@ -171,7 +172,8 @@ impl<const N: usize, const M: usize, const NN: usize> System for Constrained<N, 
         0.0
     }
 
-    /// `vᵀ (M a − f)`: all forces have a potential, the reactions of moving constraints do the rest.
+    /// `vᵀ (M a − f)`: all forces have a potential, so the remaining work is that of the
+    /// reactions of moving constraints.
     fn work_rate(&self, t: f64, q: &[f64; N], v: &[f64; N], a: &[f64; N], (): &()) -> f64 {
         let f = (self.forces)(t, q, v, self.p);
         (0..N).map(|k| v[k] * (self.mass[k] * a[k] - f[k])).sum()
@@ -254,8 +256,8 @@ impl<const N: usize, const M: usize, const NN: usize> System for Constrained<N, 
 
 const METRES: [(&str, &str); 4] = [("x1", "m"), ("y1", "m"), ("x2", "m"), ("y2", "m")];
 
-/// A particle of 1 kg on a circle of radius 1 m under 9.81 m/s², from `(-1, 0)` at rest; the circle
-/// is stated `M` times, the k-th time k-fold: `k (x² + y² − 1)/2 = 0`.
+/// A particle of 1 kg on a circle of radius 1 m under 9.81 m/s², released at rest from `(-1, 0)`. The
+/// circle is stated `M` times, the k-th time multiplied by k: `k (x² + y² − 1)/2 = 0`.
 pub fn circle<const M: usize>() -> Constrained<2, M, 4> {
     Constrained {
         coordinates: [METRES[0], METRES[1]],
@@ -277,7 +279,7 @@ pub fn circle<const M: usize>() -> Constrained<2, M, 4> {
     }
 }
 
-/// Two particles of 1 kg, the rods of a double pendulum of 1 m and 1 m between them.
+/// A double pendulum as two particles of 1 kg; its rods, each 1 m long, are the constraints.
 pub fn double_pendulum(theta: [f64; 2]) -> Constrained<4, 2, 16> {
     let [(s1, c1), (s2, c2)] = theta.map(f64::sin_cos);
     Constrained {
@@ -305,14 +307,14 @@ pub fn double_pendulum(theta: [f64; 2]) -> Constrained<4, 2, 16> {
     }
 }
 
-/// Chaplygin's sleigh: 1 kg, 0.05 kg m², its edge 0.3 m behind the centre of mass.
+/// Chaplygin's sleigh: 1 kg and 0.05 kg m², with its edge 0.3 m behind the mass centre.
 pub fn sleigh() -> Constrained<3, 1, 9> {
     const A: f64 = 0.3;
     Constrained {
         coordinates: [("x", "m"), ("y", "m"), ("phi", "rad")],
         constraints: [("edge", false)],
         p: A,
-        // 0.4 m/s ahead, turning by 3 rad/s about the edge.
+        // 0.4 m/s ahead, turning about the edge at 3 rad/s.
         start: ([0.0; 3], [0.4, A * 3.0, 3.0]),
         mass: [1.0, 1.0, 0.05],
         forces: |_, _, _, _| [0.0; 3],
@@ -325,8 +327,8 @@ pub fn sleigh() -> Constrained<3, 1, 9> {
     }
 }
 
-/// A pendulum of 1 kg under 9.81 m/s² whose rod changes its length, `l = 1 + 0.1 sin 2t`, from 1 rad
-/// at rest but for the rod.
+/// A pendulum of 1 kg under 9.81 m/s² whose rod changes its length, `l = 1 + 0.1 sin 2t`. It starts
+/// at 1 rad with no velocity but that of the rod's change of length.
 pub fn winch() -> Constrained<2, 1, 4> {
     let (s, c) = 1.0_f64.sin_cos();
     Constrained {
@@ -348,13 +350,14 @@ pub fn winch() -> Constrained<2, 1, 4> {
     }
 }
 
-/// Length of the winch's rope, and its two derivatives.
+/// Length of the winch's rope and its first two derivatives.
 pub fn rope(t: f64) -> [f64; 3] {
     let (s, c) = (2.0 * t).sin_cos();
     [1.0 + 0.1 * s, 0.2 * c, -0.4 * s]
 }
 
-/// A bead of 1 kg on a wire through the origin that turns by `p` rad/s, from 1 m at rest on the wire.
+/// A bead of 1 kg on a straight wire through the origin that turns at `p` rad/s; it starts 1 m out,
+/// at rest on the wire.
 pub fn bead() -> Constrained<2, 1, 4> {
     Constrained {
         coordinates: [METRES[0], METRES[1]],
@@ -375,8 +378,8 @@ pub fn bead() -> Constrained<2, 1, 4> {
     }
 }
 
-/// Two equal pendulums of 1 m, 1 m apart, their bobs joined by a rod of 1 m, which therefore stays
-/// level: as the last constraint says, too.
+/// Two equal pendulums of 1 m, hung 1 m apart, with a rod of 1 m between their bobs. The rod
+/// therefore stays level, which the last constraint states redundantly.
 pub fn parallelogram(theta: f64) -> Constrained<4, 4, 16> {
     let (s, c) = theta.sin_cos();
     Constrained {

@@ -1,4 +1,5 @@
-// A double pendulum, typed in by hand: the code that `machine!` writes, as a person would write it.
+// A double pendulum typed in by hand: the code that `machine!`
+// generates, as a person would write it.
 
 use lagrangian::{Assumption, Machine, Quantity, Singular, State, System};
 
@@ -153,7 +154,7 @@ impl System for DoublePendulumSystem {
     type Coordinates = DoublePendulumCoordinates;
     type Inputs = DoublePendulumInputs;
     type Outputs = DoublePendulumOutputs;
-    // Nothing of what handles constraints and contacts is compiled for it.
+    // These compile out all code that handles constraints and contacts.
     const MAY_BE_CONSTRAINED: bool = false;
     const MAY_SLIDE: bool = false;
     const MAY_COLLIDE: bool = false;
@@ -185,7 +186,7 @@ impl System for DoublePendulumSystem {
         let f1 = u.torque - self.m12 * sin * v2 * v2 - (m1 + m2) * g * l1 * theta1.sin();
         let f2 = self.m12 * sin * v1 * v1 - m2 * g * l2 * theta2.sin();
         let determinant = self.m11 * self.m22 - m12 * m12;
-        // Twice the roundoff of the difference.
+        // Twice the round-off of the difference.
         if determinant.abs() <= f64::EPSILON * (self.m11 * self.m22).abs() {
             return Err(Singular::new(1, determinant, self.m11 * self.m22));
         }

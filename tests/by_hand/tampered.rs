@@ -5,22 +5,23 @@ use lagrangian::{
     Assumption, Constraint, Machine, Quantity, Singular, State, System, accelerations_with_friction,
 };
 
-/// What is wrong with it.
+/// The mistake in a [`Tampered`] machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Slip {
-    /// Nothing.
+    /// No mistake.
     None,
-    /// The acceleration of a coordinate, by this much.
+    /// The acceleration of this coordinate is off by this much.
     Acceleration(usize, f64),
-    /// The multiplier of a constraint, by this factor.
+    /// The multiplier of this constraint is off by this factor.
     Multiplier(usize, f64),
-    /// The drift `γ` of a constraint, by this much, in one of two functions.
+    /// The drift `γ` of this constraint is off by this much in one of
+    /// the two functions that give it.
     Drift(usize, f64),
-    /// It has a contact, and no workspace to find out what that does, or one of so many numbers.
+    /// The machine has a contact, but no workspace to evaluate it, or one of this many numbers.
     Workspace(Option<usize>),
 }
 
-/// A machine by hand with a slip in one of its functions.
+/// A machine typed in by hand with a mistake in one of its functions.
 #[derive(Clone, Copy, Debug)]
 pub struct Tampered<const N: usize, const M: usize, const NN: usize> {
     pub machine: Constrained<N, M, NN>,
@@ -53,7 +54,7 @@ impl<const N: usize, const M: usize, const NN: usize> System for Tampered<N, M, 
     type Coordinates = [f64; N];
     type Inputs = ();
     type Outputs = ();
-    // Nothing of what handles unilateral contacts is compiled for it.
+    // This compiles out all code that handles unilateral contacts.
     const MAY_COLLIDE: bool = false;
 
     fn coordinates(&self) -> impl ExactSizeIterator<Item = Quantity<'_>> {

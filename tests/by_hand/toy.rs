@@ -5,11 +5,11 @@ use lagrangian::{Assumption, Machine, Quantity, Singular, State, System};
 /// Accelerations at `(t, q, v, u, p)`.
 pub type Motion<const N: usize> = fn(f64, &[f64; N], &[f64; N], f64, f64) -> [f64; N];
 
-/// A function of `q`.
+/// A function of the coordinates `q`.
 pub type OfPlace<const N: usize> = fn(&[f64; N]) -> f64;
 
-/// A machine of `N` coordinates, given by its functions. Its one input is `u`; its one parameter
-/// `p`.
+/// A machine of `N` coordinates, given by its functions. Its only input is
+/// `u`, its only parameter `p`.
 #[derive(Clone, Copy, Debug)]
 pub struct Toy<const N: usize> {
     pub names: [&'static str; N],
@@ -24,9 +24,9 @@ pub struct Toy<const N: usize> {
     pub work_rate: fn(f64, &[f64; N], &[f64; N], f64, f64) -> f64,
     /// `(v, p)`.
     pub dissipation_rate: fn(&[f64; N], f64) -> f64,
-    /// What must stay above 0, as text and as a function of `q`.
+    /// A quantity that must stay above 0, as text and as a function of `q`.
     pub assumption: Option<(&'static str, OfPlace<N>)>,
-    /// `1 / M` is infinite where this is 0.
+    /// A function of `q` that stands for the inertia: `1 / M` is infinite where it is 0.
     pub inertia: OfPlace<N>,
 }
 
@@ -89,7 +89,7 @@ impl<const N: usize> System for Toy<N> {
     type Coordinates = [f64; N];
     type Inputs = f64;
     type Outputs = ();
-    // Nothing of what handles constraints and contacts is compiled for it.
+    // These compile out all code that handles constraints and contacts.
     const MAY_BE_CONSTRAINED: bool = false;
     const MAY_SLIDE: bool = false;
     const MAY_COLLIDE: bool = false;
@@ -191,7 +191,7 @@ pub fn oscillator() -> Toy<1> {
     }
 }
 
-/// Mathematical pendulum of frequency `p`: `x'' = -p² sin x`.
+/// Mathematical pendulum of angular frequency `p`: `x'' = -p² sin x`.
 pub fn pendulum(amplitude: f64) -> Toy<1> {
     Toy {
         potential_energy: |q, p| -p * p * q[0].cos(),

@@ -1,4 +1,5 @@
-//! Machines with constraints: against closed forms, and against the same machine in fewest coordinates.
+//! Machines with constraints, tested against closed forms and against the same machine in
+//! minimal coordinates.
 #![cfg(all(feature = "std", feature = "macros"))]
 
 use crate::by_hand::constrained::{
@@ -12,7 +13,7 @@ use lagrangian::{
 };
 
 lagrangian::machine! {
-    /// The pendulum as it is described.
+    /// A pendulum in Cartesian coordinates.
     machine Bob in plane {
         parameters { m: kg = 1, l: m = 1, g: m/s^2 = 9.81 }
         coordinates { x: m = -1, y: m = 0 }
@@ -46,7 +47,7 @@ fn a_described_machine_lends_its_own_room() {
     assert_near(&tension, &[-28.294_567_206_067_25], 1e-9);
 }
 
-/// What is promised of every residual.
+/// The bound that the runtime promises for every constraint residual.
 const RESIDUAL: f64 = 1e-13;
 
 fn run<const N: usize, const M: usize, const NN: usize>(
@@ -71,7 +72,8 @@ fn assert_near(found: &[f64], known: &[f64], tolerance: f64) {
     }
 }
 
-/// IFToMM library of benchmarks A01, to 18 digits by Jacobi's functions.
+/// Problem A01 of the IFToMM library of benchmarks; the solution was computed to 18 digits with
+/// Jacobi's elliptic functions.
 #[test]
 fn a_particle_on_a_circle_is_the_pendulum_of_closed_form() {
     let machine = circle::<1>();
@@ -84,7 +86,7 @@ fn a_particle_on_a_circle_is_the_pendulum_of_closed_form() {
         assert_near(&run.at(t).expect("in the run").q, &at, 2e-11);
     }
     let end = run.observe(10.0).expect("in the run");
-    // The rod pulls by -λ r.
+    // The rod's tension is the vector -λ r.
     assert_near(&end.multipliers, &[-28.294_567_206_067_25], 1e-9);
     let balance = run.energy_balance().expect("kept");
     assert!(balance.relative().abs() < 1e-11, "{}", balance.relative());
@@ -107,7 +109,7 @@ fn every_method_keeps_the_constraint_and_its_order() {
             let [x, y] = run.end().q;
             (x - known[0]).hypot(y - known[1])
         };
-        // As exact as the same machine in its angle, but for a small factor.
+        // As accurate as the same machine described by its angle, up to a small factor.
         let alone = |tolerance: f64| {
             let mut angle = pendulum(-core::f64::consts::FRAC_PI_2);
             angle.p = 9.81_f64.sqrt();
@@ -132,7 +134,8 @@ fn every_method_keeps_the_constraint_and_its_order() {
 fn particles_on_rods_are_the_double_pendulum() {
     let machine = double_pendulum([120.0_f64.to_radians(), 90.0_f64.to_radians()]);
     let run = run(&machine, 1e-12, 10.0);
-    // Angles in quadruple precision. The motion is chaotic: 10 s make of 10⁻¹² about 10⁻⁹.
+    // Angles computed in quadruple precision. The motion is chaotic: within 10 s an error of 10⁻¹²
+    // grows to about 10⁻⁹.
     for (t, [upper, lower]) in [
         (5.0, [-2.090_829_080_630_254_8, -1.567_325_676_426_099_8]),
         (10.0, [2.081_062_187_742_029, 1.555_966_281_095_514_3]),
@@ -142,7 +145,8 @@ fn particles_on_rods_are_the_double_pendulum() {
         assert_near(&run.at(t).expect("in the run").q, &known, 1e-8);
     }
 
-    // Multipliers are forces: Newton's law of the lower bob, with the angles' accelerations.
+    // Multipliers are forces: they must satisfy Newton's law for the lower bob, with accelerations
+    // computed from the angles.
     let angles = DoublePendulum::default();
     let run_of_angles = Simulation::new(&angles)
         .tolerance(1e-12)
@@ -165,13 +169,13 @@ fn particles_on_rods_are_the_double_pendulum() {
     let bend = |s: f64, c: f64, v: f64, a: f64| [c * a - s * v * v, s * a + c * v * v];
     let [ax1, ay1] = bend(s1, c1, seen.v.theta1, seen.a.theta1);
     let [ax2, ay2] = bend(s2, c2, seen.v.theta2, seen.a.theta2);
-    // m a = -m g e_y + 2 λ d, d being the lower rod.
+    // m a = -m g e_y + 2 λ d, where d is the lower rod.
     let pull = (ax1 + ax2) * s2 - (ay1 + ay2 + 9.81) * c2;
     let lower = run.observe(2.0).expect("in the run").multipliers[1];
     assert!((2.0 * lower - pull).abs() < 1e-8, "{lower} {pull}");
 }
 
-/// `v = V tanh(kt + c)`, `ω = √(E/I) sech(kt + c)`: recomputed to 40 digits.
+/// `v = V tanh(kt + c)`, `ω = √(E/I) sech(kt + c)`, recomputed to 40 digits.
 #[test]
 fn a_sleigh_follows_its_edge() {
     let machine = sleigh();
@@ -179,7 +183,7 @@ fn a_sleigh_follows_its_edge() {
     let speed = |t: f64| {
         let State { q, v, .. } = run.at(t).expect("in the run");
         let (s, c) = q[2].sin_cos();
-        // Across the edge it does not move, whenever it is looked at.
+        // The edge never moves across itself, at the ends of steps or between them.
         let across = -s * v[0] + c * v[1] - 0.3 * v[2];
         assert!(across.abs() <= 1e-13 * (v[0].abs() + v[1].abs() + 2.0));
         (c * v[0] + s * v[1], v[2], q[2])
@@ -191,7 +195,7 @@ fn a_sleigh_follows_its_edge() {
     let (v, _, phi) = speed(30.0);
     assert!((v - 1.191_637_528_781_298_5).abs() < 1e-9);
     assert!((phi - 1.532_180_286_675_054_5).abs() < 1e-9);
-    // What cannot slip does no work.
+    // The reaction of a no-slip constraint does no work.
     let balance = run.energy_balance().expect("kept");
     assert!(balance.relative().abs() < 1e-11 && balance.work.abs() < 1e-10);
 }
@@ -223,7 +227,7 @@ fn a_rope_that_is_wound_does_work() {
 #[test]
 fn a_bead_is_flung_out_along_a_turning_wire() {
     let run = run(&bead(), 1e-12, 2.0);
-    // r = cosh 2t, and all its energy is work of the wire.
+    // r = cosh 2t; the wire's work supplies all the energy.
     for t in [0.3, 1.0, 2.0] {
         let (r, (s, c)) = ((2.0_f64 * t).cosh(), (2.0_f64 * t).sin_cos());
         assert_near(&run.at(t).expect("in the run").q, &[r * c, r * s], 1e-9);
@@ -232,7 +236,7 @@ fn a_bead_is_flung_out_along_a_turning_wire() {
     let balance = run.energy_balance().expect("kept");
     let work = energy(2.0) - energy(0.0);
     assert!((balance.work / work - 1.0).abs() < 1e-10);
-    // λ (-s, c): the force across the wire is Coriolis's, 2 m ω r'.
+    // λ (-s, c): the force across the wire balances the Coriolis term 2 m ω r'.
     let multipliers = run.observe(1.0).expect("in the run").multipliers;
     assert_near(&multipliers, &[2.0 * 2.0 * 2.0 * 2.0_f64.sinh()], 1e-8);
 }
@@ -252,13 +256,13 @@ fn what_is_stated_again_is_named_and_shares_the_load() {
             })
             .collect();
         assert_eq!(run.warnings(), named);
-        // The reactions k λₖ r are equal, and together they are the tension.
+        // The reactions k λₖ r are equal and add up to the tension.
         let multipliers = run.observe(10.0).expect("in the run").multipliers;
         assert_near(&multipliers, &known, 1e-9);
     }
     let tension = -28.294_567_206_067_25;
     with(&["again"], [tension / 2.0, tension / 4.0]);
-    // More constraints than coordinates.
+    // Here there are more constraints than coordinates.
     with(
         &["again", "more"],
         [tension / 3.0, tension / 6.0, tension / 9.0],
@@ -294,7 +298,7 @@ fn redundant_by_geometry_the_motion_is_that_of_one_pendulum() {
             1e-8,
         );
     }
-    // Neither bob needs the rod: each is held by its own, with 2 λ = -(g cos θ + θ'²).
+    // Neither bob needs the connecting rod: each is held by its own rod, with 2 λ = -(g cos θ + θ'²).
     let ([theta], [omega]) = (fewest.end().q, fewest.end().v);
     let held = -0.5 * (9.81 * theta.cos() + omega * omega);
     let multipliers = run.observe(10.0).expect("in the run").multipliers;
@@ -322,7 +326,7 @@ fn constraints_that_contradict_each_other_are_named() {
     assert_eq!(named(&refused), ("again".into(), vec!["rod".into()]));
     assert!(refused.to_string().contains("`again` contradicts `rod`"));
 
-    // The place agrees at first, the rate too, and then the acceleration does not.
+    // The two constraints agree at the start in position and rate, but not in acceleration.
     let parting = Constrained {
         positions: |t, [x, _], _| [x + 1.0, x + 1.0 - t * t],
         matrix: |_, _, _| [[1.0, 0.0], [1.0, 0.0]],
@@ -331,7 +335,7 @@ fn constraints_that_contradict_each_other_are_named() {
         ..circle::<2>()
     };
     assert_eq!(named(&error(&parting)).0, "again");
-    // Nor does what departs later.
+    // Constraints that contradict each other only at a later time are also refused.
     let later = Constrained {
         positions: |t, [x, _], _| [x + 1.0, x + 1.0 - t.powi(4)],
         by_time: |t, _, _| [0.0, -4.0 * t.powi(3)],
@@ -361,7 +365,7 @@ fn a_start_is_brought_onto_the_constraints_and_says_how_far() {
         .until(1.0)
         .run(given)
         .expect("it runs");
-    // The nearest point of the circle, and the part of the velocity along it.
+    // The nearest point of the circle, and the component of the velocity along the circle.
     assert_near(&run.start().q, &[-0.6, 0.8], 1e-13);
     assert_near(&run.start().v, &[0.64, 0.48], 1e-13);
     let moved: Vec<_> = run
@@ -377,7 +381,8 @@ fn a_start_is_brought_onto_the_constraints_and_says_how_far() {
     assert_eq!(moved[0], ("x1", given.q[0], run.start().q[0]));
     assert_eq!(moved[3], ("der(y1)", given.v[1], run.start().v[1]));
 
-    // By inertia: of 1 kg and 4 kg, the lighter particle goes four times as far.
+    // The correction is weighted by inertia: with masses of 1 kg and 4 kg, the lighter
+    // particle moves four times as far.
     let heavy = Constrained {
         mass: [1.0, 4.0, 1.0, 1.0],
         ..double_pendulum([0.0, 0.0])
@@ -400,7 +405,7 @@ fn a_start_is_brought_onto_the_constraints_and_says_how_far() {
         .expect("it runs");
     assert_near(&run.start().q, &[4.0, 1.0, 0.0, 0.0], 1e-14);
 
-    // From afar, Newton's method finds the circle all the same.
+    // Newton's method finds the circle from far away, too.
     let afar = State {
         t: 0.0,
         q: [-3e-3, 4e-3],
@@ -413,7 +418,7 @@ fn a_start_is_brought_onto_the_constraints_and_says_how_far() {
     assert_near(&run.start().q, &[-0.6, 0.8], 1e-12);
 }
 
-/// What is said where the rod cannot be met.
+/// The error when the kept coordinates leave no position at which the rod's constraint holds.
 fn contradiction(kept: &[&str], residual: f64) -> Error {
     Error::KeptStart {
         contradictions: vec![KeptContradiction {
@@ -440,25 +445,27 @@ lagrangian::machine! {
 
 #[test]
 fn what_a_description_keeps_of_its_start_stays() {
-    // What is promised of the rod, over the least slope of it in a coordinate.
+    // The bound on the rod's residual, divided by the least derivative of
+    // the constraint by a coordinate.
     const OFF: f64 = RESIDUAL / 0.4;
     let machine = Kept::default();
     assert!(machine.prepare().kept_at_start().eq(["x", "der(x)"]));
     let simulation = || Simulation::new(&machine).until(0.1);
     let run = simulation().run(machine.start()).expect("it runs");
     let start = run.start();
-    // 0.6 and 0.8 are sides of a triangle with 1; x ẋ + y ẏ = 0.
+    // 0.6 and 0.8 are the legs of a right triangle of hypotenuse 1; x ẋ + y ẏ = 0.
     assert_near(&[start.q.x, start.q.y], &[0.6, -0.8], OFF);
     assert_near(&[start.v.x, start.v.y], &[0.5, 0.375], OFF);
 
-    // Others in their place.
+    // Another coordinate and rate are kept.
     let run = simulation()
         .keep("y")
         .run(machine.start())
         .expect("it runs");
     let x = (1.0_f64 - 0.81).sqrt();
     assert_near(&[run.start().q.x, run.start().q.y], &[x, -0.9], OFF);
-    // None: the nearest point of the circle, and what the rate has along it.
+    // Nothing is kept: the start becomes the nearest point of the circle, with the
+    // component of the rate along it.
     let run = simulation()
         .keep_none()
         .run(machine.start())
@@ -473,8 +480,8 @@ fn what_a_description_keeps_of_its_start_stays() {
         OFF,
     );
 
-    // What goes on from an event is no start: whatever an impact makes of it is projected onto the
-    // constraints by the least move.
+    // A run that continues from an event does not apply `keep`: the state after an impact is projected
+    // onto the constraints by the smallest move.
     let mut after = *run.end();
     (after.v.x, after.v.y) = (1.0, 1.0);
     let (x, y) = (after.q.x, after.q.y);
@@ -503,7 +510,7 @@ fn what_is_kept_of_a_start_stays_and_the_rest_moves() {
     // x ẋ + y ẏ = 0
     assert_near(&run.start().v, &[0.0, 0.0], 1e-13);
 
-    // Nothing is left to move.
+    // No coordinate is left that may be moved.
     let refused = simulation().keep("x1").keep("y1").run(given);
     assert_eq!(
         refused.err(),
@@ -512,7 +519,7 @@ fn what_is_kept_of_a_start_stays_and_the_rest_moves() {
             0.5 * (0.66 * 0.66 + 0.88 * 0.88 - 1.0)
         ))
     );
-    // Kept is too much: beyond the circle.
+    // The kept value lies outside the circle, so it cannot be met.
     let far = State {
         q: [-1.5, 0.1],
         ..given
@@ -522,10 +529,10 @@ fn what_is_kept_of_a_start_stays_and_the_rest_moves() {
         panic!("{:?}", refused.map(|run| *run.end()));
     };
     assert_eq!(contradictions[0].kept, ["x1"]);
-    // Nearest is y = 0.
+    // The residual is least at y = 0.
     let miss = contradictions[0].residual - 0.5 * (1.5 * 1.5 - 1.0);
     assert!(miss.abs() < 1e-9, "{miss:e}");
-    // Rates that do not go along the circle: x ẋ + y ẏ = 0.48 + 0.16.
+    // Kept rates that are not tangent to the circle: x ẋ + y ẏ = 0.48 + 0.16.
     let across = State {
         q: [0.6, 0.8],
         v: [0.8, 0.2],
@@ -544,7 +551,8 @@ fn what_is_kept_of_a_start_stays_and_the_rest_moves() {
 
 #[test]
 fn between_the_steps_the_motion_is_on_the_constraints_too() {
-    // Steps as long as this tolerance allows leave the circle by 10⁻⁶ between their ends.
+    // With steps as long as this tolerance allows, the interpolant leaves the
+    // circle by 10⁻⁶ between their ends.
     let machine = circle::<1>();
     for method in &METHODS {
         let simulation = Simulation::new(&machine).method(method).tolerance(1e-6);
@@ -559,13 +567,13 @@ fn between_the_steps_the_motion_is_on_the_constraints_too() {
         let events = run.events().iter().map(|event| event.state);
         let mut seen = 0;
         for State { q, v, .. } in states.chain(samples).chain(events) {
-            // Positions are measured by 1 m, rates by the greatest speed, √(2 g l).
+            // Residuals of positions are scaled by 1 m, those of rates by the greatest speed, √(2 g l).
             assert!((0.5 * (q[0].hypot(q[1]).powi(2) - 1.0)).abs() <= 2.0 * RESIDUAL);
             assert!((q[0] * v[0] + q[1] * v[1]).abs() <= 2.0 * 4.43 * RESIDUAL);
             seen += 1;
         }
         assert!(seen > 2000);
-        // Every half period, from a quarter on.
+        // One event each half period, the first after a quarter period.
         let period = 2.367_841_947_576_237_4;
         assert_eq!(run.events().len(), 8);
         for (k, event) in (0..).zip(run.events()) {
@@ -579,8 +587,8 @@ fn between_the_steps_the_motion_is_on_the_constraints_too() {
     }
 }
 
-/// The steps of a pendulum's run through so many of its periods; the residual of the constraint is
-/// looked at after every one of them.
+/// Steps a pendulum through `count` of its periods and checks the residual of the
+/// constraint after every step.
 fn periods(count: f64, method: &'static Method, tolerance: f64) -> (usize, f64) {
     let machine = circle::<1>();
     let period = 2.367_841_947_576_237_4;
@@ -616,8 +624,8 @@ fn periods(count: f64, method: &'static Method, tolerance: f64) -> (usize, f64) 
     (stepper.work().steps, greatest)
 }
 
-/// By how much the energy may be off, in J, at a tolerance of 10⁻⁹: each step by the tolerance of
-/// `q` and `v`, times `g` and the greatest speed.
+/// The bound on the energy error, in J, at a tolerance of 10⁻⁹: each step may err by the tolerance in
+/// `q` and `v`, which changes the energy by that times `g` and the greatest speed.
 fn tolerance_of_energy(steps: usize) -> f64 {
     steps as f64 * 1e-9 * (9.81 + 4.43 * (1.0 + 4.43))
 }
@@ -627,7 +635,7 @@ fn ten_thousand_periods_leave_nothing_of_the_constraint() {
     let (steps, residual) = periods(1e4, &METHODS[0], 1e-9);
     println!("{steps} steps, residual {residual:e}");
     assert!(steps > 100_000);
-    // Both terms of it are of size 1, where the scale has at least that.
+    // The residual is a sum of two terms of size 1, and the scale is at least that.
     assert!(residual <= 2.0 * RESIDUAL, "{residual:e}");
 }
 
@@ -654,7 +662,7 @@ fn a_machine_that_lends_no_room_is_told_so() {
 
 #[test]
 fn what_has_no_inertia_may_be_held_by_a_constraint() {
-    // A spring of 8 N/m at a point without mass, which a rod ties to a mass of 2 kg.
+    // A spring of 8 N/m pulls a massless point that a rod ties to a mass of 2 kg.
     let tied = Constrained {
         constraints: [("rod", true)],
         mass: [0.0, 2.0],
@@ -678,7 +686,7 @@ fn what_has_no_inertia_may_be_held_by_a_constraint() {
     assert_near(&a, &[-2.0, -2.0], 1e-15);
     assert_near(&multipliers, &[4.0], 1e-15);
 
-    // Not so if the rod lets go.
+    // If the rod does not hold the massless point, the equations are singular.
     let loose = Constrained {
         matrix: |_, _, _| [[0.0, 1.0]],
         ..tied

@@ -1,10 +1,10 @@
-//! Machines of macros whose parts collide or yield.
+//! Machines from the macro whose parts collide or press on compliant walls.
 #![cfg(all(feature = "std", feature = "macros"))]
 
 use lagrangian::{Compliance, ContactEventKind, METHODS, Simulation, System};
 
 lagrangian::machine! {
-    /// A mass between a wall that yields and one at which it bounces.
+    /// A mass between a compliant wall and a wall from which it bounces.
     machine Between in plane {
         parameters { m: kg = 2, k: N/m = 800, e: 1 = 0.5 }
         coordinates { x: m = -1, der(x): m/s = 3 }
@@ -16,8 +16,8 @@ lagrangian::machine! {
     }
 }
 
-/// It closes after 1/3 s, is sent back after half a period of π/20 s, reaches the wall 2/3 s later and leaves it with half its
-/// speed: by every method, each to its tolerance.
+/// The mass reaches the compliant wall after 1/3 s, leaves it after half a period of π/20 s, reaches the other wall 2/3 s later and
+/// leaves that with half its speed. Every method reproduces this to its tolerance.
 #[test]
 fn a_machine_of_a_macro_yields_and_bounces() {
     let machine = Between::default();
@@ -48,7 +48,7 @@ fn a_machine_of_a_macro_yields_and_bounces() {
         for (event, (kind, t)) in events.iter().zip(expected) {
             assert_eq!(event.kind, kind);
             let error = event.state.t - t;
-            // At most 10⁴ steps, each within the tolerance, of 3 m/s.
+            // At most 10⁴ steps, each within the tolerance, at speeds of 3 m/s.
             assert!(
                 error.abs() < 1e-6,
                 "{}: {kind:?} {error:e}",
@@ -70,7 +70,7 @@ fn a_machine_of_a_macro_yields_and_bounces() {
 }
 
 lagrangian::machine! {
-    /// A ball on a table, which slips until it rolls.
+    /// A ball on a table that slips until it rolls.
     machine Cue in space {
         parameters { m: kg = 0.2, r: m = 0.03, mu: 1 = 0.2, g: m/s^2 = 9.81 }
         coordinates {
@@ -85,8 +85,8 @@ lagrangian::machine! {
     }
 }
 
-/// It slips at u = (1, 0.9) m/s at first, for 2|u|/(7 μ g), and then rolls at its velocity less 2/7 u: by every method that finds events,
-/// each to its tolerance.
+/// The ball first slips with u = (1, 0.9) m/s for a time 2|u|/(7 μ g), then rolls with its initial velocity less 2/7 u. Every method that
+/// finds events reproduces this to its tolerance.
 #[test]
 fn a_ball_of_a_macro_slips_in_two_directions() {
     let machine = Cue::default();
@@ -123,7 +123,7 @@ fn a_ball_of_a_macro_slips_in_two_directions() {
 }
 
 lagrangian::machine! {
-    /// A box that falls flat on a polygon of the ground.
+    /// A box that falls flat on a polygon fixed to the ground.
     machine Landing in plane {
         parameters { m: kg = 2, b: m = 0.1, h: m = 0.05, drop: m = 0.2, speed: m/s = 0.5, g: m/s^2 = 9.81 }
         coordinates { x: m, y: m = h + drop, theta: rad, der(x): m/s = speed }
@@ -141,8 +141,8 @@ lagrangian::machine! {
     }
 }
 
-/// It lands with two corners at once after √(2 d/g), and its friction, of at most half of what stops the fall, stops it there: by
-/// every method.
+/// It lands on two corners at once after √(2 d/g). The impulse of friction, which may reach half the impulse that stops the fall, stops
+/// its sliding there. Every method reproduces this.
 #[test]
 fn a_box_of_a_macro_lands_on_a_polygon() {
     let machine = Landing::default();

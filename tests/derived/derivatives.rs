@@ -1,5 +1,5 @@
-//! Derivatives that a description asks for, in emitted code: against closed forms, and against dual
-//! numbers through the emitted accelerations.
+//! Derivatives in emitted code that a spec requests, tested against closed forms and against dual numbers through the
+//! emitted accelerations.
 #![cfg(feature = "macros")]
 
 use crate::support::library;
@@ -21,7 +21,7 @@ lagrangian::machine! {
 }
 
 lagrangian::machine! {
-    /// A chain that hangs from a moving point, long enough to be cut into several functions.
+    /// A chain that hangs from a moving point, long enough that its code is split into several functions.
     machine Chain in plane {
         constants { N = 9 }
         parameters { l: m = 0.3, m[1..N]: kg = 0.5, A: m = 0.1, w: rad/s = 7, k: N*m = 2, g: m/s^2 = 9.81 }
@@ -34,8 +34,8 @@ lagrangian::machine! {
     }
 }
 
-/// `a = (τ − b v)/(m l²) − g/l sin θ`, differentiated by hand. Every term is a product of few factors, so that some roundings
-/// of the sum of their sizes are the most there can be.
+/// `a = (τ − b v)/(m l²) − g/l sin θ`, differentiated by hand. Every term is a product of few factors, so the error is at
+/// most a few rounding units of the sum of the terms' sizes.
 #[test]
 fn a_pendulums_derivatives_are_those_of_its_closed_form() {
     let pendulum = Pendulum::default();
@@ -69,7 +69,7 @@ fn a_pendulums_derivatives_are_those_of_its_closed_form() {
     check(found.by_parameters[0][1], &[-v / inertia]);
 }
 
-/// Everything, over dual numbers: entry (i, j) is what stands before ε in acceleration i when variable j is the variable.
+/// All derivatives against dual numbers: entry (i, j) is the coefficient of ε in acceleration i when variable j carries ε.
 #[test]
 fn a_chains_derivatives_are_what_dual_numbers_carry() {
     let chain = Chain::default();
@@ -78,13 +78,13 @@ fn a_chains_derivatives_are_what_dual_numbers_carry() {
     let v: [f64; 9] = std::array::from_fn(|i| 1.0 - state(i + 4));
     let found = chain::derivatives(&chain.prepare(), 0.3, &q, &v).unwrap();
     let close = |found: f64, exact: f64, size: f64| {
-        // Some hundred operations on the way, on numbers of the size of the largest.
+        // The bound allows a few hundred operations on numbers of the size of the largest.
         assert!(
             (found - exact).abs() <= 1e3 * f64::EPSILON * size,
             "{found}, {exact}"
         );
     };
-    // Of twice the digits: in `f64` the dual numbers are the less exact side.
+    // The dual numbers use double-doubles; in `f64` they would be less accurate than the code under test.
     let wide = |x: f64| Dual::constant(DoubleDouble::from_f64(x));
     let dual = |j: usize| -> [f64; 9] {
         let mut machine = chain.map(wide);
@@ -129,8 +129,9 @@ fn what_is_linearized_is_what_was_derived() {
     assert_eq!(by_v.as_slice(), found.by_rates.as_flattened());
 }
 
-/// A description that asks for no derivatives has them in the interpreter all the same, by dual numbers. The same chain with
-/// and without the section: one differentiates the forces and solves, the other carries the derivative through everything.
+/// A machine whose spec requests no derivatives still has them in the interpreter, by dual numbers. The test compares the
+/// same chain with and without that section: one differentiates the forces and solves, the other carries the derivative
+/// through the whole program.
 #[test]
 fn what_nobody_asked_for_is_linearized_by_dual_numbers() {
     let text = |derivatives: &str| {
@@ -173,7 +174,7 @@ fn what_nobody_asked_for_is_linearized_by_dual_numbers() {
         let size = exact.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
         assert!(size > 0.0);
         for (found, exact) in found.iter().zip(exact) {
-            // Some hundred operations on numbers of the size of the largest; no entry of this chain is 0.
+            // The bound allows a few hundred operations on numbers of the size of the largest; no entry of this chain is 0.
             let limit = 1e3 * f64::EPSILON * size;
             assert!((found - exact).abs() <= limit, "{found}, not {exact}");
         }
@@ -188,7 +189,7 @@ fn what_nobody_asked_for_is_linearized_by_dual_numbers() {
     }
 }
 
-/// Where the accelerations do not exist, neither do their derivatives.
+/// Where the accelerations do not exist, their derivatives do not either.
 #[test]
 fn dual_numbers_refuse_what_accelerations_refuse() {
     let text = "machine Polar in plane {
@@ -226,7 +227,8 @@ fn what_may_stick_is_not_linearized_and_named() {
     assert!(error.starts_with(expected), "{error}");
 }
 
-/// Derivatives of the derivatives' own code: the matrix by coordinates is generic over its numbers too.
+/// The code for derivatives can itself be differentiated: the matrix of derivatives by coordinates is
+/// generic over its numbers, too.
 #[test]
 fn derivatives_run_over_any_number() {
     let wide = Pendulum::default().map(lagrangian::scalar::DoubleDouble::from_f64);

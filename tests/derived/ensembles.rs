@@ -1,4 +1,4 @@
-//! Many trajectories side by side: each is what it is alone, bit for bit.
+//! Many trajectories side by side: each equals the trajectory computed alone, bit for bit.
 
 use crate::support::random::SplitMix;
 use lagrangian::{
@@ -11,7 +11,7 @@ use lagrangian_machines::{
 
 type Alone<S> = Result<(State<<S as System>::Coordinates>, Work), StepError>;
 
-/// A trajectory by the stepper.
+/// Computes one trajectory alone with the stepper.
 fn alone<S: System + Clone + 'static>(
     trajectory: &Trajectory<S>,
     method: &'static Method,
@@ -26,7 +26,7 @@ fn alone<S: System + Clone + 'static>(
     Ok((stepper.state(), stepper.work()))
 }
 
-/// Whether all of them, `W` at a time, are what they are alone.
+/// Asserts that all trajectories, stepped `W` at a time, equal those stepped alone.
 fn assert_same<S: Batched<W> + 'static, const W: usize>(
     trajectories: &[Trajectory<S>],
     method: &'static Method,
@@ -51,7 +51,7 @@ fn assert_same<S: Batched<W> + 'static, const W: usize>(
                 assert_eq!(state, arrival.end, "{index} by {name}");
                 assert_eq!(work, arrival.work, "{index} by {name}");
             }
-            // Where exactly it gave up is no matter of bits.
+            // The exact point at which a trajectory failed need not agree to the bit.
             (Err(one), Err(other)) => assert_eq!(
                 std::mem::discriminant(&one),
                 std::mem::discriminant(&other),
@@ -62,7 +62,7 @@ fn assert_same<S: Batched<W> + 'static, const W: usize>(
     }
 }
 
-/// The seed of this run: another one each time, or `SEED`.
+/// The seed of this run: a new one each time, unless `SEED` is set.
 fn seed() -> u64 {
     let clock = std::time::SystemTime::now()
         .duration_since(std::time::UNIX_EPOCH)
@@ -89,7 +89,7 @@ fn each_trajectory_is_what_it_is_alone() {
             start.q.theta1 = random.uniform(-3.0, 3.0);
             start.v.theta2 = random.uniform(-5.0, 5.0);
             start.t = random.uniform(-1.0, 1.0);
-            // Some are over at once, and some run backward.
+            // Some trajectories end immediately, and some run backward.
             let end = start.t + [0.0, 0.02, 3.0, -1.0][(random.next() % 4) as usize];
             Trajectory::new(Machine::prepare(&machine), start, end)
         })
@@ -99,13 +99,13 @@ fn each_trajectory_is_what_it_is_alone() {
     }
     assert_same::<_, 2>(&pendulums, Method::DOP853, 1e-10);
     assert_same::<_, 8>(&pendulums, Method::DOP853, 1e-10);
-    // Order 20, and order 12.
+    // These tolerances select order 20 and order 12.
     assert_same::<_, 2>(&pendulums, Method::TAYLOR, 1e-10);
     assert_same::<_, 4>(&pendulums, Method::TAYLOR, 1e-4);
     assert_same::<_, 8>(&pendulums, Method::TAYLOR, 1e-14);
     assert_same::<_, 8>(&pendulums, Method::TAYLOR, 1e-7);
     assert_same::<_, 8>(&pendulums[..3], Method::TAYLOR, 1e-10);
-    // Fewer than there are lanes, and none.
+    // Fewer trajectories than lanes, and none at all.
     assert_same::<_, 8>(&pendulums[..3], Method::DOP853, 1e-10);
     assert_same::<_, 8>(&pendulums[..0], Method::DOP853, 1e-10);
 }
@@ -133,7 +133,7 @@ fn each_has_its_own_inputs_and_its_own_drive() {
         })
         .collect();
     assert_same::<_, 4>(&driven, Method::DOP853, 1e-8);
-    // Its series depend on time, too.
+    // The series of this machine depend on time as well.
     let driven: Vec<_> = (0..11)
         .map(|_| {
             let machine = Crusher9 {
@@ -153,7 +153,8 @@ fn each_has_its_own_inputs_and_its_own_drive() {
     }
 }
 
-/// By series: one without mass, one that starts at what is no number, one whose numbers overflow, and one that never gets there.
+/// With Taylor series: one trajectory without mass, one that starts at NaN, one whose numbers overflow and one that never
+/// reaches its end leave the others unchanged.
 #[test]
 fn the_failure_of_one_series_is_none_of_another() {
     let good = DoublePendulum::default();
@@ -196,7 +197,7 @@ fn the_failure_of_one_series_is_none_of_another() {
         });
 }
 
-/// One that has no accelerations and one that starts at what is no number leave the others as they are.
+/// A trajectory without accelerations and one that starts at NaN leave the others unchanged.
 #[test]
 fn the_failure_of_one_is_none_of_another() {
     let good = CartPole::default();

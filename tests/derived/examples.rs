@@ -1,6 +1,6 @@
-//! Every example runs, and answers its question rightly.
+//! Every example runs and gives the right answer.
 //!
-//! The examples are modules of this one program: one more link, instead of one for each of them.
+//! The examples are modules of this one program, which saves linking each of them separately.
 #![cfg(feature = "interpreter")]
 
 #[path = "../../examples/balance.rs"]
@@ -44,7 +44,8 @@ mod sweep;
 #[path = "../../examples/variants.rs"]
 mod variants;
 
-/// What a run may be off by whose steps, fewer than `STEPS`, each keep `tolerance`, in motions that do not multiply errors.
+/// A bound on the error of a run of fewer than `STEPS` steps, each within `tolerance`, in
+/// motions that do not amplify errors.
 fn limit(tolerance: f64) -> f64 {
     const STEPS: f64 = 1000.0;
     STEPS * tolerance
@@ -56,7 +57,7 @@ fn every_example_is_here() {
     for entry in std::fs::read_dir(folder).expect("the examples") {
         let entry = entry.expect("an entry");
         if entry.path().is_dir() {
-            continue; // scripts of commands, which the command's tests run
+            continue; // scripts of commands, which the tests of the command run
         }
         let name = entry.file_name();
         let line = format!("#[path = \"../../examples/{}\"]", name.to_string_lossy());
@@ -64,7 +65,7 @@ fn every_example_is_here() {
     }
 }
 
-/// What a program of some use asks for is asked for in less than sixty lines.
+/// A useful program takes fewer than sixty lines.
 #[test]
 fn programs_of_some_use_are_short() {
     for name in [
@@ -92,7 +93,7 @@ fn the_period_grows_with_the_amplitude() {
     pendulum::main().unwrap();
     for amplitude in [0.01, 1.0, 3.0] {
         let [simulated, exact] = pendulum::period(amplitude).unwrap();
-        // At the bottom it turns by √(2 g/l (1 − cos θ₀)) a second, 0.04 for the smallest swing.
+        // At the bottom the angular velocity is √(2 g/l (1 − cos θ₀)), 0.04 rad/s for the smallest swing.
         let off = limit(1e-12) / (0.044 * f64::min(amplitude, 1.0) / 0.01);
         assert!((simulated - exact).abs() < off, "{simulated} {exact}");
     }
@@ -110,7 +111,7 @@ fn a_floor_is_transmitted_as_in_the_textbook() {
     isolation::main().unwrap();
     for damping in [200.0, 1600.0] {
         let [simulated, exact] = isolation::transmitted(damping).unwrap();
-        // In units of the floor's amplitude, 1 mm.
+        // In units of the amplitude of the floor, 1 mm.
         assert!((simulated - exact).abs() < limit(1e-12) / 1e-3);
     }
 }
@@ -143,7 +144,7 @@ fn the_balance_of_energy_closes() {
     for tolerance in [1e-7, 1e-10] {
         let (balance, exact) = energy::balance(tolerance).unwrap();
         assert!(exact > 10.0, "it works: {exact} J");
-        // Energies and works are of the order of 10 J, and change with errors by less than 100 J per metre.
+        // Energies and works are of the order of 10 J; a position error changes them by less than 100 J per metre.
         assert!(balance.residual().abs() < 100.0 * limit(tolerance));
         assert!((balance.work - exact).abs() < 100.0 * limit(tolerance));
     }
@@ -153,7 +154,7 @@ fn the_balance_of_energy_closes() {
 fn each_number_is_as_exact_as_it_is() {
     numbers::main().unwrap();
     let machine = numbers::Pendulum::default();
-    // −19.5 sin 1, by its series in sixty digits: its nearest f64, and what that lacks.
+    // −19.5 sin 1, from the sine's series in sixty digits: the nearest f64 and the remainder.
     let (near, rest) = (-16.408_684_203_753_98, -1.456_707_817_747_586e-16);
     let a = numbers::acceleration(machine).unwrap();
     assert!((a - near).abs() <= 4.0 * f64::EPSILON * near.abs());
@@ -194,7 +195,7 @@ fn a_motion_is_as_exact_as_its_numbers() {
 #[test]
 fn an_ensemble_finds_what_goes_over_the_top() {
     ensemble::main();
-    // From ½ l² ω² = 2 g l: at the top nothing is left.
+    // From ½ l² ω² = 2 g l: the bob just reaches the top at rest.
     let exact = 2.0 * (9.81_f64 / 0.5).sqrt();
     let found = ensemble::least_rates(&[0.5], 0.05)[0];
     assert!(
@@ -222,7 +223,7 @@ fn a_spec_runs_without_a_compiler() {
         "machines/cushioned_crusher.machine",
     )
     .unwrap();
-    // The same spec, compiled: the same operations in the same order.
+    // The same spec compiled performs the same operations in the same order.
     let machine = lagrangian_machines::CushionedCrusher {
         omega: 110.0,
         ..Default::default()
@@ -241,7 +242,7 @@ fn a_spec_runs_without_a_compiler() {
 fn the_regulator_is_that_of_riccati_and_balances() {
     lqr::main().unwrap();
     let k = lqr::gain().unwrap();
-    // At its optimum, no change of the gain makes the motion from the start cheaper: the linearized one, cost by cost.
+    // At the optimum, no change of a gain lowers the cost of the linearized motion from this start, which `cost` computes.
     let machine = lqr::Balancer::default();
     let g = machine.g;
     // At rest upright, M x″ = u − m g θ and l θ″ = −(u − (M + m) g θ)/M.
@@ -255,7 +256,7 @@ fn the_regulator_is_that_of_riccati_and_balances() {
         for _ in 0..4000 {
             let u = -(0..4).map(|i| k[i] * x[i]).sum::<f64>();
             sum += 10.0 * x[0] * x[0] + 10.0 * x[1] * x[1] + x[2] * x[2] + x[3] * x[3] + u * u;
-            // A look later, in a hundred steps of the trapezoidal rule's accuracy.
+            // One sampling period later, by a hundred steps of the midpoint rule.
             const PARTS: usize = 100;
             let h = 0.02 / PARTS as f64;
             for _ in 0..PARTS {
@@ -344,7 +345,7 @@ fn a_slip_in_an_edited_spec_has_its_place() {
 #[test]
 fn motions_part_as_machines_do() {
     generic::main().unwrap();
-    // An oscillator of 1 rad/s: after a quarter of its period, (cos t, −sin t) of the same length.
+    // For an oscillator of 1 rad/s, after a quarter of its period, the difference is (cos t, −sin t) of the same length.
     let oscillator = crate::by_hand::toy::oscillator();
     let grown = generic::parting(&oscillator, std::f64::consts::FRAC_PI_2).unwrap();
     assert!((grown - 1.0).abs() < 1e-4, "{grown}");
@@ -358,7 +359,7 @@ fn a_method_of_ones_own_has_its_order() {
     let [coarse, fine] =
         [1e-6, 1e-9].map(|tolerance| own_method::swing(method, tolerance).unwrap());
     assert!((fine.0 - exact).abs() < limit(1e-9));
-    // The error of a step falls as h⁴: a thousandth of it takes 1000^(1/4) = 5.6 times the steps.
+    // The error of a step falls as h⁴, so a tolerance of a thousandth takes 1000^(1/4) = 5.6 times the steps.
     let more = fine.1 as f64 / coarse.1 as f64;
     assert!((4.0..7.5).contains(&more), "{more}");
 }
@@ -372,7 +373,7 @@ fn firmware_follows_its_shaft() {
     for _ in 0..5000 {
         twist = model.tick(1.0).unwrap();
     }
-    // Both turn with 1/(J₁ + J₂); the shaft carries what the wheel takes of it.
+    // Both turn with angular acceleration 1/(J₁ + J₂); the shaft transmits the wheel's share of the torque.
     let exact = machine.wheel / (machine.motor + machine.wheel) / machine.stiffness;
     assert!((twist - exact).abs() < 1e-4, "{twist} {exact}");
 }

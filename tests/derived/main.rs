@@ -1,4 +1,4 @@
-//! The runtime on machines that the macro derives, and the examples.
+//! Tests of the runtime on machines from the macro, and of the examples.
 
 #[path = "../by_hand/mod.rs"]
 mod by_hand;

@@ -1,4 +1,5 @@
-//! Derivatives of motions: against closed forms, differences of motions, and what every conservative machine keeps.
+//! Derivatives of motions, tested against closed forms, differences of motions, and the symplectic invariant of
+//! conservative machines.
 #![cfg(feature = "macros")]
 
 use crate::support::library;
@@ -21,7 +22,7 @@ lagrangian::machine! {
 }
 
 lagrangian::machine! {
-    /// Two rods that swing: conservative, and chaotic when it swings far.
+    /// Two swinging rods: conservative, and chaotic at large amplitudes.
     machine Rods in plane {
         parameters { m1: kg = 1, m2: kg = 0.7, l1: m = 0.5, l2: m = 0.8, g: m/s^2 = 9.81 }
         coordinates { theta1: rad = 1.2, theta2: rad = -0.4 }
@@ -34,7 +35,7 @@ lagrangian::machine! {
     }
 }
 
-/// The text of the machine above, for the interpreter.
+/// The text of the machine above for the interpreter.
 const RODS: &str = "machine Rods in plane {
     parameters { m1: kg = 1, m2: kg = 0.7, l1: m = 0.5, l2: m = 0.8, g: m/s^2 = 9.81 }
     coordinates { theta1: rad = 1.2, theta2: rad = -0.4 }
@@ -46,7 +47,7 @@ const RODS: &str = "machine Rods in plane {
     derivatives { coordinates, rates, l1, m2 }
 }";
 
-/// `x = x₀ cos ωt + v₀/ω sin ωt + F/k (1 − cos ωt)`, ω² = k/m, and what it is differentiated by hand; by every method.
+/// `x = x₀ cos ωt + v₀/ω sin ωt + F/k (1 − cos ωt)`, ω² = k/m, and its derivatives, found by hand; tested with every method.
 #[test]
 fn an_oscillators_derivatives_are_those_of_its_closed_form() {
     let oscillator = Oscillator::default();
@@ -81,9 +82,9 @@ fn an_oscillators_derivatives_are_those_of_its_closed_form() {
             .until(end)
             .run(sensitive.start_from(start))
             .expect("a run");
-        // Each step adds its error, at most the tolerance times the size of a number in the root of the mean of all 12, and
-        // the push of the other equations upon it grows no faster than t: so 12 √12 (1 + t) for each step is more than there
-        // can be.
+        // The error norm of a step is the root mean square over 12 numbers, each relative to its size, so one number errs by
+        // at most √12 times the tolerance and all by 12 √12. Through the coupling of the equations an error grows no faster
+        // than 1 + t, so 12 √12 (1 + t) for each step is an upper bound.
         let limit = 42.0 * (1.0 + end) * tolerance * run.statistics().steps as f64;
         for t in [0.3, 2.7, 4.1, end] {
             let Varied { value, by } = run.at(t).expect("within the run").q;
@@ -98,8 +99,8 @@ fn an_oscillators_derivatives_are_those_of_its_closed_form() {
     }
 }
 
-/// A motion's difference quotients, of steps d and d/2, are off its derivative by terms of d² and d²/4, so that the second is
-/// off by a third of what they differ, and the terms after that; and by what the two runs are off, over d.
+/// The central difference quotients with increments d and d/2 have errors of order d² and d²/4, so the error of the second is
+/// about a third of the difference of the two, plus terms of higher order and the error of the two runs divided by d.
 fn assert_quotients<M: Machine>(
     machine: &M,
     sensitive: &Sensitive<'_, M>,
@@ -138,7 +139,7 @@ fn assert_quotients<M: Machine>(
         let found = flat(by);
         let largest = found.iter().fold(1.0_f64, |size, x| size.max(x.abs()));
         for ((coarse, fine), found) in coarse.iter().zip(&fine).zip(found) {
-            // Errors of earlier steps grow as derivatives by the state do.
+            // Errors of earlier steps grow like the derivatives by the state.
             let noise = steps * tolerance * (1.0 + largest) * 10.0 / d;
             let limit = (coarse - fine).abs() + noise;
             assert!(
@@ -223,8 +224,8 @@ fn a_conservative_motion_keeps_areas_in_phase_space() {
             .fold(1.0_f64, |size, x| size.max(x.abs()));
         let masses = after.as_flattened().iter().chain(before.as_flattened());
         let masses = masses.fold(0.0_f64, |size, x| size.max(x.abs()));
-        // An error of every step, 16 products of two columns, each as large as the columns; and what the steps' errors have
-        // grown by, as the columns have.
+        // Each step contributes an error in each of the 16 products of two columns, each as large as the columns; the errors
+        // then grow as the columns do.
         let steps = run.statistics().steps as f64;
         let limit = 32.0 * steps * tolerance * masses * size * size * size;
         for i in 0..4 {
@@ -276,7 +277,7 @@ fn an_interpreted_machine_has_the_same_derivatives() {
         .until(1.0)
         .run(other.start())
         .expect("a run");
-    // The same operations in the same order.
+    // Both perform the same operations in the same order.
     assert_eq!(run.statistics().steps, again.statistics().steps);
     for (by, other) in run.end().q.by.iter().zip(&again.end().q.by) {
         assert_eq!(by.to_array().as_slice(), other.values.as_slice());
@@ -290,7 +291,7 @@ fn what_is_not_known_is_refused_by_name() {
         .by("l2")
         .map(|_| ())
         .expect_err("not asked for");
-    // In the order of their declarations.
+    // In the order of declaration.
     let known = vec!["m2".to_owned(), "l1".to_owned()];
     assert_eq!(
         refused,
@@ -312,8 +313,8 @@ fn what_is_not_known_is_refused_by_name() {
     );
 }
 
-/// The start of a pendulum in Cartesian coordinates moves with the rod's length, of which its accelerations know nothing:
-/// no derivatives are better than (0, 0).
+/// The start of a pendulum in Cartesian coordinates depends on the rod's length, which its accelerations do not reflect. An
+/// error is better than derivatives of (0, 0).
 #[test]
 fn motions_that_constraints_hold_are_not_differentiated() {
     let pendulum = library::machine(

@@ -1,4 +1,5 @@
-//! Accelerations in stages, in emitted code and interpreted: those at once but for rounding.
+//! Accelerations evaluated in stages, in emitted code and interpreted, equal those
+//! evaluated at once up to rounding.
 #![cfg(feature = "macros")]
 
 use lagrangian::{Batch, Lanes, Machine, Staged, System, Vector};
@@ -20,19 +21,19 @@ lagrangian::machine! {
 }
 
 lagrangian::machine! {
-    /// Long enough for its stages to be cut into pieces.
+    /// Long enough that its stages are split into several functions.
     machine Chain extends "../../machines/chain_relative.machine" {
         constants { N = 24 }
         stages { time, coordinates }
     }
 }
 
-/// How much a rounding of every operation may change: some hundred roundings of 2⁻⁵³, of numbers
-/// a hundred times as large as their sums.
+/// The bound on the difference that rounding of every operation may cause: a few hundred roundings
+/// of 2⁻⁵³, of numbers a hundred times as large as their sums.
 const ROUNDING: f64 = 1e4 * f64::EPSILON;
 
-/// In stages and at once, with rates that change while the rest stays, and coordinates that change
-/// while the time stays.
+/// Compares evaluation in stages with evaluation at once, with rates that change while coordinates
+/// and time stay, and coordinates that change while the time stays.
 fn check<M: Machine>(machine: &M, seed: usize)
 where
     M::System: Staged,
@@ -87,7 +88,8 @@ fn emitted_machines_accelerate_in_stages_as_at_once() {
     }
 }
 
-/// Lanes that share a time share what it decides, and each is the system alone, bit for bit.
+/// Lanes at a common time share the work of the time stage, and each equals
+/// the system alone, bit for bit.
 #[test]
 fn lanes_share_a_time() {
     let system = Crusher::default().prepare();
@@ -116,7 +118,7 @@ fn lanes_share_a_time() {
     }
 }
 
-/// A pose without accelerations is refused with the coordinates, and rates are never asked.
+/// A pose without accelerations is refused when the coordinates are set, before any rates are given.
 #[test]
 fn singular_poses_are_refused_with_the_coordinates() {
     let system = Crusher::default().prepare();
@@ -131,8 +133,8 @@ fn singular_poses_are_refused_with_the_coordinates() {
     assert_eq!(at_once.expect_err("the same").at, refused.at);
 }
 
-/// The interpreter does what compiled machines do, to the last bit; and where no stage is asked for,
-/// it evaluates at once.
+/// The interpreter gives the same bits as compiled machines; a machine whose spec requests no stages
+/// is evaluated at once.
 #[test]
 fn interpreted_stages_are_those_that_are_compiled() {
     let interpreted = |asked: &str| match asked {

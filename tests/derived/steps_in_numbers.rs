@@ -7,10 +7,10 @@ use lagrangian::{
 };
 use lagrangian_machines::{CartPole, DoublePendulum, TwoBodyOrbit, cart_pole, two_body_orbit};
 
-/// Explicit methods of the list.
+/// Explicit methods from the list of methods.
 const EXPLICIT: [&Method; 3] = [Method::DOP853, Method::DOPRI5, Method::BS32];
 
-/// Kepler's orbit of semi-major axis 1 and eccentricity e about a unit of gravitation: distance and direction at the eccentric
+/// Kepler's orbit of semi-major axis 1 and eccentricity e with gravitational parameter 1: distance and direction at the eccentric
 /// anomaly `u`, and the time since the pericentre, `u − e sin u`.
 fn kepler<N: Scalar>(e: N, u: N) -> (N, [N; 2]) {
     let half = (u * N::from_f64(0.5)).tan();
@@ -22,7 +22,7 @@ fn kepler<N: Scalar>(e: N, u: N) -> (N, [N; 2]) {
     )
 }
 
-/// Two bodies whose masses make 1 together, at the pericentre of such an orbit, where φ′ = √((1 + e)/(1 − e)³).
+/// Two bodies of total mass 1 at the pericentre of such an orbit, where φ′ = √((1 + e)/(1 − e)³).
 fn orbit<N: Scalar>(e: f64) -> (TwoBodyOrbit<N>, State<two_body_orbit::Coordinates<N>>) {
     let machine = TwoBodyOrbit {
         m1: 0.75,
@@ -40,7 +40,7 @@ fn orbit<N: Scalar>(e: f64) -> (TwoBodyOrbit<N>, State<two_body_orbit::Coordinat
     (machine.map(N::from_f64), start)
 }
 
-/// How far the orbit of e = 1/8 is off at u = 1, in steps of length `h` if one is given.
+/// The error of the orbit of e = 1/8 at u = 1, with steps of the fixed length `h` if one is given.
 fn off<N: Real + PartialOrd>(method: &'static Method, tolerance: f64, h: Option<f64>) -> f64 {
     let e = 0.125;
     let (machine, start) = orbit::<N>(e);
@@ -57,8 +57,8 @@ fn off<N: Real + PartialOrd>(method: &'static Method, tolerance: f64, h: Option<
     differences[0].max(differences[1])
 }
 
-/// In 32 digits a method of order p gains p powers of 2 where its steps are halved, far below what `f64` can tell, until
-/// rounding stops it.
+/// In 32 digits the error of a method of order p falls by 2^p where the steps are halved, far below what `f64`
+/// resolves, until rounding limits it.
 #[test]
 fn order_eight_goes_on_to_28_digits_in_double_doubles() {
     let mut last = f64::INFINITY;
@@ -66,7 +66,7 @@ fn order_eight_goes_on_to_28_digits_in_double_doubles() {
     for halvings in 4..12 {
         let h = 2.0_f64.powi(-halvings);
         let error = off::<DoubleDouble>(Method::DOP853, 1e30, Some(h));
-        // Below, rounding and the thirty published digits of the coefficients have a part.
+        // Below this, rounding and the thirty published digits of the coefficients contribute.
         if last < 1e-8 && error > 1e-27 {
             let order = (last / error).log2();
             assert!(
@@ -101,7 +101,8 @@ fn lower_orders_are_theirs_beyond_the_digits_of_f64() {
     assert!(off::<DoubleDouble>(Method::DOPRI5, 1e30, Some(2.0_f64.powi(-11))) < 1e-17);
 }
 
-/// A motion that multiplies no errors is off by no more than its steps together, of which there are fewer than a thousand.
+/// A motion that does not amplify errors errs by at most the sum of the errors of its steps, of which
+/// there are fewer than a thousand.
 #[test]
 fn tolerances_are_kept_in_every_number() {
     for (error, tolerance) in [
@@ -115,7 +116,7 @@ fn tolerances_are_kept_in_every_number() {
     }
 }
 
-/// The state and the work of a stepper in `f64`, against those of the stepper in any numbers.
+/// Compares the state and the work counts of the stepper in `f64` with those of the generic stepper, bit for bit.
 fn assert_same_bits<M>(machine: &M, inputs: <M::System as System>::Inputs, ends: [f64; 3])
 where
     M: Machine,
@@ -150,7 +151,7 @@ where
                 "{name}"
             );
             assert_eq!((one.t(), one.work()), (other.t(), other.work()), "{name}");
-            // Within the last step as well.
+            // The interpolants of the last step agree as well.
             let curves = (one.interpolant(), other.interpolant());
             let (Ok(of_one), Ok(of_other)) = curves else {
                 panic!("{name}: {curves:?}")
@@ -201,7 +202,8 @@ lagrangian::machine! {
     }
 }
 
-/// The derivative of a run by parameters and by its start, against the variational equations, which are integrated elsewhere.
+/// The derivative of a run by parameters and by its start, tested against the variational equations, which another
+/// implementation integrates.
 #[test]
 fn a_dual_run_is_the_derivative_of_the_motion() {
     let (tolerance, end) = (1e-11, 2.0);
@@ -232,7 +234,7 @@ fn a_dual_run_is_the_derivative_of_the_motion() {
         stepper.advance_to(Dual::constant(end)).expect("a run");
         let found = stepper.state().q.theta.derivative;
         let steps = stepper.work().steps as f64;
-        // Each of both runs is off by its steps, whose errors a damped swing does not multiply.
+        // Each of the two runs errs by the sum of its steps' errors, which a damped swing does not amplify.
         let limit = 2.0 * steps * tolerance * (1.0 + exact.theta.abs());
         assert!(
             (found - exact.theta).abs() < limit,
@@ -240,7 +242,7 @@ fn a_dual_run_is_the_derivative_of_the_motion() {
             exact.theta
         );
     }
-    // The derivative by the time at which the run ends is the rate there.
+    // The derivative by the end time of the run is the rate at the end.
     let machine = swing.map(Dual::constant);
     let mut stepper = ExplicitStepper::builder(MachineIn::prepare(&machine))
         .tolerance(tolerance)
@@ -339,7 +341,7 @@ fn what_cannot_be_done_is_said() {
         .expect("its digits are enough");
     let none = narrow.advance_to(f64::NAN);
     assert!(matches!(none, Err(StepError::NoTime { .. })), "{none:?}");
-    // It goes as far as there are accelerations, and says where they end.
+    // The run goes as far as accelerations exist, and the error states where they end.
     let beyond = narrow
         .advance_to(2.0)
         .expect_err("there are none beyond 1 s");
@@ -373,7 +375,7 @@ fn steps_in_numbers_allocate_nothing() {
     assert_eq!(count.count_total, 0);
 }
 
-/// The core's own stepper, whose law is a type, takes the same steps as one that is told its inputs.
+/// The core's own stepper, whose input law is a type parameter, takes the same steps as one whose inputs are set directly.
 #[test]
 fn held_and_default_inputs_are_one() {
     let machine = CartPole::default();
@@ -414,7 +416,7 @@ fn held_and_default_inputs_are_one() {
     );
 }
 
-/// The eccentric anomaly `u` at a time since the pericentre, `u − e sin u = t`, by Newton's method.
+/// The eccentric anomaly `u` at a given time since the pericentre, from `u − e sin u = t` by Newton's method.
 fn anomaly<N: Scalar>(e: N, t: N) -> N {
     let mut u = t;
     for _ in 0..12 {
@@ -423,13 +425,13 @@ fn anomaly<N: Scalar>(e: N, t: N) -> N {
     u
 }
 
-/// Dense output in 32 digits: in the middle of a step it is off by no more than the order of the step allows, and by what its own
-/// order does, far below what `f64` can tell.
+/// Dense output in 32 digits: its error in the middle of a step is bounded by the order of the step and the order of the
+/// interpolant, far below what `f64` resolves.
 #[test]
 fn dense_output_has_its_order_beyond_the_digits_of_f64() {
     let e = 0.125;
     let number = DoubleDouble::from_f64;
-    // Errors within a step are of order `dense_order + 1`, those at its ends of the order of the method.
+    // Errors within a step are of order `dense_order + 1`; those at its ends are of the order of the method.
     for (method, order, [from, to]) in [
         (Method::DOP853, 8.0, [6, 9]),
         (Method::DOPRI5, 5.0, [8, 11]),
@@ -458,8 +460,8 @@ fn dense_output_has_its_order_beyond_the_digits_of_f64() {
     }
 }
 
-/// The state at a fixed time within the last step knows its derivatives: by a parameter as the variational equations have it, and by
-/// the time at which the run ends not at all, although the length of that step depends on it.
+/// The state at a fixed time within the last step carries correct derivatives: its derivative by a parameter agrees with the
+/// variational equations, and its derivative by the end time is zero, although the length of that step depends on the end time.
 #[test]
 fn dense_output_of_dual_numbers_is_the_derivative_at_a_time() {
     let tolerance = 1e-11;
@@ -483,7 +485,7 @@ fn dense_output_of_dual_numbers_is_the_derivative_at_a_time() {
     machine.l = Dual::variable(swing.l);
     let mut varied = stepper(&machine, Dual::constant(2.0));
     let from = varied.t_before().value.max(fixed.t_before().value);
-    // Both runs are off by their steps; dense output of order 7 by some ten times the error of a step.
+    // Both runs err by the sum of their steps' errors; dense output of order 7 errs by about ten times the error of a step.
     let limit = 1e3 * tolerance * varied.work().steps as f64;
     for part in [0.2, 0.5, 0.9] {
         let t = from + part * (2.0 - from);
@@ -499,7 +501,7 @@ fn dense_output_of_dual_numbers_is_the_derivative_at_a_time() {
         );
         let by_end = fixed.state_at(Dual::constant(t)).expect("in the step");
         assert!(by_end.q.theta.derivative.abs() < limit, "{by_end:?}");
-        // Of a time that moves, the derivative is the rate.
+        // At a time that varies, the derivative is the rate.
         let moving = fixed.state_at(Dual::variable(t)).expect("in the step");
         let rate = by_end.v.theta.value;
         assert!(
@@ -532,8 +534,8 @@ fn the_motion_within_a_step_is_told_or_refused() {
     );
 }
 
-/// A law of the inputs in the numbers of the run: with the bits of the stepper in `f64`, and in dual numbers with the derivative of
-/// machine and controller together.
+/// An input law in the numbers of the run gives the bits of the `f64` stepper, and in dual numbers the derivative of machine and
+/// controller together.
 #[test]
 fn a_law_sets_the_inputs_in_every_number() {
     fn gains<N: Real>(
@@ -585,7 +587,7 @@ fn a_law_sets_the_inputs_in_every_number() {
         .start(from)
         .expect("accelerations");
     dual.advance_to(Dual::constant(2.0)).expect("a run");
-    // A central difference of step 0.01 is off by 1e-4/6 of the third derivative, which a gain of 40 makes small.
+    // The error of a central difference with increment 0.01 is 1e-4/6 of the third derivative, which a gain of 40 makes small.
     let quotient = (controlled(40.01).q()[1] - controlled(39.99).q()[1]) / 0.02;
     let found = dual.q()[1].derivative;
     assert!(

@@ -1,4 +1,4 @@
-//! Contacts that stick and slide in stiff machines, by `radau5`.
+//! Contacts that stick and slide in stiff machines, integrated by `radau5`.
 #![cfg(all(feature = "std", feature = "macros"))]
 
 use std::f64::consts::PI;
@@ -6,8 +6,8 @@ use std::f64::consts::PI;
 use lagrangian::{Coordinates, Machine, Method, Simulation, Solution, State};
 
 lagrangian::machine! {
-    /// A block on a belt, and a load that it carries along by a stiff spring: the stick-slip oscillator of
-    /// both their masses, the stiffer the spring.
+    /// A block on a belt that carries a load along by a stiff spring. As the stiffness grows, the machine
+    /// tends to the stick-slip oscillator of their total mass.
     machine Carrier in plane {
         parameters {
             m: kg = 0.5, load: kg = 0.5, k: N/m = 1, stiff: N/m = 1e6, settling: s = 0.01,
@@ -26,7 +26,7 @@ lagrangian::machine! {
 }
 
 lagrangian::machine! {
-    /// A block on an incline that is too flat for it to slide.
+    /// A block on an incline too flat for it to slide.
     machine Incline in plane {
         parameters { m: kg = 2, alpha: rad = 0.3, mu: 1 = 0.4, mu0: 1 = 0.5, g: m/s^2 = 9.81 }
         coordinates { s: m }
@@ -78,7 +78,7 @@ fn a_block_that_is_pushed_comes_to_rest_and_stays_there() {
         panic!("{:?}", run.events());
     };
     assert_eq!(event.name, "face sticks");
-    // Constant deceleration is followed exactly.
+    // The method is exact for constant deceleration.
     assert!((event.state.t - stop).abs() <= 1e-12 * stop);
     assert!((event.state.q.s - way).abs() <= 1e-12 * way);
     assert_eq!(run.end().q.s, event.state.q.s);
@@ -87,8 +87,9 @@ fn a_block_that_is_pushed_comes_to_rest_and_stays_there() {
 #[test]
 fn what_carries_a_load_stiffly_sticks_and_slips_like_one_block() {
     let mut steps = Vec::new();
-    // Whether it sticks is decided by the force of the joint, which is known to the stiffness times the
-    // error of its stretch: at 1e6 N/m and the tolerance below 0.01 N, of 0.5 N that friction has left.
+    // Whether the block sticks depends on the force in the joint, whose error is the stiffness times the
+    // error of the stretch: at 1e6 N/m and this tolerance it is below 0.01 N, against the 0.5 N of
+    // friction in reserve.
     for stiff in [1e4, 1e5, 1e6] {
         let carrier = Carrier {
             stiff,
@@ -102,8 +103,8 @@ fn what_carries_a_load_stiffly_sticks_and_slips_like_one_block() {
         let (v_b, jump) = (0.2_f64, 0.5);
         let slip = 2.0 * (PI - (jump / v_b).atan());
         let period = 2.0 * jump / v_b + slip;
-        // Errors of a state, at rates of 0.2 m/s and more; and the joint gives by a force of 1 N, for as
-        // many cycles.
+        // The first term bounds the error of the state at rates of 0.2 m/s and more; the second the
+        // compression of the joint by a force of 1 N over the same number of cycles.
         let limit = 5.0 * run.statistics().steps as f64 * tolerance + 40.0 / stiff;
         assert!(run.events().len() > 7, "{:?}", run.events());
         for (i, event) in run.events().iter().enumerate() {
@@ -121,7 +122,7 @@ fn what_carries_a_load_stiffly_sticks_and_slips_like_one_block() {
         assert!(balance.relative().abs() <= limit, "{balance:?}");
         steps.push(run.statistics().steps);
     }
-    // Stiffness costs no steps.
+    // The number of steps does not grow with the stiffness.
     assert!(
         steps.iter().all(|n| *n <= steps[0] + steps[0] / 10),
         "{steps:?}"

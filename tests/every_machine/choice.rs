@@ -1,4 +1,4 @@
-//! What the choice between programs knows of rounding is what rounding does.
+//! The rounding errors that the choice between programs estimates agree with measured ones.
 #![cfg(feature = "std")]
 
 use crate::support::library::{self, CONSTRAINED, MACHINES};
@@ -10,16 +10,16 @@ use lagrangian_native::Fused;
 use lagrangian_program::{Arguments, Candidate, Interpreter, MOST_ROUNDING, Role, Slot};
 use lagrangian_scalar::DoubleDouble;
 
-/// The states that an estimate looks at: see `crates/program/src/rounding.rs`.
+/// The number of states at which an estimate is made: see `crates/program/src/rounding.rs`.
 const ESTIMATED: f64 = 31.0;
-/// The states at which errors are measured here.
+/// The number of states at which errors are measured here.
 const STATES: usize = 101;
-/// The points near each of them at which they are: their roundings have nothing in common.
+/// The number of points near each of these states at which errors are measured; their rounding errors are unrelated.
 const NEAR: usize = 16;
 
-/// ‖Δr‖/‖r‖ of the results of a function in units of 2⁻⁵³, against double-double numbers: its
-/// logarithm at each of the states where there are any results. The root of the mean square over
-/// points near the state, which differ from it, parameters and all, in the sixth digit.
+/// The logarithm of ‖Δr‖/‖r‖ of the results of a function, in units of 2⁻⁵³ and against double-double numbers, at each of the
+/// states where there are any results. It is the root mean square over points near the state, whose values, parameters included,
+/// differ from the state's in the sixth digit.
 fn measured(program: &Proved, role: Role) -> Vec<f64> {
     let machine = InterpretedMachine::new(program.clone());
     let default = |slot: &Slot| slot.default.as_ref().expect("a default").value;
@@ -36,7 +36,7 @@ fn measured(program: &Proved, role: Role) -> Vec<f64> {
     let mut errors = Vec::with_capacity(STATES);
     for _ in 0..STATES {
         let Sample { t, mut q, v } = random.sample();
-        // Four numbers that turn a frame are as long as a run keeps them, as where the choice estimates.
+        // The four numbers of a quaternion have the length at which a run keeps them, as in the estimate of the choice.
         for four in &program.quaternions {
             let length = four.iter().map(|&i| q[i] * q[i]).sum::<f64>().sqrt();
             four.iter().for_each(|&i| q[i] /= length);
@@ -95,19 +95,19 @@ fn square(numbers: impl Iterator<Item = f64>) -> f64 {
     numbers.map(|x| x * x).sum()
 }
 
-/// The value below which a share of sorted numbers lies.
+/// The value below which the given fraction of sorted numbers lies.
 fn quantile(sorted: &[f64], share: f64) -> f64 {
     sorted[(share * (sorted.len() - 1) as f64).round() as usize]
 }
 
-/// How far the logarithm of an estimate may be from that of the median of measured errors, whose
-/// logarithms have the standard deviation `spread`.
+/// How far the logarithm of an estimate may be from that of the median measured error. The logarithms of the measured errors
+/// have the standard deviation `spread`.
 ///
-/// Where one number of about the same size everywhere is behind most of the error, its rounding is
-/// taken for that of a number of any size: up to 1/(1.47) and 1.36 of what it is. The rest is chance:
-/// the standard error of the median of N normal numbers is √(π/2N) of their standard deviation. Four
-/// sweeps leave a variance of 2/4 in the square of an error, 1/8 in its logarithm, 16 points near a
-/// state one of 1/32 at most. Three standard errors of both together.
+/// Where most of the error comes from one number that has about the same size everywhere, the estimate takes its rounding for
+/// that of a number of any size, which is between 1/(1.47) and 1.36 of the true one. The rest is chance. The standard error of
+/// the median of N normal numbers is √(π/2N) times their standard deviation. Four sweeps leave a variance of 2/4 in the square
+/// of an error, which is 1/8 in its logarithm; 16 points near a state leave one of 1/32 at most. The limit allows three standard
+/// errors of both together.
 fn limit(spread: f64) -> f64 {
     let estimated = (spread.powi(2) + 1.0 / 8.0) / ESTIMATED;
     let measured = (spread.powi(2) + 1.0 / 32.0) / STATES as f64;
@@ -120,8 +120,8 @@ fn rounding_is_what_the_choice_takes_it_for() {
     for name in MACHINES.into_iter().chain(CONSTRAINED) {
         for choice in &library::program(name, &[]).choices {
             let role = choice.role();
-            // The voltage is the same at all states here, and is most of the power; the estimate takes inputs of any size, for
-            // which what is lost and what is supplied cancel.
+            // The voltage is the same at all states here and provides most of the power. The estimate varies inputs over any
+            // size, for which losses and supplied power cancel.
             if (name, role) == ("dc_motor", Role::WorkRate) {
                 continue;
             }
@@ -130,8 +130,8 @@ fn rounding_is_what_the_choice_takes_it_for() {
                 let spread = 0.5 * (quantile(&errors, 0.84) - quantile(&errors, 0.16));
                 let rounding = candidate.rounding.expect("regular states");
                 let (estimate, median) = (rounding.units().ln(), quantile(&errors, 0.5));
-                // How a quaternion turns about an axis is taken to lose twice what it loses, which is on the safe side; which of
-                // its numbers round less than others of their size is not known.
+                // The estimate for the turn of a quaternion about an axis is twice the measured loss, which is on the safe side;
+                // the estimate does not know which of its numbers round less than others of their size.
                 let is_turn = (name, role) == ("upright_top", Role::Output(1));
                 let more = if is_turn { 1.25_f64.ln() } else { 0.0 };
                 assert!(
@@ -143,7 +143,7 @@ fn rounding_is_what_the_choice_takes_it_for() {
                 (estimate, median)
             };
             let judged: Vec<(f64, f64)> = choice.candidates.iter().enumerate().map(judge).collect();
-            // Twice, and the ratio of two estimates is right to a factor of one and a half.
+            // A factor of two, and the ratio of two estimates is correct to within a factor of one and a half.
             let least = judged
                 .iter()
                 .map(|(_, median)| *median)

@@ -1,13 +1,14 @@
-//! Several systems at once: each lane is the system alone, bit for bit, whatever the others hold.
+//! Several systems at once: each lane equals the system alone, bit for bit, whatever the other lanes hold.
 
 use crate::support::sampling::{Random, Sample};
 use crate::support::states::vector;
 use lagrangian::{Batch, Batched, Lanes, Machine, Number, Singular, SomeSingular, System, Vector};
 
-/// Neighbours that no lane should hear of.
+/// Values in neighbouring lanes that must not affect a lane.
 const HOSTILE: [f64; 6] = [f64::NAN, f64::INFINITY, -1e300, 1e22, 5e-324, -0.0];
 
-/// Systems with other parameters and other states in every lane, some of them absurd. How many have no accelerations.
+/// Compares lanes with systems alone, with other parameters and states in every lane, some of them absurd. Returns
+/// how many had no accelerations.
 fn check<M: Machine, const N: usize>(name: &str, machines: [M; N], random: &mut Random<M>) -> usize
 where
     Lanes<N>: Number,
@@ -19,7 +20,8 @@ where
     let (mut compared, mut stopped) = (0, 0);
     for round in 0..50 {
         let mut samples: [Sample; N] = std::array::from_fn(|_| random.sample());
-        // From the second round on, a lane is spoiled; in some rounds all but one are.
+        // From the second round on, one lane is filled with hostile values; in every third
+        // round all lanes but one are.
         for lane in 0..N {
             if round > 0 && (lane == round % N) != (round % 3 == 0) {
                 let absurd = HOSTILE[(round + lane) % HOSTILE.len()];
@@ -55,7 +57,8 @@ where
             let is_defined = system.accelerations(t, &q[lane], &v[lane], &u, &mut alone);
             let row: Vec<f64> = found.as_ref().iter().map(|numbers| numbers[lane]).collect();
             let at = format!("{name}, lane {lane} of {N}, {:?}", samples[lane]);
-            // Where the system alone refuses, its lane says the same. What is undefined does not equal itself.
+            // Where the system alone refuses, its lane reports the same error. The comparison is by text, because NaN
+            // is not equal to itself.
             let said = |singular: Option<Singular>| format!("{singular:?}");
             assert_eq!(said(refused[lane]), said(is_defined.err()), "{at}");
             if is_defined.is_err() {
@@ -66,13 +69,13 @@ where
             compared += 1;
             for (found, alone) in row.iter().zip(alone.as_slice()) {
                 let is_same = found.to_bits() == alone.to_bits()
-                    // The sign and the payload of what is undefined mean nothing.
+                    // The sign and the payload of a NaN mean nothing.
                     || found.is_nan() && alone.is_nan();
                 assert!(is_same, "{at}: {row:?} instead of {alone:?}");
             }
         }
     }
-    // In each round at least one lane is whole.
+    // In each round at least one lane holds ordinary values.
     assert!(compared >= 50, "{name}: {compared}");
     stopped
 }
@@ -81,7 +84,7 @@ macro_rules! check_machine {
     ($machine:ident, $name:literal, $($lanes:literal)*) => {{
         use lagrangian_machines::$machine;
         let mut random = Random::new(&$machine::default(), 20_260_004);
-        // Other parameters in every lane, all of them near the description's.
+        // Each lane has parameters of its own, all near those of the spec.
         let machine = |lane: usize| {
             let factor = 1.0 + lane as f64 / 64.0;
             $machine::default().map(|x| x * factor)
@@ -99,13 +102,13 @@ fn a_lane_is_the_system_alone_in_every_machine_of_the_library() {
         };
     }
     crate::for_each_machine!(four);
-    // Undefined coordinates leave no pivot in any machine that has some: the others next to them have been looked at.
+    // Undefined coordinates leave no valid pivot in any machine that checks pivots, so the lanes
+    // beside them have been compared.
     assert!(stopped >= 200, "{stopped}");
 }
 
-/// Every copy of a machine takes its time to compile: a few stand for the others, which differ in
-/// nothing that a width could matter to. (The tests of `native` have every operation in every
-/// width.)
+/// Each machine takes long to compile for each width, so a few stand for the others, which do not differ in anything
+/// that depends on the width. (The tests of `native` cover every operation in every width.)
 #[test]
 fn there_may_be_two_or_eight_lanes() {
     let stopped = check_machine!(CartPole, "cart_pole", 2 8);
@@ -114,7 +117,7 @@ fn there_may_be_two_or_eight_lanes() {
     assert!(stopped > 0);
 }
 
-/// No mass, no accelerations: the lane says so, and the other goes on.
+/// Without mass there are no accelerations: that lane reports it, and the other lane goes on.
 #[test]
 fn a_system_without_accelerations_is_undefined_in_its_lane_only() {
     use lagrangian_machines::CartPole;
@@ -147,8 +150,8 @@ fn a_system_without_accelerations_is_undefined_in_its_lane_only() {
     assert!(refused.is_err_and(|e| e.to_string().starts_with("lane 1: the mass matrix")));
 }
 
-/// The angle of a polar coordinate means nothing at radius 0. What it is solved with there is not divided by in the
-/// crusher's code: the pivot is checked, and used for nothing else.
+/// The angle of a polar coordinate is undefined at radius 0. The crusher's code does not divide by the pivot of that
+/// angle: it only checks it.
 #[test]
 fn a_pose_without_accelerations_is_refused_though_nothing_is_divided_by_its_pivot() {
     use lagrangian_machines::Crusher9;

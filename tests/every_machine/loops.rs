@@ -1,5 +1,4 @@
-//! Machines of many links: the same bits as the program, which the interpreter runs, and the same
-//! errors.
+//! Machines of many links give the same bits and the same errors as the interpreted program.
 
 use crate::support::library;
 use crate::support::sampling::Random;
@@ -8,20 +7,20 @@ use lagrangian::scalar::{DoubleDouble, Kernel, Scalar};
 use lagrangian::{Batch, Batched, Lanes, Machine, Number, Pivot, Singular, System, Vector};
 use lagrangian_program::{Arguments, Interpreter, Program, Role};
 
-/// Parameters of its own for every link.
+/// A chain in which every link has parameters of its own.
 mod chain {
     lagrangian::machine!(file = "benches/peers/chain.machine", N = 16);
 }
 
-/// Coordinates of which each angle is a sum.
+/// A chain in relative coordinates, in which each absolute angle is a sum.
 mod relative {
     lagrangian::machine!(file = "machines/chain_relative.machine", N = 24);
 }
 
-/// How many states are tried.
+/// The number of states that are compared.
 const STATES: usize = 30;
 
-/// The accelerations by the interpreter, in whatever arithmetic is picked for `f64` here.
+/// The accelerations by the interpreter, in the arithmetic that this processor selects for `f64`.
 struct Interpreted<'a> {
     interpreter: &'a mut Interpreter<f64>,
     arguments: Arguments<'a, f64>,
@@ -69,7 +68,7 @@ fn bits(numbers: &[f64]) -> Vec<u64> {
     numbers.iter().map(|number| number.to_bits()).collect()
 }
 
-/// Alone and in lanes, with other parameters in every lane.
+/// Compares systems alone and in lanes, with other parameters in every lane.
 fn agrees<M: Machine>(machine: impl Fn(f64) -> M, program: &Program)
 where
     M::System: Batched<4>,
@@ -106,14 +105,14 @@ fn a_chain_is_the_program_to_the_last_bit() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/peers/chain.machine");
     let text = std::fs::read_to_string(path).expect("it is there");
     let program = library::compile(path, &text, &[("N", 16)]);
-    // No two links alike.
+    // No two links are alike.
     let machine = |factor: f64| {
         let mut machine = chain::Chain::default();
         for i in 0..16 {
             let share = factor * (1.0 + i as f64 / 32.0);
             machine.l[i] *= share;
             machine.m[i] /= share;
-            // No centre of mass lies beyond its bar, which the spec assumes.
+            // The spec assumes that no mass centre lies beyond the end of its bar.
             machine.c[i] /= share;
             machine.I[i] *= 2.0 - share;
         }
@@ -129,7 +128,7 @@ fn a_chain_of_relative_angles_as_loops_is_the_program_to_the_last_bit() {
     agrees(machine, &program);
 }
 
-/// Another arithmetic, in which nothing is contracted by an instruction.
+/// Double-doubles are an arithmetic in which no instruction contracts operations.
 #[test]
 fn loops_over_double_doubles_are_the_program_too() {
     let program = library::program("chain_relative", &[("N", 24)]);
@@ -165,8 +164,8 @@ fn loops_over_double_doubles_are_the_program_too() {
     }
 }
 
-/// A link without length, radius and inertia can turn as it likes: its pivot is named as the
-/// interpreter names it; the other lanes go on.
+/// A link without length, radius and inertia has no determined angular acceleration. The error
+/// names its pivot as the interpreter does, and the other lanes go on.
 #[test]
 fn a_pivot_that_vanishes_is_the_error_of_its_coordinate() {
     let whole = chain::Chain::default();

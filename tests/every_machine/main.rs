@@ -1,4 +1,5 @@
-//! What holds of every machine of the library, in several numbers: rounding, lanes, loops, the choice among programs.
+//! Properties of every machine of the library, in several kinds of numbers: rounding, lanes,
+//! loops, the choice among programs.
 
 mod choice;
 mod lanes;

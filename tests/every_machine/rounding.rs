@@ -1,5 +1,5 @@
-//! Accelerations are as exact as the mass matrix allows, at random states of every machine of the
-//! library.
+//! Accelerations are as accurate as the condition of the mass matrix permits, at random states of
+//! every machine of the library.
 
 use crate::support::library;
 use crate::support::sampling::{Random, accurate};
@@ -20,7 +20,7 @@ fn accelerations_are_as_exact_as_the_mass_matrix_allows() {
     crate::for_each_machine!(check);
 }
 
-/// The same operations in the same order round the same way.
+/// Both perform the same operations in the same order, so they round alike.
 #[test]
 fn interpreted_and_compiled_machines_accelerate_the_same_to_the_last_bit() {
     macro_rules! check {

@@ -1,12 +1,12 @@
-//! Very many impacts in one run, with the books of energy closed: kinetic and potential energy, and what impacts and friction took, are start and
-//! work of the drive to what tolerance and rounding of all steps explain.
+//! Runs with very many impacts whose energy balance must close: kinetic and potential energy plus the losses in impacts and friction equal the
+//! initial energy plus the drive's work, to what tolerance and rounding of all steps explain.
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{
     ContactEventKind, Machine, Method, Simulation, Solution, System, Vector, unilateral_forces,
 };
 
-/// Of a step, relative and absolute.
+/// The tolerance of a step, relative and absolute.
 const TOLERANCE: f64 = 1e-9;
 
 fn machine(name: &str, settings: &[(&str, f64)]) -> InterpretedMachine {
@@ -21,7 +21,7 @@ fn machine(name: &str, settings: &[(&str, f64)]) -> InterpretedMachine {
     machine
 }
 
-/// A run whose steps are forgotten, by a method that never hands over to time stepping.
+/// Runs a machine without keeping its steps, by a method that never hands over to time stepping.
 fn run(machine: &InterpretedMachine, until: f64) -> Solution<InterpretedMachine> {
     Simulation::new(machine)
         .method(Method::named("dop853").expect("the default method"))
@@ -40,7 +40,7 @@ fn impacts(run: &Solution<InterpretedMachine>) -> usize {
         .count()
 }
 
-/// The books: the residual is what a tolerance of all steps and rounding explain, and the contacts took what they took together. The residual.
+/// Checks that tolerance and rounding of all steps explain the residual of the energy balance, and returns that residual.
 fn is_booked(run: &Solution<InterpretedMachine>) -> f64 {
     let balance = run.energy_balance().expect("a balance");
     let residual = balance.residual();
@@ -49,24 +49,24 @@ fn is_booked(run: &Solution<InterpretedMachine>) -> f64 {
         "{residual:e} of {:e}",
         balance.explained
     );
-    // The tolerance in each step, of all that was turned over.
+    // The tolerance in each step, times the energy turned over.
     let of_steps = TOLERANCE * run.statistics().steps as f64 * balance.turned_over;
     assert!(residual.abs() <= of_steps, "{residual:e} of {of_steps:e}");
     assert_eq!(run.warnings(), []);
     residual
 }
 
-/// A ball that falls from h keeps e of its speed in each impact, so the k-th is at √(2h/g) (1 + 2e(1 − e^(k−1))/(1 − e)), and n of them
-/// take m g h (1 − e^(2n)); e is such that this is 1 − 1/e² of all, Euler's number.
+/// A ball that falls from h keeps the fraction e of its speed in each impact. The k-th impact is at √(2h/g) (1 + 2e(1 − e^(k−1))/(1 − e)), and n
+/// impacts take m g h (1 − e^(2n)). Here e = 1 − 1/n, so that they take about 1 − 1/e² of all, with Euler's number e.
 ///
-/// Each flight is a step or a few, exact but for rounding: of some 300 operations (of 12 stages, each a sum of the ones before), which change
-/// energy by no more than half a unit in the last place each.
+/// Each flight takes one or a few steps, which are exact but for rounding. A step has about 300 operations (12 stages, each a sum of the ones
+/// before), each of which changes the energy by at most half a unit in the last place.
 fn ball(n: i32) {
     let e = 1.0 - 1.0 / f64::from(n);
     let machine = machine("bouncing_ball", &[("e", e)]);
     let (energy, fall) = (0.1 * 9.81, (2.0_f64 / 9.81).sqrt());
     let of_n = e.powi(n);
-    // 1 − e is 1/n. Half a flight after the n-th impact.
+    // 1 − e is 1/n. The run ends half a flight after the n-th impact.
     let last = fall * (1.0 + 2.0 * e * (1.0 - e.powi(n - 1)) * f64::from(n));
     let run = run(&machine, last + fall * of_n);
     assert_eq!(impacts(&run), n as usize);
@@ -98,8 +98,8 @@ fn a_million_impacts_of_a_ball_are_booked() {
     ball(1_000_000);
 }
 
-/// A crusher whose debalance turns at 40 rad/s, slowly enough that its parts never come to roll on each other for good: its impacts
-/// go on, in sequences that accumulate, with stretches of rolling and slipping between them.
+/// A crusher whose debalance turns at 40 rad/s, slowly enough that its parts never come to roll on each other for good. Its impacts go on in
+/// sequences that accumulate, with phases of rolling and slipping between them.
 fn crusher(until: f64, least: usize) {
     let run = run(&machine("colliding_crusher", &[("w", 40.0)]), until);
     let count = impacts(&run);
@@ -114,7 +114,7 @@ fn crusher(until: f64, least: usize) {
         balance.work,
         balance.explained
     );
-    // All that is lost is lost in contacts and in the suspension; neither is negative.
+    // All losses are in the contacts and in the suspension, and both are positive.
     assert!(taken > 0.0 && taken < balance.dissipated);
 }
 
@@ -129,7 +129,7 @@ fn ten_thousand_impacts_of_the_crusher_are_booked() {
     crusher(200.0, 10_000);
 }
 
-/// What is compiled collides as what is interpreted, event by event, to the last bit.
+/// A compiled machine collides as the interpreted one does, event by event, to the last bit.
 #[test]
 fn compiled_machines_collide_as_interpreted_ones_do() {
     fn check<M: Machine>(compiled: &M, name: &str, until: f64) {
@@ -169,8 +169,8 @@ fn compiled_machines_collide_as_interpreted_ones_do() {
     );
 }
 
-/// Two square plates on each other, on ground that slopes: their corners may share the load in many ways, and the forces that are told are one
-/// that every corner allows. Together they carry the weight.
+/// Two square plates lie on each other on a slope. Their corners can share the load in many ways; the reported forces must be one that every
+/// corner permits, and together they must carry the weight.
 #[test]
 fn forces_that_may_be_shared_in_several_ways_are_ones_that_contacts_allow() {
     const FRICTION: f64 = 0.5;
@@ -195,7 +195,7 @@ fn forces_that_may_be_shared_in_several_ways_are_ones_that_contacts_allow() {
     let mut a = vec![0.0; q.len()];
     let inputs = system.default_inputs();
     let forces = unilateral_forces(&system, (0.0, q, v, &inputs), &mut a).expect("forces");
-    // What the problem of the contacts is solved to, of the weight.
+    // The accuracy to which the contact problem is solved, relative to the weight.
     let rounding = 1e-10 * 2.0 * 9.81;
     assert!(a.iter().all(|a| a.abs() < rounding), "{a:?}");
     let mut carried = [[0.0; 3]; 2];

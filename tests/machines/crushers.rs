@@ -1,5 +1,5 @@
-//! Crushers of other builds: two debalances that shake along a line, and a motor whose speed is its
-//! own.
+//! Variants of the crusher: one with two debalances that shake along a line, and one driven by a
+//! motor whose speed is free.
 #![cfg(feature = "std")]
 
 use lagrangian::{Coordinates, Machine, Simulation, Solution, State};
@@ -18,14 +18,15 @@ fn run<M: Machine>(machine: &M, start: State<Coordinates<M>>, until: f64) -> Sol
         .unwrap()
 }
 
-/// What the steps of a run may have erred by, all together: each by the tolerance at most, and the
+/// The bound on the sum of the errors of a run: each step errs by the tolerance at most, and the
 /// oscillators are damped.
 fn drift<M: Machine>(run: &Solution<M>) -> f64 {
     run.statistics().steps as f64 * TOLERANCE
 }
 
-/// The frozen crusher after 0.06 s, coordinates and then rates, by extrapolation in quadruple
-/// precision; the mortar's centre has passed the platform's at 2 mm, at 200 rad/s.
+/// The frozen crusher after 0.06 s, coordinates and then rates, computed by extrapolation
+/// in quadruple precision. By then the mortar's centre has passed the platform's at a
+/// distance of 2 mm, at 200 rad/s.
 const FROZEN_AT_60_MS: [f64; 18] = [
     5.122_159_817_223_441e-3,
     2.739_762_041_120_331e-2,
@@ -63,15 +64,15 @@ fn the_frozen_crusher_goes_where_a_higher_precision_says() {
     let drift = run.statistics().steps as f64 * FINE;
     let (q, v) = (run.end().q.to_array(), run.end().v.to_array());
     for (found, exact) in q.iter().chain(&v).zip(FROZEN_AT_60_MS) {
-        // Passing at 2 mm a distance that is wrong becomes an angle that is wrong 500 times as
-        // much. The exact machine is off by a thousand times that.
+        // At a distance of 2 mm an error of position becomes an error of the angle 500 times as
+        // large. The exact machine differs by a thousand times that.
         let limit = 500.0 * drift * (1.0 + exact.abs());
         assert!((found - exact).abs() <= limit, "{found} instead of {exact}");
     }
 }
 
-/// `x` at `t` of `M x″ + B x′ + K x = F cos ωt`, from rest at 0: the steady oscillation less the
-/// free one that starts like it.
+/// `x` at `t` of `M x″ + B x′ + K x = F cos ωt`, started at rest at 0: the steady oscillation minus
+/// the free one with the same initial values.
 fn oscillator([mass, damping, stiffness, force, omega]: [f64; 5], t: f64) -> f64 {
     let detuned = stiffness - mass * omega * omega;
     let lossy = damping * omega;
@@ -97,8 +98,8 @@ fn two_debalances_shake_along_their_line_and_nowhere_else() {
         force,
         crusher.omega,
     ];
-    // The rounding of two forces that cancel, as a displacement by springs, and as a turn about the
-    // centre.
+    // The rounding of two forces that cancel, as a displacement of the springs and as
+    // a rotation about the centre.
     let rounding = 10.0 * f64::EPSILON;
     let across = rounding * force / (2.0 * crusher.cy);
     let spring = 2.0 * (crusher.cx * crusher.yc.powi(2) + crusher.cy * crusher.xc.powi(2));
@@ -109,7 +110,7 @@ fn two_debalances_shake_along_their_line_and_nowhere_else() {
         farthest = farthest.max(exact.abs());
         let q = state.q;
         assert!((q.x - exact).abs() <= drift(&run), "{}: {}", state.t, q.x);
-        // Mortar and pestle stay where they are.
+        // Mortar and pestle stay at rest in space.
         assert!((q.s1 + q.x - start.q.s1).abs() <= drift(&run));
         assert!((q.s2 - start.q.s2).abs() <= drift(&run));
         assert!(q.y.abs() <= across && q.theta.abs() <= turned);
@@ -120,7 +121,7 @@ fn two_debalances_shake_along_their_line_and_nowhere_else() {
 
 #[test]
 fn two_debalances_turn_the_platform_unless_they_lie_alike() {
-    // Turned out of the line, the machine is not its own mirror image.
+    // Turned out of the line, the machine is not mirror-symmetric.
     let crusher = TwoDebalanceCrusher::default();
     let mut start = crusher.start();
     start.q.theta = 0.01;
@@ -129,7 +130,7 @@ fn two_debalances_turn_the_platform_unless_they_lie_alike() {
     assert!(states.iter().any(|state| state.q.y.abs() > 1e-6));
 }
 
-/// A motor crusher whose debalance sits at the centre; the mortar is out of the platform's way.
+/// A motor crusher with its debalance at the centre and the mortar far from the platform.
 fn centred(breakdown: f64) -> (MotorCrusher, State<Coordinates<MotorCrusher>>) {
     let crusher = MotorCrusher {
         x0: 0.0,
@@ -142,25 +143,25 @@ fn centred(breakdown: f64) -> (MotorCrusher, State<Coordinates<MotorCrusher>>) {
     (crusher, start)
 }
 
-/// Kloss's torque as he wrote it.
+/// Kloss's formula for the torque, in his form.
 fn torque(crusher: &MotorCrusher, speed: f64) -> f64 {
     let slip = (crusher.omega - speed) / crusher.omega;
     2.0 * crusher.Mk / (slip / crusher.sk + crusher.sk / slip)
 }
 
-/// The radius of the circle on which a debalance at the centre, of constant speed, drives the
-/// platform.
+/// The radius of the circle on which a debalance at the centre, turning at
+/// constant speed, drives the platform.
 fn radius(crusher: &MotorCrusher, speed: f64) -> f64 {
     let detuned = 2.0 * crusher.cx - (crusher.m + crusher.m0) * speed * speed;
     crusher.m0 * crusher.e * speed * speed / detuned.hypot(2.0 * crusher.bx * speed)
 }
 
-/// The torque that this takes.
+/// The torque that drives this motion.
 fn load(crusher: &MotorCrusher, speed: f64) -> f64 {
     2.0 * crusher.bx * speed * radius(crusher, speed).powi(2)
 }
 
-/// The lowest speed at which the motor no longer has more torque than the load takes.
+/// The lowest speed above which the motor's torque no longer exceeds the load.
 fn steady_speed(crusher: &MotorCrusher) -> f64 {
     let spare = |speed: f64| torque(crusher, speed) - load(crusher, speed);
     let speeds = (1..10_000).map(|k| crusher.omega * f64::from(k) * 1e-4);
@@ -180,8 +181,8 @@ fn steady_speed(crusher: &MotorCrusher) -> f64 {
     above
 }
 
-/// Runs up, and compares with the steady motion: the mean speed, and the distance of the platform's
-/// centre from its rest.
+/// Runs up, and compares the mean speed and the distance of the platform's centre from its rest
+/// position with those of the steady motion.
 fn check_steady(breakdown: f64) -> f64 {
     let (crusher, start) = centred(breakdown);
     let run = run(&crusher, start, 20.0);
@@ -190,7 +191,7 @@ fn check_steady(breakdown: f64) -> f64 {
         let [a, b] = [from, to].map(|t| run.at(t).unwrap().q.psi);
         (b - a) / (to - from)
     };
-    // The transient of running up falls by the same share in each second.
+    // The transient of running up decays by the same factor in each second.
     let (before, last) = (mean(18.0, 19.0), mean(19.0, 20.0));
     let limit = 2.0 * (before - last).abs() + drift(&run);
     assert!(
@@ -211,7 +212,7 @@ fn a_motor_runs_at_the_speed_where_its_torque_is_the_load() {
 
 #[test]
 fn a_weak_motor_hangs_at_resonance() {
-    // It would do at full speed, where the load is lower than at resonance.
+    // At full speed the weak motor would suffice, as the load is lower there than at resonance.
     let (weak, _) = centred(120.0);
     assert!(load(&weak, 0.95 * weak.omega) < torque(&weak, 0.95 * weak.omega));
     assert!(check_steady(120.0) < 0.25);
@@ -219,12 +220,12 @@ fn a_weak_motor_hangs_at_resonance() {
 
 #[test]
 fn what_the_motor_gives_is_what_the_machine_gets() {
-    // The debalance off the centre, so that speed and torque vary within each revolution.
+    // The debalance is off the centre, so that speed and torque vary within each revolution.
     let crusher = MotorCrusher::default();
     let run = run(&crusher, crusher.start(), 5.0);
     let balance = run.energy_balance().unwrap();
     assert!(balance.relative().abs() <= 1e-8, "{balance:?}");
-    // The work once more, by Simpson's rule over each hundredth of a revolution.
+    // Computes the work again by Simpson's rule over each hundredth of a revolution.
     let power = |t: f64| {
         let speed = run.at(t).unwrap().v.psi;
         torque(&crusher, speed) * speed
@@ -238,8 +239,9 @@ fn what_the_motor_gives_is_what_the_machine_gets() {
         })
         .sum();
     assert!(balance.dissipated > 1e3);
-    // Simpson errs by (width/2)⁴/180 of the fourth derivative: as rarely as (ω width/2)⁴ of the
-    // power that varies, and the second harmonic of the debalance's force 16 times that.
+    // Simpson's rule errs by (width/2)⁴/180 times the fourth derivative: relative to the
+    // varying part of the power by (ω width/2)⁴/180, and by 16 times that for the second
+    // harmonic of the debalance's force.
     let share = 16.0 * (0.5 * crusher.omega * width).powi(4) / 180.0;
     assert!((work - balance.work).abs() <= share * balance.work + drift(&run) * balance.work);
 }
@@ -251,8 +253,8 @@ fn a_strong_motor_turns_as_told() {
     let told = VibratingCrusher::default();
     let simulation = Simulation::new(&told).tolerance(FINE).until(UNTIL);
     let told = simulation.run(told.start()).unwrap();
-    // By how far the platform's centre is off, by which angle the debalance, and by how much that
-    // may be wrong.
+    // The distance of the platform's centre from its position with prescribed speed, the angle by
+    // which the debalance is behind, and the error of the distance.
     let off = |breakdown: f64| {
         let crusher = MotorCrusher {
             Mk: breakdown,
@@ -267,8 +269,8 @@ fn a_strong_motor_turns_as_told() {
         let error = run.statistics().steps as f64 * FINE;
         (distance, (motor.psi - crusher.omega * UNTIL).abs(), error)
     };
-    // The load turns the debalance back by an angle that falls as the torque rises: ten times the
-    // torque, a tenth of the distance, but for the square of the angle.
+    // The load turns the debalance back by an angle that is inversely proportional to the torque:
+    // ten times the torque gives a tenth of the distance, up to the square of the angle.
     let ((near, angle, _), (nearer, _, error)) = (off(1e5), off(1e6));
     let limit = 10.0 * (angle + 2.0 * error / nearer);
     assert!(limit < 1.0 && nearer > 0.0);

@@ -1,4 +1,4 @@
-//! Taylor series of compiled machines: those of the interpreter, bit for bit, and so are runs.
+//! Taylor series of compiled machines, and runs by them, equal those of the interpreter bit for bit.
 #![cfg(feature = "macros")]
 
 use crate::support::library;
@@ -12,7 +12,7 @@ use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::{Disk, Sources};
 use lagrangian_symbolic::Dag;
 
-/// A machine that asks for its series, interpreted.
+/// Interprets a machine whose spec requests series.
 fn interpreted(text: &str) -> InterpretedMachine {
     let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
     let path = library::path("test");
@@ -42,7 +42,7 @@ lagrangian::machine! {
     machine Chain extends "../../machines/chain.machine" { methods { taylor } }
 }
 
-/// Numbers between −1 and 1.
+/// Random numbers between −1 and 1.
 struct Numbers(u64);
 
 impl Numbers {
@@ -62,8 +62,8 @@ fn vector<V: Vector>(numbers: &[f64]) -> V {
     vector
 }
 
-/// The coefficients of a compiled machine are those of the interpreter at many states, at times that are rounded, and for any
-/// number of them.
+/// Compares the coefficients of a compiled machine with those of the interpreter at many states, at times that are rounded, and for
+/// any number of coefficients.
 fn agrees<M: Machine + Default>(text: &str) {
     let machine = interpreted(text);
     let (ours, theirs) = (M::default().prepare(), machine.prepare());
@@ -90,7 +90,7 @@ fn agrees<M: Machine + Default>(text: &str) {
         good += 1;
         for (order, (row, expected)) in emitted.iter().zip(&expected).enumerate() {
             for (i, (x, y)) in row.as_slice().iter().zip(expected).enumerate() {
-                // Terms that are 0 are left out, so a zero may have another sign.
+                // The emitted code leaves out terms that are 0, so a zero may have another sign.
                 assert!(
                     x == y && x.is_finite(),
                     "{}: coordinate {i}, order {order} of {rows}: {x:e} {y:e} at {q:?} {v:?}",
@@ -108,7 +108,7 @@ fn coefficients_are_those_of_the_interpreter() {
     agrees::<Crusher9>(&library::text("crusher9"));
 }
 
-/// Multipliers are unknowns beside accelerations; the matrix of the five bars holds numbers that are −1 from the start.
+/// Multipliers are unknowns beside the accelerations; the matrix of the five bars contains entries that are −1 from the start.
 #[test]
 fn coefficients_of_closed_loops_are_those_of_the_interpreter() {
     let asking = |name: &str, spec: &str| {
@@ -118,7 +118,8 @@ fn coefficients_of_closed_loops_are_those_of_the_interpreter() {
     agrees::<ClosedPendulum>(&asking("ClosedPendulum", "closed_pendulum"));
 }
 
-/// Products of what depends on rates, which lie in packs of their own; and more products than a pack holds.
+/// These machines have products of quantities that depend on rates, which form packs of their own, and more
+/// products than one pack holds.
 #[test]
 fn coefficients_in_several_packs_are_those_of_the_interpreter() {
     let asking = |name: &str, spec: &str| {
@@ -128,7 +129,7 @@ fn coefficients_in_several_packs_are_those_of_the_interpreter() {
     agrees::<Chain>(&asking("Chain", "chain"));
 }
 
-/// The coefficients of several states at once are those of each alone, in every bit, whatever was computed before in the same lists.
+/// The coefficients of several states at once equal those of each state alone, in every bit, whatever the lists held before.
 fn agrees_in_lanes<M: Machine + Default, const W: usize>()
 where
     M::System: Batched<W>,
@@ -216,7 +217,7 @@ fn a_compiled_run_is_an_interpreted_run() {
 fn who_does_not_ask_has_none() {
     let system = SimplePendulum::default().prepare();
     assert!(system.check_series().is_err());
-    // Beyond what emitted code has space for nothing is told.
+    // For more coefficients than emitted code has space for, it gives none.
     let system = DoublePendulum::default().prepare();
     let mut rows = [[1.0; 2]; 26];
     let (q, v) = ([0.1, 0.2], [0.3, 0.4]);

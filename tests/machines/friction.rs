@@ -1,5 +1,5 @@
-//! Coulomb friction: what sticks stays, what slides loses what it should, and where the law leaves it
-//! open what happens, that is said.
+//! Coulomb friction: bodies that stick stay in place, sliding bodies lose the right energy, and where
+//! the law does not determine the motion the run reports that.
 #![cfg(feature = "interpreter")]
 
 mod space;
@@ -13,7 +13,7 @@ use crate::support::random::SplitMix;
 use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::{Crossing, Error, Machine, Simulation, Solution, State, System};
 
-/// Runs a machine with these parameters, coordinates and rates from its start.
+/// Runs a machine with the given parameters, coordinates and rates.
 fn run(
     machine: &InterpretedMachine,
     set: &[(&str, f64)],
@@ -48,7 +48,7 @@ fn assert_near(found: f64, expected: f64, tolerance: f64) {
     );
 }
 
-/// The events of a run: name and time.
+/// The events of a run: names and times.
 fn events(run: &Solution<InterpretedMachine>) -> Vec<(String, f64)> {
     let events = run.events().iter();
     events.map(|e| (e.name.clone(), e.state.t)).collect()
@@ -89,9 +89,9 @@ fn a_block_that_is_pushed_comes_to_rest_and_stays_there() {
     assert_near(*t, stop, 1e-12 * stop);
     let rest = value(&run.events()[0].state.q, "s");
     assert_near(rest, way, 1e-12 * way);
-    // To the last bit, for as long as it lasts.
+    // The block stays in place to the last bit.
     assert_eq!(value(&run.end().q, "s"), rest);
-    // All that it had was lost.
+    // All its energy was dissipated.
     let balance = run.energy_balance().expect("kept");
     assert!(balance.relative().abs() < 1e-12, "{balance:?}");
     let fallen = 0.5 * 2.0 * 1.5 * 1.5 + 2.0 * g * alpha.sin() * way;
@@ -111,7 +111,7 @@ fn a_block_slides_where_the_incline_is_too_steep() {
 fn a_block_breaks_away_when_the_incline_is_raised_to_its_angle_of_friction() {
     let set = [("rate", 0.01)];
     let run = run(&interpreted("block_on_incline"), &set, &[], (1e-10, 20.0)).expect("it runs");
-    // Where the block is, at the axis, raising the incline moves nothing.
+    // The block is at the axis, so raising the incline does not move it.
     let away = (0.5_f64.atan() - 0.3) / 0.01;
     let [(name, t)] = &events(&run)[..] else {
         panic!("{:?}", run.events());
@@ -133,7 +133,7 @@ fn a_block_on_a_belt_sticks_and_slips_with_the_period_of_the_closed_form() {
     let known = events(&run);
     assert!(known.len() > 7, "{known:?}");
     for (k, (name, t)) in known.iter().enumerate() {
-        // It is torn loose where the spring pulls with F_s, at x = 1, from where it started at t = 0.
+        // It breaks loose at x = 1, where the spring pulls with F_s; it starts at x = 0 at t = 0.
         let cycle = period * (k / 2) as f64;
         let (expected, after) = match k % 2 {
             0 => ("belt slides", 1.0 / v_b),
@@ -142,7 +142,7 @@ fn a_block_on_a_belt_sticks_and_slips_with_the_period_of_the_closed_form() {
         assert_eq!(name, expected);
         assert_near(*t, after + cycle, 1e-9);
     }
-    // While it slips it swings about F_k/k with the amplitude that it was torn loose with.
+    // While it slips it oscillates about F_k/k with the amplitude set when it broke loose.
     let amplitude = (jump * jump + v_b * v_b).sqrt();
     let states = run.every(0.001).expect("in the run");
     let x = states
@@ -152,10 +152,10 @@ fn a_block_on_a_belt_sticks_and_slips_with_the_period_of_the_closed_form() {
     let (least, most) = x.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| {
         (a.min(x), b.max(x))
     });
-    // Between two samples it is no farther: x'' dt²/8.
+    // Between two samples the maximum exceeds the samples by at most x'' dt²/8.
     assert_near(most, 0.5 + amplitude, 1e-6);
     assert_near(least, 0.5 - amplitude, 1e-6);
-    // The belt does work, and friction eats some of it.
+    // The belt does work, and friction dissipates part of it.
     let balance = run.energy_balance().expect("kept");
     assert!(balance.work > 1.0 && balance.dissipated > 1.0);
     assert!(balance.relative().abs() < 1e-9, "{balance:?}");
@@ -163,7 +163,7 @@ fn a_block_on_a_belt_sticks_and_slips_with_the_period_of_the_closed_form() {
 
 #[test]
 fn an_oscillator_with_friction_stops_in_finite_time() {
-    // m = 1, k = 4, F = 0.3, x₀ = 1: each half cycle takes 2 F/k from the amplitude.
+    // m = 1, k = 4, F = 0.3, x₀ = 1: each half cycle reduces the amplitude by 2 F/k.
     let set = [("k", 4.0), ("mu", 0.3), ("mu0", 0.3), ("v_b", 0.0)];
     let start = [("x", 1.0, 0.0)];
     let run = run(&interpreted("stick_slip"), &set, &start, (1e-11, 20.0)).expect("it runs");
@@ -181,7 +181,8 @@ fn prisms_move_as_their_equations_typed_by_hand() {
     let machine = interpreted("prisms");
     let (m, big, mu1, mu2, g) = (32.0 / 13.0, 20.0 / 13.0, 0.1, 0.02, 9.81);
     let tan = 1.0;
-    // The paper's (56) and (57), as they are derived: both slide forward and press.
+    // Equations (56) and (57) of the paper, derived for the case that both bodies slide forward
+    // and press:
     // (m+M) q1'' − m q2'' = −μ2 [(m+M) g − m q2'' tan α]
     // −m q1'' + m (1 + tan²α) q2'' = m g tan α − μ1 m (g − q1'' tan α)
     let (a11, a12) = (m + big, -m - mu2 * m * tan);
@@ -202,7 +203,7 @@ fn prisms_move_as_their_equations_typed_by_hand() {
     for (found, expected) in a.iter().zip(expected) {
         assert_near(*found, expected, 1e-14 * expected.abs());
     }
-    // From rest: the floor sticks if the push of the slider is less than its friction.
+    // From rest, the floor sticks if the push of the slider is less than its friction.
     let run = run(&machine, &[("mu2", 0.9)], &[], (1e-10, 1.0)).expect("it runs");
     assert_eq!(value(&run.end().q, "q1"), 0.0);
     let slide = g * (1.0 - 0.1) / 2.0;
@@ -223,7 +224,7 @@ fn prisms_move_as_their_equations_typed_by_hand() {
 
 #[test]
 fn a_wedge_and_its_block_move_in_absolute_coordinates_too() {
-    // The same bodies, the wedge said as in `prisms`: q2 = s cos α, q1 = x.
+    // The same bodies, with the wedge described as in `prisms`: q2 = s cos α, q1 = x.
     let (alpha, mu1, mu2) = (PI / 6.0, 0.1, 0.02);
     let set = [
         ("alpha", alpha),
@@ -234,7 +235,7 @@ fn a_wedge_and_its_block_move_in_absolute_coordinates_too() {
     ];
     let wedge = run(&interpreted("wedge_and_block"), &set, &[], (1e-11, 1.0)).expect("it runs");
     let mirrored = run(&interpreted("prisms"), &set, &[], (1e-11, 1.0)).expect("it runs");
-    // Here the block slides to the right, there to the left.
+    // In this machine the block slides to the right, in the other to the left.
     let [x, s] = ["x", "s"].map(|name| value(&wedge.end().q, name));
     let [q1, q2] = ["q1", "q2"].map(|name| value(&mirrored.end().q, name));
     assert!(x < -1e-2 && s > 1.0, "{x} {s}");
@@ -242,7 +243,7 @@ fn a_wedge_and_its_block_move_in_absolute_coordinates_too() {
     assert_near(s * alpha.cos(), q2, 1e-10);
 }
 
-/// A rod whose tip slides in a guide, as Painlevé had it.
+/// Painlevé's rod, whose tip slides in a guide.
 const ROD: &str = "machine Rod in plane {
     parameters { m: kg = 1, l: m = 1, mu: 1 = 0.5, g: m/s^2 = 9.81 }
     coordinates { x: m, theta: rad = 1.1 }
@@ -252,8 +253,8 @@ const ROD: &str = "machine Rod in plane {
     sliding { rail { body: rod, on: ground, direction: (1, 0), friction: mu } }
 }";
 
-/// What friction takes off the normal reaction of the rod, by Coulomb's law put into the equations of
-/// its translation and its turning: `N (1 + B) = N₀`, for a tip that slides in the direction `sign`.
+/// The effect of friction on the normal reaction of the rod, from Coulomb's law in the equations of
+/// translation and rotation: `N (1 + B) = N₀`, for a tip that slides in the direction `sign`.
 fn rod(theta: f64, omega: f64, mu: f64, sign: f64) -> [f64; 2] {
     let (m, l, g) = (1.0, 1.0, 9.81);
     let (sin, cos) = theta.sin_cos();
@@ -289,7 +290,8 @@ fn a_rod_slides_with_the_reaction_of_its_equations_typed_by_hand() {
 
 #[test]
 fn where_no_motion_or_several_have_a_friction_the_state_is_said() {
-    // Pushed against the way it leans: 1 + 3 cos θ (cos θ − μ sin θ) < 0 from μ = 4/3 on, at tan θ = 2.
+    // Pushed against the side to which it leans: 1 + 3 cos θ (cos θ − μ sin θ) < 0
+    // for μ above 4/3, at tan θ = 2.
     let theta = 2.0_f64.atan();
     for (mu, is_left) in [(1.2, false), (1.4, true)] {
         let [_, by_n] = rod(theta, 0.0, mu, -1.0);
@@ -314,7 +316,7 @@ fn where_no_motion_or_several_have_a_friction_the_state_is_said() {
             (other, _) => panic!("μ = {mu}: {:?}", other.map(|run| run.end().t)),
         }
     }
-    // Dragged the same way but turning so fast that the rod lifts, two motions are possible.
+    // Sliding the same way, but rotating so fast that the rod lifts, it has two possible motions.
     let start = [("x", 0.0, -1.0), ("theta", theta, 6.0)];
     let result = run(&machine(ROD), &[("mu", 1.4)], &start, (1e-9, 1e-3));
     let Err(Error::FrictionParadox { several: true, .. }) = result else {
@@ -367,7 +369,8 @@ fn a_cart_with_a_pendulum_moves_alike_with_and_without_a_constraint() {
 
 #[test]
 fn a_reaction_that_changes_its_side_is_an_event() {
-    // A block on a rail that shakes up and down harder than gravity holds: N = m (g − a w² cos w t).
+    // A block on a rail that is shaken vertically with more than the acceleration of
+    // gravity: N = m (g − a w² cos w t).
     let shaken = machine(
         "machine Shaken in plane {
             parameters { m: kg = 1, a: m = 0.01, w: rad/s = 40, mu: 1 = 0.3, g: m/s^2 = 9.81 }
@@ -387,7 +390,7 @@ fn a_reaction_that_changes_its_side_is_an_event() {
         assert_eq!(name, "rail presses the other way");
         assert_near(*t, expected, 1e-10);
     }
-    // v = 3 − μ ∫ |g − a w² cos w t| dt, by parts between the turns.
+    // v = 3 − μ ∫ |g − a w² cos w t| dt, in parts between the sign changes of the integrand.
     let primitive = |t: f64| g * t - most * (w * t).sin() / w;
     let ends = [0.0, turn, 2.0 * PI / w - turn, 0.15];
     let pressed: f64 = ends
@@ -397,7 +400,7 @@ fn a_reaction_that_changes_its_side_is_an_event() {
     assert_near(value(&run.end().v, "x"), 3.0 - 0.3 * pressed, 1e-10);
 }
 
-/// A block on a rail that something presses up and down, and pulls.
+/// A block on a rail, pulled by a constant force and pressed up and down by an oscillating one.
 fn pressed(gravity: &str) -> InterpretedMachine {
     machine(&format!(
         "machine Pressed in plane {{
@@ -413,7 +416,7 @@ fn pressed(gravity: &str) -> InterpretedMachine {
 
 #[test]
 fn a_reaction_goes_through_zero_and_the_motion_goes_on() {
-    // m v' = p − μ |N|, N = m g − P sin w t: one motion, whatever N is.
+    // m v' = p − μ |N|, N = m g − P sin w t: the motion is unique for any N.
     let (p, most, w, mu, until) = (3.0, 15.0, 2.0_f64, 0.2, 5.0);
     for (gravity, g) in [("gravity (0, -g);", 9.81_f64), ("", 0.0)] {
         let first = (g / most).asin() / w;
@@ -438,12 +441,12 @@ fn a_reaction_goes_through_zero_and_the_motion_goes_on() {
             let start = [("z", 0.0, 1.0)];
             let run = run(&pressed(gravity), &[], &start, (tolerance, until)).expect("it runs");
             let mut known = events(&run);
-            // Where the reaction is zero at the start, either side may be the first.
+            // Where the reaction is zero at the start, the run may begin on either side.
             known.retain(|(_, t)| *t > 0.0);
             assert_eq!(known.len(), turns.len(), "{known:?}");
             for ((name, t), turn) in known.iter().zip(&turns) {
                 assert_eq!(name, "rail presses the other way");
-                // The reaction is a function of time alone, with 9.81 N against 15 N, rounded once each.
+                // The reaction depends on time alone; its terms, 9.81 N and 15 N, are rounded once each.
                 assert_near(*t, *turn, 8.0 * f64::EPSILON * until);
             }
             let v = 1.0 + p * until - mu * load;
@@ -473,20 +476,20 @@ fn contacts_break_away_and_stop_at_the_rounding_of_time() {
             let run = run(&pulled, &set, &[], (tolerance, 1.5 * away)).expect("it runs");
             let known = events(&run);
             assert_eq!(known[0].0, "rail slides");
-            // The roundings of 0.3, of its product with 9.81 N, of c t, and of t.
+            // The rounding of 0.3, of its product with 9.81 N, of c t, and of t.
             assert_near(known[0].1, away, 4.0 * f64::EPSILON * away);
         }
-        // m v' = −μ m g: it comes to rest at v/(μ g).
+        // m v' = −μ m g: it comes to rest after v/(μ g).
         let set = [("c", 0.0)];
         let run = run(&pulled, &set, &[("z", 0.0, 2.5)], (tolerance, 3.0)).expect("it runs");
         let stop = 2.5 / (0.2 * 9.81);
-        // Rates are sums of some steps, each rounded.
+        // The rate is a sum over some steps, each rounded.
         assert_near(events(&run)[0].1, stop, 16.0 * f64::EPSILON * stop);
         assert_eq!(value(&run.end().v, "z"), 0.0);
     }
 }
 
-/// A block on a rail that is shaken and turned: by where it is on the rail.
+/// A block on a rail that is shaken and turned; the coordinate is its position on the rail.
 const SHAKEN: &str = "machine Shaken in plane {
     parameters {
         m: kg = 1, mu: 1 = 9, a: m = 0.1, b: m = 0.05, w: rad/s = 3, u: rad/s = 5, alpha: rad = -0.85,
@@ -502,7 +505,8 @@ const SHAKEN: &str = "machine Shaken in plane {
     sliding { rail { body: block, on: rail, direction: rail.vector(1, 0), friction: mu } }
 }";
 
-/// A block on a rail that is shaken along the ground by two motors: by where it is over the ground.
+/// A block on a rail that two motors shake along the ground; the coordinate is
+/// its position over the ground.
 const CARRIED: &str = "machine Carried in plane {
     parameters {
         m: kg = 1, mu: 1 = 9, a: m = 0.1, b: m = 0.3, w: rad/s = 3, u: rad/s = 1, alpha: rad = -0.85,
@@ -543,7 +547,7 @@ fn what_rests_within_rounding_rests() {
             }
             machine.prepare()
         };
-        // The acceleration of the block, at rest on the rail, and the direction of the rail.
+        // The acceleration of the block at rest on the rail, and the direction of the rail.
         let (sin, cos) = (w * t).sin_cos();
         let (system, v, acceleration, angle) = if is_carried {
             let rate = a * (w * cos) - b * (u * (t * u).cos());
@@ -568,7 +572,7 @@ fn what_rests_within_rounding_rests() {
         let (sin, cos) = angle.sin_cos();
         let [x, y] = [acceleration[0], acceleration[1] + g];
         let [load, needed] = [y * cos - x * sin, x * cos + y * sin];
-        // Where it takes more than there is, it slides off.
+        // If it needs more friction than there is, it slides.
         if needed.abs() > 8.9 * load.abs() {
             continue;
         }
@@ -577,7 +581,7 @@ fn what_rests_within_rounding_rests() {
         assert!(found.sticks, "draw {draw}: {found:?}");
         assert_near(found.normal, load, 1e-11);
         assert_near(found.friction, needed, 1e-11);
-        // What is clearly more than rounding slides, or jams where it would have to rise.
+        // A velocity clearly above rounding makes it slide, or jam where it would have to rise.
         if let Ok(found) = force(v + 1e-11) {
             assert!(!found.sticks, "draw {draw}: {found:?}");
         }
@@ -587,7 +591,7 @@ fn what_rests_within_rounding_rests() {
 
 #[test]
 fn a_run_starts_from_rest_within_rounding() {
-    // At t = 0 the motors drive the rail with a w − b u = 0.3 m/s − 0.3 m/s, rounded.
+    // At t = 0 the motors drive the rail at a w − b u = 0.3 m/s − 0.3 m/s, which rounding makes nonzero.
     let start = [("x", 0.4, 0.1 * 3.0 - 0.3 * 1.0)];
     assert_ne!(start[0].2, 0.0);
     let run = run(&machine(CARRIED), &[], &start, (1e-10, 2.0)).expect("it runs");

@@ -1,5 +1,5 @@
-//! The references of 30 digits are those of the machines that they name, and of nothing else: runs by methods that have no part
-//! in making them end there.
+//! The references to 30 digits belong to the machines that they name: runs by methods that were not used to compute
+//! them end at the same states.
 #![cfg(feature = "std")]
 
 use crate::support::known_ends::{CHAOTIC_AT_10, CRUSHER_AT_5, REGULAR_AT_100};
@@ -27,7 +27,7 @@ fn machine(known: &KnownRun) -> InterpretedMachine {
     made
 }
 
-/// Runs with a tolerance, and asks for so small an error.
+/// Runs with the given tolerance and asserts that the error at the end is below `most`.
 fn ends_there(name: &str, method: &'static Method, tolerance: f64, most: f64) {
     let known = KnownRun::named(name);
     let machine = machine(&known);
@@ -48,7 +48,7 @@ fn ends_there(name: &str, method: &'static Method, tolerance: f64, most: f64) {
     assert!(error < most, "{name}: {error:e}");
 }
 
-/// Extrapolation in binary128, from other equations: what it gave agrees to all digits that are written down there.
+/// The references agree with results of extrapolation in binary128, computed from other equations, to all digits given there.
 #[test]
 fn references_are_those_of_an_extrapolation_in_binary128() {
     for (name, ends) in [
@@ -61,8 +61,8 @@ fn references_are_those_of_an_extrapolation_in_binary128() {
     }
 }
 
-/// The test set for initial value problems, release 2.4 (2008), has the angles of Andrews' squeezer at 0.03 s; the last of its
-/// digits are wrong, as energy says, but the first ten are right.
+/// The test set for initial value problems, release 2.4 (2008), gives the angles of Andrews' squeezer at 0.03 s. Its last digits are
+/// wrong, as the energy shows, but the first ten are right.
 #[test]
 fn andrews_squeezer_ends_where_the_test_set_says() {
     let published = [
@@ -81,7 +81,7 @@ fn andrews_squeezer_ends_where_the_test_set_says() {
     }
 }
 
-/// A tolerance of 1e-11 in each step; motions that are not chaotic multiply the sum of some hundred errors by no more than some
+/// Each step has a tolerance of 1e-11, and motions that are not chaotic amplify the sum of a few hundred errors by at most a few
 /// hundred. A wrong sign, number or term of any body would show in the fourth digit.
 #[test]
 fn runs_of_the_library_end_at_the_references() {
@@ -103,12 +103,12 @@ fn runs_of_the_library_end_at_the_references() {
     ] {
         ends_there(name, &METHODS[0], 1e-11, 1e-7);
     }
-    // It multiplies errors by 10⁹.
+    // This motion amplifies errors by 10⁹.
     ends_there("double_pendulum_chaotic", &METHODS[0], 1e-14, 1e-4);
 }
 
-/// What Kepler's equation gives after 1000 turns has the energy and the areal velocity of the start to all digits of double-doubles, and
-/// the run ends there.
+/// The state that Kepler's equation gives after 1000 turns has the energy and the areal velocity of the start to all digits of
+/// double-doubles, and the run ends there.
 #[test]
 fn an_orbit_of_a_thousand_turns_closes() {
     let known = KnownRun::named("kepler");
@@ -122,9 +122,9 @@ fn an_orbit_of_a_thousand_turns_closes() {
     let end: [DoubleDouble; 4] = known.end.as_slice().try_into().expect("two coordinates");
     let [before, after] = [start.map(number), end].map(constants);
     for (before, after) in before.into_iter().zip(after) {
-        // Some ten operations of 2⁻¹⁰⁴ each.
+        // About ten operations with errors of 2⁻¹⁰⁴ each.
         assert!((before - after).hi().abs() < 1e-29, "{before:?} {after:?}");
     }
-    // Each of some 10⁵ steps errs by its tolerance, and an error of the energy moves the place on the orbit in all turns after it.
+    // Each of about 10⁵ steps errs by its tolerance, and an error of the energy shifts the position on the orbit in all later turns.
     ends_there("kepler", &METHODS[0], 1e-12, 1e-4);
 }

@@ -1,6 +1,6 @@
-//! The machines of the library move as the literature says: closed forms, invariants, limits.
+//! The machines of the library move as the literature says, tested against closed forms, invariants and limiting cases.
 //!
-//! Their equations are held against textbooks in `crates/mechanics/tests/mechanics/`.
+//! Their equations are compared with textbooks in `crates/mechanics/tests/mechanics/`.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -14,15 +14,13 @@ use lagrangian::methods::Method;
 use lagrangian::{Crossing, Inputs, METHODS, Machine, Outputs, Simulation, Solution, System};
 use lagrangian_machines::*;
 
-/// The tolerance of runs that are held against closed forms.
+/// The tolerance of runs that are compared with closed forms.
 const FINE: f64 = 1e-11;
 
-/// What the limit of their errors must not exceed: a hundred times the tolerance, for a thousand
-/// steps and more.
+/// The greatest error limit that such a comparison may use: a hundred times the tolerance for a thousand steps and more.
 const BOUND: f64 = 1e-5;
 
-/// Runs a machine from a state, and holds what it does against values at some times. All scales are
-/// 1.
+/// Runs a machine from a state and compares it with values at some times. All scales are 1.
 fn held<M: Machine>(
     machine: &M,
     (q, v): (&[f64], &[f64]),
@@ -34,10 +32,10 @@ fn held<M: Machine>(
     follows(machine, &start, FINE, (rows, &scales, BOUND), view);
 }
 
-/// Checks a motion with constant accelerations, which every method follows exactly but for rounding.
+/// Checks a motion with constant accelerations, for which every method is exact but for rounding.
 ///
-/// Accelerations in which terms up to `size` cancel are off by 16 roundings of that, the motion by
-/// what these give rise to, and by the roundings of each step.
+/// Accelerations in which terms of size up to `size` cancel have an error of 16 rounding units of that. The limit is the motion's
+/// error that follows, plus the rounding of each step.
 fn steady<M: Machine, const N: usize>(
     machine: &M,
     (q, v): (&[f64], &[f64]),
@@ -74,7 +72,7 @@ fn outputs<S: System>(system: &S, t: f64, y: &[f64]) -> S::Outputs {
     system.outputs(t, &q, &v, &a, &system.default_inputs())
 }
 
-/// Runs a machine from a state and finds out whether what its outputs say is conserved is.
+/// Runs a machine from a state and checks that a quantity of its outputs is conserved.
 fn keeps<M: Machine>(
     machine: &M,
     (q, v): (&[f64], &[f64]),
@@ -93,10 +91,10 @@ fn keeps_energy<M: Machine>(machine: &M, (q, v): (&[f64], &[f64]), until: f64) {
     conserves(machine, start, (until, 1e-12), energy);
 }
 
-/// How much the distance of a motion from its linear form shrinks when what moves is halved, twice.
+/// Checks how the distance of a motion from its linearized form shrinks when the amplitude is halved, twice.
 ///
-/// `distance` gives the distance, in units of what moves. Its leading term goes as a power, the
-/// next one is a hundredth of it or less: halved, it shrinks by 2 to that power within a tenth.
+/// `distance` gives the distance relative to the amplitude. Its leading term is a power of the amplitude and the next one at most a
+/// hundredth of that, so halving the amplitude divides the distance by 2 to that power, to within a tenth.
 fn shrinks(power: i32, amplitude: f64, distance: impl Fn(f64) -> f64) {
     let distances = [amplitude, amplitude / 2.0, amplitude / 4.0].map(distance);
     for pair in distances.windows(2) {
@@ -109,7 +107,7 @@ fn shrinks(power: i32, amplitude: f64, distance: impl Fn(f64) -> f64) {
     }
 }
 
-/// A run of high accuracy.
+/// A run with a fine tolerance.
 fn run<M: Machine>(machine: &M, (q, v): (&[f64], &[f64]), until: f64) -> Solution<M> {
     Simulation::new(machine)
         .tolerance(1e-13)
@@ -120,7 +118,7 @@ fn run<M: Machine>(machine: &M, (q, v): (&[f64], &[f64]), until: f64) -> Solutio
 
 // The table of the library.
 
-/// `machines/README.md` names every machine once, and tests that there are.
+/// `machines/README.md` lists every machine once, and the tests that it names exist.
 #[test]
 fn the_table_of_the_library_is_complete_and_true() {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -171,8 +169,7 @@ fn the_table_of_the_library_is_complete_and_true() {
 
 // Special functions.
 
-/// M. Abramowitz, I. A. Stegun, *Handbook of Mathematical Functions*, 1964: tables 17.1 and 20.1;
-/// and what the functions obey.
+/// M. Abramowitz, I. A. Stegun, *Handbook of Mathematical Functions*, 1964: tables 17.1 and 20.1; and identities of the functions.
 #[test]
 fn special_functions_are_those_of_the_tables() {
     let near = |found: f64, table: f64, digit: f64| {
@@ -191,11 +188,11 @@ fn special_functions_are_those_of_the_tables() {
     }
     for m in [0.0, 0.3, 0.9, 0.999_999] {
         let k = elliptic_k(m);
-        // A quarter of the period, and half a quarter: sn² = 1/(1 + k').
+        // At a quarter of the period, and at an eighth: sn² = 1/(1 + k').
         near(amplitude(k, m), FRAC_PI_2, 1e-13);
         let [sn, ..] = jacobi(k / 2.0, m);
         near(sn * sn, 1.0 / (1.0 + (1.0 - m).sqrt()), 1e-13);
-        // d am/du = dn, by a difference of the fourth order.
+        // d am/du = dn, by a fourth-order difference.
         let (u, h) = (0.7, 1e-3);
         let am = |i: f64| amplitude(u + i * h, m);
         let slope = (8.0 * (am(1.0) - am(-1.0)) - (am(2.0) - am(-2.0))) / (12.0 * h);
@@ -209,8 +206,8 @@ fn special_functions_are_those_of_the_tables() {
 
 // A simple pendulum.
 
-/// From rest: `sin(θ/2) = k cd(w t)`; through the lowest point faster than it would turn over: `θ =
-/// 2 am(Ω t/2)` of modulus 2 w/Ω; just as fast as that: `θ = 4 atan e^(w t) − π`.
+/// Released at rest: `sin(θ/2) = k cd(w t)`. Through the lowest point fast enough to turn over: `θ = 2 am(Ω t/2)` of modulus 2 w/Ω.
+/// At exactly the limiting speed: `θ = 4 atan e^(w t) − π`.
 #[test]
 fn a_pendulum_moves_as_jacobi_said() {
     let pendulum = SimplePendulum {
@@ -228,7 +225,7 @@ fn a_pendulum_moves_as_jacobi_said() {
                 -2.0 * k * w * complement * sn / dn,
             ]
         };
-        // Gauss's period, and ten of them.
+        // One period by Gauss's formula, and ten periods.
         let period = 4.0 * elliptic_k(k * k) / w;
         let mut rows = rows(&[0.3, 1.0, 2.0, 5.0], exact);
         rows.extend([1.0, 10.0].map(|n| Row::of(n * period, &[greatest, 0.0])));
@@ -266,7 +263,7 @@ fn a_pendulum_from_the_horizontal_pulls_with_three_times_its_weight() {
     let quarter = elliptic_k(0.5) / w;
     let run = run(&pendulum, (&[FRAC_PI_2], &[0.0]), quarter);
     let tension = outputs(run.system(), quarter, &numbers(run.system(), run.end())).tension;
-    // Its rate errs by the tolerance of each step at most, at 4.4 rad/s.
+    // The rate, 4.4 rad/s, errs by at most the tolerance of each step.
     let limit = 10.0 * run.statistics().steps as f64 * 1e-13 * 10.0;
     assert!((tension - 3.0 * pendulum.g).abs() <= limit, "{tension}");
 }
@@ -303,7 +300,7 @@ fn an_elastic_pendulum_runs_in_a_circle_where_nothing_weighs() {
     };
     let r = 1.1;
     let rate = (free.k * (r - free.l0) / (free.m * r)).sqrt();
-    // k (r − l₀)/m against r rate².
+    // k (r − l₀)/m balances r rate².
     steady(
         &free,
         (&[r, 0.0], &[0.0, rate]),
@@ -338,7 +335,7 @@ fn an_elastic_pendulum_keeps_its_energy() {
     keeps_energy(&ElasticPendulum::default(), (&[1.2, 0.8], &[0.0; 2]), 5.0);
 }
 
-/// Stretching feeds the swinging at k/m = 4 g/l, and takes it back; an octave away it does not.
+/// At k/m = 4 g/l the stretching mode drives the swing and takes the energy back; an octave away it does not.
 #[test]
 fn an_elastic_pendulum_in_resonance_hands_its_energy_over() {
     let swing = |k: f64| {
@@ -355,8 +352,7 @@ fn an_elastic_pendulum_in_resonance_hands_its_energy_over() {
             .map(|state| state.q.theta.abs())
             .collect();
         let most = |part: &[f64]| part.iter().copied().fold(0.0, f64::max);
-        // The greatest swing, and the greatest in the quietest two seconds after it, a whole swing
-        // long.
+        // The greatest swing, and the greatest in the quietest two seconds after it, which is the length of a full swing.
         let greatest = most(&angles);
         let at = angles
             .iter()
@@ -365,7 +361,7 @@ fn an_elastic_pendulum_in_resonance_hands_its_energy_over() {
         let quiet = angles[at..].chunks_exact(200).map(most);
         (greatest, quiet.fold(f64::INFINITY, f64::min))
     };
-    // All of it: ½ k a² = ½ m g l θ² with a = 0.1 m and k/m = 4 g/l.
+    // All the energy: ½ k a² = ½ m g l θ² with a = 0.1 m and k/m = 4 g/l.
     let (greatest, quiet) = swing(4.0 * 9.81);
     assert!((greatest / 0.2 - 1.0).abs() < 0.05, "{greatest}");
     assert!(quiet < 0.1 * greatest, "{quiet}");
@@ -391,7 +387,7 @@ fn a_conical_pendulum_runs_at_its_steady_rate_and_nods_beside_it() {
     );
     let nod = rate * (1.0 + 3.0 * cone.cos().powi(2)).sqrt();
     shrinks(2, 0.01, |a| {
-        // With the angular momentum of the cone.
+        // With the angular momentum of the conical motion.
         let other = rate * (cone.sin() / (cone + a).sin()).powi(2);
         let end = run(&pendulum, (&[0.0, cone + a], &[other, 0.0]), 1.1);
         (end.end().q.theta - cone - a * (nod * 1.1).cos()).abs()
@@ -408,7 +404,7 @@ fn the_height_of_a_spherical_pendulum_is_an_elliptic_function() {
         let z1 = -l * lowest.cos();
         let e = 0.5 * (l * lowest.sin() * rate).powi(2) + g * z1;
         let p = (l * lowest.sin()).powi(2) * rate;
-        // Sum and product of the other roots, by Vieta.
+        // Sum and product of the other roots, by Vieta's formulas.
         let (sum, product) = (e / g - z1, -l * l - z1 * (e / g - z1));
         let root = (sum * sum / 4.0 - product).sqrt();
         let (z2, z3) = (sum / 2.0 - root, sum / 2.0 + root);
@@ -423,7 +419,7 @@ fn the_height_of_a_spherical_pendulum_is_an_elliptic_function() {
         let (q, v) = ([0.0, lowest], [rate, 0.0]);
         let heights = rows(&[0.1, 0.5, 1.3], |t| [height(t)]);
         held(&pendulum, (&q, &v), &heights, |y| vec![-l * y[1].cos()]);
-        // After whole periods the azimuth is known as well.
+        // After whole periods the azimuth is also known.
         let lowest_again = [1.0, 3.0].map(|n| Row::of(n * period, &[z1, n * turn]));
         held(&pendulum, (&q, &v), &lowest_again, |y| {
             vec![-l * y[1].cos(), y[0]]
@@ -441,10 +437,10 @@ fn a_spherical_pendulum_keeps_its_energy_and_its_angular_momentum() {
 
 // Kapitza's pendulum.
 
-/// The trace of what one shake of the pivot does to small motion about the upright: 2 cos of the
-/// slow angle where that is stable.
+/// The trace of the monodromy matrix, over one period of the pivot, of small motions about the upright position. Where these are
+/// stable it is 2 cos of the slow phase per period.
 fn shake(pendulum: &KapitzaPendulum, tolerance: f64) -> f64 {
-    // So small that sin θ is θ to the last digit.
+    // So small that sin θ equals θ to the last digit.
     let size = 1e-9;
     let columns = [[size, 0.0], [0.0, size * pendulum.omega]].map(|[angle, rate]| {
         let run = Simulation::new(pendulum)
@@ -458,8 +454,8 @@ fn shake(pendulum: &KapitzaPendulum, tolerance: f64) -> f64 {
     columns[0][0] / size + columns[1][1] / (size * pendulum.omega)
 }
 
-/// On the boundaries a solution of Mathieu's equation is periodic after one shake, or after two:
-/// the trace is 2, or −2.
+/// On the boundaries of stability a solution of Mathieu's equation is periodic after one period of the pivot or
+/// after two: the trace is 2 or −2.
 #[test]
 fn a_shaken_pendulum_stands_between_two_characteristic_values() {
     for ratio in [0.05, 0.2, 0.5, 0.6] {
@@ -472,14 +468,14 @@ fn a_shaken_pendulum_stands_between_two_characteristic_values() {
         let [low, high] = mathieu_edges(2.0 * ratio);
         for (edge, exact) in [(low, 2.0), (high, -2.0)] {
             if edge >= 0.0 {
-                // Against gravity only: A is negative.
+                // Only A < 0, where the pendulum stands against gravity, can be tested.
                 continue;
             }
             let [fine, coarse] = [1e-13, 1e-11].map(|tolerance| shake(&pendulum(edge), tolerance));
             let (error, limit) = ((fine - exact).abs(), (fine - coarse).abs().max(1e-12));
             assert!(limit < 1e-8 && error <= limit, "{error:e}, limit {limit:e}");
         }
-        // A tenth on either side.
+        // A tenth to either side.
         let at = |a: f64| shake(&pendulum(a), 1e-12);
         assert!(at(1.1 * low) > 2.0 && at(0.9 * low).abs() < 2.0);
         if high < 0.0 {
@@ -488,8 +484,8 @@ fn a_shaken_pendulum_stands_between_two_characteristic_values() {
     }
 }
 
-/// With the same speed a ω of the pivot, the frequency squared differs from the averaged one as the
-/// square of a/l.
+/// With the same speed a ω of the pivot, the difference of the squared frequency from the averaged one is
+/// proportional to the square of a/l.
 #[test]
 fn a_shaken_pendulum_sways_with_kapitzas_frequency() {
     let speed: f64 = 6.0;
@@ -521,13 +517,13 @@ fn a_pendulum_shaken_enough_stands_upside_down() {
         angles.fold(0.0, f64::max)
     };
     let enough = (2.0 * 9.81_f64).sqrt() / 0.1;
-    // It starts at 0.3 rad and sways; ripple adds a/l of that.
+    // It starts at 0.3 rad and oscillates about the upright position; the ripple adds a/l of that.
     assert!(most(2.0 * enough) < 0.3 * 1.2);
     assert!(most(0.9 * enough) > FRAC_PI_2);
 }
 
-/// Upright and at rest, nothing of the motion limits a step, which is as long as the run: the pivot shakes many times in it. Its work
-/// is that of a mass that goes up and down with it.
+/// Upright and at rest, nothing in the motion limits a step, so the run is one step in which the pivot oscillates many times. The
+/// drive's work is that of a mass moving up and down with the pivot.
 #[test]
 fn the_work_of_a_drive_is_known_while_the_machine_rests() {
     let pendulum = KapitzaPendulum::default();
@@ -556,7 +552,7 @@ fn the_work_of_a_drive_is_known_while_the_machine_rests() {
                 balance.residual().abs() <= balance.explained,
                 "{name} {balance:?}"
             );
-            // In a shake it takes m (a ω)²/2 twice, and gives it back.
+            // In each period the drive supplies m (a ω)²/2 twice and takes it back twice.
             let shakes = omega * until / TAU;
             let to_and_fro = 2.0 * m * (a * omega).powi(2) * shakes;
             assert!(
@@ -569,7 +565,7 @@ fn the_work_of_a_drive_is_known_while_the_machine_rests() {
 
 // A train.
 
-/// The motion as a sum of modes `cos(π j (i − ½)/n)`, which `u″ = −w² u + F` moves each by itself.
+/// The motion as a sum of the modes `cos(π j (i − ½)/n)`, each of which obeys `u″ = −w² u + F` by itself.
 fn train(
     SpringMassTrain { m, k, .. }: SpringMassTrain,
     pull: f64,
@@ -626,7 +622,7 @@ fn trains_of_every_length_are_the_sums_of_their_modes() {
     }
 }
 
-/// Each coupling, by `k s = (i/N) F`, and all cars alike, with `F/(N m)`.
+/// The stretch of each coupling from `k s = (i/N) F`; all cars accelerate alike with `F/(N m)`.
 #[test]
 fn a_coupling_is_stretched_by_the_cars_that_hang_on_it() {
     let machine = SpringMassTrain::default();
@@ -638,8 +634,7 @@ fn a_coupling_is_stretched_by_the_cars_that_hang_on_it() {
     let ride = |t: f64| pull / (n as f64 * machine.m) * t * t / 2.0;
     let exact = |t: f64| -> [f64; 8] { std::array::from_fn(|i| place(i) + ride(t)) };
     let (u, v) = (exact(0.0), [0.0; 8]);
-    // Springs pull with k u on every car, u being 9 m at the end: what they pull it with is a
-    // difference of such.
+    // The force on a car is the difference of terms of the size k u, where u is 9 m at the end.
     steady(
         &machine,
         (&u, &v),
@@ -653,7 +648,7 @@ fn a_coupling_is_stretched_by_the_cars_that_hang_on_it() {
 
 // Chains.
 
-/// Angles from the vertical are the sums of those from bar to bar, and so are their accelerations.
+/// Angles from the vertical are sums of the angles between neighbouring bars, and so are their accelerations.
 #[test]
 fn a_chain_is_the_same_in_relative_angles() {
     let relative = ChainRelative::default();
@@ -671,7 +666,7 @@ fn a_chain_is_the_same_in_relative_angles() {
         let found = accelerations(&random.system, at.t, &at.q, &at.v).expect("not singular");
         let exact = accelerations(&chain, at.t, &sums(&at.q), &sums(&at.v)).expect("not singular");
         let size = exact.iter().fold(1.0, |size, a| f64::max(size, a.abs()));
-        // A thousand roundings, times the condition of M, some 10³ for 8 bars.
+        // A thousand rounding units, times the condition of M, about 10³ for 8 bars.
         for (found, exact) in sums(&found).iter().zip(&exact) {
             assert!((found - exact).abs() <= 1e6 * f64::EPSILON * size);
         }
@@ -680,8 +675,7 @@ fn a_chain_is_the_same_in_relative_angles() {
 
 // Two bodies.
 
-/// From the pericentre: distance and direction by the eccentric anomaly u, which Kepler's equation
-/// gives.
+/// Started at the pericentre: distance and direction follow from the eccentric anomaly u of Kepler's equation.
 #[test]
 fn two_bodies_move_as_kepler_said() {
     let bodies = TwoBodyOrbit::default();
@@ -713,7 +707,7 @@ fn two_bodies_keep_energy_angular_momentum_and_their_line_of_apsides() {
     keeps(&bodies, (&q, &v), 5.0, |o| o.momentum);
     keeps(&bodies, (&q, &v), 5.0, |o| o.eccentricity_x);
     keeps(&bodies, (&q, &v), 5.0, |o| o.eccentricity_y);
-    // As long as the eccentricity, and towards the pericentre.
+    // The vector has the length of the eccentricity and points towards the pericentre.
     let system = bodies.prepare();
     let at_pericentre = outputs(&system, 0.0, &[0.4, 0.3, 0.0, 10.0]);
     let [x, y] = [at_pericentre.eccentricity_x, at_pericentre.eccentricity_y];
@@ -722,16 +716,15 @@ fn two_bodies_keep_energy_angular_momentum_and_their_line_of_apsides() {
 
 // A top without torque.
 
-/// A body that turns about its middle axis z but for a tilt by `roll`, its angular momentum
-/// upright: Euler's equations by Jacobi's functions (L. D. Landau, E. M. Lifshitz, *Mechanics*,
-/// section 37, with their axes 1, 2, 3 the body's x, −z, y).
+/// A body that rotates about its middle axis z, tilted by `roll`, with the angular momentum vertical. Euler's equations are solved by
+/// Jacobi's functions (L. D. Landau, E. M. Lifshitz, *Mechanics*, section 37, whose axes 1, 2, 3 are the body's x, −z, y).
 struct Tumbling {
     moments: [f64; 3],
     /// Angular momentum.
     l: f64,
     /// The greatest angular velocities about x and z, and about y.
     greatest: [f64; 3],
-    /// The rate of the functions' argument, and their parameter.
+    /// The factor of t in the argument of the functions, and their parameter.
     rate: f64,
     m: f64,
 }
@@ -755,25 +748,25 @@ impl Tumbling {
         }
     }
 
-    /// The time from upright to upside down.
+    /// The time between upright and upside down.
     fn flip(&self) -> f64 {
         2.0 * elliptic_k(self.m) / self.rate
     }
 
-    /// Angular velocity about the body's axes, upright at t = 0.
+    /// Angular velocity in body axes; the body is upright at t = 0.
     fn velocity(&self, t: f64) -> [f64; 3] {
         let [sn, cn, dn] = jacobi(self.rate * t - elliptic_k(self.m), self.m);
         let [x, y, z] = self.greatest;
         [x * cn, y * dn, -z * sn]
     }
 
-    /// The upward vertical along the body's axes, which is that of the angular momentum.
+    /// The upward vertical in body axes, which is the direction of the angular momentum.
     fn vertical(&self, t: f64) -> [f64; 3] {
         let velocity = self.velocity(t);
         std::array::from_fn(|i| self.moments[i] * velocity[i] / self.l)
     }
 
-    /// The rate of yaw.
+    /// The rate of the yaw angle.
     fn yawing(&self, t: f64) -> f64 {
         let ([_, wy, wz], [_, y, z]) = (self.velocity(t), self.vertical(t));
         (wy * y + wz * z) / (y * y + z * z)
@@ -803,7 +796,7 @@ fn a_free_top_turns_as_euler_and_jacobi_said() {
         };
         let rows = rows(&[0.1, 0.4, 1.0, 2.0], |t| motion.vertical(t));
         held(&top, (&q, &v), &rows, direction);
-        // Twice upside down and up again, the yaw is what its rate sums up to.
+        // After two flips, the yaw is the integral of its rate.
         let period = 2.0 * motion.flip();
         let sum = |points| period * mean(period, points, |t| motion.yawing(t));
         let yaw = sum(2000);
@@ -813,8 +806,7 @@ fn a_free_top_turns_as_euler_and_jacobi_said() {
     }
 }
 
-/// V. Dzhanibekov's wing nut: it stands on its head after the same time again and again, the later
-/// the less it wobbled.
+/// V. Dzhanibekov's wing nut flips at equal intervals, which are longer the less it wobbles.
 #[test]
 fn a_top_spun_about_its_middle_axis_tumbles_in_time() {
     let top = AsymmetricTop::default();
@@ -846,7 +838,7 @@ fn a_top_spun_about_its_middle_axis_tumbles_in_time() {
         for (found, exact) in fine.iter().zip(exact) {
             assert!((found - exact).abs() <= limit, "{found} {exact} {limit:e}");
         }
-        // By ln 10 over the rate at which a wobble grows.
+        // Later by ln 10 divided by the growth rate of a wobble.
         let later = motion.flip() - last;
         if last > 0.0 {
             assert!((later * motion.rate / (2.0 * 10f64.ln()) - 1.0).abs() < 0.02);
@@ -858,7 +850,7 @@ fn a_top_spun_about_its_middle_axis_tumbles_in_time() {
 #[test]
 fn a_free_top_turns_steadily_about_its_own_axes() {
     let top = AsymmetricTop::default();
-    // Nothing but rounding accelerates it: some 10 times the rate squared, by the moments.
+    // Only rounding accelerates it, of terms of about 10 times the rate squared, by the ratios of the moments.
     let (w, size) = (5.0, 10.0 * 25.0);
     steady(&top, (&[0.0; 3], &[0.0, 0.0, w]), (0.2, size), |t| {
         [0.0, 0.0, w * t]
@@ -883,8 +875,7 @@ fn a_free_top_keeps_its_energy_and_its_angular_momentum() {
 
 // An arm of two joints.
 
-/// Masses at the ends of massless links are a double pendulum, whose angles are measured from the
-/// vertical.
+/// With masses at the ends of massless links the arm is a double pendulum, whose angles are measured from the vertical.
 #[test]
 fn an_arm_with_point_masses_is_a_double_pendulum() {
     let arm = TwoJointArm {
@@ -910,15 +901,14 @@ fn an_arm_with_point_masses_is_a_double_pendulum() {
         let arms = accelerations(&system, at.t, &q, &[at.v[0], at.v[1] - at.v[0]]);
         let arms = arms.expect("not singular");
         let apart = (arms[0] - pendulums[0]).hypot(arms[0] + arms[1] - pendulums[1]);
-        // Rounding, times the condition of M: below a hundred for these masses. The angles
-        // themselves are rounded.
+        // Rounding times the condition of M, which is below a hundred for these masses. The angles themselves are rounded, too.
         let size = 1.0 + pendulums[0].hypot(pendulums[1]);
         assert!(apart <= 1000.0 * 100.0 * f64::EPSILON * size, "{apart:e}");
     }
 }
 
-/// Motors that give `M(q) a + C(q, v) v + g(q)` of the textbook, typed in by hand, make each joint
-/// an oscillator of its own: `e″ + 2 δ e′ + (δ² + ω²) e = 0`.
+/// Motor torques `M(q) a + C(q, v) v + g(q)` from the textbook, typed in by hand, make each joint an independent
+/// oscillator: `e″ + 2 δ e′ + (δ² + ω²) e = 0`.
 #[test]
 fn an_arm_under_computed_torque_moves_joint_by_joint() {
     let arm = TwoJointArm::default();
@@ -991,8 +981,7 @@ fn an_arm_keeps_its_energy_while_no_motor_runs() {
 
 // A gyroscope in gimbals.
 
-/// The inertia about the vertical at an inclination, without the rotor's spin, and that about the
-/// inner axis.
+/// The moment of inertia about the vertical at an inclination, without the rotor's spin, and that about the inner axis.
 fn gimbals(gyroscope: &GyroscopeInGimbals, beta: f64) -> [f64; 2] {
     let GyroscopeInGimbals {
         A1,
@@ -1011,8 +1000,7 @@ fn gimbals(gyroscope: &GyroscopeInGimbals, beta: f64) -> [f64; 2] {
     ]
 }
 
-/// Level it precesses at w g d/H. Inclined, at the roots of `(C₂ + A₃ + w d² − B₂) sin β x² − H x +
-/// w g d = 0`.
+/// Level, it precesses at w g d/H. Inclined, the rates are the roots of `(C₂ + A₃ + w d² − B₂) sin β x² − H x + w g d = 0`.
 #[test]
 fn a_gyroscope_precesses_steadily() {
     let gyroscope = GyroscopeInGimbals::default();
@@ -1033,7 +1021,7 @@ fn a_gyroscope_precesses_steadily() {
     let roots = |beta: f64, momentum: f64| {
         let square = excess(beta);
         let root = (momentum * momentum - 4.0 * square * weight).sqrt();
-        // The slow one without cancellation.
+        // The slow root in a form without cancellation.
         [
             2.0 * weight / (momentum + root),
             (momentum + root) / (2.0 * square),
@@ -1042,7 +1030,7 @@ fn a_gyroscope_precesses_steadily() {
     let [slow, fast] = roots(0.4, momentum);
     for (beta, rate) in [(0.0, level), (0.4, slow), (0.4, fast)] {
         let relative = spin - f64::sin(beta) * rate;
-        // H times the rate, over the inertia about the inner axis, is what the weight or the
+        // H times the rate, divided by the inertia about the inner axis, is the size of the terms that the weight and the
         // gimbals balance.
         let size = momentum * rate / gimbals(&gyroscope, beta)[1];
         steady(
@@ -1052,15 +1040,14 @@ fn a_gyroscope_precesses_steadily() {
             |t| [rate * t, beta, relative * t],
         );
     }
-    // As the rotor gets faster, the slow one is the simple formula but for a term in 1/H³.
+    // As the rotor gets faster, the slow root tends to the simple formula with a difference of order 1/H³.
     shrinks(3, 2.0 / momentum, |inverse| {
         (roots(0.4, 1.0 / inverse)[0] - weight * inverse).abs()
     });
 }
 
-/// It nods with H cos β/√(I J), and the outer gimbal drifts by −½ b² H sin β (A₁ + B₂)/I², which
-/// follows from U = (p − H sin β)²/2I and its rate (p − H sin β)/I to second order in the amplitude
-/// b.
+/// It nutates with the frequency H cos β/√(I J), and the outer gimbal drifts at −½ b² H sin β (A₁ + B₂)/I². This follows from U = (p
+/// − H sin β)²/2I and the rate (p − H sin β)/I to second order in the amplitude b.
 #[test]
 fn a_gyroscope_nods_and_drifts_by_the_inertia_of_its_gimbals() {
     let gyroscope = GyroscopeInGimbals {
@@ -1076,7 +1063,7 @@ fn a_gyroscope_nods_and_drifts_by_the_inertia_of_its_gimbals() {
         let end = run(&gyroscope, (&q, &v), 0.02);
         (end.end().q.beta - beta - b * (nod * 0.02).sin()).abs()
     });
-    // The mean rate of the outer gimbal, from one highest point to the third after it.
+    // The mean rate of the outer gimbal from one highest point to the third after it.
     let drift = |gyroscope: &GyroscopeInGimbals, nod: f64, b: f64| {
         let run = Simulation::new(gyroscope)
             .tolerance(1e-13)
@@ -1099,8 +1086,7 @@ fn a_gyroscope_nods_and_drifts_by_the_inertia_of_its_gimbals() {
     shrinks(4, 0.08, |b| (drift(&gyroscope, nod, b) - formula(b)).abs());
     let relative = drift(&gyroscope, nod, 0.02) / formula(0.02);
     assert!((relative - 1.0).abs() < 0.01, "{relative}");
-    // Without the gimbals' inertia it is a free symmetrical top, whose axis comes back to where it
-    // was.
+    // Without the gimbals' inertia it is a free symmetric top, whose axis returns to its initial direction.
     let light = GyroscopeInGimbals {
         A1: 0.0,
         A2: 0.0,

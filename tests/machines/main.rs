@@ -1,4 +1,5 @@
-//! The machines of the library run, and are held against closed forms, publications and more digits.
+//! The machines of the library run and are compared with closed forms, publications and
+//! results in higher precision.
 
 mod collisions;
 mod crushers;

@@ -1,6 +1,5 @@
-//! Machines of the library that have constraints: their accelerations and multipliers against
-//! equations by hand, other coordinates and published numbers, their motions against closed forms
-//! and quadruple precision.
+//! Machines of the library with constraints. Accelerations and multipliers are compared with equations typed by hand, other
+//! coordinates and published numbers; motions are compared with closed forms and results in quadruple precision.
 #![cfg(feature = "std")]
 #![expect(
     clippy::excessive_precision,
@@ -18,13 +17,13 @@ use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Error, Machine, Simulation, System, Vector, Warning};
 use lagrangian_machines::*;
 
-/// The tolerance of runs that are held against references.
+/// The tolerance of runs that are compared with references.
 const FINE: f64 = 1e-11;
 
-/// What the limit of their errors must not exceed.
+/// The greatest error limit that such a comparison may use.
 const BOUND: f64 = 1e-5;
 
-/// Accelerations, then multipliers, at a time and at coordinates, then rates.
+/// Accelerations, then multipliers, at a time and a state of coordinates, then rates.
 fn solved<S: System>(system: &S, t: f64, y: &[f64]) -> Vec<f64> {
     let (q, v) = y.split_at(y.len() / 2);
     let (q, v) = (vector::<S>(q), vector::<S>(v));
@@ -40,11 +39,10 @@ fn solved<S: System>(system: &S, t: f64, y: &[f64]) -> Vec<f64> {
     [a.as_slice(), &lambda].concat()
 }
 
-/// Holds the first accelerations and multipliers that are expected against those of a machine.
+/// Compares a machine's first accelerations and multipliers with expected ones.
 ///
-/// A number may be off by what half a unit in the last place of each coordinate and rate changes
-/// in it, four times, for the roundings of what the state goes through are as large; and by 64
-/// roundings of the greatest of its kind.
+/// The limit for a number has two parts: four times its change when each coordinate and rate changes by half a unit in the last
+/// place, as the rounding of intermediate results has the same size; and 64 rounding units of the largest number of its kind.
 fn accelerates<M: Machine>(machine: &M, t: f64, y: &[f64], expected: [&[f64]; 2]) {
     let system = machine.prepare();
     let found = solved(&system, t, y);
@@ -78,17 +76,17 @@ fn accelerates<M: Machine>(machine: &M, t: f64, y: &[f64], expected: [&[f64]; 2]
     }
 }
 
-/// The start that a description gives, coordinates and then rates.
+/// The start from the spec, coordinates and then rates.
 fn start<M: Machine>(machine: &M) -> Vec<f64> {
     numbers(&machine.prepare(), &machine.start())
 }
 
-/// Runs a machine from its start and holds it against references.
+/// Runs a machine from its start and compares it with references.
 fn runs<M: Machine>(machine: &M, rows: &[Row], scales: &[f64], view: impl Fn(&[f64]) -> Vec<f64>) {
     follows(machine, &machine.start(), FINE, (rows, scales, BOUND), view);
 }
 
-/// `A x = b` by elimination with full choice of the row.
+/// Solves `A x = b` by Gaussian elimination with partial pivoting.
 fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
     let n = b.len();
     for k in 0..n {
@@ -114,8 +112,7 @@ fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
 
 // Linkages.
 
-/// A bar that moves in the plane: its mass, its inertia, which angle is its own, and its mass
-/// centre, a sum of lengths along bars.
+/// A bar that moves in the plane: mass, inertia, the index of its angle, and its mass centre as a sum of lengths along bars.
 struct Bar {
     mass: f64,
     inertia: f64,
@@ -123,8 +120,8 @@ struct Bar {
     centre: Vec<(usize, f64)>,
 }
 
-/// Accelerations and multipliers of bars in loops, by hand: with `e(q) = (cos q, sin q)` a mass
-/// centre is `Σ cⱼ e(qⱼ)` and a loop `Σ lⱼ e(qⱼ) = const`, so
+/// Accelerations and multipliers of bars in loops, by hand. With `e(q) = (cos q, sin q)` a mass centre is `Σ cⱼ e(qⱼ)` and a
+/// loop is `Σ lⱼ e(qⱼ) = const`, so
 ///
 /// ```text
 /// M_jk = Σ m c_j c_k cos(q_j − q_k) + J δ_jk,   f_j = −Σ m c_j (Σ c_k sin(q_j − q_k) q̇_k² + g cos q_j)
@@ -165,7 +162,7 @@ fn bars_in_loops(bars: &[Bar], loops: &[Vec<(usize, f64)>], g: f64, y: &[f64]) -
     [solution, multipliers]
 }
 
-/// A state that no symmetry helps.
+/// A random state without any symmetry.
 fn anything(seed: u64, n: usize) -> Vec<f64> {
     let mut random = SplitMix::new(seed);
     (0..2 * n).map(|_| random.uniform(-1.5, 1.5)).collect()
@@ -196,7 +193,7 @@ fn a_four_bar_linkage_obeys_equations_by_hand() {
         bar(m3, c, 2, None),
     ];
     let loops = [vec![(0, a), (1, b), (2, -c)]];
-    // The equations hold off the constraints too.
+    // The equations also hold off the constraints.
     for y in [start(&linkage), anything(1, 3), anything(2, 3)] {
         let [accelerations, multipliers] = bars_in_loops(&bars, &loops, g, &y);
         accelerates(&linkage, 0.0, &y, [&accelerations, &multipliers]);
@@ -239,15 +236,14 @@ fn four_bars_in_a_row_obey_equations_by_hand() {
     let windows = [0, 1].map(|i| vec![(i, l), (3 + i, l), (i + 1, -l)]);
     for y in [start(&row), anything(5, 5), anything(6, 5)] {
         let [accelerations, by_window] = bars_in_loops(&bars, &windows, g, &y);
-        // Ours are all those along, then all those across.
+        // The machine lists all `along` constraints first, then all `across`.
         let multipliers = [0, 2, 1, 3].map(|k| by_window[k]);
         accelerates(&row, 0.0, &y, [&accelerations, &multipliers]);
     }
 }
 
-/// As long as the cranks do not come level, N windows are one pendulum: with N + 1 cranks, each of
-/// inertia m l²/3, and N couplers, whose mass is at the cranks' ends,
-/// `((N + 1)/3 + N) l ψ″ = −((N + 1)/2 + N) g sin ψ`.
+/// While the cranks do not reach the horizontal, N windows are one pendulum with N + 1 cranks, each of inertia m l²/3, and N
+/// couplers, whose mass is at the cranks' ends: `((N + 1)/3 + N) l ψ″ = −((N + 1)/2 + N) g sin ψ`.
 #[test]
 fn windows_that_stay_below_their_pins_swing_as_one_pendulum() {
     let row = FourBars::default();
@@ -255,7 +251,7 @@ fn windows_that_stay_below_their_pins_swing_as_one_pendulum() {
     let moment = (windows + 1.0) / 2.0 + windows;
     let inertia = (windows + 1.0) / 3.0 + windows;
     let w = (row.g * moment / (inertia * row.l)).sqrt();
-    // From the bottom, up to 1.2 rad: sin(ψ/2) = k sn(w t).
+    // From the bottom up to 1.2 rad: sin(ψ/2) = k sn(w t).
     let k = 0.6_f64.sin();
     let rate = 2.0 * k * w;
     let bottom = -FRAC_PI_2;
@@ -276,12 +272,12 @@ fn windows_that_stay_below_their_pins_swing_as_one_pendulum() {
     });
 }
 
-/// The tolerance of runs through forks: level cranks make rows of G vanish as sin ψ, and rounding in
-/// the loops grows as 1/sin² ψ in the rates. The long steps of this tolerance pass over that.
+/// The tolerance of runs through forks. Near horizontal cranks, rows of G vanish as sin ψ, and rounding in the loops grows as
+/// 1/sin² ψ in the rates; the long steps of this tolerance pass over that.
 const THROUGH_FORKS: f64 = 5e-8;
 
-/// N-four-bar mechanism, IFToMM library of benchmarks A02, where the cranks turn over: place and
-/// velocity of the first crank's end, by Jacobi's functions in 40 digits.
+/// N-four-bar mechanism, IFToMM library of benchmarks A02, started so fast that the cranks turn over: position and velocity of
+/// the first crank's end, by Jacobi's functions in 40 digits.
 fn turns_over<M: Machine>(row: &M, cranks: usize, known: [[f64; 4]; 3]) {
     let rows: Vec<Row> = [1.0, 4.0, 10.0]
         .iter()
@@ -296,7 +292,7 @@ fn turns_over<M: Machine>(row: &M, cranks: usize, known: [[f64; 4]; 3]) {
         });
         ends.collect()
     };
-    // A coarse run through ten forks is right to a part in a hundred.
+    // A coarse run through ten forks is accurate to one part in a hundred.
     let scales = vec![1.0; 4 * cranks];
     let known = (&rows[..], &scales[..], 1e-2);
     follows(row, &row.start(), THROUGH_FORKS, known, view);
@@ -359,8 +355,8 @@ fn two_windows_turn_over_and_stay_parallelograms() {
     );
 }
 
-/// Every tolerance passes the fork at a crank angle of 0, on the branch that the motion came on. The first
-/// crank's end after 1 s, as in [`one_window_turns_over_and_stays_a_parallelogram`].
+/// Runs with every tolerance pass the fork at a crank angle of 0 on the branch on which they arrive. The reference is the end
+/// of the first crank after 1 s, as in [`one_window_turns_over_and_stays_a_parallelogram`].
 #[test]
 fn every_tolerance_passes_a_fork() {
     let row = InterpretedMachine::new(crate::support::library::program("four_bars", &[("N", 1)]));
@@ -376,8 +372,8 @@ fn every_tolerance_passes_a_fork() {
         let [first, second, coupler] = run.end().q.values[..] else {
             panic!("three bars");
         };
-        // Each of some ten steps by its tolerance, at 7 rad/s; and by what rounding across the branch is
-        // taken for while the fork is passed, 10⁻⁷ m/s for 0.2 s.
+        // Each of about ten steps errs by its tolerance, at 7 rad/s. In addition, rounding across the branch is taken for a
+        // velocity of 10⁻⁷ m/s during the 0.2 s in which the fork is passed.
         let bound = 70.0 * tolerance + 2e-8;
         let (sin, cos) = first.sin_cos();
         let error = (cos - x).hypot(sin - y);
@@ -386,7 +382,7 @@ fn every_tolerance_passes_a_fork() {
     }
 }
 
-/// At rest where two branches cross, nothing says which of them the machine goes.
+/// At rest where two branches cross, the branch is undetermined.
 #[test]
 fn a_start_at_rest_in_a_fork_is_refused() {
     let row = FourBars::default();
@@ -399,7 +395,7 @@ fn a_start_at_rest_in_a_fork_is_refused() {
     };
     assert!(constraint.starts_with("along["), "{constraint}");
     assert_eq!(t, 0.0);
-    // With rates it is the branch that these are tangent to.
+    // With nonzero rates, the motion takes the branch to which they are tangent.
     let rates = [-3.0, -3.0, -3.0, 0.0, 0.0];
     let run = Simulation::new(&row)
         .until(0.5)
@@ -412,7 +408,7 @@ fn a_start_at_rest_in_a_fork_is_refused() {
     assert!(balance.relative().abs() <= 1e-6, "{balance:?}");
 }
 
-/// The row of linkages in one coordinate, `a`: without constraints, and so without forks.
+/// The row of linkages in a single coordinate, `a`: it has no constraints and hence no forks.
 fn in_one_coordinate(windows: usize) -> InterpretedMachine {
     crate::support::library::machine(&format!(
         "machine Row in plane {{
@@ -428,15 +424,15 @@ fn in_one_coordinate(windows: usize) -> InterpretedMachine {
     ))
 }
 
-/// Coarse steps go over a fork without seeing it. The equations are smooth along the branch, so the errors
-/// of such runs are those that the method has on the same motion in one coordinate, where there is no fork.
+/// Coarse steps pass a fork without resolving it. The equations are smooth along the branch, so the errors of such runs equal
+/// those of the method on the same motion in one coordinate, where there is no fork.
 #[test]
 fn coarse_steps_over_forks_are_as_exact_as_in_one_coordinate() {
     let (row, pendulum) = (FourBars::default(), in_one_coordinate(2));
     let seed = 6;
     let mut random = SplitMix::new(seed);
     let runs = 60;
-    // Of energies, of places; the mean logarithm of the ratio of both errors.
+    // The mean logarithm of the ratio of the two errors, for energies and for positions.
     let mut ratios = [0.0, 0.0];
     for _ in 0..runs {
         let rate = -random.uniform(0.2, 3.0);
@@ -458,7 +454,7 @@ fn coarse_steps_over_forks_are_as_exact_as_in_one_coordinate() {
         };
         let (exact, coarse) = (alone(1e-13), alone(tolerance));
         let place = exact.end().q.values[0];
-        // What the integration of the exact motion itself is off by is far below.
+        // The error of the reference integration is far below this.
         let floor = 1e-11;
         let energy = |balance: Option<lagrangian::EnergyBalance>| {
             balance.expect("it was asked for").relative().abs() + floor
@@ -469,20 +465,19 @@ fn coarse_steps_over_forks_are_as_exact_as_in_one_coordinate() {
         let ratio = off(of_row.end().q.crank[0]) / off(coarse.end().q.values[0]);
         ratios[1] += ratio.ln() / f64::from(runs);
     }
-    // Errors scatter by some factor of ten from run to run, so their mean logarithm over 60 runs does by
-    // ln(10)/√60 = 0.3. A branch that were lost, or a step that saw the fork, would be off by powers of ten
-    // in most of the runs.
+    // Errors scatter by about a factor of ten between runs, so their mean logarithm over 60 runs scatters by ln(10)/√60 = 0.3.
+    // If a run lost its branch, or if a step were affected by the fork, most runs would be off by powers of ten.
     for ratio in ratios {
         assert!(ratio < 4.0_f64.ln(), "seed {seed}: {ratios:?}");
     }
 }
 
-/// Steps that end next to a fork begin and end with accelerations and moves that next to nothing holds. What rounding makes of
-/// them is not to become a change of the motion: each fork adds 1e-9 to the rates at most, which time makes a change of places.
+/// Steps that end close to a fork begin and end with accelerations and corrections that are barely determined. Their rounding
+/// must not change the motion: each fork adds at most 1e-9 to the rates, which becomes an error of position over time.
 #[test]
 fn steps_that_end_next_to_a_fork_lose_nothing() {
     let mut random = SplitMix::new(11);
-    // Runs through three windows that have such steps, some after many turns; and others at random.
+    // Runs through three windows that contain such steps, some after many turns, and random ones.
     let machines = [2, 3].map(|windows| {
         let program = crate::support::library::program("four_bars", &[("N", windows)]);
         let cranks = usize::try_from(windows).expect("two or three") + 1;
@@ -518,7 +513,7 @@ fn steps_that_end_next_to_a_fork_lose_nothing() {
             run.expect("a pendulum swings").end().q.values[0]
         };
         let place = alone(1e-14);
-        // Level twice in each turn.
+        // The cranks are horizontal twice in each turn.
         let forks = ((place - FRAC_PI_2).abs() / std::f64::consts::PI).ceil();
         let limit = 10.0 * (alone(1e-11) - place).abs() + 1e-9 * forks * (1.0 + until);
         let off = list(place)
@@ -534,8 +529,8 @@ fn steps_that_end_next_to_a_fork_lose_nothing() {
     }
 }
 
-/// A motion that comes to rest where two branches cross turns back on its own: inertia has nothing that
-/// pushes across. With just enough to reach the level pose from below.
+/// A motion that comes to rest where two branches cross turns back on its own branch, as inertia does not push it across. It
+/// has just enough energy to reach the horizontal pose from below.
 #[test]
 fn a_motion_that_comes_to_rest_in_a_fork_turns_back() {
     let (row, pendulum) = (FourBars::default(), in_one_coordinate(2));
@@ -556,8 +551,8 @@ fn a_motion_that_comes_to_rest_in_a_fork_turns_back() {
             .run(state(&row, 0.0, &start, &rates))
             .unwrap_or_else(|error| panic!("{tolerance:e}: {error}"));
         let end = run.end().q;
-        // Some twenty steps of this tolerance at 5 rad/s; and by what rounding across the branch is taken for
-        // while the fork is in sight, 10⁻⁷ m/s: 11 rad/s² take 0.3 s to stop from 0.5 rad, and 0.3 s back.
+        // About twenty steps of this tolerance at 5 rad/s. In addition, rounding across the branch is taken for 10⁻⁷ m/s while
+        // the fork is near: at 11 rad/s² it takes 0.3 s to stop from 0.5 rad, and 0.3 s to return.
         let bound = 100.0 * tolerance + 6e-8;
         for crank in end.crank {
             let error = (crank - known.end().q.values[0]).abs();
@@ -567,7 +562,7 @@ fn a_motion_that_comes_to_rest_in_a_fork_turns_back() {
     }
 }
 
-/// Windows whose couplers are held level as well: a row that is redundant in each of them, forks or not.
+/// Windows whose couplers are also held horizontal, so that one row of each is redundant everywhere, at forks or not.
 #[test]
 fn windows_held_level_as_well_move_as_one_pendulum() {
     for windows in [1, 2, 5] {
@@ -592,7 +587,7 @@ fn windows_held_level_as_well_move_as_one_pendulum() {
                 .unwrap_or_else(|error| panic!("{windows}, {tolerance:e}: {error}"));
             let residual = run.statistics().constraint_residual;
             assert!(residual <= 1e-13, "{windows}, {tolerance:e}: {residual:e}");
-            // Turning over at up to 9 rad/s: neighbours part by a factor of some 10 in 2 s.
+            // They turn over at up to 9 rad/s, so neighbouring motions diverge by a factor of about 10 in 2 s.
             let bound = 1e3 * tolerance + 1e-11;
             let error = (run.end().q.values[0] - place).abs();
             assert!(error <= bound, "{windows}, {tolerance:e}: {error:e}");
@@ -600,7 +595,7 @@ fn windows_held_level_as_well_move_as_one_pendulum() {
     }
 }
 
-/// A parallelogram, its constraints and its start to be filled in.
+/// The text of a parallelogram with the given constraints and start.
 fn window(constraints: &[String], a: f64, rate: f64) -> String {
     let constraints = constraints.join(", ");
     format!(
@@ -621,9 +616,8 @@ fn window(constraints: &[String], a: f64, rate: f64) -> String {
     )
 }
 
-/// Rows that depend on each other throughout, in any order, scaled and stated twice, from any start and at
-/// every tolerance: the motion is that of the one pendulum that the parallelogram is, and what holds each bar
-/// is the same.
+/// Rows that are dependent everywhere, in any order, scaled and stated twice, from any start and at every tolerance: the motion
+/// is that of the single pendulum which the parallelogram is, and the total force on each bar is the same.
 #[test]
 fn redundant_rows_in_any_order_give_one_motion() {
     let pendulum = crate::support::library::machine(
@@ -642,7 +636,7 @@ fn redundant_rows_in_any_order_give_one_motion() {
     let mut random = SplitMix::new(seed);
     for round in 0..4 {
         let (a, rate) = (random.uniform(-3.0, 3.0), random.uniform(-7.0, 7.0));
-        // A parallelogram that starts with its bars in line is a start like any other.
+        // A parallelogram may also start with its bars in line.
         let a = if round == 0 { 0.0 } else { a };
         let mut start = pendulum.start();
         (start.q.values[0], start.v.values[0]) = (a, rate);
@@ -683,8 +677,8 @@ fn redundant_rows_in_any_order_give_one_motion() {
                     "seed {seed}, {rows:?}, {tolerance:e}: {residual:e}"
                 );
                 let end = run.end();
-                // Steps by their tolerances, at rates of up to 12 rad/s, and neighbours in the phase
-                // plane part by no more than exp(ω t), ω² = 1.3 g/l.
+                // Steps err by their tolerances, at rates of up to 12 rad/s, and neighbouring motions diverge in the phase
+                // plane by at most exp(ω t), ω² = 1.3 g/l.
                 let bound = 12.0 * 20.0 * 1.3e3 * tolerance + 1e-10;
                 for (found, known) in [
                     (end.q.values[0], known.q.values[0]),
@@ -717,7 +711,7 @@ fn redundant_rows_in_any_order_give_one_motion() {
                         "seed {seed}, {rows:?}: {now} {before}"
                     );
                 }
-                // What is stated twice shares the load by the square of its factor.
+                // Rows stated twice share the load in proportion to the squares of their factors.
                 let names: Vec<&str> = system.constraints().map(|row| row.name).collect();
                 let of = |name: &str| names.iter().position(|known| *known == name);
                 if let (Some(one), Some(two)) = (of("across"), of("again")) {
@@ -733,9 +727,9 @@ fn redundant_rows_in_any_order_give_one_motion() {
     }
 }
 
-/// The crusher rolls in all three readings of the material, exact and approximated, with two pairs of
-/// springs and with one, at every tolerance. How far a mortar stays from the cylinder never changes, so the
-/// rate of that is 0, and there is nothing beside it to measure it by.
+/// The crusher rolls with all three models of the material, exact and approximated, with two pairs of springs and
+/// with one, at every tolerance. The distance of a mortar from the cylinder is constant, so its rate is 0 and
+/// sets no scale for its residual.
 #[test]
 fn crushers_roll_at_every_tolerance() {
     for reading in ["crushing", "caked", "grain"] {
@@ -754,7 +748,7 @@ fn crushers_roll_at_every_tolerance() {
                     .run(machine.start())
                     .unwrap_or_else(|error| panic!("{reading} {platform} {tolerance:e}: {error}"));
                 assert!(run.statistics().constraint_residual <= 1e-13);
-                // s1 and s2.
+                // These are s1 and s2.
                 let q = &run.end().q.values;
                 assert!((q[3] - 0.02).abs() <= 1e-13 && (q[6] - 0.03).abs() <= 1e-13);
                 (tolerance, run.end().clone())
@@ -774,7 +768,7 @@ fn crushers_roll_at_every_tolerance() {
     }
 }
 
-/// A ring on a circle, `s = R`, whose angle another mass drives: `R φ̇ = R w + ẋ` has an integral.
+/// A ring on a circle, `s = R`, whose angle is coupled to another mass: `R φ̇ = R w + ẋ` can be integrated.
 #[test]
 fn a_constraint_whose_rate_is_always_0_holds() {
     let ring = crate::support::library::machine(
@@ -788,7 +782,7 @@ fn a_constraint_whose_rate_is_always_0_holds() {
             constraints { ring: s^2 = R^2, drive: s*der(phi) = R*w + der(x) }
         }",
     );
-    // What is written in two ways is 1.03 long, whatever q1 is: rounding is held against rounding.
+    // The length has two expressions, both 1.03 whatever q1 is, so the constraint compares rounding with rounding.
     let turned = crate::support::library::machine(
         "machine Turned in plane {
             coordinates { q1: rad = 0.31, q2: m = 1.03 }
@@ -819,7 +813,7 @@ fn a_constraint_whose_rate_is_always_0_holds() {
             "{tolerance:e}: {drive:e}"
         );
 
-        // One body about the origin: its energy, by hand.
+        // A single rigid body about the origin; its energy is computed by hand.
         let end = run(&turned);
         let l2 = 1.03_f64 * 1.03;
         let energy = |q1: f64, rate: f64| {
@@ -833,8 +827,8 @@ fn a_constraint_whose_rate_is_always_0_holds() {
     }
 }
 
-/// Bricard mechanism, IFToMM library of benchmarks A04: the joint opposite to the origin, published
-/// with what DOP853 left of 12 digits in a null space of G.
+/// Bricard mechanism, IFToMM library of benchmarks A04: the joint opposite to the origin. The published values are the 12
+/// digits that DOP853 gave in a null space of G.
 #[test]
 fn a_bricard_mechanism_moves_although_one_constraint_is_redundant() {
     let machine = Bricard::default();
@@ -847,7 +841,7 @@ fn a_bricard_mechanism_moves_although_one_constraint_is_redundant() {
     assert_eq!(run.warnings().iter().filter(redundant).count(), 1);
     assert_eq!(run.warnings().len(), 1);
 
-    // About y, z and x, each in the axes of the bar before.
+    // Turns about y, z and x, each in the axes of the previous bar.
     let turn = |axis: usize, angle: f64, v: [f64; 3]| {
         let (sin, cos) = angle.sin_cos();
         let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -879,8 +873,8 @@ fn a_bricard_mechanism_moves_although_one_constraint_is_redundant() {
     runs(&machine, &rows, &[1.0; 3], opposite);
 }
 
-/// By one coordinate: `Σ w p′ (p′ θ″ + p″ θ̇² − force) = 0` over everything that moves, where a dash
-/// is the derivative by θ.
+/// In one coordinate: `Σ w p′ (p′ θ″ + p″ θ̇² − force) = 0` summed over everything that moves, where a
+/// prime is the derivative by θ.
 #[test]
 fn a_slider_crank_moves_as_by_its_crank_angle_alone() {
     let machine = SliderCrank::default();
@@ -913,7 +907,7 @@ fn a_slider_crank_moves_as_by_its_crank_angle_alone() {
         ];
         let d_s = -a * sin - b * sin_phi * d_phi;
         let dd_s = -a * cos - b * cos_phi * d_phi * d_phi - b * sin_phi * dd_phi;
-        // Weight, p′, p″, force on a unit of weight.
+        // Weight, p′, p″, force per unit of weight.
         let moves = [
             (m1, -a / 2.0 * sin, -a / 2.0 * cos, 0.0),
             (m1, a / 2.0 * cos, -a / 2.0 * sin, -g),
@@ -947,8 +941,8 @@ fn a_slider_crank_moves_as_by_its_crank_angle_alone() {
     }
 }
 
-/// Test set for initial value problem solvers, problem II-17; the state after 0.03 s is in
-/// quadruple precision, where the published one is right to 7 to 10 digits.
+/// Test set for initial value problem solvers, problem II-17. The state after 0.03 s is computed in quadruple precision; the
+/// published one is right to 7 to 10 digits.
 #[test]
 fn andrews_squeezer_is_where_a_higher_precision_says() {
     let squeezer = AndrewsSqueezer::default();
@@ -1036,7 +1030,7 @@ fn two_particles_on_rods_move_as_the_double_pendulum() {
                 }
             }
         }
-        // Newton's law along a rod: for the lower particle, and for both.
+        // Newton's law along a rod, for the lower particle and for both together.
         let along = |k: usize, bar: usize| {
             let (sin, cos) = y[bar].sin_cos();
             expected[2 * k] * sin - (expected[2 * k + 1] + g) * cos
@@ -1045,7 +1039,7 @@ fn two_particles_on_rods_move_as_the_double_pendulum() {
         let lower = m2 * along(1, 1);
         accelerates(&machine, 0.0, &places(&y), [&expected, &[upper, lower]]);
     }
-    // In quadruple precision, from 120° and 90° at rest.
+    // Computed in quadruple precision, from 120° and 90° at rest.
     let references = [
         (
             1.0,
@@ -1070,9 +1064,8 @@ fn two_particles_on_rods_move_as_the_double_pendulum() {
     runs(&machine, &rows, &[1.0; 8], <[f64]>::to_vec);
 }
 
-/// With arms and links of one length the sleeve is at 2 l cos α, and Lagrange's equations for the
-/// shaft and the arms are those below. In steady rotation φ̇² = (m + M) g/(m l cos α), and the links
-/// carry the sleeve.
+/// With arms and links of equal length the sleeve is at 2 l cos α, and Lagrange's equations for the shaft and the arms are
+/// those below. In steady rotation φ̇² = (m + M) g/(m l cos α), and the links carry the sleeve.
 #[test]
 fn a_governor_holds_its_balls_where_watt_said() {
     let governor = FlyballGovernor::default();
@@ -1103,16 +1096,16 @@ fn a_governor_holds_its_balls_where_watt_said() {
     }
 }
 
-// What rolls and what has a blade.
+// Rolling bodies, and a body with a blade.
 
-/// S. A. Chaplygin's closed form: v = V tanh(k t + c), ω = ω₀ sech(…)/sech(c) about the blade.
+/// S. A. Chaplygin's closed form: v = V tanh(k t + c), ω = ω₀ sech(k t + c)/sech(c) about the blade.
 #[test]
 fn a_sleigh_runs_as_chaplygin_said() {
     let sleigh = ChaplyginSleigh::default();
     let ChaplyginSleigh { m, J, a, .. } = sleigh;
     let (v, w) = (0.4, 3.0);
     let turning = -m * a * v * w / (J + m * a * a);
-    // The blade's point accelerates by a ω² along and v ω across.
+    // The blade's point accelerates by a ω² along the blade and by v ω across it.
     let across = m * (v * w + a * turning);
     accelerates(
         &sleigh,
@@ -1130,7 +1123,7 @@ fn a_sleigh_runs_as_chaplygin_said() {
     });
 }
 
-/// `4 g tan θ = Ω² (6 ρ + r sin θ)`: the centre goes about on a circle of radius ρ.
+/// `4 g tan θ = Ω² (6 ρ + r sin θ)`: the centre moves on a circle of radius ρ.
 #[test]
 fn a_coin_rolls_steadily_about_a_circle() {
     let coin = RollingCoin::default();
@@ -1141,7 +1134,7 @@ fn a_coin_rolls_steadily_about_a_circle() {
     let y = start(&coin);
     let speed = y[5];
     assert!((speed - omega * track).abs() < 64.0 * f64::EPSILON * speed);
-    // The friction carries the mass centre about.
+    // Friction provides the centripetal force on the mass centre.
     let pulls = [0.0, m * omega * omega * radius];
     let expected = [0.0, omega * speed, 0.0, 0.0, 0.0];
     accelerates(&coin, 0.0, &y, [&expected, &pulls]);
@@ -1158,8 +1151,8 @@ fn a_coin_rolls_steadily_about_a_circle() {
     runs(&coin, &rows, &[1.0; 4], |y| y[..4].to_vec());
 }
 
-/// A pendulum: `φ″ = −ω² sin φ` with `ω² = g/((R − r)(1 + J/(m r²)))`, pressed on by
-/// `m (g cos φ + (R − r) φ̇²)`.
+/// It moves as a pendulum, `φ″ = −ω² sin φ` with `ω² = g/((R − r)(1 + J/(m r²)))`, and the cylinder presses on it
+/// with `m (g cos φ + (R − r) φ̇²)`.
 #[test]
 fn a_cylinder_rolls_in_another_as_a_pendulum() {
     let machine = RollingCylinder::default();
@@ -1180,11 +1173,11 @@ fn a_cylinder_rolls_in_another_as_a_pendulum() {
         let roll = -(R - r) / r * swing;
         let presses = m * (g * phi.cos() + (R - r) * rate * rate);
         let expected = [0.0, swing, roll];
-        // Nothing else turns it: J θ″ = r T.
+        // No other force turns it: J θ″ = r T.
         let pulls = [presses, J * roll / r];
         accelerates(&machine, 0.0, &rolled(phi, rate), [&expected, &pulls]);
     }
-    // From 1 rad at rest: published force at the bottom, and the period.
+    // From 1 rad at rest: the published force at the bottom, and the period.
     let rate = (2.0 * square * (1.0 - 1.0_f64.cos())).sqrt();
     let bottom = solved(&machine.prepare(), 0.0, &rolled(0.0, rate));
     assert!((bottom[3] - 2657.815591536306469246).abs() < 64.0 * f64::EPSILON * 2657.8);
@@ -1208,10 +1201,9 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|k| a[k] * b[k]).sum()
 }
 
-/// Newton and Euler for the ball: with n from its centre to where it touches and
-/// `r n × f = J ω̇`, `f = m (c″ + g e_z)` the force of the bowl, the slip's derivative
-/// `c″ + ω̇ × r n + ω × r ṅ − Ω e_z × R ṅ = 0` says the part of c″ along the bowl; the other part is
-/// that of a point on a sphere.
+/// Newton's and Euler's equations for the ball: with n from its centre to the point of contact and `r n × f = J ω̇`,
+/// `f = m (c″ + g e_z)` the force of the bowl, the derivative of the slip `c″ + ω̇ × r n + ω × r ṅ − Ω e_z × R ṅ = 0`
+/// determines the part of c″ along the bowl; the other part is that of a point on a sphere.
 #[test]
 fn a_ball_rolls_in_a_turning_bowl_as_newton_and_euler_say() {
     let machine = BallInBowl::default();
@@ -1235,7 +1227,7 @@ fn a_ball_rolls_in_a_turning_bowl_as_newton_and_euler_say() {
         let far = R - r;
         let velocity = [0, 1, 2].map(|k| along * around[k] + down * meridian[k]);
         let turned = velocity.map(|v| v / far);
-        // ω × r n = Ω e_z × R n − ċ, with any spin about n.
+        // ω × r n = Ω e_z × R n − ċ, with an arbitrary spin about n.
         let rolls = cross([0.0, 0.0, Omega], n);
         let rolls = [0, 1, 2].map(|k| (R * rolls[k] - velocity[k]) / r);
         let across = cross(n, rolls);
@@ -1250,7 +1242,7 @@ fn a_ball_rolls_in_a_turning_bowl_as_newton_and_euler_say() {
         let normal = dot(whole, n);
         let inwards = dot(velocity, velocity) / far;
         let expected = [0, 1, 2].map(|k| whole[k] - (normal + inwards) * n[k]);
-        // The rates of three angles that turn the ball so.
+        // The rates of three angles that give the ball this angular velocity.
         let (a, b, c) = (0.3_f64, -0.5_f64, 1.1);
         let ahead = omega[1] * a.sin() - omega[2] * a.cos();
         let c_rate = -ahead / b.cos();
@@ -1261,14 +1253,14 @@ fn a_ball_rolls_in_a_turning_bowl_as_newton_and_euler_say() {
         ];
         let place = n.map(|n| far * n);
         let y = [place, [a, b, c], velocity, rates].concat();
-        // The bowl holds the ball by m (c″ + g e_z), and presses against n.
+        // The bowl exerts m (c″ + g e_z) on the ball and presses against n.
         let presses = m * (dot(expected, n) + g * n[2]);
         accelerates(&machine, 0.0, &y, [&expected, &[presses]]);
     }
 }
 
-/// Newton and Euler for the stone, about its mass centre: with r from there to where it touches,
-/// `J ω̇ = −ω × J ω + r × m (c″ + g e_z)` and `c″ = −ω̇ × r − ω × ṙ`, three equations for ω̇.
+/// Newton's and Euler's equations for the stone, about its mass centre: with r from there to the point of contact,
+/// `J ω̇ = −ω × J ω + r × m (c″ + g e_z)` and `c″ = −ω̇ × r − ω × ṙ` are three equations for ω̇.
 #[test]
 fn a_rattleback_rolls_as_newton_and_euler_say() {
     let machine = Rattleback::default();
@@ -1288,7 +1280,7 @@ fn a_rattleback_rolls_as_newton_and_euler_say() {
         [0.4_f64, 0.2_f64, -0.05_f64, 0.7, -0.3, 4.0],
         [-1.0, -0.3, 0.1, -2.0, 1.0, -6.0],
     ] {
-        // Axes of the stone in those of the ground, by three turns.
+        // Transforms between ground axes and axes of the stone, by three turns.
         let turn = |axis: usize, angle: f64, v: [f64; 3]| {
             let (sin, cos) = angle.sin_cos();
             let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -1309,7 +1301,7 @@ fn a_rattleback_rolls_as_newton_and_euler_say() {
         let centre = [0.0, 0.0, h];
         let arm = [0, 1, 2].map(|k| centre[k] - axes[k] * u[k] / depth);
         let arm_rate = [0, 1, 2].map(|k| -axes[k] * (u_rate[k] - u[k] * sinks / depth) / depth);
-        // In axes that turn ṙ lacks ω × r.
+        // In rotating axes, ṙ lacks the term ω × r.
         let moved = [0, 1, 2].map(|k| arm_rate[k] + cross(omega, arm)[k]);
         let inertia = [[A, D, 0.0], [D, B, 0.0], [0.0, 0.0, C]];
         let times = |v: [f64; 3]| [0, 1, 2].map(|k| dot(inertia[k], v));
@@ -1332,7 +1324,7 @@ fn a_rattleback_rolls_as_newton_and_euler_say() {
         let spun = [spun[0], spun[1], spun[2]];
         let centre = [0, 1, 2].map(|k| known[k] - cross(spun, arm)[k]);
         let expected = to_ground(centre);
-        // Rates of the angles: ω = (ψ̇ u-ish) by rows of the stone.
+        // The rates of the angles from the components of ω in axes of the stone.
         let yaw_rate = (w3 * pitch.cos() - w1 * pitch.sin()) / roll.cos();
         let rates = [
             yaw_rate,
@@ -1348,10 +1340,10 @@ fn a_rattleback_rolls_as_newton_and_euler_say() {
     }
 }
 
-// The crush process.
+// The crushing process.
 
-/// Accelerations at the start of the run in quadruple precision that is published with section 1.4
-/// of the reference problems; N and T are what its multipliers say.
+/// Accelerations at the start of the run, published in quadruple precision with section 1.4 of the reference problems; the
+/// multipliers give N and T.
 #[test]
 fn the_crush_process_is_where_a_higher_precision_says() {
     let crusher = CrushingCrusher::default();
@@ -1425,7 +1417,7 @@ fn the_crush_process_is_where_a_higher_precision_says() {
     runs(&crusher, &rows, &[1.0; 18], <[f64]>::to_vec);
 }
 
-/// Mortar and pestle go about with the debalance, and nothing rubs: the exact relative equilibria.
+/// Mortar and pestle circulate with the debalance without friction: exact relative equilibria.
 #[test]
 fn a_crusher_that_whirls_with_its_debalance_is_in_balance() {
     let crusher = CrushingCrusher {
@@ -1475,7 +1467,7 @@ fn a_crusher_that_whirls_with_its_debalance_is_in_balance() {
     }
 }
 
-/// What is caked on the pestle makes it thicker.
+/// Material caked on the pestle makes it thicker.
 #[test]
 fn a_caked_pestle_is_a_thicker_one() {
     let caked = CakedCrusher::default();
@@ -1489,8 +1481,8 @@ fn a_caked_pestle_is_a_thicker_one() {
     accelerates(&caked, 0.0, &y, [&found[..9], &found[9..]]);
 }
 
-/// R. Willis' relation for a grain between pestle and mortar, and Euler's equations for the two: the
-/// grain has no mass, so it rubs both alike.
+/// R. Willis's relation for a grain between pestle and mortar, and Euler's equations for these two; the grain is massless, so
+/// it exerts the same friction force on both.
 #[test]
 fn grains_turn_pestle_and_mortar_as_willis_said() {
     let crusher = GrainCrusher::default();
@@ -1508,7 +1500,7 @@ fn grains_turn_pestle_and_mortar_as_willis_said() {
     let at = |name: &str| 9 + names.iter().position(|n| n == name).expect("a constraint");
     for seed in [7, 8] {
         let mut y = anything(seed, 9);
-        // As they roll: at their distances, and turning as they go about.
+        // The rolling state: constant distances, and angular velocities that follow from the circulation.
         let [platform, mortar, pestle] = [y[11], y[13], y[16]];
         let turning = (R * platform - 0.02 * mortar) / r1;
         (y[3], y[12], y[14]) = (0.02, 0.0, turning);
@@ -1535,8 +1527,8 @@ fn grains_turn_pestle_and_mortar_as_willis_said() {
     }
 }
 
-/// What rounding moves a state by is no error of a step: cranks that have turned often, and rates near
-/// 0 beside great ones, once stopped such runs.
+/// A change of the state by rounding is no error of a step. Cranks that had turned often, and rates near 0 beside large ones,
+/// once stopped such runs.
 #[test]
 fn the_finest_tolerance_ends_no_run() {
     fn runs<M: Machine>(machine: &M, until: f64) {
@@ -1553,7 +1545,7 @@ fn the_finest_tolerance_ends_no_run() {
             "{:e}",
             done.constraint_residual
         );
-        // Each step by its tolerance and by what it may be moved within the residual.
+        // Each step errs by its tolerance and by the correction that the residual permits.
         let balance = run.energy_balance().expect("it was asked for");
         let limit = done.steps as f64 * 1.1e-13 * balance.turned_over;
         assert!(balance.residual().abs() <= limit, "{balance:?}");

@@ -1,4 +1,5 @@
-//! The machine library runs: to where a higher precision says, and with nothing lost.
+//! The machines of the library end where results in higher precision say, and
+//! their energy balances close.
 #![cfg(feature = "std")]
 #![expect(
     clippy::excessive_precision,
@@ -12,7 +13,7 @@ use lagrangian_machines::{
     SixJointArm, VibratingCrusher, crusher9,
 };
 
-/// A run from the start values of the description, with its balance of energy.
+/// Runs a machine from a start and keeps the energy balance.
 fn run<M: Machine>(machine: &M, start: State<Coordinates<M>>, until: f64) -> Solution<M> {
     let simulation = Simulation::new(machine)
         .tolerance(1e-10)
@@ -38,7 +39,8 @@ fn the_crusher_is_right_after_5_seconds() {
         let errors = found.zip(CRUSHER_AT_5).zip(CRUSHER_RANGES);
         let errors = errors.map(|((y, exact), range)| (y - exact).abs() / (range + exact.abs()));
         let error = errors.fold(0.0, f64::max);
-        // A step errs by the tolerance at most, which is fifty times as much of the smallest range.
+        // A step errs by at most the tolerance, which is fifty times as much
+        // relative to the smallest range.
         let limit = 50.0 * run.statistics().steps as f64 * tolerance;
         assert!(error <= limit, "{tolerance}: {error:e}");
     }
@@ -53,7 +55,7 @@ fn the_energy_of_crushers_is_accounted_for() {
             "{}: {balance:?}",
             machine.name()
         );
-        // Drive and dampers turn over far more than is left over.
+        // Drive and dampers turn over far more energy than the residual.
         assert!(balance.work > 1.0 && balance.dissipated > 1.0);
     }
     check(&Crusher9::default());
@@ -94,7 +96,7 @@ fn conservative_machines_conserve() {
     check(&ChainRelative::default());
 }
 
-/// A top that starts horizontal, as its description says, with given rates of precession and spin.
+/// A top that starts horizontally, as in its spec, with the given rates of precession and spin.
 fn top(precession: f64, spin: f64, until: f64, tolerance: f64) -> Solution<HeavyTop> {
     let top = HeavyTop::default();
     let mut start = top.start();
@@ -108,9 +110,9 @@ fn top(precession: f64, spin: f64, until: f64, tolerance: f64) -> Solution<Heavy
 
 #[test]
 fn a_top_precesses_as_it_should() {
-    // The top of the literature on Lie-group integrators (M. Géradin, A. Cardona; O. Brüls).
-    // Position of its mass centre, by extrapolation in binary128. It goes past the pole of its
-    // angles at 7·10⁻⁷ rad, where they turn at 10⁶ rad/s.
+    // The top from the literature on Lie-group integrators (M. Géradin, A. Cardona; O. Brüls). The
+    // position of its mass centre is computed by extrapolation in binary128. The top passes the
+    // singularity of its angles at 7·10⁻⁷ rad, where they turn at 10⁶ rad/s.
     let references = [
         (
             0.5,
@@ -160,7 +162,7 @@ fn a_top_keeps_its_angular_momenta() {
     let before = run.observe(0.0).unwrap();
     for i in 1..=20 {
         let now = run.observe(0.1 * f64::from(i)).unwrap();
-        // Errors of the spin, 60 rad/s, are tolerated sixty times the others.
+        // The spin is 60 rad/s, so the tolerance for its error is sixty times that for the others.
         let limit = 60.0 * run.statistics().steps as f64 * 1e-11;
         let apart = |one: f64, other: f64| (one - other).abs() <= limit * (1.0 + one.abs());
         assert!(apart(
@@ -176,7 +178,7 @@ fn a_top_keeps_its_angular_momenta() {
     }
 }
 
-/// Where the mortar's centre is, in ground axes.
+/// The position of the mortar's centre in ground axes.
 fn mortar(state: &State<Coordinates<VibratingCrusher>>) -> [f64; 2] {
     let q = &state.q;
     [q.x + q.s1 * q.phi1.cos(), q.y + q.s1 * q.phi1.sin()]
@@ -184,7 +186,7 @@ fn mortar(state: &State<Coordinates<VibratingCrusher>>) -> [f64; 2] {
 
 #[test]
 fn a_free_mortar_flies_straight_past_the_pole_of_its_coordinates() {
-    // Nothing acts on the mortar: its centre stays where it was while the platform shakes about it.
+    // No force acts on the mortar, so its centre stays in place while the platform shakes about it.
     // At a radius of 10⁻⁹ m the angle turns a million times as fast as anything else.
     let crusher = VibratingCrusher::default();
     for radius in [0.02, 1e-3, 1e-6, 1e-9] {
@@ -194,11 +196,12 @@ fn a_free_mortar_flies_straight_past_the_pole_of_its_coordinates() {
         let run = run(&crusher, start, 1.0);
         let ([x, y], [x0, y0]) = (mortar(run.end()), mortar(&start));
         let moved = (x - x0).hypot(y - y0);
-        // At rest at the start; an error of its speed, 10⁻¹⁰ a step, moves it for the rest of the
-        // run. Its angle's error counts by the radius, which is 10 mm and less.
+        // The mortar is at rest at the start; an error of its speed, 10⁻¹⁰ per step,
+        // moves it for the rest of the run. The error of its angle is multiplied by the
+        // radius, which is 10 mm or less.
         let limit = run.statistics().steps as f64 * 1e-10;
         assert!(moved <= limit, "{radius}: {moved:e}");
-        // Turning it meets no force either.
+        // No torque acts on it either.
         assert_eq!(run.end().q.theta1, 0.0);
     }
 }
@@ -218,7 +221,7 @@ fn the_pole_itself_is_named() {
         panic!("{error}")
     };
     assert!(assumption.contains("s1"));
-    // Straight to it at 1 m/s from 20 mm, the platform at rest.
+    // The mortar moves straight to the centre at 1 m/s from 20 mm, with the platform at rest.
     let mut start = crusher.start();
     start.v.s1 = -1.0;
     let (run, error) = simulation().run_as_far_as_possible(start).unwrap();
@@ -229,7 +232,7 @@ fn the_pole_itself_is_named() {
     };
     assert!((at - 0.02).abs() < 1e-12, "{at}");
     assert!(run.end().q.s1.abs() < 1e-12);
-    // A top that falls through the pole of its angles.
+    // A top that falls through the singularity of its angles.
     let top = HeavyTop::default();
     let mut start = top.start();
     start.v.phi = 0.0;
@@ -241,15 +244,15 @@ fn the_pole_itself_is_named() {
     else {
         panic!("{error}")
     };
-    // A quarter turn from the horizontal, as a pendulum of length l + A/(m l): the time of 90°, in
-    // mid-fall.
+    // A quarter turn from the horizontal, as a pendulum of length l + A/(m l):
+    // the time for 90°, in mid-fall.
     assert!(t > 0.5 && t < 0.7, "{t}");
 }
 
 #[test]
 fn masses_may_differ_a_thousand_million_times() {
-    // A light lower bob leaves the upper one a pendulum by itself; a heavy upper bob does not feel
-    // the lower one.
+    // A light lower bob leaves the upper one a simple pendulum; a heavy upper bob is
+    // not affected by the lower one.
     let runs = [
         DoublePendulum {
             m2: 1e-9,
@@ -261,8 +264,8 @@ fn masses_may_differ_a_thousand_million_times() {
         },
     ]
     .map(|machine| run(&machine, machine.start(), 1.5));
-    // It is level with the hinge, 90°, when the speed is that of the height fallen: energy of a
-    // pendulum.
+    // At 90°, level with the hinge, its speed corresponds to the height fallen,
+    // by the energy of a pendulum.
     for run in &runs {
         let (q, v) = (run.end().q, run.end().v);
         let speed =
@@ -272,8 +275,8 @@ fn masses_may_differ_a_thousand_million_times() {
     let apart = (runs[0].end().q.theta2 - runs[1].end().q.theta2).abs();
     assert!(apart < 1e-6, "{apart:e}");
 
-    // A light bob between two rods that carry a heavy one: it vibrates at 10⁵ rad/s, and the energy
-    // is kept.
+    // A light bob between two rods that carry a heavy bob vibrates at 10⁵ rad/s,
+    // and the energy is conserved.
     for (m1, m2) in [(1e-9, 1.0), (1.0, 1e9)] {
         let machine = DoublePendulum {
             m1,
@@ -282,7 +285,7 @@ fn masses_may_differ_a_thousand_million_times() {
         };
         let run = run(&machine, machine.start(), 0.5);
         let balance = run.energy_balance().unwrap();
-        // Roundoff of the accelerations, 10⁹ times that of the forces, is what a step can add.
+        // A step can add the round-off of the accelerations, which is 10⁹ times that of the forces.
         let limit = run.statistics().steps as f64 * 1e-7;
         assert!(balance.relative().abs() < limit.min(1e-5), "{balance:?}");
     }
@@ -309,7 +312,7 @@ fn numbers_that_are_none_are_named() {
             "{error}"
         );
     }
-    // Finite, and too much all the same.
+    // The values are finite, but too large all the same.
     let heavy = VibratingCrusher {
         m: 1e300,
         omega: 1e200,

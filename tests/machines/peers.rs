@@ -1,5 +1,5 @@
-//! The specs that are compared with other programs in `benches/peers` are what the tasks say: task T1 by its check values,
-//! task T2 by its equations in closed form, typed in here.
+//! The specs in `benches/peers`, which are compared with other programs, describe what the tasks define: task T1 is tested
+//! by its check values, task T2 by its equations in closed form, typed in here.
 
 use std::f64::consts::PI;
 
@@ -7,8 +7,8 @@ use crate::support::library;
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Machine, System};
 
-/// The generator of the tasks' states: G. L. Steele, D. Lea, C. H. Flood, *Fast splittable pseudorandom number generators*,
-/// OOPSLA 2014, fig. 17.
+/// The generator of the tasks' random states: G. L. Steele, D. Lea, C. H. Flood, *Fast splittable pseudorandom number
+/// generators*, OOPSLA 2014, fig. 17.
 struct SplitMix64(u64);
 
 impl SplitMix64 {
@@ -21,7 +21,7 @@ impl SplitMix64 {
     }
 }
 
-/// A spec of `benches/peers`, interpreted.
+/// Interprets a spec of `benches/peers`.
 fn spec(name: &str, constants: &[(&str, i64)]) -> InterpretedMachine {
     let path = format!(
         "{}/benches/peers/{name}.machine",
@@ -41,7 +41,7 @@ fn accelerations(machine: &InterpretedMachine, t: f64, q: &[f64], v: &[f64]) -> 
     a
 }
 
-/// Some hundred operations on numbers of the size of the largest acceleration.
+/// The bound allows a few hundred operations on numbers of the size of the largest acceleration.
 fn assert_close(found: &[f64], exact: &[f64], roundings: f64) {
     assert_eq!(found.len(), exact.len());
     let largest = exact.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
@@ -128,7 +128,7 @@ fn the_chain_obeys_the_equations_of_task_t2() {
             let weight = (m * c + l * above(i)) * 9.81;
             left += weight * q[i].sin();
             size += weight;
-            // Twenty roundings for each link on the way out and back, and those of this sum.
+            // Twenty rounding units for each link on the way out and back, and those of this sum.
             let limit = 64.0 * n as f64 * f64::EPSILON * size;
             assert!(left.abs() <= limit, "N = {n}, row {i}: {left} of {size}");
         }

@@ -1,5 +1,5 @@
-//! What goes to extremes ends right, or with an error that names the coordinate, the time and the
-//! cause.
+//! Extreme machines and settings either give correct results, or an error that names the
+//! coordinate, the time and the cause.
 
 use std::f64::consts::{PI, SQRT_2};
 
@@ -15,7 +15,7 @@ use lagrangian::{
 };
 use lagrangian_machines::*;
 
-/// A run of the default settings, unless they are changed.
+/// Runs with the default settings.
 fn run<M: Machine>(
     machine: &M,
     until: f64,
@@ -27,7 +27,7 @@ fn run<M: Machine>(
         .run(start)
 }
 
-/// The error of a run, which must have one. Its text names what is given, and every text says when.
+/// Takes the error that a run must have. Its text must contain the given names and the time.
 fn error<T>(outcome: Result<T, Error>, names: &str) -> Error {
     let Err(error) = outcome else {
         panic!("no error, where `{names}` should be named")
@@ -115,7 +115,7 @@ fn a_chain_with_a_very_heavy_or_a_very_light_end_accelerates_exactly() {
 
 #[test]
 fn pendulums_of_very_unequal_masses_keep_their_energy() {
-    // A light bob under a heavy one swings as ever.
+    // A light bob under a heavy one swings as usual.
     let light = DoublePendulum {
         m2: 1e-9,
         ..Default::default()
@@ -126,7 +126,7 @@ fn pendulums_of_very_unequal_masses_keep_their_energy() {
         ..Default::default()
     };
     conserves(&heavy, heavy.start(), (2.0, 1e-12), energy);
-    // A light bob above a heavy one is the middle of a string: 10⁵ oscillations a second.
+    // A light bob above a heavy one is like the middle of a string, with 10⁵ oscillations a second.
     let string = DoublePendulum {
         m1: 1e-9,
         ..Default::default()
@@ -136,10 +136,10 @@ fn pendulums_of_very_unequal_masses_keep_their_energy() {
 }
 
 /// The mass matrix has a condition of 1e9 here, so accelerations have a relative noise of ε κ =
-/// 1e-7. Tolerances are above what that does in a step.
+/// 1e-7. The tolerances are above the effect of that noise in a step.
 #[test]
 fn crushers_of_very_unequal_masses_keep_their_energy() {
-    // Neither dampers nor debalance.
+    // Without dampers and debalance.
     let usual = Crusher9 {
         e: 0.0,
         bx: 0.0,
@@ -158,8 +158,8 @@ fn crushers_of_very_unequal_masses_keep_their_energy() {
         ..usual
     };
     conserves(&heavy, heavy.start(), (0.1, 1e-12), energy);
-    // The light mortar between platform and pestle rattles at 650 000 rad/s, the light pestle at 18
-    // 000 rad/s.
+    // The light mortar between platform and pestle vibrates at 650 000 rad/s, the
+    // light pestle at 18 000 rad/s.
     let light = Crusher9 {
         m1: 1e-9 * usual.m1,
         ..usual
@@ -185,9 +185,9 @@ fn crushers_near_the_polar_singularity_accelerate_exactly() {
     }
 }
 
-/// Mortar and platform of a crusher that nothing shakes: the mortar runs straight past the
-/// platform's centre, with 1 m/s, at a distance ε: s = √(ε² + t²), φ = π/2 − atan(t/ε). In between
-/// φ turns by half a revolution, at 1/ε rad/s.
+/// Mortar and platform of a crusher that is not shaken: the mortar passes the platform's centre in
+/// a straight line at 1 m/s, at a distance ε: s = √(ε² + t²), φ = π/2 − atan(t/ε). Meanwhile φ
+/// turns by half a revolution, at up to 1/ε rad/s.
 #[test]
 fn a_mortar_that_grazes_the_centre_goes_on_straight() {
     let crusher = VibratingCrusher {
@@ -229,7 +229,7 @@ fn a_mortar_that_grazes_the_centre_goes_on_straight() {
     }
 }
 
-/// What s1 may be off is little beside the least s1.
+/// Sets an absolute tolerance of s1 that is small compared with the least s1.
 fn exact_beside<'a, M: Machine>(
     distance: f64,
 ) -> impl Fn(Simulation<'a, M>, f64) -> Simulation<'a, M> {
@@ -254,7 +254,7 @@ fn a_mortar_that_meets_the_centre_ends_what_its_machine_assumes() {
     let Error::AssumptionEnded { t, .. } = error(run(&crusher, 1.0, start), "s1 > 0") else {
         panic!("another error")
     };
-    // A motion without acceleration, which every step and its dense output follow exactly.
+    // A motion without acceleration, for which every step and its dense output are exact.
     assert!(t.abs() <= 16.0 * f64::EPSILON, "at {t} s");
 }
 
@@ -269,7 +269,7 @@ fn a_crusher_at_the_centre_names_the_angle_that_has_no_meaning() {
             accelerations(&system, 0.3, &q, &[1.0; 9]).expect_err("the mass matrix is singular");
         assert_eq!(singular.name(&system), angle);
         assert_eq!(singular.ratio, 0.0, "the pivot of the inertia is 0");
-        // A run refuses to begin there, by what its machine assumes.
+        // A run refuses to begin there, because an assumption of the machine does not hold.
         let refused = error(
             run(&crusher, 1.0, state(&crusher, 0.0, &q, &[0.0; 9])),
             &format!("s{} > 0", radius / 3),
@@ -281,7 +281,7 @@ fn a_crusher_at_the_centre_names_the_angle_that_has_no_meaning() {
     }
 }
 
-/// A point in polar coordinates, which assumes nothing.
+/// A point in polar coordinates without assumptions.
 const POINT: &str = "machine Point in plane {
     parameters { m: kg = 2 }
     coordinates { s: m = 1, phi: rad = 0.3 }
@@ -302,8 +302,8 @@ fn a_point_at_the_centre_is_a_singular_mass_matrix() {
     assert_eq!((t, ratio), (0.25, 0.0));
 }
 
-/// Through the centre and out on the other side, where s is negative: the same points, and the
-/// equations hold there too.
+/// The point passes through the centre to negative s on the other side; these are the same points
+/// in space, and the equations hold there too.
 #[test]
 fn a_point_that_crosses_the_centre_straight_goes_on() {
     let point = machine(POINT);
@@ -315,10 +315,10 @@ fn a_point_that_crosses_the_centre_straight_goes_on() {
     );
 }
 
-/// The axis of the top of the literature falls through the vertical below but for δ = 7e-7 rad,
-/// where its angles lose their meaning. There sin θ has a rounding error of ε π/δ = 1e-9 of itself,
-/// and the rates of ψ and φ, which rise to 5e6 rad/s, cancel to a spin of 150 rad/s: 1e-9 · 5e6/150
-/// = 3e-5 is what rounding may do.
+/// The axis of the top from the literature falls through the lower vertical at a distance of
+/// δ = 7e-7 rad, where its angles become singular. There sin θ has a relative rounding error of ε
+/// π/δ = 1e-9, and the rates of ψ and φ, which rise to 5e6 rad/s, cancel to a spin of 150 rad/s, so
+/// rounding may cause an error of 1e-9 · 5e6/150 = 3e-5.
 #[test]
 fn a_top_that_grazes_the_pole_of_its_angles_falls_on() {
     let top = HeavyTop::default();
@@ -349,7 +349,7 @@ fn a_top_that_grazes_the_pole_of_its_angles_falls_on() {
     assert!(error <= limit, "error {error:e}, limit {limit:e}");
 }
 
-// What has no inertia.
+// Bodies without inertia.
 
 #[test]
 fn bodies_without_mass_are_named() {
@@ -385,7 +385,8 @@ fn bodies_without_mass_are_named() {
     error(run(&pendulum, 1.0, pendulum.start()), "theta2");
 }
 
-/// A massless bob is no trouble where the other moves it: at right angles, but not in line.
+/// A massless bob is determined if the other bob moves it: when the rods are at right angles, but
+/// not when they are in line.
 #[test]
 fn a_bob_without_mass_is_singular_only_where_nothing_moves_with_it() {
     let pendulum = DoublePendulum {
@@ -399,7 +400,7 @@ fn a_bob_without_mass_is_singular_only_where_nothing_moves_with_it() {
     assert!(singular.ratio.abs() <= 1e-14, "{singular:?}");
 }
 
-// What is not a number.
+// Values that are not numbers.
 
 #[test]
 fn parameters_that_are_not_finite_are_named() {
@@ -465,7 +466,7 @@ fn inputs_that_are_not_finite_are_named() {
         let Error::InputNotFinite { t, .. } = error else {
             panic!("{error}")
         };
-        // Steps shrink until they cannot get nearer.
+        // Steps shrink until they can approach the point no further.
         assert!((0.3 - 1e-12..0.3 + 1e-9).contains(&t), "at {t} s");
     }
 }
@@ -486,8 +487,8 @@ fn forces_beyond_all_numbers_name_the_coordinate() {
 
 // Steps that collapse.
 
-/// A point that falls into the centre of an attraction 1/x² from rest at 1 arrives after π/(2√2)
-/// with infinite speed.
+/// A point that starts at rest at 1 and falls into the centre of an attraction 1/x² arrives after
+/// π/(2√2) with infinite speed.
 #[test]
 fn a_fall_into_a_pole_ends_when_and_where_it_must() {
     let fall = machine(
@@ -507,7 +508,7 @@ fn a_fall_into_a_pole_ends_when_and_where_it_must() {
         let (Error::StepTooSmall { t, .. } | Error::NotFinite { t, .. }) = error else {
             panic!("{}: {error}", method.tableau.name)
         };
-        // The error of the way down: the tolerance, times the steps.
+        // The error accumulated on the way: the tolerance times the number of steps.
         assert!(
             (t - PI / (2.0 * SQRT_2)).abs() < 1e-6,
             "{}: at {t} s",
@@ -516,7 +517,7 @@ fn a_fall_into_a_pole_ends_when_and_where_it_must() {
     }
 }
 
-/// Dry friction that is written as a sign has no motion to go on with once the block stands: the
+/// Dry friction written with a sign function defines no motion once the block comes to rest, so the
 /// steps collapse.
 #[test]
 fn dry_friction_ends_the_run_when_the_block_comes_to_rest() {
@@ -529,8 +530,8 @@ fn dry_friction_ends_the_run_when_the_block_comes_to_rest() {
             forces { friction { on: x, value: -friction*sign(der(x)) } }
         }",
     );
-    // Half a cycle lasts π/2 and takes 2 friction/k = 0.15 off; after seven the block stands inside
-    // of ±0.075.
+    // Half a cycle lasts π/2 and reduces the amplitude by 2 friction/k = 0.15; after seven the
+    // block stands within ±0.075.
     let moving = Simulation::new(&block)
         .tolerance(1e-9)
         .until(7.0 * PI / 2.0 - 0.01)
@@ -556,23 +557,23 @@ fn dry_friction_ends_the_run_when_the_block_comes_to_rest() {
 
 #[test]
 fn an_angle_that_may_not_reach_zero_ends_the_run() {
-    // A top that does not spin falls over; its axis passes the vertical below.
+    // A top without spin falls over; its axis passes the lower vertical.
     let top = HeavyTop::default();
     let start = state(&top, 0.0, &[0.0, 1.0, 0.0], &[0.0; 3]);
     let ended = error(run(&top, 10.0, start), "sin(theta) > 0");
     let Error::AssumptionEnded { t, .. } = ended else {
         panic!("{ended}")
     };
-    // By the energy of a physical pendulum: t = ∫ dθ / √(2 m g l (cos 1 − cos θ) / (A + m l²)) from
-    // 1 to π.
+    // From the energy of a physical pendulum: t = ∫ dθ / √(2 m g l (cos 1 − cos
+    // θ) / (A + m l²)) from 1 to π.
     let HeavyTop { m, l, g, A: a, .. } = top;
     let swing = pendulum_fall(1.0, m * g * l / (a + m * l * l));
     assert!((t - swing).abs() < 1e-7, "{t} against {swing}");
 }
 
-/// The time that a pendulum with θ'' = w² sin θ needs from rest at `angle` from the upward vertical
-/// to the lowest point: a quarter of its period, `π / (2 w M(1, cos(α/2)))` with the amplitude α
-/// and the arithmetic-geometric mean M.
+/// The time that a pendulum with θ'' = w² sin θ takes from rest at `angle` from the upward vertical
+/// to the lowest point. It is a quarter of its period, `π / (2 w M(1, cos(α/2)))` with the
+/// amplitude α and the arithmetic-geometric mean M.
 fn pendulum_fall(angle: f64, square: f64) -> f64 {
     let amplitude = PI - angle;
     PI / (2.0 * square.sqrt() * agm(1.0, (amplitude / 2.0).cos()))
@@ -587,7 +588,7 @@ fn tolerances_below_roundoff_are_raised_and_told() {
         .tolerance(1e-300)
         .until(0.1)
         .run(pendulum.start());
-    // The absolute tolerance is what was asked: where a rate passes zero, no step is short enough.
+    // The absolute tolerance is used as given, so no step is short enough where a rate passes zero.
     if let Ok(run) = &asked {
         assert!(run.warnings().contains(&Warning::ToleranceRaised {
             asked: 1e-300,
@@ -631,7 +632,7 @@ fn tolerances_that_make_no_sense_are_refused() {
     error(unknown, "theta3");
 }
 
-/// A tolerance that everything meets still gives numbers.
+/// Even a tolerance that every step meets gives finite results.
 #[test]
 fn tolerances_that_allow_everything_give_numbers() {
     let crusher = Crusher9::default();
@@ -659,7 +660,7 @@ fn runs_may_be_of_any_length() {
         let run = run(&pendulum, until, pendulum.start()).expect("a short run");
         assert_eq!((run.end().t, run.end().q), (until, run.start().q));
     }
-    // So long that it cannot be.
+    // So long that the run cannot finish.
     let Err(Error::TooManySteps { steps, t, until }) = Simulation::new(&pendulum)
         .until(1e300)
         .max_steps(1000)
@@ -668,7 +669,7 @@ fn runs_may_be_of_any_length() {
         panic!("a run for ever")
     };
     assert!((steps, until) == (1000, 1e300) && t > 1.0);
-    // Where time has no room for a step.
+    // At this time, no step is long enough to change the time.
     let late = State {
         t: 1e17,
         ..pendulum.start()
@@ -700,8 +701,8 @@ fn a_run_back_in_time_returns_to_its_start() {
         let pairs = numbers(&system, a).into_iter().zip(numbers(&system, b));
         pairs.fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs()))
     };
-    // The way there and the way back are each 100 times as exact as the coarse one, which misses by
-    // this.
+    // The run and the way back are each 100 times as accurate as the
+    // coarse run, whose error this is.
     let limit = distance(there.end(), coarse.end());
     assert!(
         limit < 1e-7 && distance(back.end(), there.start()) <= limit,
@@ -709,7 +710,7 @@ fn a_run_back_in_time_returns_to_its_start() {
     );
 }
 
-/// Nothing that is asked of an interpreted machine differs from the compiled one: errors neither.
+/// An interpreted machine behaves in every respect like the compiled one, also in its errors.
 #[test]
 fn interpreted_machines_fail_as_compiled_ones_do() {
     let mut interpreted = InterpretedMachine::new(library::program("vibrating_crusher", &[]));

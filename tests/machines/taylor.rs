@@ -1,5 +1,4 @@
-//! Runs by Taylor series: as exact as closed forms and references of more digits say, with dense output and events as exact as
-//! the steps.
+//! Runs by Taylor series are as accurate as closed forms and high-precision references show, with dense output and events as accurate as the steps.
 #![cfg(feature = "std")]
 #![expect(
     clippy::excessive_precision,
@@ -22,7 +21,7 @@ use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::{Disk, Sources};
 use lagrangian_symbolic::Dag;
 
-/// The machine of a text, with its series.
+/// Compiles a text to a machine with series.
 fn machine(text: &str) -> InterpretedMachine {
     let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
     let path = library::path("test");
@@ -39,7 +38,7 @@ fn of_library(name: &str) -> InterpretedMachine {
     machine(&library::text(name))
 }
 
-/// The start of a machine with other coordinates and rates.
+/// The start of a machine with the given coordinates and rates.
 fn start(
     machine: &InterpretedMachine,
     q: &[f64],
@@ -51,7 +50,7 @@ fn start(
     start
 }
 
-/// The greatest error of a state, relative to a scale plus the size of each number.
+/// The largest error of the end state, relative to a scale plus the size of each number.
 fn error(run: &Solution<InterpretedMachine>, exact: &[f64], scales: &[f64]) -> f64 {
     let end = run.end();
     let found = end.q.values.iter().chain(&end.v.values);
@@ -74,8 +73,8 @@ fn oscillator(more: &str) -> InterpretedMachine {
     ))
 }
 
-/// References in binary128, by extrapolation (`benches/time_against_error.rs`). A step errs by its tolerance, and the sum of
-/// errors by no more than the number of steps times that; regular motions amplify little.
+/// References in binary128, by extrapolation (`benches/time_against_error.rs`). Each step errs by its tolerance, so the sum of errors is at most that
+/// times the number of steps; regular motions amplify it little.
 #[test]
 fn a_double_pendulum_ends_where_binary128_says() {
     let machine = of_library("double_pendulum");
@@ -118,8 +117,8 @@ fn a_crusher_ends_where_binary128_says() {
     }
 }
 
-/// The series of every machine that has one gives the accelerations that the proved program gives, within a step too: half of a
-/// step from the start its second derivative is the acceleration there.
+/// The series of every machine that has one gives the accelerations of the proved program, within a step too: half a step from the start, the second
+/// derivative of the polynomial is the acceleration there.
 #[test]
 fn within_a_step_the_polynomial_obeys_the_equations() {
     let mut count = 0;
@@ -150,7 +149,7 @@ fn within_a_step_the_polynomial_obeys_the_equations() {
         system
             .series([t, 0.0], &q.values, &v.values, &inputs, &mut coefficients)
             .unwrap();
-        // A step after which the last coefficient counts for nothing.
+        // A step so short that the last coefficient is negligible.
         let last = coefficients[25]
             .iter()
             .fold(1e-300, |most: f64, c| most.max(c.abs()));
@@ -177,7 +176,7 @@ fn within_a_step_the_polynomial_obeys_the_equations() {
     assert!(count > 40);
 }
 
-/// x = cos 3t at instants that end no step; and the end is the same to the last bit however often the motion is sampled.
+/// x = cos 3t at instants where no step ends. The end is the same to the last bit however often the motion is sampled.
 #[test]
 fn dense_output_is_as_exact_as_the_steps() {
     let machine = oscillator("");
@@ -204,7 +203,7 @@ fn dense_output_is_as_exact_as_the_steps() {
     assert_eq!(sampled.samples().len(), 10_001);
 }
 
-/// cos 3t = 0.9999 twice near each top, 0.0094 s apart in steps of half a second: both, each once, on time.
+/// cos 3t = 0.9999 twice near each maximum, 0.0094 s apart in steps of half a second: each crossing is found once, at the right time.
 #[test]
 fn no_event_within_a_long_step_is_missed() {
     let machine = oscillator("");
@@ -238,7 +237,7 @@ fn no_event_within_a_long_step_is_missed() {
     }
 }
 
-/// A run ends at an event, goes on from there, and does not find it again.
+/// A run ends at an event, and the next run continues without finding it again.
 #[test]
 fn a_run_ends_at_an_event_and_goes_on() {
     let machine = oscillator("");
@@ -261,8 +260,8 @@ fn a_run_ends_at_an_event_and_goes_on() {
     }
 }
 
-/// x = cos 3t is beyond −1 + ε for a small part of a step at each turn, and beyond −1 − ε never: by series, whose steps hold several turns, and on the
-/// quintics of Gauss's methods, which are wrong by (3h)⁶/46 080.
+/// x = cos 3t is beyond −1 + ε for a small part of a step at each turning point, and never beyond −1 − ε. Tested with Taylor series, whose steps
+/// contain several turning points, and with the quintic interpolants of Gauss methods, whose error is (3h)⁶/46 080.
 #[test]
 fn turning_points_that_hardly_pass_a_level_are_all_seen() {
     let gauss = |name| Method::named(name).unwrap();
@@ -302,7 +301,7 @@ fn turning_points_that_hardly_pass_a_level_are_all_seen() {
     }
 }
 
-/// There and back again, along the same motion.
+/// A run forward and back again follows the same motion.
 #[test]
 fn a_run_goes_backward() {
     let machine = of_library("double_pendulum");
@@ -328,7 +327,7 @@ fn a_run_goes_backward() {
     }
 }
 
-/// x > −0.5 ends at cos 3t = −0.5, within a step.
+/// The assumption x > −0.5 fails at cos 3t = −0.5, within a step.
 #[test]
 fn a_run_ends_where_an_assumption_ends() {
     let machine = oscillator("assume { x + half > 0 }");
@@ -347,8 +346,8 @@ fn a_run_ends_where_an_assumption_ends() {
     assert!((run.end().t - exact).abs() < 1e-12, "{}", run.end().t);
 }
 
-/// Facts that end for a small part of a step only, at cos 3t = −cos 0.01: linear ones, which are told from partial sums, and
-/// another. And one that is nearly broken at each turn.
+/// Assumptions that fail for only a small part of a step, at cos 3t = −cos 0.01: linear ones, which are checked on partial sums, and a nonlinear one.
+/// Another assumption nearly fails at each turning point.
 #[test]
 fn an_assumption_that_ends_for_a_moment_ends_the_run() {
     let edge = 0.01_f64.cos();
@@ -373,7 +372,7 @@ fn an_assumption_that_ends_for_a_moment_ends_the_run() {
             .run_as_far_as_possible(machine.start())
             .unwrap();
         assert_eq!(error.is_some(), ends, "{fact}: {error:?}");
-        // The slope there is 0.03 m/s: an error of 1e-13 m is one of 3e-12 s.
+        // The slope there is 0.03 m/s, so an error of 1e-13 m is one of 3e-12 s.
         let expected = if ends { (PI - 0.01) / 3.0 } else { 10.0 };
         assert!(
             (run.end().t - expected).abs() < 1e-10,
@@ -383,8 +382,8 @@ fn an_assumption_that_ends_for_a_moment_ends_the_run() {
     }
 }
 
-/// A mechanism that constraints close: against the end of the benchmark's run, by Taylor's method in 64-bit mantissas of
-/// others, and the constraints hold to rounding all along.
+/// A closed-loop mechanism compared with the end of the benchmark's run, which others computed by Taylor's method with 64-bit mantissas; the
+/// constraints hold to rounding throughout.
 #[test]
 fn a_four_bar_linkage_ends_where_64_bit_mantissas_say() {
     let machine = of_library("four_bar");
@@ -408,7 +407,7 @@ fn a_four_bar_linkage_ends_where_64_bit_mantissas_say() {
     assert!(run.statistics().constraint_residual < 1e-13);
 }
 
-/// A pendulum in Cartesian coordinates is one in an angle.
+/// A pendulum in Cartesian coordinates moves as one in an angle.
 #[test]
 fn a_constraint_makes_a_pendulum() {
     let text = |coordinates: &str, at: &str, more: &str| {
@@ -450,7 +449,7 @@ fn a_constraint_makes_a_pendulum() {
     }
 }
 
-/// Drives and dampers put energy in and take it out; the balance closes to what tolerance and rounding explain.
+/// Drives and dampers supply and remove energy; the balance closes to what tolerance and rounding explain.
 #[test]
 fn the_balance_of_energy_closes() {
     for name in [

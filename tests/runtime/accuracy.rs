@@ -1,4 +1,4 @@
-//! Runs end where the closed form, or a computation in higher precision, says.
+//! Runs end where the closed form, or a computation in higher precision, predicts.
 #![cfg(feature = "std")]
 #![expect(
     clippy::excessive_precision,
@@ -14,8 +14,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 const TOLERANCES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 
-/// Each of the steps may err by `tolerance`, and roundoff by an ulp a step; what they sum up to at
-/// the end depends on how the motion amplifies a small change, by `growth` at most.
+/// Each step may err by `tolerance`, plus one ulp of round-off. The motion amplifies a small change
+/// by at most `growth`, which bounds what the errors sum up to at the end.
 fn limit<M: Machine>(run: &Solution<M>, tolerance: f64, growth: f64) -> f64 {
     run.statistics().steps as f64 * (tolerance + f64::EPSILON) * growth
 }
@@ -43,8 +43,8 @@ fn an_oscillator_follows_its_cosine() {
                 .until(10.0)
                 .run(oscillator.start())
                 .unwrap();
-            // The rate is three times the position, and so is the error of one for that of the
-            // other.
+            // The rate is up to three times the position, and its error up to
+            // three times that of the position.
             for i in 0..=100 {
                 let t = f64::from(i) / 10.0;
                 let state = run.at(t).unwrap();
@@ -113,7 +113,8 @@ fn a_driven_oscillator_beats() {
 
 #[test]
 fn a_pendulum_has_the_period_that_gauss_gave() {
-    // T = 2π / (ω agm(1, cos(θ₀/2))): the time from rest to rest.
+    // T = 2π / (ω agm(1, cos(θ₀/2))) is the time from one rest on a side
+    // to the next on the same side.
     for amplitude in [0.1_f64, 1.0, 3.0] {
         let period = 2.0 * PI / (3.0 * agm(1.0, (amplitude / 2.0).cos()));
         let pendulum = Toy {
@@ -130,12 +131,13 @@ fn a_pendulum_has_the_period_that_gauss_gave() {
                 .unwrap();
             let turns = run.events().iter().filter(|event| event.name == "turn");
             let bottoms = run.events().iter().filter(|event| event.name == "bottom");
-            // At the end the rate is 0 again and its sign chance: nine turns, or ten.
+            // At the end the rate is 0 again, and rounding decides its sign:
+            // there are nine or ten events.
             assert!([9, 10].contains(&turns.clone().count()));
             assert_eq!(bottoms.clone().count(), 20);
-            // An error of the state counts for the time by one over acceleration or rate; at 3 rad,
-            // near the upper position, the acceleration is a seventh of the greatest and the period
-            // depends on the energy as strongly.
+            // An error of the state becomes an error of time when divided by the acceleration or
+            // the rate. At 3 rad, near the upper position, the acceleration is a seventh of the
+            // greatest and the period depends on the energy as strongly.
             let growth = if amplitude > 2.0 { 100.0 } else { 10.0 };
             let limit = limit(&run, tolerance, growth);
             for (i, turn) in turns.enumerate() {
@@ -158,8 +160,8 @@ fn a_pendulum_has_the_period_that_gauss_gave() {
 
 #[test]
 fn a_planet_moves_as_kepler_said() {
-    // Semi-major axis and gravitational parameter 1, eccentricity 0.6, from the perihelion. State
-    // at t = 1 from Kepler's equation in 40 digits.
+    // Semi-major axis and gravitational parameter 1, eccentricity 0.6, started at the perihelion.
+    // The state at t = 1 is from Kepler's equation in 40 digits.
     let planet = Toy::new(([0.4, 0.0], [0.0, 2.0]), |_, q, _, _, _| {
         let r = q[0].hypot(q[1]);
         [-q[0] / r.powi(3), -q[1] / r.powi(3)]
@@ -180,7 +182,8 @@ fn a_planet_moves_as_kepler_said() {
                 .unwrap();
             let State { q, v, .. } = *run.end();
             let error = error(&[q[0], q[1], v[0], v[1]], &exact);
-            // Speed at the perihelion against that at the end: the greatest change of a change.
+            // The speed at the perihelion relative to that at the end is the
+            // largest amplification of a change.
             assert!(
                 error <= limit(&run, tolerance, 10.0),
                 "{} {error:e}",
@@ -190,7 +193,7 @@ fn a_planet_moves_as_kepler_said() {
     }
 }
 
-/// The classic double pendulum: unit masses and lengths, g = 9.81, from rest.
+/// The classic double pendulum: unit masses and lengths, g = 9.81, released at rest.
 fn double_pendulum(
     theta: [f64; 2],
     until: f64,
@@ -215,7 +218,8 @@ fn double_pendulum(
     (run, [q.theta1, q.theta2, v.theta1, v.theta2])
 }
 
-// From 120° and 90°, by Gragg–Bulirsch–Stoer extrapolation in binary128, checked to 1e-22.
+// Started at 120° and 90°; computed by Gragg–Bulirsch–Stoer extrapolation in
+// binary128, checked to 1e-22.
 const WILD_AT_1: [f64; 4] = [
     -4.191579968532890830682e-01,
     -1.024023228436775534500e+00,
@@ -236,8 +240,8 @@ fn a_regular_double_pendulum_is_right_after_100_seconds() {
     ] {
         let (run, end) = double_pendulum([0.3, 0.5], 100.0, tolerance);
         let error = error(&end, &REGULAR_AT_100);
-        // Quasiperiodic: a change of the frequencies grows with time; over 100 s and 4.4 rad/s, by
-        // 440 at most, and that for the first steps only.
+        // The motion is quasiperiodic, so a change of its frequencies grows linearly with time:
+        // over 100 s at 4.4 rad/s by 440 at most, and by that only for the first steps.
         assert!(
             error <= limit(&run, tolerance, 10.0),
             "{tolerance}: {error:e}"
@@ -247,7 +251,7 @@ fn a_regular_double_pendulum_is_right_after_100_seconds() {
 
 #[test]
 fn a_double_pendulum_gives_up_digits_at_roundoff_only() {
-    // The least tolerance there is: 12 digits are left after 100 s.
+    // At the finest tolerance that is allowed, 12 digits are left after 100 s.
     let (_, end) = double_pendulum([0.3, 0.5], 100.0, 2.3e-15);
     assert!(error(&end, &REGULAR_AT_100) < 1e-12);
 }
@@ -256,7 +260,7 @@ fn a_double_pendulum_gives_up_digits_at_roundoff_only() {
 fn a_chaotic_double_pendulum_is_right_after_10_seconds() {
     for tolerance in [1e-11, 1e-12, 1e-13, 1e-14] {
         let (run, end) = double_pendulum([2.0, 2.5], 10.0, tolerance);
-        // Changes grow 10⁹-fold on the way; the mean step is on it half of the time.
+        // Over the whole run the motion amplifies changes by 10⁹; on average, a step has half of the time left.
         let error = error(&end, &CHAOTIC_AT_10);
         assert!(
             error <= limit(&run, tolerance, 1e9).min(1e-2),
@@ -298,7 +302,7 @@ fn a_run_backward_returns_to_its_start() {
             "{}: {error:e}",
             method.tableau.name
         );
-        // Sampled at the same instant, both are the same motion.
+        // At the same instant, both runs show the same motion.
         let (one, other) = (there.at(1.7).unwrap(), back.at(1.7).unwrap());
         let apart = (one.q.theta2 - other.q.theta2).abs();
         assert!(
@@ -306,7 +310,7 @@ fn a_run_backward_returns_to_its_start() {
             "{}: {apart:e}",
             method.tableau.name
         );
-        // Samples and steps come in the order of the run.
+        // Samples and steps are in the order of the run.
         assert!(
             back.steps()
                 .zip(back.steps().skip(1))
@@ -318,7 +322,7 @@ fn a_run_backward_returns_to_its_start() {
 
 #[test]
 fn time_and_state_lose_nothing_to_many_small_steps() {
-    // A hundred thousand steps at constant speed: plain sums would be off by 1e-12.
+    // A hundred thousand steps at constant speed: plain summation of the steps would err by 1e-12.
     let free = Toy::new(([0.0], [1.0]), |_, _, _, _, _| [0.0]);
     let run = Simulation::new(&free)
         .first_step(1e-5)

@@ -1,4 +1,4 @@
-//! A further force on a derived machine, against the machine whose description has it.
+//! A derived machine with an additional force, compared with a machine whose spec contains that force.
 #![cfg(feature = "interpreter")]
 
 use crate::by_hand::as_list::AsList;
@@ -8,7 +8,7 @@ use lagrangian::{
     Adapted, Error, HasFriction, Machine, Quantity, Simulation, State, System, Warning,
 };
 
-/// Machines with a force in their description, and without it.
+/// Compiles a machine with the force in its spec, and one without it.
 fn both(text: &str, force: &str) -> [InterpretedMachine; 2] {
     [text.replace("FORCE", force), text.replace("FORCE", "")]
         .map(|text| InterpretedMachine::from_text(text).build().unwrap())
@@ -32,7 +32,7 @@ const HELD: &str = "machine Held in plane {
     FORCE
 }";
 
-/// The rod grows and shrinks, and the slider is shaken: constraints and drives do work.
+/// The rod's length changes and the slider is shaken, so constraints and drives do work.
 const MOVED: &str = "machine Moved in plane {
     parameters {
         m: kg = 2, l: m = 0.8, r: m = 0.1, g: m/s^2 = 9.81, F: N = 5, H: N = 3, c: N*s/m = 2, k: N/m = 30,
@@ -48,7 +48,7 @@ const MOVED: &str = "machine Moved in plane {
 
 type Force = fn(f64, &Named, &Named, &Named, &mut Named);
 
-/// Runs both, and compares motions, multipliers and balances.
+/// Runs both machines and compares motions, multipliers and energy balances.
 fn agree(text: &str, in_spec: &str, force: Force) {
     const TOLERANCE: f64 = 1e-10;
     let [whole, without] = both(text, in_spec);
@@ -58,11 +58,12 @@ fn agree(text: &str, in_spec: &str, force: Force) {
     let expected = expected.energy_balance(true).run(start.clone()).unwrap();
     let run = Simulation::new(&adapted).tolerance(TOLERANCE).until(2.0);
     let run = run.energy_balance(true).run(start).unwrap();
-    // The start of a machine that moves by itself may have to follow; energies balance.
+    // The start of a machine with prescribed motions may have to be moved onto them; there must be no other warning,
+    // such as one about energy.
     let is_about_start = |warning: &Warning| matches!(warning, Warning::StartMoved { .. });
     assert!(run.warnings().iter().all(is_about_start));
     let [mine, theirs] = [run.energy_balance(), expected.energy_balance()].map(Option::unwrap);
-    // Each of the steps, fewer than a thousand, keeps the tolerance; these motions multiply errors by less than ten.
+    // Each of fewer than a thousand steps keeps the tolerance, and these motions amplify errors by less than ten.
     let limit = 1e4 * TOLERANCE;
     let off = (mine.work - mine.dissipated) - (theirs.work - theirs.dissipated);
     assert!(off.abs() < 100.0 * limit, "{off:e} J");
@@ -110,7 +111,7 @@ fn a_further_force_is_as_one_of_the_description() {
     );
 }
 
-/// Pulls on the bob, and on the slider.
+/// A force on the bob and one on the slider.
 const PULL: &str = "forces { pull { on: y, value: F - c*der(y) }, push { on: z, value: H } }";
 
 fn pull(_: f64, _: &Named, v: &Named, _: &Named, force: &mut Named) {
@@ -137,7 +138,7 @@ fn friction_at_guides_takes_no_further_force() {
     assert!(Error::from(error).to_string().contains("friction"));
 }
 
-/// Nothing but what has to be said.
+/// A system that implements only the required methods.
 #[derive(Clone)]
 struct Plain;
 
@@ -212,14 +213,14 @@ fn what_a_system_does_not_say_is_not_known() {
     let error = Simulation::new(&Plain).until(1.0).energy_balance(true);
     let error = error.run(Plain.start()).unwrap_err();
     assert_eq!(error, Error::EnergiesUnknown { t: 0.0 });
-    // Without a mass matrix there is no answer to a further force.
+    // Without a mass matrix the effect of an additional force is not defined.
     let pushed = Adapted::new(Plain, |_, _, _, _, force: &mut [f64; 1]| force[0] = 1.0).unwrap();
     let error = Simulation::new(&pushed)
         .until(1.0)
         .run(pushed.start())
         .unwrap_err();
     assert!(matches!(error, Error::SingularMassMatrix { .. }), "{error}");
-    // By default f = Q − h, of what is known.
+    // The default implementation is f = Q − h, from whichever of these the system provides.
     let mut forces = vec![0.0];
     AsList(oscillator()).forces(0.0, &vec![1.0], &vec![0.0], &(), &mut forces);
     assert!(forces[0].is_nan() || forces[0] == 0.0);
@@ -234,13 +235,13 @@ fn parameters_are_set_by_name() {
         chain.set(name, value).unwrap();
         assert_eq!(chain.get(name), Ok(value));
     }
-    // Each has its own: none was written by another's name.
+    // Each parameter has its own value, so no name wrote to another's parameter.
     for (index, (_, value)) in chain.parameters().enumerate() {
         assert_eq!(value, 1.5 + index as f64);
     }
     let unknown = chain.set("Nonsense", 1.0).unwrap_err();
     assert_eq!((unknown.near, unknown.known), (None, names));
-    // What a machine by hand does not hand out cannot be set.
+    // A parameter that a machine by hand does not list cannot be set.
     let error = Error::from(Plain.set("p", 1.0).unwrap_err());
     assert_eq!(
         error.to_string(),

@@ -1,4 +1,4 @@
-//! Steps allocate nothing, and runs only what they keep.
+//! Steps allocate nothing, and runs allocate only what they keep.
 #![cfg(feature = "std")]
 
 use crate::by_hand::constrained::{Constrained, circle, parallelogram};
@@ -42,7 +42,7 @@ fn a_whole_run_of_the_core_allocates_nothing() {
             }
             assert!(stepper.work().steps > 20);
         });
-        // An implicit method has memory for its matrices, made once: a run of any length takes as much.
+        // An implicit method allocates its matrices once, so the number of allocations does not depend on the length of the run.
         let most = if method.tableau.spectrum.is_some() {
             ROOM_OF_IMPLICIT
         } else {
@@ -52,8 +52,8 @@ fn a_whole_run_of_the_core_allocates_nothing() {
     }
 }
 
-/// Vectors and matrices of an implicit method: those of its derivatives (8), of both factorizations (4)
-/// and of its stages (10), in one box; and the lists of those of which there is one for each stage or each pair of eigenvalues (4).
+/// Vectors and matrices of an implicit method: those of its derivatives (8), of both factorizations (4) and of its stages (10), in
+/// one box, and the lists that hold one item per stage or per pair of eigenvalues (4).
 const ROOM_OF_IMPLICIT: u64 = 9 + 4 + 10 + 1 + 4;
 
 #[test]

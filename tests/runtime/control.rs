@@ -1,4 +1,4 @@
-//! Controllers: sampled ones in one run, and loops around a stepper; against recursions worked out by hand.
+//! Controllers, sampled ones in one run and loops around a stepper, against recursions worked out by hand.
 #![cfg(feature = "interpreter")]
 
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -12,7 +12,7 @@ use lagrangian::{
 };
 use lagrangian_machines::CartPole;
 
-/// A mass of 1 kg that a force pushes.
+/// A mass of 1 kg pushed by a force.
 fn mass() -> Toy<1> {
     Toy {
         work_rate: |_, _, v, u, _| u * v[0],
@@ -20,8 +20,8 @@ fn mass() -> Toy<1> {
     }
 }
 
-/// Place and velocity of that mass at time `t`, where a computer sets `u = −k x − d v` every `period` seconds, to act `delay`
-/// seconds later: between two changes it falls freely, so to speak. And how it is pushed then.
+/// Position and velocity of that mass at time `t`, and the force then. A controller computes `u = −k x − d v` every `period`
+/// seconds, to take effect `delay` seconds later, so the force is constant between two changes.
 fn by_recursion([k, d]: [f64; 2], [period, delay]: [f64; 2], t: f64) -> ([f64; 2], f64) {
     let [mut x, mut v, mut u, mut now] = [0.7, -0.4, 0.0, 0.0];
     let mut set: Vec<(f64, f64)> = Vec::new();
@@ -32,7 +32,7 @@ fn by_recursion([k, d]: [f64; 2], [period, delay]: [f64; 2], t: f64) -> ([f64; 2
         let next = look.min(act).min(t);
         let h = next - now;
         (x, v, now) = (x + v * h + u * h * h / 2.0, v + u * h, next);
-        // What comes at the same instant but for rounding comes at once; a look before what it sets.
+        // Instants that differ only by rounding count as the same. A sample comes before the input that it sets.
         if look <= next + 1e-12 && look < t {
             set.push((look + delay, -k * x - d * v));
             looks += 1;
@@ -61,13 +61,14 @@ fn a_sampled_controller_is_its_recursion() {
                 })
                 .run(mass.start())
                 .unwrap();
-            // In between as at the ends of steps: the motion is of second order in time, which every method follows.
+            // The test looks between the ends of steps as well: the motion is quadratic in time, for
+            // which every method is exact.
             for t in [0.03, 0.1, 0.449, 1.0, 1.333, 1.98] {
                 let ([x, v], u) = by_recursion(settings.0, settings.1, t);
                 let state = run.at(t).unwrap();
                 let off = (state.q[0] - x).abs().max((state.v[0] - v).abs());
                 assert!(off < 1e-12, "{} {delay} {t}: {off:e}", method.tableau.name);
-                // At an instant of change the inputs are those after it.
+                // At an instant of change the run reports the inputs after it.
                 let at_change = ((t - delay) / 0.1 - ((t - delay) / 0.1).round()).abs() < 1e-9;
                 if !at_change {
                     assert!((run.observe(t).unwrap().inputs - u).abs() < 1e-12);
@@ -80,7 +81,7 @@ fn a_sampled_controller_is_its_recursion() {
     }
 }
 
-/// The law of the controller, where a run ends at each look and the next goes on from there.
+/// The same controller, once sampled in one run, once with a run that ends at each sample and another that continues.
 #[test]
 fn one_sampled_run_is_as_many_runs() {
     let machine = CartPole::default();
@@ -109,11 +110,11 @@ fn one_sampled_run_is_as_many_runs() {
             .unwrap()
             .end();
     }
-    // Errors of a tolerance each, in some hundred steps of a motion that is held.
+    // Errors of one tolerance each in about a hundred steps of a stabilized motion.
     assert!((run.end().q.theta - state.q.theta).abs() < 1e-8);
     assert!((run.end().v.x - state.v.x).abs() < 1e-8);
     assert_eq!(run.warnings(), []);
-    // Its energies between steps are those of the states there.
+    // Energies between steps are those of the states there.
     let t = 0.533;
     let energies = run.energies_at_each([t]).unwrap()[0];
     let seen = run.observe(t).unwrap();
@@ -135,7 +136,7 @@ fn what_sticks_breaks_away_when_a_sample_pushes() {
         sliding { face { body: block, on: ground, direction: ground.vector(1, 0), friction: mu, static_friction: 2*mu } }
     }";
     let block = InterpretedMachine::from_text(text).build().unwrap();
-    // It sticks up to 10 N and slides with 5 N: pushed with 9 N it stays, with 13 N it goes, by 4 m/s².
+    // It sticks up to 10 N and slides against 5 N: pushed with 9 N it stays, with 13 N it slides with 4 m/s².
     let run = Simulation::new(&block)
         .until(1.0)
         .energy_balance(true)
@@ -176,7 +177,7 @@ fn what_is_closed_opens_when_a_sample_lifts() {
         })
         .run(block.start())
         .unwrap();
-    // 15 N leave 5 N of its weight on the floor; 25 N lift it by 2.5 m/s².
+    // A pull of 15 N leaves 5 N of its weight on the floor; 25 N lift it at 2.5 m/s².
     let seen = run.observe(0.3).unwrap().unilateral;
     assert!((seen[0].normal - 5.0).abs() < 1e-9, "{seen:?}");
     assert!((run.end().q.values[0] - 0.5 * 2.5 * 0.25).abs() < 1e-9);
@@ -233,7 +234,7 @@ fn settings_of_samples_are_checked() {
             ..
         })
     ));
-    // What a controller makes of nothing is told as what functions make.
+    // A value that is not finite is reported from a controller as from an input function.
     let wrong = Simulation::new(&mass)
         .until(1.0)
         .sampled(0.1, |_, u| *u = f64::NAN);
@@ -302,14 +303,14 @@ fn within_the_last_step_the_state_is_known() {
         ));
     }
     assert_eq!(stepper.t(), 1.0);
-    // Back again.
+    // Backward again.
     stepper.advance_to(0.0).unwrap();
     assert!((stepper.q()[0] - 1.0).abs() < 1e-9);
 }
 
 #[test]
 fn an_event_may_be_on_what_is_observed() {
-    // Let go at the bottom with v² = 4 g l, a bob swings up until the rod no longer pulls: at cos θ = −2/3.
+    // Released at the bottom with v² = 4 g l, a bob swings up until the rod no longer pulls, at cos θ = −2/3.
     let text = "machine Bob in plane {
         parameters { m: kg = 2, l: m = 0.5, g: m/s^2 = 10 }
         coordinates { x: m, y: m = -l, der(x): m/s = sqrt(4*g*l) }
@@ -327,7 +328,7 @@ fn an_event_may_be_on_what_is_observed() {
                 if output {
                     seen.outputs.get("pull").unwrap()
                 } else {
-                    // The multiplier is the force with which the rod presses.
+                    // The multiplier is the compressive force in the rod.
                     seen.multipliers[0]
                 }
             })
@@ -349,7 +350,7 @@ fn events_are_counted_and_the_nth_ends_the_run() {
         .until_nth_event(5, "through", Crossing::Any, |state| state.q[0])
         .run(oscillator.start())
         .unwrap();
-    // cos t is 0 at (n − 1/2) π, rising at every second of them.
+    // cos t is 0 at (n − 1/2) π, and rises at every second zero.
     assert_eq!((run.event_count("through"), run.event_count("up")), (5, 2));
     assert!((run.end().t - 4.5 * std::f64::consts::PI).abs() < 1e-9);
     assert_eq!(*run.ending(), Ending::Event("through".into()));
@@ -370,7 +371,7 @@ fn observers_see_what_samples_keep() {
         assert_eq!(run.samples(), seen);
         assert_eq!(rarely, if until > 0.0 { 3 } else { 2 });
     }
-    // An end that was shown is not shown again.
+    // An end that has already been observed is not observed again.
     let mut times = Vec::new();
     let run = Simulation::new(&ball)
         .until(1.0)
@@ -383,7 +384,7 @@ fn observers_see_what_samples_keep() {
 
 #[test]
 fn the_first_look_is_no_event_and_later_ones_may_be() {
-    // An acceleration of −1 from the first look on, and of +1 from 0.5 s on.
+    // The acceleration is −1 from the first sample on, and +1 from 0.5 s on.
     let mass = mass();
     let run = Simulation::new(&mass)
         .until(1.0)

@@ -1,4 +1,4 @@
-//! The balance of energy closes, and says where the energy went.
+//! The energy balance closes and accounts for every loss and gain.
 #![cfg(feature = "std")]
 
 use crate::by_hand::double_pendulum::DoublePendulum;
@@ -32,7 +32,7 @@ fn energy_is_accounted_for_in_a_driven_damped_oscillator() {
                 .run(driven.start())
                 .unwrap();
             let balance = run.energy_balance().unwrap();
-            // At speeds up to 4 m/s, an error of the state is at most ten times that in energy; and
+            // At speeds up to 4 m/s, an error of the state causes at most ten times that error in energy, and
             // each step adds one.
             let limit = 10.0 * run.statistics().steps as f64 * tolerance;
             assert!(
@@ -41,7 +41,7 @@ fn energy_is_accounted_for_in_a_driven_damped_oscillator() {
                 method.tableau.name
             );
             assert!(balance.relative().abs() <= limit / balance.turned_over);
-            // Dampers only take, and what they took is a good part of what the drive gave.
+            // Dampers only take energy, and they take a large part of the drive's work.
             assert!(balance.dissipated > 1.0 && balance.work > 1.0);
             assert!(balance.turned_over > balance.work + balance.dissipated);
         }
@@ -75,8 +75,7 @@ fn the_balance_is_kept_up_to_an_event_within_a_step() {
 
 #[test]
 fn work_and_dissipation_are_those_of_the_closed_form() {
-    // Free motion against a damper, v = e^(−d t): dissipated ½ (1 − e^(−2 d t)); nothing works on
-    // it.
+    // Free motion against a damper, v = e^(−d t): dissipated ½ (1 − e^(−2 d t)); no force does work.
     let damped = Toy {
         p: 0.7,
         dissipation_rate: |v, p| p * v[0] * v[0],
@@ -139,9 +138,9 @@ fn backward_in_time_the_balance_closes_too() {
         .run(driven.start())
         .unwrap();
     let balance = run.energy_balance().unwrap();
-    // Going back, the dampers give.
+    // Backward in time, dampers supply energy.
     assert!(balance.dissipated < 0.0);
-    // Motion grows backward, e^(0.15 · 5) = 2 times, in the energy four times.
+    // Backward, the motion grows by e^(0.15 · 5) = 2, its energy by four.
     let limit = 40.0 * run.statistics().steps as f64 * 1e-10;
     assert!(balance.residual().abs() <= limit, "{balance:?}");
 }
@@ -157,7 +156,7 @@ fn conservative_machines_conserve() {
         .unwrap();
     let balance = run.energy_balance().unwrap();
     let steps = run.statistics().steps as f64;
-    // The energy's change per unit of the state: m g l, and m l² θ'.
+    // The derivatives of the energy by the state: m g l, and m l² θ'.
     assert!(
         balance.residual().abs() <= 30.0 * steps * 1e-12,
         "{balance:?}"
@@ -221,8 +220,8 @@ fn a_machine_at_rest_has_nothing_to_balance() {
 
 #[test]
 fn what_the_tolerance_explains_is_no_warning() {
-    // Every method, from tolerances at which hardly a digit is right to those of rounding; driven and damped,
-    // free, at rest, and stiff beside its own motion.
+    // Every method, at tolerances from barely one correct digit to the level of rounding; machines that are
+    // driven and damped, free, at rest, or stiff compared with their motion.
     let stiff = Toy {
         p: 1e3,
         ..oscillator()
@@ -268,7 +267,7 @@ fn what_the_tolerance_explains_is_no_warning() {
 
 #[test]
 fn a_force_of_the_wrong_sign_is_a_warning() {
-    // The spring, the damper, the drive: each on the wrong side in the acceleration alone.
+    // The spring, the damper and the drive: each has the wrong sign in the acceleration only.
     let wrong: [Toy<1>; 3] = [
         Toy {
             accelerations: |t, q, v, _, p| [4.0 * q[0] - 0.3 * v[0] + 2.0 * (p * t).cos()],

@@ -1,4 +1,4 @@
-//! Events are found on time, in order, and end a run where they should.
+//! Events are found at the right time and in order, and end a run where they should.
 #![cfg(feature = "std")]
 
 use crate::by_hand::toy::{Toy, ball, oscillator};
@@ -9,13 +9,12 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// A ball that falls may go 490 m in one step of 10 s; its positions are known to the roundoff of
-/// that.
+/// A falling ball may travel 490 m in one step of 10 s; this bounds the round-off of its positions.
 const ROUNDOFF_OF_FALL: f64 = 16.0 * f64::EPSILON * 490.0;
 
 #[test]
 fn a_ball_touches_the_ground_on_time_by_every_method() {
-    // h = g t² / 2; a polynomial of degree 2 is exact for every method.
+    // h = g t² / 2; every method is exact for a polynomial of degree 2.
     let fall_time = (2.0 * 2.0 / 9.81_f64).sqrt();
     for method in &METHODS {
         let ball = ball();
@@ -30,7 +29,7 @@ fn a_ball_touches_the_ground_on_time_by_every_method() {
             panic!("{:?}", run.events())
         };
         assert_eq!(event.crossing, Crossing::Falling);
-        // At 6 m/s.
+        // The ball passes at 6 m/s.
         assert!((event.state.t - fall_time).abs() <= ROUNDOFF_OF_FALL / 6.0);
         assert_eq!(run.end().t, event.state.t);
         assert!(run.end().q[0].abs() <= ROUNDOFF_OF_FALL);
@@ -40,7 +39,7 @@ fn a_ball_touches_the_ground_on_time_by_every_method() {
 
 #[test]
 fn a_ball_bounces_from_run_to_run() {
-    // Each run starts on the ground: leaving it is no event, coming back is.
+    // Each run starts on the ground: leaving it is no event, returning to it is.
     let ball = ball();
     let mut state = ball.start();
     let fall_time = (2.0 * 2.0 / 9.81_f64).sqrt();
@@ -91,7 +90,7 @@ fn crossings_are_told_apart_and_come_in_order() {
             "{}",
             method.tableau.name
         );
-        // Errors of state and time are the same, at rate 1; dense output errs like a few steps.
+        // At a rate of 1, errors of state and time are equal; dense output errs by as much as a few steps.
         let limit = (run.statistics().steps as f64 + 10.0) * 1e-9;
         for (event, (name, t)) in run.events().iter().zip(expected) {
             assert_eq!(event.name, name);
@@ -108,7 +107,7 @@ fn crossings_are_told_apart_and_come_in_order() {
 
 #[test]
 fn many_events_of_one_step_are_all_found_in_order() {
-    // Free fall takes few, long steps; heights of 3 m apart are passed within them.
+    // Free fall takes few, long steps; several heights 3 m apart are passed within one.
     let ball = Toy {
         start: ([100.0], [0.0]),
         ..ball()
@@ -123,7 +122,7 @@ fn many_events_of_one_step_are_all_found_in_order() {
     for (i, event) in run.events().iter().enumerate() {
         let height = 99.0 - 3.0 * i as f64;
         let t = (2.0 * (100.0 - height) / 9.81).sqrt();
-        // The first height is passed at 4.4 m/s.
+        // The ball passes the first height at 4.4 m/s.
         assert!(
             (event.state.t - t).abs() <= ROUNDOFF_OF_FALL / 4.0,
             "{height}"
@@ -154,13 +153,13 @@ fn the_first_of_two_ends_ends_the_run() {
         run.at(run.end().t + 1e-6),
         Err(Error::OutsideRun { .. })
     ));
-    // The steps that were kept end with the run.
+    // The steps that are kept end where the run ends.
     assert_eq!(run.steps().last().unwrap(), *run.end());
 }
 
 #[test]
 fn backward_in_time_crossings_keep_their_names() {
-    // From t = 0 back: x = cos t is 0 at −π/2, where it rises with t.
+    // Backward from t = 0: x = cos t is 0 at −π/2, where it rises with t.
     let oscillator = oscillator();
     let run = Simulation::new(&oscillator)
         .tolerance(1e-10)
@@ -181,7 +180,7 @@ fn backward_in_time_crossings_keep_their_names() {
 
 #[test]
 fn a_function_that_is_zero_at_the_start_is_no_event_there() {
-    // v = −sin t is 0 at the start, then falls; its next zero is at π.
+    // v = −sin t is 0 at the start and then falls; its next zero is at π.
     let oscillator = oscillator();
     let run = Simulation::new(&oscillator)
         .until(4.0)
@@ -252,8 +251,8 @@ fn a_condition_stops_a_run_after_a_step() {
 
 #[test]
 fn the_end_of_a_run_is_the_state_of_its_event() {
-    // x = cos t is c at arccos c. The function is 0 to the rounding of its terms and of time, at rate sin t;
-    // and the end is as exact as every other step.
+    // x = cos t equals c at arccos c. The event function is 0 up to rounding of its terms and of time, at the rate sin t; and the end of the run is as
+    // accurate as any other step.
     for method in &METHODS {
         for tolerance in [1e-4, 1e-7, 1e-10] {
             for level in [-0.9, -0.31, 0.0, 0.2, 0.77] {
@@ -280,7 +279,7 @@ fn the_end_of_a_run_is_the_state_of_its_event() {
     }
 }
 
-/// Goes on from event to event: from each end by a run of its own, or by resuming.
+/// Continues from event to event, from each end with a new run or by resuming.
 fn passages(level: f64, count: usize, resumes: bool) -> Vec<(f64, Crossing)> {
     let oscillator = oscillator();
     let mut found = Vec::new();
@@ -307,7 +306,7 @@ fn passages(level: f64, count: usize, resumes: bool) -> Vec<(f64, Crossing)> {
 
 #[test]
 fn runs_that_go_on_from_events_find_each_of_them_once() {
-    // x = cos t passes c at ±arccos c + 2πk, falling and rising in turn. 400 runs each way.
+    // x = cos t passes c at ±arccos c + 2πk, falling and rising in turn. That makes 400 runs each way.
     for resumes in [false, true] {
         for i in 0..20 {
             let level = -0.95 + 0.1 * f64::from(i);
@@ -318,7 +317,7 @@ fn runs_that_go_on_from_events_find_each_of_them_once() {
                     0 => level.acos() + turns,
                     _ => turns - level.acos(),
                 };
-                // Local errors of some 20 steps a turn, at rate 0.3 at least.
+                // Local errors of about 20 steps per period, at a rate of at least 0.3.
                 let limit = 1e-10 * (20.0 * exact + 20.0) / 0.3;
                 assert!((t - exact).abs() <= limit, "{level} {k}: {:e}", t - exact);
                 let expected = [Crossing::Falling, Crossing::Rising][k % 2];
@@ -330,7 +329,7 @@ fn runs_that_go_on_from_events_find_each_of_them_once() {
 
 #[test]
 fn a_start_beside_a_zero_by_rounding_is_no_event() {
-    // Where a run ended, up to what rounding makes of it: on either side, going either way.
+    // The start of a run may differ from the end of the one before by rounding: on either side of the zero, moving either way.
     let ball = ball();
     for side in [-1.0, 1.0] {
         for (v, t_back) in [(6.0, Some(2.0 * 6.0 / 9.81)), (-6.0, None)] {
@@ -357,7 +356,7 @@ fn a_start_beside_a_zero_by_rounding_is_no_event() {
 
 #[test]
 fn a_start_that_is_not_at_a_zero_finds_the_one_close_ahead() {
-    // 10⁻¹⁰ m above the ground at 6 m/s: far more than rounding, far less than a step.
+    // 10⁻¹⁰ m above the ground at 6 m/s: far above rounding, far below a step.
     let ball = ball();
     let start = State {
         t: 5.0,
@@ -375,7 +374,7 @@ fn a_start_that_is_not_at_a_zero_finds_the_one_close_ahead() {
 
 #[test]
 fn a_flight_much_shorter_than_a_step_is_found() {
-    // Of a run that may go 10 s in a step: flights of 2v/g, from 1 s down to some thousand roundings of time.
+    // In a run whose steps may be 10 s long: flights of duration 2v/g, from 1 s down to about a thousand rounding units of time.
     let ball = ball();
     for exponent in 0..12 {
         let flight = 0.1_f64.powi(exponent);
@@ -400,7 +399,7 @@ fn a_flight_much_shorter_than_a_step_is_found() {
 
 #[test]
 fn a_ball_bounces_a_hundred_thousand_times() {
-    // v ← −e v at each bounce; a flight takes 2v/g, and each is shorter than the one before it by e.
+    // v ← −e v at each bounce. A flight takes 2v/g, and each is shorter than the previous one by the factor e.
     let (restitution, count) = (0.9999_f64, 100_000);
     let ball = Toy {
         start: ([2e-4], [0.0]),
@@ -417,8 +416,7 @@ fn a_ball_bounces_a_hundred_thousand_times() {
     let mut share = 1.0;
     for bounce in 0..count {
         assert_eq!(*run.ending(), Ending::Event("floor".into()), "{bounce}");
-        // Each impact is known to a few roundings ε t of time, which is 4 ε t g of speed, and 8 ε t of
-        // each flight after it.
+        // Each impact time has an error of a few rounding units ε t, which causes an error of 4 ε t g in speed and of 8 ε t in each later flight.
         let bounces = f64::from(bounce);
         let limit = f64::EPSILON * exact * (4.0 + 8.0 * bounces + 4.0 * bounces * bounces);
         let late = run.end().t - exact;
@@ -437,7 +435,7 @@ fn a_ball_bounces_a_hundred_thousand_times() {
 
 #[test]
 fn bounces_that_come_to_an_end_do_not_hold_a_run_up() {
-    // Half of the speed at each bounce: all of them are over after 3 falls' time.
+    // Each bounce halves the speed, so all bounces are over after 3 times the time of the fall.
     let ball = ball();
     let floor = |state: &State<[f64; 1]>| state.q[0];
     let fall = (2.0 * 2.0 / 9.81_f64).sqrt();
@@ -461,24 +459,24 @@ fn bounces_that_come_to_an_end_do_not_hold_a_run_up() {
             .run(start)
             .unwrap();
     }
-    // The last flight that is seen takes 2⁻⁴⁰ of the first or less: 10⁻¹² s.
+    // The last flight that is resolved takes at most 2⁻⁴⁰ of the first: 10⁻¹² s.
     assert!(bounces >= 40, "{bounces}");
 }
 
-/// `x'' = u`, with the force of a relay.
+/// `x'' = u`, pushed by the force of a relay.
 fn pushed() -> Toy<1> {
     Toy::new(([0.0], [0.0]), |_, _, _, u, _| [u])
 }
 
-/// A law that holds the input.
+/// An input law that holds the input constant.
 fn held(force: f64) -> impl Fn(f64, &[f64; 1], &[f64; 1], &mut f64) + Clone {
     move |_, _, _, u| *u = force
 }
 
 #[test]
 fn a_relay_switches_a_hundred_thousand_times() {
-    // x'' = −A sgn x: each half swing takes 2v/A, with the same v at each passage. The relay switches
-    // where x = 0, and what x does just after is decided by v and not by the new force.
+    // x'' = −A sgn x: each half swing takes 2v/A, with the same v at each passage. The relay switches where x = 0, and the sign of x just after is decided
+    // by v, not by the new force.
     let (force, v, count) = (1e4, 1.0, 100_000);
     let machine = pushed();
     let zero = |state: &State<[f64; 1]>| state.q[0];
@@ -497,8 +495,7 @@ fn a_relay_switches_a_hundred_thousand_times() {
     for switch in 1..=count {
         let (switches, half) = (f64::from(switch), 2.0 * v / force);
         let exact = half * switches;
-        // Each passage is known to 4 ε t of time, which is 4 ε t A of speed, and 8 ε t of each half swing
-        // after it.
+        // Each passage has an error of 4 ε t in time, which causes an error of 4 ε t A in speed and of 8 ε t in each later half swing.
         let limit = f64::EPSILON * exact * (4.0 + 8.0 * switches + 4.0 * switches * switches);
         let late = run.end().t - exact;
         assert!(late.abs() <= limit, "{switch}: {late:e}");
@@ -517,8 +514,8 @@ fn a_relay_switches_a_hundred_thousand_times() {
 
 #[test]
 fn a_chattering_relay_switches_a_hundred_thousand_times() {
-    // x'' = u holds v within ±b: u = −1 from v = b on, 1 from v = −b on. Just after it has switched, the
-    // function of the switch goes back to where it came from: 2b from one to the next.
+    // x'' = u keeps v within ±b: u = −1 from v = b on, 1 from v = −b on. Just after a switch the switching function goes back to the side it came from; v
+    // changes by 2b from one switch to the next.
     let (band, count) = (1e-3, 100_000);
     let machine = pushed();
     let upper = move |state: &State<[f64; 1]>| state.v[0] - band;
@@ -535,7 +532,7 @@ fn a_chattering_relay_switches_a_hundred_thousand_times() {
         let name = if is_upper { "upper" } else { "lower" };
         assert_eq!(*run.ending(), Ending::Event(name.into()), "{switch}");
         let exact = band * (1.0 + 2.0 * f64::from(switch));
-        // Each switch is known to some roundings of time.
+        // Each switch has an error of a few rounding units of time.
         let limit = 8.0 * f64::EPSILON * exact * (1.0 + f64::from(switch));
         let late = run.end().t - exact;
         assert!(late.abs() <= limit, "{switch}: {late:e}");
@@ -577,7 +574,7 @@ fn a_resumed_run_has_the_settings_of_the_first() {
 
 #[test]
 fn a_jump_that_ends_a_run_ends_it_once() {
-    // The function has no zero, only a jump: the end is beside it by rounding, and the next run goes on.
+    // The function has no zero, only a jump: the run ends beside it to rounding, and the next run continues past it.
     let ball = ball();
     let tick = |state: &State<[f64; 1]>| if state.t < 1.25 { -1.0 } else { 1.0 };
     let run = Simulation::new(&ball)
@@ -596,13 +593,13 @@ fn a_jump_that_ends_a_run_ends_it_once() {
     assert!((resumed.end().t - 2.0).abs() <= 4.0 * f64::EPSILON);
 }
 
-/// Thrown up at 5 m/s, or caught so: at its highest after 5/9.81 s, or before.
+/// A ball with the velocity `v` at the start: it is highest at t = v/9.81 s, which may be before the start.
 fn thrown(v: f64) -> Toy<1> {
     Toy::new(([0.0], [v]), |_, _, _, _, _| [-9.81])
 }
 
-/// A height below the highest point by a billionth is passed twice within 3·10⁻⁵ s, and one above it never, by every method in one step, wherever in
-/// it that is, forward and backward in time.
+/// A height a billionth below the highest point is passed twice within 3·10⁻⁵ s, and one above it never. Every method finds this in one step, wherever in
+/// the step the highest point lies, forward and backward in time.
 #[test]
 fn what_comes_and_goes_within_a_step_is_an_event() {
     let (highest, top) = (12.5 / 9.81, 5.0 / 9.81);
@@ -629,7 +626,7 @@ fn what_comes_and_goes_within_a_step_is_an_event() {
                 let [one, other] = run.events() else {
                     panic!("{name} to {end} s: {:?}", run.events())
                 };
-                // A thousand roundings of the longest way, as that of dense output has.
+                // A thousand rounding units of the largest distance, as dense output has.
                 let way = highest.max((5.0 * end - 0.5 * 9.81 * end * end).abs());
                 let limit = 1e3 * f64::EPSILON * way / (9.81 * beside);
                 let crossings = if direction > 0.0 {
@@ -650,7 +647,7 @@ fn what_comes_and_goes_within_a_step_is_an_event() {
     }
 }
 
-/// A height that ends a run ends it where it is passed first, however little is beyond it.
+/// An event at a height that the motion barely exceeds ends the run at the first passage.
 #[test]
 fn a_run_ends_at_a_height_that_it_hardly_passes() {
     let highest = 12.5 / 9.81;
@@ -673,7 +670,7 @@ fn a_run_ends_at_a_height_that_it_hardly_passes() {
     }
 }
 
-/// x = cos t is beyond −1 + ε for 2√(2ε) at each turn, a small part of a step, and beyond −1 − ε never.
+/// x = cos t is beyond −1 + ε for a time 2√(2ε) at each turning point, a small part of a step, and never beyond −1 − ε.
 #[test]
 fn turning_points_that_hardly_pass_a_level_are_all_seen() {
     let [_, radau13] = &RADAU_OF_HIGH_ORDER;
@@ -700,7 +697,7 @@ fn turning_points_that_hardly_pass_a_level_are_all_seen() {
         let steps = run.statistics().steps as f64;
         assert!(40.0 / steps > 4.0 * beside, "{name}: {steps} steps");
         assert_eq!(run.events().len(), 12, "{name}");
-        // What steps err by, over the rate there.
+        // The sum of the steps' errors, divided by the rate there.
         let limit = 10.0 * (steps + 10.0) * tolerance / beside;
         assert!(limit < beside, "{name}");
         for (k, event) in run.events().iter().enumerate() {
@@ -714,7 +711,7 @@ fn turning_points_that_hardly_pass_a_level_are_all_seen() {
     }
 }
 
-/// On the way up all heights in their order, on the way down all in reverse, all of them within one step.
+/// All heights are found in order on the way up and in reverse order on the way down, all within one step.
 #[test]
 fn heights_are_passed_up_and_down_in_order() {
     for method in &METHODS {
@@ -737,13 +734,13 @@ fn heights_are_passed_up_and_down_in_order() {
             let half = (900.0 - 2.0 * 9.81 * heights[i]).sqrt();
             let t = if place < 15 { 30.0 - half } else { 30.0 + half } / 9.81;
             assert_eq!(event.name, format!("{i}"));
-            // At 4 m/s at least.
+            // The speed is at least 4 m/s.
             assert!((event.state.t - t).abs() <= ROUNDOFF_OF_FALL);
         }
     }
 }
 
-/// What touches zero and goes back has not changed its sign. Rounding may see it beyond zero for a moment: then it is told as both changes.
+/// A function that touches zero and returns does not change its sign. If rounding takes it beyond zero for a moment, both changes are reported.
 #[test]
 fn a_touch_is_no_event() {
     for method in &METHODS {
@@ -772,7 +769,7 @@ fn a_touch_is_no_event() {
     }
 }
 
-/// A function that is 0 at the start, and passes zero twice more between two looks: t ((t − 0.35)² − d²).
+/// A function that is 0 at the start and has two more zeros between two evaluations: t ((t − 0.35)² − d²).
 #[test]
 fn what_starts_at_zero_may_come_and_go_as_well() {
     for method in &METHODS {
@@ -793,7 +790,7 @@ fn what_starts_at_zero_may_come_and_go_as_well() {
             let [one, other] = found[..] else {
                 panic!("{} {half}: {found:?}", method.tableau.name)
             };
-            // The function is known to some roundings of 0.35³, at the rate 0.7 d.
+            // The function has an error of a few rounding units of 0.35³, at the rate 0.7 d.
             let limit = 64.0 * f64::EPSILON / half;
             assert!((one.0 - (0.35 - half)).abs() <= limit, "{one:?}");
             assert!((other.0 - (0.35 + half)).abs() <= limit, "{other:?}");
@@ -802,8 +799,8 @@ fn what_starts_at_zero_may_come_and_go_as_well() {
     }
 }
 
-/// Events that are far away cost no evaluation of the machine and seven of their function for each step: the value at its start is known, four values make
-/// the interpolant, and three tell whether the function follows it.
+/// An event function far from zero costs no evaluation of the machine and seven of its own in each step: the value at the start is known, four values
+/// define the interpolant, and three check it.
 #[test]
 fn what_is_far_from_zero_is_asked_seven_times_a_step() {
     for method in &METHODS {
@@ -827,7 +824,7 @@ fn what_is_far_from_zero_is_asked_seven_times_a_step() {
         assert_eq!(with.end(), without.end());
         let (with, without) = (with.statistics(), without.statistics());
         assert_eq!(with.evaluations, without.evaluations);
-        // And at the start three times, and there four times more with each number moved by its rounding.
+        // At the start it is evaluated three times, and four times more at each of these with each number moved by its rounding.
         let asked = count.load(Ordering::Relaxed) - 7 * with.steps;
         assert_eq!(asked, 3 + 3 * 4, "{}", method.tableau.name);
     }

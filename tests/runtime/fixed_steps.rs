@@ -1,4 +1,4 @@
-//! Methods whose steps have a fixed length: their orders, what they keep, and what they refuse.
+//! Methods with steps of a fixed length: their orders, their invariants, and the machines that they refuse.
 #![cfg(feature = "std")]
 
 use crate::by_hand::constrained::{self, Constrained};
@@ -13,9 +13,9 @@ fn method(name: &str) -> &'static Method {
     Method::named(name).expect("it is listed")
 }
 
-/// A particle of 1 kg in a plane, braked by `drag` times its velocity. Its coordinates are `x`, its distance from the origin over
-/// `σ = 1 + 0.3 t`, and the angle `θ` from an axis that turns by `Ω`: so the mass matrix changes with place and time, and the bias
-/// has terms of the second, of the first and of no degree in the rates.
+/// A particle of 1 kg in a plane, braked by `drag` times its velocity. Its coordinates are `x`, its distance from the origin
+/// divided by `σ = 1 + 0.3 t`, and the angle `θ` from an axis that turns at `Ω`. So the mass matrix depends on position and time,
+/// and the bias has terms of degree two, one and zero in the rates.
 #[derive(Clone, Copy, Debug)]
 struct Turning {
     drag: f64,
@@ -24,14 +24,14 @@ struct Turning {
 const GROWTH: f64 = 0.3;
 const TURN: f64 = 0.7;
 
-/// `σ`, and the velocity along and across the radius.
+/// `σ`, and the velocity along the radius and across it.
 fn velocity(t: f64, [x, _]: &[f64; 2], [dx, turn]: &[f64; 2]) -> [f64; 3] {
     let scale = 1.0 + GROWTH * t;
     [scale, scale * dx + GROWTH * x, scale * x * (turn + TURN)]
 }
 
 impl Turning {
-    /// From `(1, 0)` with the velocity `(0, 1)`, it goes straight to `(1, s)`, `s = (1 − e^(−c t))/c`.
+    /// Started at `(1, 0)` with the velocity `(0, 1)`, the particle moves straight to `(1, s)`, `s = (1 − e^(−c t))/c`.
     fn exact(&self, t: f64) -> [f64; 2] {
         let s = match self.drag {
             0.0 => t,
@@ -146,7 +146,7 @@ impl System for Turning {
     fn outputs(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &[f64; 2], (): &()) {}
 }
 
-/// Two lengths of steps, the second half of the first, whose errors are far above rounding.
+/// Two step lengths, the second half the first, whose errors are far above rounding.
 fn lengths(method: &Method) -> [f64; 2] {
     let h = match method.tableau.order {
         1 | 2 => 1.0 / 64.0,
@@ -157,7 +157,7 @@ fn lengths(method: &Method) -> [f64; 2] {
     [h, 0.5 * h]
 }
 
-/// Errors of steps of a method of order `p` fall by `2^p` when the steps are halved, but for terms of higher orders.
+/// The error of a method of order `p` falls by `2^p` when the steps are halved, up to terms of higher order.
 fn check_order(name: &str, what: &str, order: u32, [of_h, of_half]: [f64; 2]) {
     let found = (of_h / of_half).log2();
     let floor = 1e-13;
@@ -185,7 +185,7 @@ fn each_method_has_its_order_where_inertia_changes_with_place_and_time() {
     }
 }
 
-/// Where nothing brakes, energy is what the particle had; where something does, it is lost as the books say.
+/// Without drag the particle keeps its energy; with drag the energy balance accounts for the loss.
 #[test]
 fn the_books_close_with_the_order_of_the_method() {
     let machine = Turning { drag: 0.5 };
@@ -209,7 +209,7 @@ fn the_books_close_with_the_order_of_the_method() {
     }
 }
 
-/// Between its ends a step is known by the quintic or the cubic through them.
+/// Within a step, the motion is the quintic or the cubic through its ends.
 #[test]
 fn the_motion_within_steps_is_of_the_order_that_is_stated() {
     let machine = Turning { drag: 0.0 };
@@ -244,7 +244,7 @@ fn pendulum() -> (DoublePendulum, State<DoublePendulumCoordinates>) {
     (machine, start)
 }
 
-/// The greatest error of the energy in each quarter of a long run.
+/// The largest error of the energy in each quarter of a long run.
 fn errors_of_energy(name: &str, h: f64, steps: usize) -> [f64; 4] {
     let (machine, start) = pendulum();
     let system = machine.prepare();
@@ -268,14 +268,15 @@ fn errors_of_energy(name: &str, h: f64, steps: usize) -> [f64; 4] {
     worst
 }
 
-/// The double pendulum's mass matrix depends on its place: a method that were symplectic in rates, and not in momenta, would drift.
+/// The mass matrix of the double pendulum depends on its position, so the energy would drift with a method that is symplectic in
+/// the rates instead of the momenta.
 #[test]
 fn the_energy_of_symplectic_methods_does_not_drift() {
     for name in ["gauss4", "gauss6", "gauss8", "rattle"] {
         let [first, .., last] = errors_of_energy(name, 0.05, 4000);
         assert!(last < 1.2 * first, "{name}: {first:e} J, then {last:e} J");
     }
-    // The test can tell: each quarter adds as much.
+    // The comparison shows that the test can detect drift: with `rk4` each quarter adds as much.
     let [first, .., last] = errors_of_energy("rk4", 0.05, 4000);
     assert!(last > 3.0 * first, "rk4: {first:e} J, then {last:e} J");
 }
@@ -293,7 +294,7 @@ fn symmetric_methods_come_back_to_the_start() {
         let away = (stepper.q()[0] - 0.3).abs();
         assert!(away > 1e-3, "{name}: it has moved");
         stepper.advance_to(0.0).unwrap();
-        // Roundings of 320 steps, which this motion makes no more than ten times larger.
+        // Rounding in 320 steps, amplified by this motion at most ten times.
         let limit = 320.0 * 10.0 * f64::EPSILON;
         for (y, exact) in [
             (stepper.q()[0], 0.3),
@@ -306,7 +307,7 @@ fn symmetric_methods_come_back_to_the_start() {
     }
 }
 
-/// A spherical pendulum of 1 m and 1 kg in space, held by its rod.
+/// A spherical pendulum of 1 m and 1 kg, whose rod is a constraint.
 fn spherical() -> Constrained<3, 1, 9> {
     Constrained {
         coordinates: [("x", "m"), ("y", "m"), ("z", "m")],
@@ -341,7 +342,7 @@ fn rattle_keeps_constraints_and_the_momenta_of_symmetries_to_rounding() {
     for step in 0..steps {
         stepper.step().unwrap();
         let (q, v) = (stepper.q(), stepper.v());
-        // Of 0.9 kg m²/s.
+        // The angular momentum is 0.9 kg m²/s.
         let momentum = q[0] * v[1] - q[1] * v[0];
         let limit = f64::EPSILON * (16.0 + 4.0 * f64::from(step));
         assert!((momentum - 0.9).abs() < limit, "{step}: {momentum}");
@@ -355,7 +356,7 @@ fn rattle_keeps_constraints_and_the_momenta_of_symmetries_to_rounding() {
     assert!(worst[1] < 1.2 * worst[0], "{worst:?} J");
 }
 
-/// With constraints that stand and with one that moves: against the default method at its finest.
+/// Machines with stationary constraints and one with a moving constraint, compared with the default method at its finest tolerance.
 #[test]
 fn methods_with_constraints_have_their_order() {
     fn check<const N: usize, const M: usize, const NN: usize>(machine: &Constrained<N, M, NN>) {
@@ -386,7 +387,7 @@ fn methods_with_constraints_have_their_order() {
     check(&constrained::winch());
 }
 
-/// Of `x″ = −ω² x` with `ω h = 1000`, generalized-α leaves 0.8 of the amplitude in each step.
+/// For `x″ = −ω² x` with `ω h = 1000`, generalized-α keeps 0.8 of the amplitude in each step.
 #[test]
 fn generalized_alpha_damps_what_is_too_fast_for_its_steps() {
     let stiff = Toy {
@@ -402,9 +403,9 @@ fn generalized_alpha_damps_what_is_too_fast_for_its_steps() {
         stepper.advance_to(10.0).map(|()| stepper.q()[0])
     };
     let left = run("generalized-alpha").unwrap();
-    // Two eigenvalues of that size that are nearly equal: no more than 100² times 0.8¹⁰⁰.
+    // Two eigenvalues of modulus 0.8 are nearly equal, so the amplitude is at most 100² times 0.8¹⁰⁰.
     assert!(left.abs() < 1e4 * 0.8_f64.powi(100), "{left:e}");
-    // An explicit one grows without bound, which the test can tell.
+    // An explicit method grows without bound, which shows that the test can tell.
     assert!(!run("rk4").is_ok_and(|x| x.abs() <= 1.0));
 }
 
@@ -437,7 +438,7 @@ fn what_a_method_of_fixed_steps_cannot_follow_is_refused() {
     let said = run.run(sleigh.start()).unwrap_err().to_string();
     assert!(said.contains("constraints of rates"), "{said}");
 
-    // A system by hand that does not say its mass matrix.
+    // A system by hand that does not provide its mass matrix.
     let toy = oscillator();
     for name in ["gauss4", "rattle"] {
         let run = Simulation::new(&toy)
@@ -460,7 +461,7 @@ fn what_a_method_of_fixed_steps_cannot_follow_is_refused() {
     assert!(is_meant, "{error}");
 }
 
-/// A step that is too long for fixed-point iteration is an error, and no step.
+/// If a step is too long for fixed-point iteration, the step fails with an error.
 #[test]
 fn stages_that_are_not_found_are_told() {
     let machine = DoublePendulum {

@@ -1,4 +1,4 @@
-//! The runtime on systems by hand: motions, events, energy, methods, mistakes.
+//! Tests of the runtime on systems typed in by hand: motions, events, energy, methods, user errors.
 
 mod accuracy;
 mod adapted;

@@ -1,4 +1,4 @@
-//! What matrices say is what the equations of motion say.
+//! The matrices of a system agree with its equations of motion.
 #![cfg(all(feature = "std", feature = "nalgebra"))]
 
 use crate::by_hand::double_pendulum::{
@@ -36,7 +36,7 @@ fn forces_are_mass_times_acceleration() {
     );
     let accelerations = system.accelerations_of(&state, &inputs).unwrap();
     let missing = &inertia * accelerations - &forces;
-    // A 2 × 2 solve: a few roundings, times the condition of M.
+    // A 2 × 2 solve: a few rounding units times the condition of M.
     assert!(missing.norm() <= 64.0 * f64::EPSILON * forces.norm());
 }
 

@@ -1,5 +1,5 @@
-//! Every method of the list is what is published: its coefficients obey the order conditions, and
-//! its steps and its dense output converge as fast as they should.
+//! Every method of the list is as published: its coefficients obey the order conditions, and its steps and dense output
+//! converge at the stated orders.
 #![cfg(feature = "std")]
 
 use crate::by_hand::toy::{Toy, oscillator};
@@ -16,12 +16,13 @@ fn steps_obey_every_order_condition() {
         let b = tableau.a[tableau.stages];
         let failures = failed_conditions(tableau, b, tableau.order, 1.0);
         assert!(failures.is_empty(), "{}: {failures:?}", tableau.name);
-        // The order is not higher: the conditions after it are not all met.
+        // The order is not higher: some conditions of the next order fail.
         assert!(!failed_conditions(tableau, b, tableau.order + 1, 1.0).is_empty());
     }
 }
 
-/// By the trees of the library, of which the other tests show that they are all; those here would take long to grow to 13 vertices.
+/// Uses the trees of the library, which other tests show to be complete; the trees of this file would take too long
+/// to generate up to 13 vertices.
 #[test]
 fn radau_of_high_order_is_what_it_says_and_no_more() {
     for method in &RADAU_OF_HIGH_ORDER {
@@ -46,7 +47,7 @@ fn radau_of_high_order_is_what_it_says_and_no_more() {
     }
 }
 
-/// Gauss's methods are as good as their stages allow, and the classical method is of order 4.
+/// Gauss methods have the highest order that their stages allow, and the classical method has order 4.
 #[test]
 fn methods_of_fixed_steps_obey_their_order_conditions() {
     for name in ["rk4", "gauss4", "gauss6", "gauss8"] {
@@ -78,7 +79,7 @@ fn dense_output_obeys_every_order_condition() {
 fn error_estimates_vanish_for_motions_that_a_lower_order_follows() {
     for method in &METHODS {
         let tableau = &method.tableau;
-        // b − b̂ of orders p and p̂ takes every tree of at most p̂ vertices to 0.
+        // The weights b − b̂ of methods of orders p and p̂ give 0 for every tree of at most p̂ vertices.
         let fine = tableau.error_power.min(6) - 1;
         let mut estimates = vec![(tableau.error, fine)];
         estimates.extend(tableau.coarse_error.map(|coarse| (coarse, 3)));
@@ -117,8 +118,7 @@ fn every_stage_is_where_it_says() {
 #[test]
 fn steps_and_dense_output_converge_at_their_order() {
     for method in &METHODS {
-        // Steps of equal length until t = 2, halved: errors at the end, and the greatest within a
-        // step.
+        // Equal steps until t = 2, then half as long: errors at the end, and the largest error within a step.
         let coarse = 2.0 / if method.tableau.order == 8 { 6.0 } else { 40.0 };
         let [end_1, within_1] = errors_of_equal_steps(method, coarse);
         let [end_2, within_2] = errors_of_equal_steps(method, coarse / 2.0);
@@ -130,12 +130,12 @@ fn steps_and_dense_output_converge_at_their_order() {
             dense_order: dense_claimed,
             ..
         } = method.tableau;
-        // One halving shows the order to within a term of relative size h.
+        // Halving the steps once gives the order up to a term of relative size h.
         assert!(
             (order - f64::from(step_claimed)).abs() < 0.5,
             "{name}: order {order}"
         );
-        // From the beginning of its step, dense output errs by O(h^(dense order + 1)).
+        // Relative to the beginning of its step, the error of dense output is O(h^(dense order + 1)).
         let expected = f64::from(dense_claimed + 1);
         assert!(
             (dense_order - expected).abs() < 0.5,
@@ -188,7 +188,7 @@ fn a_step_costs_the_evaluations_that_it_says() {
         let work = stepper.work();
         assert_eq!(work.rejected, 0);
         let stages = method.tableau.stages;
-        // The last evaluation of a step is the first of the next.
+        // The last evaluation of a step is the first of the next one.
         assert_eq!(work.evaluations - before, work.steps * stages);
         stepper.interpolant().unwrap();
         let extra = method.tableau.a.len() - stages - 1;
@@ -220,7 +220,7 @@ fn the_eigenvectors_of_implicit_methods_are_those_of_their_stages() {
         };
         let product = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a * c - b * d, a * d + b * c];
         let is = |x: [f64; 2], y: [f64; 2]| {
-            // Sums of three products of rounded numbers up to 5.
+            // Sums of three products of rounded numbers of size up to 5.
             (x[0] - y[0]).hypot(x[1] - y[1]) <= 3.0 * 3.0 * 5.0 * f64::EPSILON
         };
         for (mu, left, right) in pairs {
@@ -241,7 +241,7 @@ fn the_eigenvectors_of_implicit_methods_are_those_of_their_stages() {
             let one = sum(&mut (0..3).map(|j| product(left[j], right[j])));
             assert!(is(one, [1.0, 0.0]), "{one:?}");
         }
-        // And the vectors of different eigenvalues are at right angles.
+        // Left and right eigenvectors of different eigenvalues are orthogonal.
         let other =
             sum(&mut (0..3).map(|j| product(real(spectrum.left_of_real[j]), pair.right[j])));
         assert!(is(other, [0.0; 2]), "{other:?}");
@@ -259,7 +259,7 @@ fn methods_have_names() {
     assert_eq!(<&Method>::default().tableau.name, "dop853");
 }
 
-/// A stepper of equal steps `h` to t = 2.
+/// A stepper with equal steps `h` to t = 2.
 fn stepper<'s, L: InputLaw<Toy<1>>>(
     toy: &'s Toy<1>,
     law: L,
@@ -277,8 +277,7 @@ fn stepper<'s, L: InputLaw<Toy<1>>>(
     stepper
 }
 
-/// Errors at the end, and the greatest that is made within a step, for `x'' = −x`, by steps of
-/// equal length.
+/// The error at the end, and the largest error within a step, for `x'' = −x` with equal steps.
 fn errors_of_equal_steps(method: &'static Method, h: f64) -> [f64; 2] {
     let oscillator = oscillator();
     let mut stepper = stepper(&oscillator, DefaultInputs, method, h);
@@ -300,7 +299,7 @@ fn errors_of_equal_steps(method: &'static Method, h: f64) -> [f64; 2] {
     [end, within]
 }
 
-/// A rooted tree: what hangs from its root.
+/// A rooted tree, as the list of the trees attached to its root.
 ///
 /// E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., 1993,
 /// section II.2.
@@ -318,7 +317,7 @@ impl Tree {
     }
 }
 
-/// All rooted trees of so many vertices.
+/// All rooted trees with this number of vertices.
 fn trees(vertices: u32) -> Vec<Tree> {
     if vertices == 0 {
         return Vec::new();
@@ -326,7 +325,7 @@ fn trees(vertices: u32) -> Vec<Tree> {
     if vertices == 1 {
         return vec![Tree(Vec::new())];
     }
-    // A tree is one of fewer vertices, with one more tree hung from its root.
+    // Each tree is a smaller tree with one more tree attached to its root.
     let mut all = Vec::new();
     for branch in 1..vertices {
         for trunk in trees(vertices - branch) {
@@ -343,7 +342,7 @@ fn trees(vertices: u32) -> Vec<Tree> {
     all
 }
 
-/// `Σ bᵢ Φᵢ(tree)`, and a bound on its roundoff, that of the coefficients included.
+/// `Σ bᵢ Φᵢ(tree)`, and a bound on its round-off, including that of the coefficients.
 fn elementary_weight(tableau: &Tableau, b: &[f64], tree: &Tree) -> (f64, f64) {
     // Φᵢ of a tree is the product of Σⱼ aᵢⱼ Φⱼ over its branches.
     fn phi(a: &[&[f64]], tree: &Tree) -> Vec<f64> {
@@ -372,14 +371,14 @@ fn elementary_weight(tableau: &Tableau, b: &[f64], tree: &Tree) -> (f64, f64) {
         .zip(phi(&sizes, tree))
         .map(|(b, phi)| b.abs() * phi)
         .sum();
-    // Each vertex brings a rounded coefficient, a rounded product, and sums of up to 16 terms.
+    // Each vertex contributes a rounded coefficient, a rounded product, and sums of up to 16 terms.
     (
         sum,
         f64::from(tree.vertices()) * 18.0 * 0.5 * f64::EPSILON * size,
     )
 }
 
-/// The trees of at most `order` vertices for which `Σ bᵢ Φᵢ = θ^vertices / γ` does not hold.
+/// The trees of at most `order` vertices that violate `Σ bᵢ Φᵢ = θ^vertices / γ`.
 fn failed_conditions(tableau: &Tableau, b: &[f64], order: u32, theta: f64) -> Vec<Tree> {
     let all = (1..=order).flat_map(trees);
     all.filter(|tree| {
@@ -421,7 +420,7 @@ fn the_trees_of_a_check_are_all_trees() {
         let counted: Vec<Rooted> = Rooted::of(vertices).collect();
         let expected = trees(u32::try_from(vertices).unwrap());
         assert_eq!(counted.len(), expected.len());
-        // As many densities of each value.
+        // Each value of the density occurs equally often.
         let mut densities: Vec<f64> = counted.iter().map(Rooted::density).collect();
         let mut exact: Vec<f64> = expected.iter().map(Tree::density).collect();
         densities.sort_by(f64::total_cmp);
@@ -432,7 +431,7 @@ fn the_trees_of_a_check_are_all_trees() {
             assert!(!counted[..i].contains(tree), "{tree}");
         }
     }
-    // A. Cayley's counts go on.
+    // A. Cayley's counts for more vertices.
     assert_eq!([9, 10, 12].map(|n| Rooted::of(n).count()), [286, 719, 4766]);
     assert_eq!(Rooted::of(0).count() + Rooted::of(17).count(), 0);
     assert_eq!(
@@ -443,7 +442,7 @@ fn the_trees_of_a_check_are_all_trees() {
     );
 }
 
-/// The tableau of a method, to be changed.
+/// A copy of a method's tableau, for a test to modify.
 fn copy(tableau: &Tableau) -> Tableau {
     Tableau {
         coarse_error: tableau.coarse_error,
@@ -452,7 +451,7 @@ fn copy(tableau: &Tableau) -> Tableau {
     }
 }
 
-/// Why a tableau is refused, if it is.
+/// The reason why a tableau is refused, if it is.
 fn refused(tableau: Tableau) -> Option<MethodError> {
     Method::try_new(tableau).err()
 }
@@ -483,7 +482,7 @@ fn every_method_of_the_list_is_what_it_says() {
 
 #[test]
 fn a_tableau_with_any_one_coefficient_changed_is_refused() {
-    // By 10⁻⁹ of what it is: less than any coefficient is known to, more than rounding.
+    // Changes each coefficient by 10⁻⁹ of itself, which is small but far above rounding.
     for method in &METHODS {
         let tableau = &method.tableau;
         let name = tableau.name;
@@ -494,11 +493,11 @@ fn a_tableau_with_any_one_coefficient_changed_is_refused() {
                 let wrong = refused(Tableau { a, ..copy(tableau) });
                 match wrong {
                     Some(MethodError::Node { row, .. }) => assert_eq!(row, i, "{name}"),
-                    // The copy of the last row in implicit methods.
+                    // In implicit methods the last row is a copy, which is checked first.
                     Some(MethodError::Field { field: "a", .. }) => {}
                     other => panic!("{name} a[{i}][{j}]: {other:?}"),
                 }
-                // With the row's sum kept only an order condition can tell.
+                // If the sum of the row is kept, only an order condition can detect the change.
                 let Some(k) = (0..row.len()).find(|k| *k != j && row[*k] != 0.0) else {
                     continue;
                 };
@@ -649,7 +648,7 @@ fn a_tableau_of_a_wrong_shape_is_refused_in_words() {
     assert!(Method::try_new(euler()).is_ok());
     let long: &'static [&'static [f64]] = vec![&[0.0_f64; 3] as &[f64]; 20].leak();
     let cases: Vec<(Tableau, &str)> = vec![
-        // Weights that sum to 2.
+        // Weights with the sum 2.
         (
             Tableau {
                 a: &[&[], &[1.0], &[1.0, 1.0]],

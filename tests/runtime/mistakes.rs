@@ -1,4 +1,4 @@
-//! What cannot be run says why: the parameter, the coordinate, the time, the number.
+//! Errors of runs name the cause: the parameter, the coordinate, the time, the number.
 #![cfg(feature = "std")]
 
 use crate::by_hand::constrained::{Constrained, bead, circle, parallelogram, sleigh, winch};
@@ -77,7 +77,7 @@ fn inputs_must_be_finite() {
         panic!("{error}")
     };
     assert_eq!(input, "torque");
-    // It ends where the root does: step by step ever closer, to roundoff.
+    // The run ends where the root becomes undefined; ever shorter steps approach that to round-off.
     assert!((t - 2.0).abs() < 1e-12, "{t}");
 }
 
@@ -118,7 +118,7 @@ fn settings_must_make_sense() {
 
 #[test]
 fn a_motion_that_runs_into_what_is_undefined_ends_there() {
-    // v' = −1 − √x from x = 1: the root is undefined beyond x = 0. Nothing is wrong before.
+    // v' = −1 − √x from x = 1: the root is undefined beyond x = 0, and nothing is wrong before.
     let toy = Toy::new(([1.0, 1.0], [0.0, 0.0]), |_, q, _, _, _| {
         [0.0, -1.0 - q[1].sqrt()]
     });
@@ -133,7 +133,7 @@ fn a_motion_that_runs_into_what_is_undefined_ends_there() {
         };
         assert_eq!(coordinate, "y");
         assert!(t > 1.0 && t < 1.2, "{t}");
-        // What there is of the run leads up to it.
+        // The partial run leads up to that time.
         assert!(run.end().t <= t && run.end().q[1] >= 0.0 && run.end().q[1] < 1e-3);
         assert!(run.at(1.0).is_ok());
     }
@@ -163,7 +163,7 @@ fn a_singular_mass_matrix_names_coordinate_and_time() {
         matches!(&error, Error::SingularMassMatrix { coordinate, t: 0.0, .. } if coordinate == "x")
     );
 
-    // On the way: no inertia at x ≤ 0.5, which is reached at t = 0.5.
+    // During the run: no inertia at x ≤ 0.5, which is reached at t = 0.5.
     let toy = Toy {
         inertia: |q| if q[0] <= 0.5 { 0.0 } else { 1.0 },
         ..Toy::new(([1.0], [-1.0]), |_, _, _, _, _| [0.0])
@@ -174,7 +174,7 @@ fn a_singular_mass_matrix_names_coordinate_and_time() {
     assert!((t - 0.5).abs() < 1e-12, "{t}");
 }
 
-/// What stops a run is told by the names of the machine, as mechanics calls it, and with what can be done.
+/// An error that stops a run uses the names of the machine and the terms of mechanics, and says what can be done.
 #[test]
 fn singular_equations_are_told_with_what_to_do() {
     let singular = |ratio: f64| Error::SingularMassMatrix {
@@ -207,7 +207,7 @@ fn singular_equations_are_told_with_what_to_do() {
             singular(0.0),
             ["`phi` has no kinetic energy", "moment of inertia"],
         ),
-        // A negative pivot of a negative element, and of a positive one.
+        // A negative pivot with a negative diagonal element, and with a positive one.
         (
             singular(1.0),
             ["`phi` has negative kinetic energy", "moments of inertia"],
@@ -284,7 +284,7 @@ fn a_pole_of_the_motion_ends_it_where_it_is() {
 
 #[test]
 fn a_kink_is_passed_and_noise_is_not() {
-    // A jump of the acceleration costs short steps, no more.
+    // A jump of the acceleration only costs some short steps.
     let jump = Toy::new(([1.0], [0.0]), |_, q, _, _, _| {
         [if q[0] > 0.0 { -1.0 } else { 2.0 }]
     });
@@ -293,7 +293,7 @@ fn a_kink_is_passed_and_noise_is_not() {
         .until(3.0)
         .run(jump.start())
         .unwrap();
-    // An acceleration without any smoothness can be followed by no step.
+    // No step can follow an acceleration without any smoothness.
     let noise = Toy::new(([1.0], [0.0]), |t, _, _, _, _| {
         [
             f64::from_bits(t.to_bits().wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 12 | 0x3FF << 52)
@@ -332,8 +332,7 @@ fn absurd_tolerances_neither_hang_nor_panic() {
     }
 }
 
-/// A motion that leaves the range of numbers ends there, whether or not its accelerations say so: x = v t is beyond 1.8e308 after
-/// 1.8 s.
+/// A motion that overflows ends there, even if its accelerations stay finite: x = v t exceeds 1.8e308 after 1.8 s.
 #[test]
 fn a_motion_beyond_all_numbers_ends_with_an_error() {
     let free = Toy::new(([0.0], [1e308]), |_, _, _, _, _| [0.0]);
@@ -355,7 +354,7 @@ fn a_motion_beyond_all_numbers_ends_with_an_error() {
             matches!(error, StepError::NotFinite { .. }),
             "{name}: {error}"
         );
-        // Now is where the last good step ended.
+        // The stepper stays at the end of the last good step.
         let (t, x) = (stepper.t(), stepper.q()[0]);
         assert!(
             (x - 1e308 * t).abs() <= 1e-12 * x && t <= 1.8,
@@ -364,7 +363,7 @@ fn a_motion_beyond_all_numbers_ends_with_an_error() {
     }
 }
 
-/// Steps of 1e-150 s lead nowhere: whoever follows them stops after so many.
+/// With steps of 1e-150 s the end is out of reach, so the stepper stops after its maximum number of steps.
 #[test]
 fn a_stepper_takes_no_more_steps_than_it_may() {
     let fast = Toy::new(([1.0], [0.0]), |_, q, _, _, _| [-1e300 * q[0]]);
@@ -382,7 +381,7 @@ fn a_stepper_takes_no_more_steps_than_it_may() {
     }
 }
 
-/// What is no length of a step bounds none.
+/// A length that is not a valid step length sets no bound.
 #[test]
 fn lengths_of_steps_that_are_none_are_passed_over() {
     let toy = oscillator();
@@ -416,7 +415,7 @@ fn too_many_steps_are_too_many() {
         panic!("{error}")
     };
     assert!(t > 0.0 && t < 1e3);
-    // As many as there are is enough.
+    // A limit equal to the number of steps needed is enough.
     let steps = Simulation::new(&toy)
         .until(50.0)
         .run(toy.start())
@@ -471,8 +470,7 @@ fn an_assumption_that_ends_and_holds_again_within_a_step_ends_the_run() {
         assumption: Some(("x < 3.8", |q| 3.8 - q[0])),
         ..Toy::new(([2.0], [6.0]), |_, _, _, _, _| [-9.81])
     };
-    // x = 2 + 6 t − ½ 9.81 t² is above 3.8 from 0.527 s to 0.696 s; a step that ends later sees it
-    // below at both ends.
+    // x = 2 + 6 t − ½ 9.81 t² is above 3.8 from 0.527 s to 0.696 s; a step that ends later has x below 3.8 at both ends.
     let exact = (6.0 - (36.0 - 2.0 * 9.81 * 1.8_f64).sqrt()) / 9.81;
     for method in &METHODS {
         let (run, error) = Simulation::new(&toy)
@@ -485,15 +483,16 @@ fn an_assumption_that_ends_and_holds_again_within_a_step_ends_the_run() {
             panic!("{error:?}")
         };
         assert_eq!(assumption, "x < 3.8");
-        // Roundoff of ½ 9.81 1.2², added up with the coefficients of the continuous extension, a
-        // thousand in all for DOP853, is 2e-12 m; the ball passes at 0.8 m/s.
+        // The round-off of ½ 9.81 1.2², summed with the coefficients of the continuous extension (a thousand in all for DOP853), is
+        // 2e-12 m; the ball passes at 0.8 m/s.
         assert!((t - exact).abs() < 2e-12, "{t}");
         assert_eq!(run.end().t, t);
         assert!((run.end().q[0] - 3.8).abs() < 2e-12);
     }
 }
 
-/// x = 2 + 6 t − ½ 9.81 t² is 3.83486 at the most: what ends a billionth below ends the run, and what ends a billionth above does not.
+/// x = 2 + 6 t − ½ 9.81 t² is at most 3.83486: an assumption that ends a billionth below this ends the run, one that
+/// ends a billionth above does not.
 #[test]
 fn an_assumption_that_hardly_ends_within_a_step_ends_the_run() {
     const HIGHEST: f64 = 2.0 + 18.0 / 9.81;
@@ -594,7 +593,7 @@ fn tolerances_below_roundoff_are_raised_with_a_warning() {
 
 #[test]
 fn stiffness_is_noticed() {
-    // A strong damper: x decays at the rate 10⁵/s, long gone while the drive takes its time.
+    // A strong damper: x decays at the rate 10⁵/s, within a time that is short for the drive.
     let stiff = Toy::new(([0.0], [0.0]), |t, _, v, _, _| [-1e5 * (v[0] - t.sin())]);
     for method in METHODS
         .iter()
@@ -671,13 +670,13 @@ fn unknown_methods_are_told_the_known() {
     );
 }
 
-/// The row that is told to be violated at the start, if any.
+/// The name of the row that is reported as violated at the start, if any, and whether it is a constraint.
 fn violated<const N: usize, const M: usize, const NN: usize>(
     machine: Constrained<N, M, NN>,
     slip: Slip,
 ) -> Option<(String, bool)> {
     let machine = Tampered { machine, slip };
-    // Moving, and with every multiplier at work.
+    // The start is in motion, so that every multiplier is nonzero.
     let mut start = machine.start();
     for (i, v) in start.v.iter_mut().enumerate() {
         *v += 0.3 + 0.1 * i as f64;
@@ -702,7 +701,7 @@ fn violated<const N: usize, const M: usize, const NN: usize>(
 fn machines_whose_functions_contradict_each_other_are_not_run() {
     fn each<const N: usize, const M: usize, const NN: usize>(machine: Constrained<N, M, NN>) {
         assert_eq!(violated(machine, Slip::None), None);
-        // Far more than rounding, far less than anybody sees in a plot.
+        // The change is far above rounding, yet too small to see in a plot.
         for i in 0..N {
             let found = violated(machine, Slip::Acceleration(i, 1e-4));
             assert!(found.is_some(), "acceleration {i} of {machine:?}");
@@ -717,7 +716,7 @@ fn machines_whose_functions_contradict_each_other_are_not_run() {
     each(circle::<1>());
     each(winch());
     each(bead());
-    // A run ends before it begins.
+    // The run is refused before its first step.
     let wrong = Tampered {
         machine: sleigh(),
         slip: Slip::Acceleration(0, 0.5),
@@ -734,7 +733,7 @@ fn machines_whose_functions_contradict_each_other_are_not_run() {
 
 #[test]
 fn honest_machines_are_run_however_ill_conditioned() {
-    // Masses of 10⁻¹² and 10¹² kg on one rod, in any position.
+    // Masses from 10⁻¹² to 10¹² kg on one rod, in any position.
     for [light, heavy] in [[1e-12, 1e12], [1e-6, 1.0], [1e9, 1e-9]] {
         for turn in 0..50 {
             let angle = 0.13 * f64::from(turn);
@@ -751,7 +750,7 @@ fn honest_machines_are_run_however_ill_conditioned() {
             assert_eq!(violated(circle, Slip::None), None, "{light:e} {angle}");
         }
     }
-    // At rest in equilibrium forces are nothing but rounding.
+    // At rest in equilibrium, the forces consist of rounding only.
     let pendulum = DoublePendulum::default();
     for tilt in [0.0, 1e-17, 1e-12, 3e-9] {
         let system = pendulum.prepare();
@@ -787,7 +786,7 @@ fn stiffness_is_told_while_the_run_is_under_way() {
     assert_eq!(implicit.statistics().stiff_since, None);
 }
 
-/// Of a machine with contacts that has no workspace for them nothing is known; that is no matter of friction.
+/// A machine with contacts that provides no workspace for them cannot be evaluated; the error must not blame friction.
 #[test]
 fn contacts_without_room_are_told_so() {
     for length in [None, Some(0), Some(1)] {

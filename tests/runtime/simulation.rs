@@ -1,4 +1,4 @@
-//! A run is told what is wanted of it, and gives it.
+//! The settings of a simulation have their stated effects.
 #![cfg(feature = "std")]
 
 use crate::by_hand::as_list::AsList;
@@ -29,7 +29,7 @@ fn a_run_reads_like_what_it_does() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Runs can be returned, kept and copied.
+/// A solution can be returned, kept and copied.
 fn run_of(length: f64) -> Solution<DoublePendulum> {
     let pendulum = DoublePendulum {
         l1: length,
@@ -61,8 +61,8 @@ fn the_motion_is_continuous_from_step_to_step() {
         for state in run.steps() {
             for t in [state.t.next_down(), state.t.next_up()] {
                 let Ok(beside) = run.at(t) else { continue };
-                // A change of time by one unit in the last place moves less than that; and roundoff
-                // of polynomials.
+                // The motion within one unit in the last place of time is less than this bound, which
+                // includes the round-off of polynomials.
                 let moved = (beside.q.theta1 - state.q.theta1).abs();
                 let changed = (beside.v.theta2 - state.v.theta2).abs();
                 assert!(
@@ -82,12 +82,12 @@ fn samples_are_the_same_during_a_run_and_after_it() {
         .every(0.03)
         .run(pendulum.start())
         .unwrap();
-    // 0, 0.03, …, 0.99, and the end.
+    // 0, 0.03, …, 0.99, and the end of the run.
     assert_eq!(run.samples().len(), 35);
     assert_eq!(run.samples(), run.every(0.03).unwrap());
     let times: Vec<f64> = run.samples().iter().map(|state| state.t).collect();
     assert_eq!(run.samples(), run.at_each(times).unwrap());
-    // In any order.
+    // The times may be in any order.
     let backward: Vec<f64> = run.samples().iter().rev().map(|state| state.t).collect();
     assert_eq!(run.samples().last(), run.at_each(backward).unwrap().first());
 }
@@ -95,7 +95,7 @@ fn samples_are_the_same_during_a_run_and_after_it() {
 #[test]
 fn a_sample_at_the_end_is_taken_once() {
     let toy = oscillator();
-    // 0.1 · 3 is not 0.3, and 10 · 0.1 is 1.
+    // In `f64`, 0.1 · 3 is not 0.3, and 10 · 0.1 is 1.
     for (until, count) in [(0.3, 4), (1.0, 11), (0.35, 5)] {
         let run = Simulation::new(&toy)
             .until(until)
@@ -134,7 +134,7 @@ fn everything_can_be_observed_at_any_time() {
 
 #[test]
 fn inputs_start_from_their_defaults_each_time() {
-    // A function that sets its input only sometimes must not depend on what was evaluated before.
+    // A law that sets its input only sometimes must not depend on earlier evaluations.
     let toy = Toy::new(([0.0], [0.0]), |_, _, _, u, _| [u]);
     let run = Simulation::new(&toy)
         .inputs(|t, _, _, u| {
@@ -195,7 +195,7 @@ fn steps_obey_their_limits() {
         .unwrap();
     let times: Vec<f64> = run.steps().map(|state| state.t).collect();
     assert_eq!(times[1], 1e-3);
-    // The last may stretch by a hundredth.
+    // The last step may be longer by a hundredth.
     assert!(
         times
             .windows(2)
@@ -205,7 +205,7 @@ fn steps_obey_their_limits() {
 
 #[test]
 fn interpreted_vectors_run_like_arrays() {
-    // The same machine over Vec<f64>: the same numbers to the last bit.
+    // The same machine over Vec<f64> gives the same numbers to the last bit.
     let toy = oscillator();
     let run = Simulation::new(&toy).until(7.0).run(toy.start()).unwrap();
     let list = AsList(toy);
@@ -236,8 +236,8 @@ fn interpreted_vectors_run_like_arrays() {
 
 #[test]
 fn an_input_that_is_changed_between_steps_is_seen_by_the_next() {
-    // x'' = u with u = 1, −2, 3, …, each for a tenth of a second: parabolas, exact by every method. The
-    // law reads a cell.
+    // x'' = u with u = 1, −2, 3, …, each for a tenth of a second: parabolas, for which every method is
+    // exact. The law reads a cell.
     let mass = Toy::new(([0.0], [0.0]), |_, _, _, u, _| [u]);
     let mass = Toy {
         work_rate: |_, _, v, u, _| u * v[0],
@@ -257,7 +257,8 @@ fn an_input_that_is_changed_between_steps_is_seen_by_the_next() {
             let u = f64::from(tenth) * if tenth % 2 == 0 { -1.0 } else { 1.0 };
             force.set(u);
             stepper.inputs_changed();
-            // The last step was made with what was before; who needs evaluations to look into it is told.
+            // The last step was made with the previous input. A method whose interpolant needs more
+            // evaluations reports an error.
             let piece = stepper.interpolant();
             if method.tableau.a.len() > method.tableau.stages + 1 {
                 assert!(matches!(piece, Err(StepError::Changed { .. })))
@@ -271,14 +272,14 @@ fn an_input_that_is_changed_between_steps_is_seen_by_the_next() {
                 let h = stepper.t() - t;
                 (x, v, t) = (x + h * (v + 0.5 * h * u), v + h * u, stepper.t());
                 let name = method.tableau.name;
-                // 20 pieces of up to 20 m/s².
+                // 20 pieces with up to 20 m/s².
                 let limit = 20.0 * 20.0 * 8.0 * f64::EPSILON;
                 assert!((stepper.q()[0] - x).abs() <= limit, "{name} {t}");
                 assert!((stepper.v()[0] - v).abs() <= limit, "{name} {t}");
                 assert_eq!(stepper.a_before(), &[u], "{name} {t}");
             }
         }
-        // Work becomes kinetic energy.
+        // The work becomes kinetic energy.
         let work = stepper.quadratures().work();
         assert!(
             (work - 0.5 * v * v).abs() <= 1e-11,
@@ -336,7 +337,7 @@ fn errors_are_told_by_the_names_of_what_was_called() {
             .to_string()
             .starts_with("`absolute(-1)`")
     );
-    // In as many digits as it takes.
+    // The message prints as many digits as the number needs.
     let error = Simulation::new(&toy)
         .until(1e300)
         .max_steps(10)

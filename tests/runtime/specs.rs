@@ -1,4 +1,4 @@
-//! Specs that are read while the program runs.
+//! Specs that a program reads at run time.
 #![cfg(feature = "interpreter")]
 
 use lagrangian::interpreted::InterpretedMachine;
@@ -85,7 +85,7 @@ fn everything_wrong_with_a_text_has_its_place() {
         "{told:?}"
     );
     let sine = &diagnostics[told.iter().position(|of| of.3 == "sine").unwrap()];
-    // `    frames { end[0] = ground, end[i in 1..N] = end[i-1].shift(l*` stands before it.
+    // The text before `sine` is `    frames { end[0] = ground, end[i in 1..N] = end[i-1].shift(l*`.
     assert_eq!(sine.column, 65);
     assert_eq!(omitted, 0);
     let error = InterpretedMachine::from_file("machines/nowhere.machine").unwrap_err();
@@ -107,8 +107,8 @@ fn what_a_caller_needs_is_one_error() {
     assert_eq!(unknown.near.as_deref(), Some("l"));
 }
 
-/// Two of the three constraints say the same, and all together hold `y` and `z` where they are, while `x` is pushed. What
-/// moves `x` leaves rounding of its own size in the accelerations of the others, and these are nothing else.
+/// Two of the three constraints are equivalent, and all of them together fix `y` and `z`, while a force pushes `x`. The
+/// force on `x` leaves rounding of its own size in the accelerations of `y` and `z`, which consist of nothing else.
 #[test]
 fn accelerations_that_constraints_keep_at_0_are_as_inexact_as_the_others() {
     let held = InterpretedMachine::from_text(
@@ -131,7 +131,7 @@ fn accelerations_that_constraints_keep_at_0_are_as_inexact_as_the_others() {
     .unwrap();
     for k in 0..40 {
         let z = 1.7 - 0.0875 * f64::from(k);
-        // At rest, and with the rates that rounding leaves where a start was computed.
+        // At rest, and with the rates that rounding leaves where a start is computed.
         for rest in [0.0, 1.25e-33] {
             let mut start = held.start();
             start.q.values = vec![-1.5, 0.1 - 0.5 * z, z];

@@ -1,4 +1,4 @@
-//! Stiff machines by `radau5`: against closed forms and against the machines that they tend to.
+//! Stiff machines integrated by `radau5`, tested against closed forms and against the rigid machines that they tend to.
 #![cfg(feature = "std")]
 
 use crate::by_hand::constrained::Constrained;
@@ -32,18 +32,18 @@ fn run_by<M: Machine>(
         .expect("it runs")
 }
 
-/// What steps may sum up to, each erring by `tolerance` at most.
+/// The bound on the sum of the errors of all steps, each of which is at most `tolerance`.
 fn limit<M: Machine>(run: &Solution<M>, tolerance: f64) -> f64 {
     run.statistics().steps as f64 * tolerance
 }
 
-/// Of derivatives found by differences, half the digits are left; each round of Newton's method leaves that
-/// much of a linear machine's error.
+/// Derivatives by differences have half the digits, so each iteration of Newton's method leaves that fraction of the
+/// error, even in a linear machine.
 fn roundoff_of_differences() -> f64 {
     2.0 * f64::EPSILON.sqrt()
 }
 
-/// One step of length `h`, with an error of the size of the motion itself.
+/// One step of length `h`, with a tolerance as large as the motion itself.
 fn one_step(machine: &Toy<1>, h: f64) -> [f64; 2] {
     one_step_by(radau5(), machine, h)
 }
@@ -70,9 +70,9 @@ fn one_step_by(method: &'static Method, machine: &Toy<1>, h: f64) -> [f64; 2] {
     [stepper.q()[0], stepper.v()[0]]
 }
 
-/// `x'' = −p x'`: the rate goes by the method's stability function, which is the Padé approximant
-/// (2, 3) of the exponential. E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, 2nd
-/// ed., 1996, table IV.3.1 and section IV.5.
+/// `x'' = −p x'`: each step multiplies the rate by the method's stability function, which is the Padé approximant
+/// (2, 3) of the exponential. E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, 2nd ed., 1996,
+/// table IV.3.1 and section IV.5.
 #[test]
 fn a_step_damps_as_its_stability_function_says_and_never_rings() {
     for p in [0.1, 1.0, 10.0, 1e3, 1e5, 1e7, 1e9] {
@@ -85,12 +85,12 @@ fn a_step_damps_as_its_stability_function_says_and_never_rings() {
             / (1.0 - 3.0 * z / 5.0 + 3.0 * z * z / 20.0 - z * z * z / 60.0);
         let [_, v] = one_step(&damped, 1.0);
         assert!((v - exact).abs() <= roundoff_of_differences(), "{p}: {v:e}");
-        // L-stable: what is damped beyond measure is gone after a step.
+        // L-stability: a motion with very strong damping vanishes within a step.
         assert!(p < 1e3 || v.abs() < 4.0 / p + roundoff_of_differences());
     }
 }
 
-/// The Padé approximant of the exponential of the degrees `k` and `j`: section IV.3, eqs. (3.28) to (3.30).
+/// The Padé approximant of the exponential with the degrees `k` and `j`: section IV.3, eqs. (3.28) to (3.30).
 fn pade(k: u32, j: u32, z: f64) -> f64 {
     let sum = |degree: u32, z: f64| {
         let (mut term, mut sum) = (1.0, 1.0);
@@ -103,7 +103,7 @@ fn pade(k: u32, j: u32, z: f64) -> f64 {
     sum(k, z) / sum(j, -z)
 }
 
-/// With `s` stages it is that of the degrees `s − 1` and `s`, of order `2 s − 1`.
+/// With `s` stages, the stability function is the Padé approximant with the degrees `s − 1` and `s`, of order `2 s − 1`.
 #[test]
 fn a_step_of_high_order_damps_as_its_stability_function_says() {
     for (method, stages) in RADAU_OF_HIGH_ORDER.iter().zip([5, 7]) {
@@ -121,14 +121,14 @@ fn a_step_of_high_order_damps_as_its_stability_function_says() {
             );
         }
     }
-    // The formula is that of the test above.
+    // Checks the general formula against that of the test above.
     let z: f64 = -3.0;
     let exact = (1.0 + 2.0 * z / 5.0 + z * z / 20.0)
         / (1.0 - 3.0 * z / 5.0 + 3.0 * z * z / 20.0 - z * z * z / 60.0);
     assert!((pade(2, 3, z) - exact).abs() < 1e-15);
 }
 
-/// In fine tolerances, against the closed form, between steps too; and with far fewer steps than order 5.
+/// At fine tolerances the runs agree with the closed form, between steps too, and take far fewer steps than order 5 does.
 #[test]
 fn radau_of_high_order_follows_stiff_machines_at_fine_tolerances() {
     for p in [1e2, 1e4, 1e6] {
@@ -156,7 +156,7 @@ fn radau_of_high_order_follows_stiff_machines_at_fine_tolerances() {
             println!("{p:e}, {name}: {:?}", run.statistics());
             run.statistics().steps
         });
-        // Steps of a method whose estimate falls as h^k grow as 1e-11^(−1/k): k is 4, 6 and 8.
+        // The number of steps of a method whose error estimate is of order h^k grows as 1e-11^(−1/k): k is 4, 6 and 8.
         assert!(
             10 * steps[1] < steps[0] && 2 * steps[2] < steps[1],
             "{p}: {steps:?}"
@@ -164,7 +164,8 @@ fn radau_of_high_order_follows_stiff_machines_at_fine_tolerances() {
     }
 }
 
-/// A spring that turns, whose stages are solved for together: the motion is that of the same machine in polar coordinates.
+/// A stiff spring that rotates couples the stages, which are solved for together; the motion is that of the same machine
+/// in polar coordinates.
 #[test]
 fn radau_of_high_order_follows_a_stiff_spring_that_turns() {
     for method in &RADAU_OF_HIGH_ORDER {
@@ -181,7 +182,7 @@ fn radau_of_high_order_follows_a_stiff_spring_that_turns() {
     }
 }
 
-/// `x'' = −ω² x`: `x − i x'/ω` is multiplied by `R(iω)`, of absolute value below 1 for every frequency.
+/// `x'' = −ω² x`: each step multiplies `x − i x'/ω` by `R(iω)`, whose modulus is below 1 for every frequency.
 #[test]
 fn a_step_of_a_spring_turns_as_its_stability_function_says() {
     for omega in [0.1, 1.0, 10.0, 1e3, 1e5] {
@@ -190,14 +191,14 @@ fn a_step_of_a_spring_turns_as_its_stability_function_says() {
             ..Toy::new(([0.0], [omega]), |_, q, _, _, p| [-p * p * q[0]])
         };
         let z2 = -omega * omega;
-        // Numerator and denominator at z = iω: even parts are real, odd parts imaginary.
+        // Numerator and denominator at z = iω: the even powers are real, the odd ones imaginary.
         let [above_re, above_im] = [1.0 + z2 / 20.0, 0.4 * omega];
         let [below_re, below_im] = [1.0 + 0.15 * z2, -0.6 * omega - z2 * omega / 60.0];
         let square = below_re * below_re + below_im * below_im;
         let re = (above_re * below_re + above_im * below_im) / square;
         let im = (above_im * below_re - above_re * below_im) / square;
         let [x, v] = one_step(&spring, 1.0);
-        // From −i to −i R.
+        // One step takes −i to −i R.
         let turned = v / omega;
         assert!((x - im).abs() <= roundoff_of_differences(), "{omega}: {x}");
         assert!((turned - re).abs() <= roundoff_of_differences(), "{omega}");
@@ -205,13 +206,12 @@ fn a_step_of_a_spring_turns_as_its_stability_function_says() {
     }
 }
 
-/// A block that a damper `p` drags along, `x'' = −p (x' − sin t) + cos t` with `x' = sin t`: A.
-/// Prothero and A. Robinson, *On the stability and accuracy of one-step methods for solving stiff
-/// systems*, Math. Comp. 28 (1974) 145–162.
+/// A block dragged along by a damper `p`, `x'' = −p (x' − sin t) + cos t` with `x' = sin t`: A. Prothero and A. Robinson,
+/// *On the stability and accuracy of one-step methods for solving stiff systems*, Math. Comp. 28 (1974) 145–162.
 fn dragged(p: f64) -> Toy<1> {
     Toy {
         p,
-        // The damper is between the block and what drags it.
+        // The damper acts between the block and the body that drags it.
         work_rate: |t, _, v, _, p| (-p * (v[0] - t.sin()) + t.cos()) * v[0],
         ..Toy::new(([0.0], [0.0]), |t, _, v, _, p| {
             [-p * (v[0] - t.sin()) + t.cos()]
@@ -226,7 +226,7 @@ fn what_a_damper_drags_along_takes_no_more_steps_however_strong_it_is() {
         for p in [1e2, 1e4, 1e6, 1e8, 1e10] {
             let dragged = dragged(p);
             let run = run(&dragged, tolerance, 10.0);
-            // Between steps, too.
+            // Compares the motion between steps, too.
             for i in 0..=100 {
                 let state = run.at(0.1 * f64::from(i)).unwrap();
                 let exact = [1.0 - state.t.cos(), state.t.sin()];
@@ -237,7 +237,7 @@ fn what_a_damper_drags_along_takes_no_more_steps_however_strong_it_is() {
             steps.push(run.statistics().steps);
             assert!(run.warnings().is_empty());
         }
-        // From 1e4 on the damper is stiff, and the stiffness is not seen any more.
+        // From p = 1e4 on the damper is stiff, and the number of steps no longer depends on p.
         assert!(
             steps[1..].iter().all(|n| *n <= steps[1] + steps[1] / 10),
             "{steps:?}"
@@ -271,14 +271,14 @@ fn events_of_a_stiff_motion_are_found_on_time() {
         .until_event("turns back", Crossing::Falling, |state| state.v[0])
         .run(dragged.start())
         .unwrap();
-    // x' = sin t falls through 0 at π, at the rate 1; the run ends there by a step of its own.
+    // x' = sin t falls through 0 at π, with slope 1; the run ends there with a step of its own.
     assert!((run.end().t - PI).abs() <= limit(&run, 1e-8));
     assert!(run.end().v[0].abs() <= limit(&run, 1e-8));
 }
 
 #[test]
 fn energy_is_accounted_for_in_a_strongly_damped_machine() {
-    // Dragged along, the damper's force p (sin t − x') does work on the block and takes energy.
+    // While the block is dragged along, the force p (sin t − x') of the damper does work on it and dissipates energy.
     let stiff = Toy {
         p: 1e6,
         work_rate: |t, _, v, _, p| (p * (t.sin() - v[0]) + t.cos()) * v[0],
@@ -286,15 +286,16 @@ fn energy_is_accounted_for_in_a_strongly_damped_machine() {
     };
     let run = run(&stiff, 1e-8, 10.0);
     let balance = run.energy_balance().unwrap();
-    // Powers at the stages are p times what Newton's method leaves of a rate, 1e-8 of the tolerance.
+    // The error of the powers at the stages is p times the error that Newton's method leaves in a
+    // rate, 1e-8 of the tolerance.
     assert!(balance.residual().abs() <= limit(&run, 1e-8), "{balance:?}");
     // T = ½ sin² t
     let exact = 0.5 * 10.0_f64.sin().powi(2);
     assert!((balance.work - exact).abs() <= limit(&run, 1e-8));
 }
 
-/// A bob of 1 kg on a spring of 1 m and stiffness `k`, in polar coordinates `(r − 1, θ)`: from 1 rad at
-/// rest, where the spring holds the bob.
+/// A bob of 1 kg on a spring of length 1 m and stiffness `k`, in polar coordinates `(r − 1, θ)`. It starts at rest at 1
+/// rad, with the spring in equilibrium.
 fn elastic_in_polar(k: f64) -> Toy<2> {
     Toy {
         p: k,
@@ -308,7 +309,7 @@ fn elastic_in_polar(k: f64) -> Toy<2> {
     }
 }
 
-/// The elastic pendulum in Cartesian coordinates: the stiff direction turns.
+/// The elastic pendulum in Cartesian coordinates, in which the stiff direction rotates.
 fn elastic_in_cartesian(k: f64) -> Toy<2> {
     let r = 1.0 + G * 1.0_f64.cos() / k;
     let (sin, cos) = 1.0_f64.sin_cos();
@@ -324,7 +325,7 @@ fn elastic_in_cartesian(k: f64) -> Toy<2> {
 
 const G: f64 = 9.81;
 
-/// The pendulum that both tend to, after `t` seconds.
+/// The state after `t` seconds of the rigid pendulum that both tend to.
 fn rigid(t: f64) -> [f64; 2] {
     let rod = Toy {
         p: G.sqrt(),
@@ -346,8 +347,8 @@ fn a_pendulum_on_a_stiffer_and_stiffer_spring_tends_to_the_pendulum() {
     for k in [1e6, 1e8, 1e10, 1e12] {
         let polar = run(&elastic_in_polar(k), tolerance, 5.0);
         let cartesian = run(&elastic_in_cartesian(k), tolerance, 5.0);
-        // The spring gives by mg (3 cos θ − 2 cos 1)/k, and the bob swings by as much slower: a share of
-        // ½ · 3 g/k of the phase, which is 5 √g rad.
+        // The spring stretches by mg (3 cos θ − 2 cos 1)/k, which slows the swing: the phase, 5 √g rad, is behind by a
+        // fraction of ½ · 3 g/k.
         let gives = 3.0 * G / k * (1.0 + 2.5 * G.sqrt() * omega.abs());
         for (run, place) in [
             (&polar, polar.end().q[1]),
@@ -361,8 +362,8 @@ fn a_pendulum_on_a_stiffer_and_stiffer_spring_tends_to_the_pendulum() {
         }
         steps[0].push(polar.statistics().steps);
         steps[1].push(cartesian.statistics().steps);
-        // Three evaluations a round, a few rounds a step; where the direction turns, fifteen for the
-        // derivatives at the stages in some of them.
+        // Each iteration takes three evaluations, and a step a few iterations; where the stiff direction rotates, some
+        // iterations take fifteen more for the derivatives at the stages.
         let each = |run: &Solution<Toy<2>>| run.statistics().evaluations / run.statistics().steps;
         assert!(each(&polar) <= 15 && each(&cartesian) <= 45);
     }
@@ -375,12 +376,12 @@ fn a_pendulum_on_a_stiffer_and_stiffer_spring_tends_to_the_pendulum() {
     }
 }
 
-/// A double pendulum of two particles whose elbow is held by a torsion spring `k` and a damper of 0.01 s
-/// times that; hanging 1 rad from the vertical, at rest, bent as far as the spring lets it.
+/// A double pendulum of two particles whose elbow is held by a torsion spring `k` and a damper of 0.01 s times that. It
+/// starts at rest 1 rad from the vertical, with the elbow bent as far as the spring lets it.
 ///
-/// Its stiff direction turns, and its rods are constraints.
+/// Its stiff direction rotates, and its rods are constraints.
 fn elbow(k: f64) -> Constrained<4, 2, 16> {
-    // The lower particle takes part in θ'' = −⅗ g sin θ if the elbow gives it −⅕ g sin θ.
+    // The lower particle follows θ'' = −⅗ g sin θ if the elbow exerts the torque −⅕ g sin θ on it.
     let bent = 1.0 + 0.2 * G * 1.0_f64.sin() / k;
     let [(s1, c1), (s2, c2)] = [1.0_f64, bent].map(f64::sin_cos);
     Constrained {
@@ -389,7 +390,7 @@ fn elbow(k: f64) -> Constrained<4, 2, 16> {
         forces: |_, [x1, y1, x2, y2], [vx1, vy1, vx2, vy2], k| {
             let (wx, wy) = (x2 - x1, y2 - y1);
             let bend = (x1 * wy - y1 * wx).atan2(x1 * wx + y1 * wy);
-            // By what the angles of both rods are changed by their ends.
+            // Derivatives of the angles of both rods by their end points.
             let (u2, w2) = (x1 * x1 + y1 * y1, wx * wx + wy * wy);
             let (upper, lower) = ([-y1 / u2, x1 / u2], [-wy / w2, wx / w2]);
             let rate =
@@ -408,7 +409,7 @@ fn elbow(k: f64) -> Constrained<4, 2, 16> {
 
 #[test]
 fn a_stiff_machine_with_constraints_tends_to_the_rigid_one() {
-    // Particles at 1 m and 2 m of one bar: θ'' = −⅗ g sin θ.
+    // Particles at 1 m and 2 m on one rigid bar: θ'' = −⅗ g sin θ.
     let bar = Toy {
         p: (0.6 * G).sqrt(),
         ..pendulum(1.0)
@@ -427,7 +428,8 @@ fn a_stiff_machine_with_constraints_tends_to_the_rigid_one() {
             assert!(residual <= 1e-13, "{k:e}: {residual:e}");
             let [x, y, ..] = run.end().q;
             let error = (x.atan2(-y) - theta).abs();
-            // Of the order of 1/k as the spring gives, for as many radians as the bar swings.
+            // The compliance of the spring causes an error of the order of 1/k, multiplied by the number of
+            // radians that the bar swings.
             assert!(
                 error <= 10.0 * G / k + limit(&run, tolerance),
                 "{k:e}: {error:e}"
@@ -442,9 +444,9 @@ fn a_stiff_machine_with_constraints_tends_to_the_rigid_one() {
     }
 }
 
-/// A slider-crank that turns on an elastic shaft: flywheel φ₀, crank φ₁ of 0.1 m, rod φ₂ of 0.3 m, slider
-/// x on a spring; the shaft is a spring `k` with a damper of 0.01 s times that. At 20 rad/s, with the twist
-/// that the acceleration `start` of the flywheel asks for.
+/// A slider-crank mechanism driven through an elastic shaft: flywheel φ₀, crank φ₁ of 0.1 m, rod φ₂ of 0.3 m, slider x on
+/// a spring. The shaft is a spring `k` with a damper of 0.01 s times that. It starts at 20 rad/s, with the shaft twisted
+/// as the initial acceleration `start` of the flywheel requires.
 fn shaft(k: f64, start: f64) -> Constrained<4, 2, 16> {
     Constrained {
         coordinates: [
@@ -492,7 +494,7 @@ const FLYWHEEL: f64 = 0.5;
 const CRANK: f64 = 0.1;
 const ROD: f64 = 0.3;
 
-/// The shaft with the flywheel on the crank: φ₀ is left alone, with an inertia of its own.
+/// The same mechanism with the flywheel rigidly on the crank: φ₀ is not coupled and has an inertia of its own.
 fn rigid_shaft() -> Constrained<4, 2, 16> {
     let shaft = shaft(1.0, 0.0);
     Constrained {
@@ -510,7 +512,7 @@ fn a_slider_crank_on_a_stiffer_and_stiffer_shaft_takes_no_more_steps() {
         .until(2.0)
         .run(rigid.start())
         .unwrap();
-    // Without the shaft: what the flywheel on the crank is accelerated by at the start.
+    // The initial acceleration when the flywheel is rigidly on the crank.
     let start = reference.observe(0.0).unwrap().a[1];
     let tolerance = 1e-8;
     let mut steps = Vec::new();
@@ -518,8 +520,8 @@ fn a_slider_crank_on_a_stiffer_and_stiffer_shaft_takes_no_more_steps() {
         let run = run(&shaft(k, start), tolerance, 2.0);
         let residual = run.statistics().constraint_residual;
         assert!(residual <= 1e-13, "{k:e}: {residual:e}");
-        // The shaft carries up to m a² ω² = 6 N m of the slider's inertia and 4 N m of its spring, and gives
-        // by as much over k; one of 100 N m/rad shakes in its own way.
+        // The shaft transmits up to m a² ω² = 6 N m for the slider's inertia and 4 N m for its spring, and twists by their
+        // sum over k. A shaft of 100 N m/rad vibrates too strongly for this comparison.
         let error = (run.end().q[1] - reference.end().q[1]).abs();
         let most = 10.0 / k + limit(&run, tolerance);
         assert!(k < 1e4 || error <= most, "{k:e}: {error:e}");

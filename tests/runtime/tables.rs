@@ -1,11 +1,11 @@
-//! Machines that are driven by tables, against closed forms; and tables, by what defines them.
+//! Machines driven by tables, tested against closed forms; and tables, tested against their definitions.
 
 use crate::by_hand::toy::Toy;
 use lagrangian::{
     Between, Beyond, Crossing, Error, METHODS, Method, Piece, Simulation, State, Table, TableError,
 };
 
-/// A mass of 1 kg that a force pushes.
+/// A mass of 1 kg pushed by a force.
 fn mass() -> Toy<1> {
     Toy {
         work_rate: |_, _, v, u, _| u * v[0],
@@ -13,7 +13,7 @@ fn mass() -> Toy<1> {
     }
 }
 
-/// A mass of 1 kg on a spring of 9 N/m that a force pushes.
+/// A mass of 1 kg on a spring of 9 N/m, pushed by a force.
 fn oscillator() -> Toy<1> {
     Toy {
         potential_energy: |q, _| 4.5 * q[0] * q[0],
@@ -25,7 +25,7 @@ fn oscillator() -> Toy<1> {
 const TIMES: [f64; 6] = [0.0, 0.31, 0.77, 1.0, 1.83, 2.4];
 const VALUES: [f64; 6] = [1.0, -2.0, 3.5, 0.25, 0.25, -4.0];
 
-/// Numbers that look like nothing: a linear congruence.
+/// Pseudorandom numbers from a linear congruential generator.
 fn noise(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed;
     move || {
@@ -47,7 +47,7 @@ fn seed() -> u64 {
     seed
 }
 
-/// The mass under a force on straight lines: place and velocity are integrals of these.
+/// Position and velocity of the mass under a piecewise linear force: the integrals of that force.
 fn pushed(t: f64) -> [f64; 2] {
     let [mut x, mut v] = [0.25, -0.5];
     for (row, from) in TIMES.iter().enumerate() {
@@ -66,8 +66,8 @@ fn pushed(t: f64) -> [f64; 2] {
     [x, v]
 }
 
-/// Place and velocity are cubic and quadratic between knots, which every method follows exactly, at any tolerance, if its steps
-/// end at the knots.
+/// Position and velocity are cubic and quadratic between knots. Every method is exact for these at any tolerance
+/// if its steps end at the knots.
 #[test]
 fn a_mass_under_a_force_on_straight_lines_moves_on_cubics() {
     let mass = mass();
@@ -84,7 +84,7 @@ fn a_mass_under_a_force_on_straight_lines_moves_on_cubics() {
             .table(table.clone(), |u, value| *u = value)
             .run(mass.start())
             .unwrap();
-        // Sums of a hundred terms of size 1, and steps of an implicit method are solved for.
+        // The bound allows for sums of a hundred terms of size 1 and for the iteration of implicit methods.
         let off = |state: &State<[f64; 1]>| {
             let [x, v] = pushed(state.t);
             (state.q[0] - x).abs().max((state.v[0] - v).abs())
@@ -114,7 +114,7 @@ fn a_mass_under_a_force_on_straight_lines_moves_on_cubics() {
             balance.residual().abs() < 10.0 * rounding,
             "{name} {balance:?}"
         );
-        // And back again.
+        // The same backward.
         let back = Simulation::new(&mass)
             .method(method)
             .tolerance(1e-4)
@@ -128,7 +128,7 @@ fn a_mass_under_a_force_on_straight_lines_moves_on_cubics() {
     }
 }
 
-/// The oscillator under a force that holds: x = u/9 + C cos 3τ + S sin 3τ from each knot on.
+/// The oscillator under a piecewise constant force: x = u/9 + C cos 3τ + S sin 3τ from each knot on.
 fn held(t: f64) -> [f64; 2] {
     let [mut x, mut v] = [0.25, -0.5];
     for (row, from) in TIMES.iter().enumerate() {
@@ -144,7 +144,7 @@ fn held(t: f64) -> [f64; 2] {
     [x, v]
 }
 
-/// The error at the end, with steps of `h` at most and a tolerance that rejects none.
+/// The error at the end with steps of at most `h` and a tolerance so coarse that it rejects none.
 fn error_of(method: &'static Method, h: f64, lands: bool) -> f64 {
     let machine = oscillator();
     let table = Table::hold(TIMES, VALUES).unwrap();
@@ -165,8 +165,8 @@ fn error_of(method: &'static Method, h: f64, lands: bool) -> f64 {
     (end.q[0] - x).abs().max((end.v[0] - v).abs())
 }
 
-/// Halving the steps divides the error by 2 to the order, with ten jumps of the force on the way; without landing on these it is
-/// of first order.
+/// Halving the steps divides the error by 2 to the power of the order, although the force jumps ten times on the way. Steps that
+/// do not end at the jumps are of first order.
 #[test]
 fn every_method_keeps_its_order_across_jumps() {
     for (method, h) in [
@@ -178,9 +178,9 @@ fn every_method_keeps_its_order_across_jumps() {
         let order = f64::from(method.tableau.order);
         let [one, half] = [h, h / 2.0].map(|h| error_of(method, h, true));
         let found = (one / half).log2();
-        // Knots cut steps into pieces that are not just half as long.
+        // Knots cut steps, so the pieces are not exactly halved.
         assert!(found > order - 0.7, "{}: {found}", method.tableau.name);
-        // Where in a step a jump falls is chance: of several lengths of steps together.
+        // Where in a step a jump falls is chance, so errors with several step lengths are added.
         let together = |h: f64| {
             [1.0, 0.93, 0.87]
                 .map(|share| error_of(method, share * h, false))
@@ -196,8 +196,8 @@ fn every_method_keeps_its_order_across_jumps() {
     }
 }
 
-/// A force that is a polynomial of third degree in its only piece between two knots: the mass moves on a polynomial of fifth, and
-/// a spline through values of a cubic is that cubic.
+/// The force is one cubic polynomial between two knots, so the mass moves on a polynomial of degree five, and a spline through
+/// values of a cubic reproduces that cubic.
 #[test]
 fn a_spline_finds_a_cubic_again_and_the_mass_its_quintic() {
     let cubic = |t: f64| 1.0 + t * (-2.0 + t * (0.5 + t * 0.75));
@@ -228,15 +228,15 @@ fn a_spline_finds_a_cubic_again_and_the_mass_its_quintic() {
             "{}",
             method.tableau.name
         );
-        // What loses no order by it does not stop at the knots within.
+        // A method of low order, which loses no order at inner knots, does not stop there.
         let ends: Vec<f64> = run.steps().map(|state| state.t).collect();
         let lands = TIMES.iter().all(|knot| ends.contains(knot));
         assert_eq!(lands, method.tableau.order >= 5, "{}", method.tableau.name);
     }
 }
 
-/// By what defines them: values at knots, two continuous derivatives, and a third one that is continuous at the second knot and
-/// the last but one, or all of that in a ring.
+/// Tests the definition of the splines: the values at knots, two continuous derivatives, and a third derivative that is
+/// continuous at the second and the last but one knot; for periodic tables, periodicity instead of that last condition.
 #[test]
 fn splines_are_smooth() {
     let mut random = noise(seed());
@@ -260,7 +260,7 @@ fn splines_are_smooth() {
             values[count - 1] = values[0];
         }
         let table = Table::new(Between::Cubic, beyond, times.clone(), values.clone()).unwrap();
-        // The cubic on an interval, from four of its values: derivatives at an end of it.
+        // The derivatives of the cubic on an interval, at one of its ends, from four of its values.
         let derivatives = |row: usize, at_end: bool| {
             let (from, h) = (times[row], times[row + 1] - times[row]);
             let piece = Piece {
@@ -270,7 +270,7 @@ fn splines_are_smooth() {
             };
             let y = [0.0, 1.0, 2.0, 3.0].map(|third: f64| {
                 let value = table.value_in(piece, from + h * third / 3.0);
-                // The ends belong to both sides, and are the values of the rows.
+                // The ends belong to two intervals, and their values are those of the rows.
                 match third {
                     0.0 => values[row],
                     3.0 => values[row + 1],
@@ -284,7 +284,7 @@ fn splines_are_smooth() {
                 y[3] - 3.0 * y[2] + 3.0 * y[1] - y[0],
             );
             let step = h / 3.0;
-            // Newton's form in s = 3 (t − from)/h.
+            // Newton's form of the interpolation polynomial in s = 3 (t − from)/h.
             let first = d1 + d2 * (2.0 * x - 1.0) / 2.0 + d3 * (3.0 * x * x - 6.0 * x + 2.0) / 6.0;
             let second = d2 + d3 * (x - 1.0);
             [first / step, second / (step * step), d3 / step.powi(3)]
@@ -308,7 +308,7 @@ fn splines_are_smooth() {
     }
 }
 
-/// A table that repeats is the same as one that was written out.
+/// A table that repeats gives the same run as the same rows written out.
 #[test]
 fn what_repeats_is_the_same_as_written_out() {
     let machine = oscillator();
@@ -321,7 +321,7 @@ fn what_repeats_is_the_same_as_written_out() {
                 let from = start + f64::from(round) * 0.7;
                 let last = from + 0.7 - 1e-9;
                 rows.extend([from, from + 0.31, last]);
-                // It jumps at the end of a round; held, its last value counts for nothing.
+                // The value jumps at the end of a round; with `Hold` the last value is not used.
                 values.extend(match between {
                     Between::Hold => [1.0, -2.0, -2.0],
                     _ => [1.0, -2.0, 3.0],
@@ -337,11 +337,11 @@ fn what_repeats_is_the_same_as_written_out() {
                         .run(machine.start());
                     *run.unwrap().end()
                 });
-                // A force of 5 N for 1e-9 s, six times.
+                // The difference is a force of 5 N for 1e-9 s, six times.
                 let off = (ends[0].v[0] - ends[1].v[0]).abs();
                 assert!(off < 4e-8, "{between:?} {start} {until}: {off:e}");
             }
-            // To either side of each jump, however time is rounded there: the period is known to 4e-16 s.
+            // Values on either side of each jump, although rounding shifts its time: the period is known to 4e-16 s.
             for round in 0..40_i32 {
                 let t = start + f64::from(round) * 0.7;
                 let piece = table.piece(t + 0.01, true, 8).unwrap();
@@ -388,10 +388,10 @@ fn a_run_ends_with_the_table_that_ends() {
         said.contains("the table push.csv ends") && said.contains("2.4 s"),
         "{said}"
     );
-    // Backward it ends where it begins.
+    // Backward in time, the table ends at its first row.
     assert!(matches!(run(-1.0), Err(Error::InputEnded { t: 0.0, .. })));
     assert!(table.value(2.5).is_nan());
-    // What repeats too fast for the times of a run is no input.
+    // A table whose period is too short for the resolution of the run's time is refused.
     let fast = Table::linear([0.0, 1e-9, 3e-9], [0.0, 1.0, 0.0]).unwrap();
     let fast = fast.beyond(Beyond::Repeat).unwrap();
     assert!(fast.piece(1e-3, true, 8).is_ok() && fast.piece(1e9, true, 8).is_err());
@@ -429,7 +429,7 @@ fn what_is_no_table_is_refused() {
     assert_eq!(steep, Err(TableError::TooSteep));
 }
 
-/// A sampled controller and a table beside it: one input is the sum of what both set.
+/// With a table beside a sampled controller, one input is the sum of what both set.
 #[test]
 fn a_table_stands_beside_a_controller() {
     use lagrangian::interpreted::{InterpretedMachine, Signal, SignalError, Signals};
@@ -462,7 +462,7 @@ fn a_table_stands_beside_a_controller() {
         .drive(simulation, &machine)
         .run(lagrangian::Machine::start(&machine));
     let run = run.unwrap();
-    // By hand: constant forces between instants at which one of them changes.
+    // The motion by hand: constant forces between the instants at which one of them changes.
     let [mut x, mut v, mut hand, mut now] = [0.7, 0.0, 0.0, 0.0_f64];
     let mut pending = Vec::new();
     let wind_at = |t: f64| {
@@ -499,7 +499,7 @@ fn a_table_stands_beside_a_controller() {
     let seen = run.observe(0.9).unwrap().inputs;
     assert_eq!(seen.values[1], 0.5);
     assert_eq!(seen.values[2], seen.values[0] + seen.values[1]);
-    // What waits for itself is refused, in whatever order it is said.
+    // Signals that depend on themselves are refused, whatever their order.
     let circle = Signals::new(&machine, [(0, Signal::Output(2)), (2, Signal::Output(3))]);
     let names = ["hand", "both"].map(String::from).to_vec();
     assert_eq!(circle.unwrap_err(), SignalError::Circle(names));
@@ -515,7 +515,7 @@ fn a_table_stands_beside_a_controller() {
     assert_eq!(varying.unwrap().first_varying(), Some(0));
 }
 
-/// A series is expanded anew at each jump: the oscillator under a force that holds, to rounding.
+/// A series is expanded anew at each jump: the oscillator under a piecewise constant force is exact to rounding.
 #[test]
 fn a_series_goes_on_across_jumps() {
     use lagrangian::interpreted::{InterpretedMachine, Signal, Signals};

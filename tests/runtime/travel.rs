@@ -1,4 +1,4 @@
-//! Results that travel: from thread to thread, and as data.
+//! Solutions and simulations can be sent to other threads, and solutions can be serialized.
 #![cfg(all(feature = "interpreter", feature = "serde", feature = "macros"))]
 
 use std::thread;
@@ -146,7 +146,8 @@ fn what_happened_is_data() {
 
 fn can_be_copied_and_sent<T: Clone + Send>(_: &T) {}
 
-/// A copy of a simulation has events and a controller of its own, whatever these keep; observers are those of the first.
+/// A copy of a simulation has its own copies of the events and of the controller, with their state; observers
+/// are shared with the original.
 #[test]
 fn copies_of_a_simulation_run_on_other_threads() {
     let pair = Pair::default();
@@ -158,7 +159,7 @@ fn copies_of_a_simulation_run_on_other_threads() {
         .until_event_on("far", Crossing::Rising, |seen| seen.q.x - 100.0)
         .stop_if(|state| state.q.y > 100.0)
         .observe(0.5, |_| *seen.lock().unwrap() += 1)
-        // What it sets depends on how often it was asked: a copy that shared this count would have another motion.
+        // The input depends on the number of calls, so a copy that shared the count would move differently.
         .sampled(0.25, move |_, inputs| {
             looks += 1;
             inputs.push = f64::from(looks);
@@ -180,11 +181,11 @@ fn copies_of_a_simulation_run_on_other_threads() {
     });
     let alone = end(simulation);
     assert_eq!(together, [alone; 3]);
-    // At the start, three times on the way and at the end, in each of four runs.
+    // The observer is called at the start, three times on the way and at the end, in each of four runs.
     assert_eq!(*seen.lock().unwrap(), 4 * 5);
 }
 
-/// How inputs are set may be decided while the program runs, and the simulation has one type.
+/// A program can choose at run time how inputs are set, and the simulation keeps one type.
 #[test]
 fn inputs_may_be_chosen_at_run_time() {
     let pair = Pair::default();

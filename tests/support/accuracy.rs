@@ -1,31 +1,31 @@
-//! How exact accelerations are, and how exact they can be: rounding analysis of `M a = f`.
+//! How accurate computed accelerations are, and how accurate they can be: rounding analysis of `M a = f`.
 
 use lagrangian_program::{Arguments, Interpreter, Program, Role, Shape, Singular};
 use lagrangian_scalar::{DoubleDouble, Interval, Scalar};
 
 use super::references::greatest;
 
-/// Half the distance between 1 and the next number: a rounding is off by at most this, relatively.
+/// The unit roundoff: half the distance between 1 and the next number, the largest relative error of one rounding.
 const U: f64 = f64::EPSILON / 2.0;
 
-/// A program over numbers that know better.
+/// A program evaluated in more precise numbers, against which results in `f64` are judged.
 pub struct Judge {
-    /// To 30 digits.
+    /// Evaluates to 30 digits.
     exact: Interpreter<DoubleDouble>,
-    /// With all that rounding may do.
+    /// Encloses all values that rounding may produce.
     enclosed: Interpreter<Interval>,
-    /// Encloses what a given number stands for.
+    /// Encloses the values for which a given number may stand.
     enclose: fn(f64) -> Interval,
     n: usize,
 }
 
-/// What rounding did to the accelerations at one state, in the norm `‖√Mᵢᵢ aᵢ‖₂`, which does not depend on units.
+/// The effect of rounding on the accelerations at one state, in the norm `‖√Mᵢᵢ aᵢ‖₂`, which does not depend on units.
 pub struct Accuracy {
     /// The norm of the accelerations.
     pub size: f64,
     /// The norm of their error.
     pub error: f64,
-    /// What the error may be.
+    /// The bound on the norm of the error.
     pub limit: f64,
     /// Condition number of the mass matrix with its diagonal scaled to 1.
     pub condition: f64,
@@ -47,19 +47,20 @@ impl Accuracy {
 }
 
 impl Judge {
-    /// For parameters and states that are what they are.
+    /// Takes parameters and states to be exact.
     pub fn new(program: &Program, parameters: &[f64]) -> Self {
         Self::enclosing(program, parameters, Interval::from_f64)
     }
 
-    /// For parameters and states that are decimal numbers, rounded: half a unit in the last place off, or less.
+    /// Takes parameters and states to be decimal numbers rounded to `f64`, each with an error of at most
+    /// half a unit in the last place.
     pub fn of_decimals(program: &Program, parameters: &[f64]) -> Self {
         Self::enclosing(program, parameters, |x| {
             Interval::new(x.next_down(), x.next_up())
         })
     }
 
-    /// The greatest error of an acceleration that was computed at a state, over the greatest acceleration.
+    /// The largest error of an acceleration computed at a state, divided by the largest acceleration.
     pub fn relative_error(
         &mut self,
         (t, q, v, u): (f64, &[f64], &[f64], &[f64]),
@@ -91,9 +92,9 @@ impl Judge {
 
     /// The accuracy of accelerations that were computed at a state.
     ///
-    /// What is computed solves `(M + ΔM) â = f + Δf`. In `M` and `f` themselves rounding does at most what the widths of
-    /// their enclosures say. The solution by `M = L D Lᵀ` adds `|ΔM| ≤ γ₃ₙ₊₁ |L| |D| |Lᵀ|`, of which `|L| |D| |Lᵀ|` is
-    /// below `√(Mᵢᵢ Mⱼⱼ) / (1 − γₙ₊₁)` (N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed. 2002,
+    /// The computed solution satisfies `(M + ΔM) â = f + Δf`. The widths of the enclosures of `M` and `f` bound the
+    /// effect of rounding on these. The solution by `M = L D Lᵀ` adds `|ΔM| ≤ γ₃ₙ₊₁ |L| |D| |Lᵀ|`, where `|L| |D| |Lᵀ|`
+    /// is below `√(Mᵢᵢ Mⱼⱼ) / (1 − γₙ₊₁)` (N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed. 2002,
     /// theorem 10.4 with eq. (10.8); `γₖ = k u / (1 − k u)`). With `S = diag √Mᵢᵢ`, `H = S⁻¹ M S⁻¹`, `z = S a`:
     ///
     /// ```text
@@ -101,7 +102,7 @@ impl Judge {
     /// ‖ẑ − z‖ ≤ ‖H⁻¹‖ (‖S⁻¹ Δf‖ + (‖S⁻¹ ΔM S⁻¹‖ + n γ₃ₙ₊₁ / (1 − γₙ₊₁)) ‖ẑ‖)
     /// ```
     ///
-    /// Twice that, since the accelerations add up `M` and `f` in an order of their own.
+    /// The limit is twice that, since the accelerations add up `M` and `f` in an order of their own.
     pub fn accuracy(
         &mut self,
         (t, q, v, u): (f64, &[f64], &[f64], &[f64]),
@@ -153,7 +154,7 @@ impl Judge {
     }
 }
 
-/// `γₖ`: what k roundings in a row can do.
+/// `γₖ`: the bound on the relative error of k successive roundings.
 fn gamma(k: usize) -> f64 {
     let k = k as f64;
     k * U / (1.0 - k * U)
@@ -201,7 +202,7 @@ fn frobenius(matrix: &[Vec<DoubleDouble>]) -> f64 {
     norm(matrix.iter().flatten().map(|entry| entry.hi()))
 }
 
-/// The inverse of a positive definite matrix, by Gauss and Jordan; such a matrix needs no pivots.
+/// The inverse of a positive definite matrix by Gauss–Jordan elimination, which needs no pivoting for such a matrix.
 fn inverse(mut matrix: Vec<Vec<DoubleDouble>>) -> Vec<Vec<DoubleDouble>> {
     let n = matrix.len();
     for k in 0..n {

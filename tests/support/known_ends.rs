@@ -1,5 +1,5 @@
-//! Ends of runs in more digits than `f64` has: by Gragg–Bulirsch–Stoer extrapolation in binary128, two resolutions of which
-//! agree to 4e-21 (double pendulum) and 8e-26 (crusher).
+//! End states of runs to more digits than `f64` holds, computed by Gragg–Bulirsch–Stoer extrapolation in binary128. Two
+//! resolutions agree to 4e-21 (double pendulum) and 8e-26 (crusher).
 
 #![expect(
     clippy::excessive_precision,
@@ -8,8 +8,8 @@
 
 use std::f64::consts::PI;
 
-/// `machines/double_pendulum.machine` with its default parameters, 100 s after rest at [`REGULAR_START`]: angles (rad), then
-/// rates (rad/s).
+/// `machines/double_pendulum.machine` with its default parameters, 100 s after it starts from rest at [`REGULAR_START`]:
+/// angles (rad), then rates (rad/s).
 pub const REGULAR_AT_100: [f64; 4] = [
     0.1568362029256774608952189535,
     0.1549800061482846913584054161,
@@ -18,7 +18,7 @@ pub const REGULAR_AT_100: [f64; 4] = [
 ];
 pub const REGULAR_START: [f64; 2] = [0.3, 0.5];
 
-/// The same 10 s after rest at [`CHAOTIC_START`].
+/// The same machine 10 s after it starts from rest at [`CHAOTIC_START`].
 pub const CHAOTIC_AT_10: [f64; 4] = [
     -0.7531288742949123893982122328,
     1.627933082053701835561554578,
@@ -27,7 +27,7 @@ pub const CHAOTIC_AT_10: [f64; 4] = [
 ];
 pub const CHAOTIC_START: [f64; 2] = [2.0, 2.5];
 
-/// `machines/crusher9.machine` 5 s after its start at [`CRUSHER_RATES`]: coordinates, then rates.
+/// `machines/crusher9.machine` 5 s after it starts with the rates [`CRUSHER_RATES`]: coordinates, then rates.
 pub const CRUSHER_AT_5: [f64; 18] = [
     0.06145283273805227510136737529,
     0.4241214737780232413153200169,
@@ -50,7 +50,7 @@ pub const CRUSHER_AT_5: [f64; 18] = [
 ];
 pub const CRUSHER_RATES: [f64; 9] = [0.05, -0.03, 0.02, 0.0, 2.0, 1.0, 0.0, -3.0, -2.0];
 
-/// Half of the range that each number of the crusher's state has: what its error is measured by.
+/// Half the range of each number of the crusher's state; errors are relative to these.
 pub const CRUSHER_RANGES: [f64; 18] = [
     0.02, 0.02, 0.1, 0.03, PI, PI, 0.02, PI, PI, 0.5, 0.5, 1.0, 0.3, 5.0, 10.0, 0.3, 5.0, 10.0,
 ];

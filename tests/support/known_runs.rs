@@ -1,4 +1,5 @@
-//! Runs whose ends are known to 30 digits: the files of `tests/data/references/`, and the errors of what ends beside them.
+//! Runs whose end states are known to 30 digits, read from `tests/data/references/`, and the
+//! errors of computed end states.
 
 use lagrangian_scalar::DoubleDouble;
 use lagrangian_symbolic::Rational;
@@ -7,20 +8,20 @@ use lagrangian_symbolic::Rational;
 pub struct KnownRun {
     /// The file name of the machine in `machines/`.
     pub machine: String,
-    /// Parameters and constants with values of their own.
+    /// Parameters and constants that differ from their defaults.
     pub settings: Vec<(String, f64)>,
-    /// When it ends, in s.
+    /// The end time, in s.
     pub until: f64,
-    /// Coordinates, then rates, at its start.
+    /// Coordinates, then rates, at the start.
     pub start: Vec<f64>,
-    /// Coordinates, then rates, at its end.
+    /// Coordinates, then rates, at the end.
     pub end: Vec<DoubleDouble>,
-    /// What an error is measured by, besides the size of the number.
+    /// The scale of each number: an error is relative to this plus the number's size.
     scales: Vec<f64>,
 }
 
 impl KnownRun {
-    /// The run of this name.
+    /// Reads the run of this name.
     pub fn named(name: &str) -> Self {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/references");
         let path = format!("{folder}/{name}.txt");
@@ -28,7 +29,7 @@ impl KnownRun {
         Self::read(&text)
     }
 
-    /// Reads a file: lines that begin with what they hold, and after `end` a number on each line.
+    /// Parses a file: each line begins with the name of its content, and the lines after `end` hold one number each.
     fn read(text: &str) -> Self {
         let mut run = Self {
             machine: String::new(),
@@ -64,7 +65,8 @@ impl KnownRun {
         run
     }
 
-    /// The greatest of `|y − exact| / (scale + |exact|)` of a state, coordinates and then rates.
+    /// The greatest `|y − exact| / (scale + |exact|)` over the numbers of an end state, given
+    /// as coordinates and then rates.
     pub fn error<'y>(&self, end: impl IntoIterator<Item = &'y f64>) -> f64 {
         let end: Vec<f64> = end.into_iter().copied().collect();
         assert_eq!(end.len(), self.end.len());

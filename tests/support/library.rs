@@ -1,5 +1,5 @@
-//! The machines of `machines/`, and machines that tests write down themselves, as programs for the
-//! interpreter.
+//! The machines of `machines/`, and machines that tests write themselves, compiled to
+//! programs for the interpreter.
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian_mechanics::Compiled;
@@ -40,7 +40,7 @@ pub const MACHINES: [&str; 26] = [
     "vibrating_crusher",
 ];
 
-/// The file names of those that have constraints.
+/// The file names of the machines with constraints.
 pub const CONSTRAINED: [&str; 16] = [
     "andrews_squeezer",
     "ball_in_bowl",
@@ -60,7 +60,7 @@ pub const CONSTRAINED: [&str; 16] = [
     "slider_crank",
 ];
 
-/// The file names of those that stick and slide.
+/// The file names of the machines with Coulomb friction.
 pub const SLIDING: [&str; 8] = [
     "bead_in_shell",
     "bead_on_helix",
@@ -72,8 +72,8 @@ pub const SLIDING: [&str; 8] = [
     "wedge_and_block",
 ];
 
-/// Does something with every machine without constraints, as compiled into `lagrangian-machines`: `$do!(CartPole,
-/// "cart_pole")`.
+/// Invokes a macro for every machine without constraints, as compiled into `lagrangian-machines`:
+/// `$do!(CartPole, "cart_pole")`.
 #[macro_export]
 macro_rules! for_each_machine {
     ($do:ident) => {
@@ -106,7 +106,8 @@ macro_rules! for_each_machine {
     };
 }
 
-/// Calls with every machine whose accelerations are determined at any state, constraints included.
+/// Invokes a macro for every machine whose accelerations are determined at any state,
+/// including those with constraints.
 #[macro_export]
 macro_rules! for_each_constrained_machine {
     ($do:ident) => {
@@ -128,18 +129,18 @@ macro_rules! for_each_constrained_machine {
     };
 }
 
-/// The text of a machine of the library.
+/// The source text of a machine of the library.
 pub fn text(machine: &str) -> String {
     let path = path(machine);
     std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
-/// The program of a machine of the library, with other constants where some are given.
+/// The program of a machine of the library, with the given constants overridden.
 pub fn program(machine: &str, constants: &[(&str, i64)]) -> Proved {
     compile(&path(machine), &text(machine), constants)
 }
 
-/// The program of a machine with a choice of one's own between the ways to make each function.
+/// The program of a machine, with the caller's choice among the ways to compute each function.
 pub fn program_by(
     machine: &str,
     constants: &[(&str, i64)],
@@ -147,7 +148,7 @@ pub fn program_by(
 ) -> Proved {
     compile_by(&path(machine), &text(machine), constants, &|compiled| {
         let model = &compiled.model;
-        // Those of `compiled` may have been multiplied out already.
+        // The equations in `compiled` may have been multiplied out already.
         let equations = Equations::derive(model, &mut Report::new()).expect("derived before");
         let expanded = equations.expanded();
         let program = lagrangian_mechanics::lower_by(model, &equations, expanded.as_ref(), choose);
@@ -160,12 +161,12 @@ pub fn interpreted(machine: &str) -> InterpretedMachine {
     InterpretedMachine::new(program(machine, &[]))
 }
 
-/// The machine of a text, interpreted; `extends` is relative to `machines/`.
+/// An interpreted machine from a text in which `extends` is relative to `machines/`.
 pub fn machine(text: &str) -> InterpretedMachine {
     InterpretedMachine::new(compile(&path("test"), text, &[]))
 }
 
-/// The program of a text.
+/// Compiles a text to a program.
 pub fn compile(path: &str, text: &str, constants: &[(&str, i64)]) -> Proved {
     compile_by(path, text, constants, &|compiled| compiled.program.clone())
 }
@@ -197,7 +198,7 @@ fn compile_by(
     }
 }
 
-/// Where a machine of the library stands.
+/// The path of a machine's file in the library.
 pub fn path(machine: &str) -> String {
     format!("{}/machines/{machine}.machine", env!("CARGO_MANIFEST_DIR"))
 }

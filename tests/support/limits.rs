@@ -1,11 +1,11 @@
-//! How far a run may be from the truth, derived from its tolerance.
+//! Bounds on the error of a run, derived from its tolerance.
 
 use lagrangian::{Coordinates, InputLaw, Machine, Simulation, Solution, State};
 
 use super::references::{Row, error, greatest};
 use super::states::numbers;
 
-/// Runs a machine and holds what it should conserve against its value at the start.
+/// Runs a machine and compares a quantity that it should conserve with its value at the start.
 pub fn conserves<M: Machine>(
     machine: &M,
     start: State<Coordinates<M>>,
@@ -27,7 +27,8 @@ pub fn conserves<M: Machine>(
         "{}: {before} became {after}; limit {limit:e}",
         machine.name()
     );
-    // A term that is wrong in the equations changes what is conserved by as much as there is of it.
+    // An error in a term of the equations would change the conserved quantity by
+    // about the size of that term.
     let turnover = greatest(run.steps().map(|state| at_end(&state).abs())).max(1e-3);
     assert!(
         limit < 1e-2 * turnover,
@@ -36,13 +37,14 @@ pub fn conserves<M: Machine>(
     );
 }
 
-/// By how much a run may change a quantity that the motion conserves.
+/// The bound on how much a run may change a quantity that the motion conserves.
 ///
 /// A step keeps the root mean square of `δyᵢ / (τ (1 + |yᵢ|))` over its 2n numbers below 1, so by
-/// Cauchy and Schwarz it changes `f` by at most `s τ` with `s = √(2n) ‖∂f/∂yᵢ (1 + |yᵢ|)‖₂`. The
-/// motion neither enlarges nor mends an error in what it conserves, so the steps add up at worst:
-/// `τ Σ s`. To this comes the rounding in the two values of `f` that are compared, as if each `yᵢ`
-/// were off by 16 units in the last place.
+/// the Cauchy–Schwarz inequality it changes `f` by at most `s τ` with
+/// `s = √(2n) ‖∂f/∂yᵢ (1 + |yᵢ|)‖₂`. The motion neither amplifies nor damps an error in a
+/// conserved quantity, so the changes of all steps add up to at most `τ Σ s`. The bound also
+/// includes rounding in the two values of `f` that are compared, as if each `yᵢ` were off by 16
+/// units in the last place.
 fn drift<M: Machine, L: InputLaw<M::System>>(
     run: &Solution<M, L>,
     tolerance: f64,
@@ -61,8 +63,8 @@ fn drift<M: Machine, L: InputLaw<M::System>>(
 /// `√(2n) ‖∂f/∂yᵢ (1 + |yᵢ|)‖₂`, by central differences.
 fn sensitivity(y: &[f64], f: impl Fn(&[f64]) -> f64) -> f64 {
     let squares = (0..y.len()).map(|i| {
-        // The error of the difference is of the order of its square and of ε over it: 1e-10
-        // relative.
+        // The truncation error of the difference is of the order of h² and its rounding error of
+        // the order of ε/h: 1e-10 relative.
         let h = 1e-5 * (1.0 + y[i].abs());
         let at = |yi: f64| {
             let mut y = y.to_vec();
@@ -75,13 +77,13 @@ fn sensitivity(y: &[f64], f: impl Fn(&[f64]) -> f64) -> f64 {
     (y.len() as f64 * squares.sum::<f64>()).sqrt()
 }
 
-/// Holds a run against references, `view` choosing what of its state they show.
+/// Compares a run with references; `view` extracts from its state the numbers that they give.
 ///
-/// With steps that follow the tolerance τ the error of a run goes as τ. So its distance from a run
-/// a hundred times coarser is the error of the coarse one but for 1 %, and a hundred times that of
-/// its own: the distance is the limit, and leaves a factor of a hundred to what is not so regular.
-/// `bound` is what the limit itself must not exceed, or the test would say nothing. Errors are
-/// relative to `scales + |reference|`.
+/// With step sizes chosen for the tolerance τ, the error of a run is proportional to τ. Its
+/// distance from a run with a tolerance a hundred times larger is therefore the error of the coarse
+/// run to within 1 %, and a hundred times its own error. That distance is the limit, which leaves a
+/// factor of a hundred for deviations from proportionality. The limit itself must not exceed
+/// `bound`, or the test would show nothing. Errors are relative to `scales + |reference|`.
 pub fn follows<'a, M: Machine>(
     machine: &'a M,
     start: &State<Coordinates<M>>,
@@ -93,7 +95,7 @@ pub fn follows<'a, M: Machine>(
     follows_with(machine, start, (tolerance, settings), known, view);
 }
 
-/// As [`follows`], with settings of one's own for each of the two tolerances.
+/// Like [`follows`], with the caller's settings for each of the two tolerances.
 pub fn follows_with<'a, M: Machine>(
     machine: &'a M,
     start: &State<Coordinates<M>>,
@@ -114,7 +116,7 @@ pub fn follows_with<'a, M: Machine>(
     holds(name, &runs, (rows, scales, bound), view);
 }
 
-/// As [`follows`], of two runs that were made already, the second of them a hundred times coarser.
+/// Like [`follows`], for two finished runs; the second has a tolerance a hundred times larger.
 pub fn holds<M: Machine, L: InputLaw<M::System>>(
     name: &str,
     [fine, coarse]: &[Solution<M, L>; 2],

@@ -1,5 +1,5 @@
-//! What tests and benches of machines share: the library, references of many digits, random
-//! numbers, limits of error.
+//! Code that tests and benches of machines share: the library, references to many digits, random
+//! numbers, error limits.
 #![allow(dead_code, reason = "each test and each bench uses some of it")]
 
 pub mod accuracy;

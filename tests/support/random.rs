@@ -1,7 +1,7 @@
-//! Random numbers that are the same everywhere: splitmix64, by G. L. Steele, D. Lea and C. H.
-//! Flood, *Fast splittable pseudorandom number generators*, OOPSLA 2014.
+//! Random numbers that are the same on every platform: splitmix64, by G. L. Steele, D. Lea and C.
+//! H. Flood, *Fast splittable pseudorandom number generators*, OOPSLA 2014.
 
-/// A stream of random numbers; tests name its seed.
+/// A stream of random numbers, started from a seed that each test states.
 pub struct SplitMix(u64);
 
 impl SplitMix {
@@ -17,7 +17,7 @@ impl SplitMix {
         z ^ (z >> 31)
     }
 
-    /// Uniform in [0, 1), 53 bits.
+    /// Uniform in [0, 1), with 53 random bits.
     pub fn unit(&mut self) -> f64 {
         (self.next() >> 11) as f64 * 2f64.powi(-53)
     }

@@ -1,20 +1,20 @@
-//! Tables of reference values: lines of a time and of decimal numbers with more digits than `f64`
-//! has.
+//! Tables of reference values: each line holds a time and decimal numbers
+//! with more digits than `f64` has.
 
 use lagrangian_scalar::DoubleDouble;
 use lagrangian_symbolic::Rational;
 
-/// A line of a table.
+/// One line of a table.
 pub struct Row {
     pub t: f64,
-    /// 30 digits of each number.
+    /// Each number to 30 digits.
     pub exact: Vec<DoubleDouble>,
-    /// The nearest `f64`.
+    /// Each number rounded to the nearest `f64`.
     pub values: Vec<f64>,
 }
 
 impl Row {
-    /// Values from a formula.
+    /// A row of values that were computed in `f64` from a formula.
     pub fn of(t: f64, values: &[f64]) -> Self {
         Self {
             t,
@@ -65,7 +65,7 @@ pub fn error(y: &[f64], reference: &Row, scales: &[f64]) -> f64 {
     greatest(errors)
 }
 
-/// The greatest of some numbers; not a number if one of them is none.
+/// The largest of some numbers, or NaN if one of them is NaN.
 pub fn greatest(numbers: impl IntoIterator<Item = f64>) -> f64 {
     let larger = |a: f64, b: f64| if b <= a { a } else { b };
     numbers.into_iter().fold(0.0, larger)

@@ -1,4 +1,4 @@
-//! Random states of a machine, and how exact its accelerations are there.
+//! Random states of a machine, and the accuracy of its accelerations there.
 
 use lagrangian::{Machine, System, Vector};
 use lagrangian_program::Program;
@@ -7,11 +7,12 @@ use super::accuracy::Judge;
 use super::random::SplitMix;
 use super::states::{accelerations, vector};
 
-/// The seed of all states.
+/// The seed of all random states.
 const SEED: u64 = 20_260_001;
 
-/// States of a machine around its start, where all that it assumes holds: angles all the way round,
-/// lengths by half of themselves and 2 cm, rates of 5 rad/s and 0.5 m/s, times in [0, 10).
+/// Random states of a machine around its start at which all its assumptions hold: angles
+/// in a full turn, lengths varied by half of themselves plus 2 cm, rates up to 5 rad/s
+/// and 0.5 m/s, times in [0, 10).
 pub struct Random<M: Machine> {
     pub system: M::System,
     start: Vec<f64>,
@@ -74,8 +75,9 @@ impl<M: Machine> Random<M> {
     }
 }
 
-/// Holds the accelerations of a machine at random states against 30 digits: they are as exact as
-/// rounding of `M` and `f` and the condition of `M` allow. `change` makes the states more special.
+/// Compares the accelerations of a machine at random states with 30-digit values: they must
+/// be as accurate as rounding of `M` and `f` and the condition of `M` permit. `change`
+/// makes the states more special.
 pub fn accurate<M: Machine>(
     machine: &M,
     program: &Program,
@@ -110,9 +112,10 @@ pub fn accurate<M: Machine>(
         );
         judged.push((accuracy.size, limit, condition, place()));
     }
-    // The limit is c κ ε of the accelerations, with c from the operations: of the order of their
-    // number, a thousand or so. Where what accelerates happens to cancel, as under a pivot shaken
-    // just so, they are small beside what they are made of: the median tells how large that is.
+    // The limit is c κ ε times the accelerations, where c reflects the number of
+    // operations, about a thousand. Where the accelerating forces nearly cancel, as with
+    // certain motions of a shaken pivot, the accelerations are small compared with their
+    // terms; the median serves as the typical size.
     judged.sort_by(|one, other| one.0.total_cmp(&other.0));
     let median = judged.get(judged.len() / 2).map_or(0.0, |&(size, ..)| size);
     for (size, limit, condition, place) in judged {

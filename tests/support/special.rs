@@ -1,12 +1,12 @@
-//! Functions that closed forms of motions need, in `f64`: to a few units in the last place for
-//! moderate arguments.
+//! Special functions for closed forms of motions, in `f64`, accurate to a few units in the last
+//! place for moderate arguments.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// The arithmetic-geometric mean of two positive numbers (C. F. Gauss, 1799).
 pub fn agm(mut a: f64, mut b: f64) -> f64 {
-    // The difference is squared by every step: 2⁻⁵³ after six of them from anywhere near 1, ten
-    // from 10⁻³⁰⁰.
+    // Each step squares the relative difference: it reaches 2⁻⁵³ after six steps from values near
+    // 1, after ten from 10⁻³⁰⁰.
     for _ in 0..12 {
         (a, b) = ((a + b) / 2.0, (a * b).sqrt());
     }
@@ -18,7 +18,7 @@ pub fn elliptic_k(m: f64) -> f64 {
     FRAC_PI_2 / agm(1.0, (1.0 - m).sqrt())
 }
 
-/// Jacobi's amplitude am(u, m), which goes on beyond π, of parameter `m = k²` in [0, 1).
+/// Jacobi's amplitude am(u, m), continued beyond π, of parameter `m = k²` in [0, 1).
 ///
 /// M. Abramowitz, I. A. Stegun, *Handbook of Mathematical Functions*, 1964, 16.4.
 pub fn amplitude(u: f64, m: f64) -> f64 {
@@ -40,10 +40,11 @@ pub fn jacobi(u: f64, m: f64) -> [f64; 3] {
     [sn, cn, (1.0 - m * sn * sn).sqrt()]
 }
 
-/// The eccentric anomaly u of Kepler's equation `u − e sin u = M`, of eccentricity `e` in [0, 1).
+/// The eccentric anomaly u that solves Kepler's equation `u − e sin u = M`, for
+/// an eccentricity `e` in [0, 1).
 pub fn kepler(e: f64, mean: f64) -> f64 {
-    // The left side is convex from π on and concave before it: from π Newton's method does not
-    // overshoot.
+    // The left side is convex from π on and concave before it, so Newton's method
+    // started at π does not overshoot.
     let turns = (mean / TAU).floor() * TAU;
     let rest = mean - turns;
     let mut u = std::f64::consts::PI;
@@ -53,16 +54,16 @@ pub fn kepler(e: f64, mean: f64) -> f64 {
     turns + u
 }
 
-/// The characteristic values a₀(Q) and b₁(Q) of Mathieu's equation `y″ + (A − 2 Q cos 2x) y = 0`:
-/// the least A with a solution that is even and of period π, and the least with an odd one of
-/// period 2π.
+/// The characteristic values a₀(Q) and b₁(Q) of Mathieu's equation
+/// `y″ + (A − 2 Q cos 2x) y = 0`: the least A with an even solution of period π, and the least A
+/// with an odd solution of period 2π.
 ///
-/// The least eigenvalues of the tridiagonal matrices that its Fourier series gives (N. W.
-/// McLachlan, *Theory and Application of Mathieu Functions*, 1947, section 3.10), made symmetric;
-/// they are found by bisection, which counts negative pivots.
+/// They are the least eigenvalues of the tridiagonal matrices of the Fourier series (N. W.
+/// McLachlan, *Theory and Application of Mathieu Functions*, 1947, section 3.10), made symmetric,
+/// and are found by bisection on the number of negative pivots.
 pub fn mathieu_edges(q: f64) -> [f64; 2] {
-    // Row j weighs (2j)² or (2j + 1)² against Q: what is beyond the 24th changes nothing for Q up
-    // to 10.
+    // Row j has (2j)² or (2j + 1)² on its diagonal, against Q beside it: rows beyond the 24th
+    // change nothing for Q up to 10.
     const ROWS: usize = 24;
     let even = |j: usize| {
         (
@@ -80,8 +81,8 @@ pub fn mathieu_edges(q: f64) -> [f64; 2] {
     ]
 }
 
-/// The least eigenvalue of a symmetric tridiagonal matrix, `row` giving an entry of the diagonal
-/// and the square of the one beside it in the row before; `low` is below it.
+/// The least eigenvalue of a symmetric tridiagonal matrix. `row` gives a diagonal entry and the
+/// square of the off-diagonal entry in the row before; `low` is a lower bound.
 fn least_eigenvalue(rows: usize, row: impl Fn(usize) -> (f64, f64), low: f64) -> f64 {
     let is_below_all = |x: f64| {
         let mut pivot = f64::INFINITY;
@@ -103,7 +104,7 @@ fn least_eigenvalue(rows: usize, row: impl Fn(usize) -> (f64, f64), low: f64) ->
     low
 }
 
-/// The mean of a smooth function over its period: the trapezoidal rule, which errs by as little as
+/// The mean of a smooth periodic function over its period by the trapezoidal rule, whose error is
 /// the function's Fourier coefficient of order `points`.
 pub fn mean(period: f64, points: usize, f: impl Fn(f64) -> f64) -> f64 {
     let sum: f64 = (0..points)

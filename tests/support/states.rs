@@ -2,7 +2,7 @@
 
 use lagrangian::{Coordinates, Machine, Singular, State, System, Vector};
 
-/// The state of a machine with these coordinates and rates.
+/// The state of a machine with the given coordinates and rates.
 pub fn state<M: Machine>(machine: &M, t: f64, q: &[f64], v: &[f64]) -> State<Coordinates<M>> {
     let system = machine.prepare();
     let named = |numbers: &[f64]| system.to_coordinates(&vector::<M::System>(numbers));
@@ -13,7 +13,7 @@ pub fn state<M: Machine>(machine: &M, t: f64, q: &[f64], v: &[f64]) -> State<Coo
     }
 }
 
-/// A vector of a system.
+/// A system's vector with these entries.
 pub fn vector<S: System>(numbers: &[f64]) -> S::Vector {
     let mut vector = S::Vector::zeros(numbers.len());
     vector.as_mut_slice().copy_from_slice(numbers);
@@ -29,7 +29,7 @@ pub fn numbers<S: System>(system: &S, state: &State<S::Coordinates>) -> Vec<f64>
         .collect()
 }
 
-/// The mass matrix, row after row.
+/// The mass matrix in row-major order.
 pub fn mass_matrix<S: System>(system: &S, t: f64, q: &S::Vector) -> Vec<f64> {
     let n = q.as_slice().len();
     let mut matrix = S::Matrix::zeros(n * n);
@@ -37,14 +37,14 @@ pub fn mass_matrix<S: System>(system: &S, t: f64, q: &S::Vector) -> Vec<f64> {
     matrix.as_slice().to_vec()
 }
 
-/// Kinetic and potential energy together.
+/// The sum of kinetic and potential energy.
 pub fn energy<S: System>(system: &S, t: f64, y: &[f64]) -> f64 {
     let (q, v) = y.split_at(y.len() / 2);
     let (q, v) = (vector::<S>(q), vector::<S>(v));
     system.kinetic_energy(t, &q, &v) + system.potential_energy(t, &q, &system.default_inputs())
 }
 
-/// The accelerations, with the inputs at their defaults.
+/// The accelerations with all inputs at their defaults.
 pub fn accelerations<S: System>(
     system: &S,
     t: f64,

@@ -1,8 +1,8 @@
-//! How long it takes to derive machines: `cargo bench -p lagrangian-mechanics --bench derivation`.
+//! The time that it takes to derive machines: `cargo bench -p lagrangian-mechanics --bench derivation`.
 //!
-//! The limits are those of the project: the crusher within 10 ms, a chain of 16 links within 50 ms, of 64 within 1 s, and growth
-//! no worse than n². Resolving the spec is timed apart. Shown is the mean of some runs, in time of the processor where the system
-//! tells it (Linux), so that other programs count little.
+//! The limits are those of the project: the crusher within 10 ms, a chain of 16 links within 50 ms, one of 64 within 1 s, and
+//! growth no worse than n². Resolving the spec is timed separately. The figures are means of several runs, in processor time
+//! where the system provides it (Linux), so that other programs have little influence.
 
 use std::path::Path;
 use std::sync::OnceLock;
@@ -39,7 +39,7 @@ fn main() {
     }
 }
 
-/// Time that this thread has run, or that has passed.
+/// The time for which this thread has run, or else the time that has passed.
 fn now() -> Duration {
     static START: OnceLock<Instant> = OnceLock::new();
     let spent = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
@@ -56,7 +56,7 @@ struct Measured {
     nodes: usize,
 }
 
-/// The mean over some runs: the system counts in steps of some milliseconds.
+/// The mean over several runs, since the system counts in steps of some milliseconds.
 fn mean(name: &str, size: Option<i64>) -> Measured {
     let start = now();
     let mut runs: Vec<Measured> = Vec::new();
@@ -107,7 +107,7 @@ fn measure(name: &str, size: Option<i64>) -> Measured {
     }
 }
 
-/// A line; growth is the exponent e of `time ∝ nᵉ` since half the size.
+/// Prints a line; the growth is the exponent e in `time ∝ nᵉ`, relative to half the size.
 fn show(label: &str, now: &Measured, before: Option<&Measured>) {
     let growth =
         before.map(|before| (now.derive.as_secs_f64() / before.derive.as_secs_f64()).log2());

@@ -1,8 +1,8 @@
-//! What a text may cost: deep, wide and shared definitions end in equations or in a clear error,
-//! within bounded memory and work, however large they are.
+//! The cost of a text: deep, wide and shared definitions end in equations or in a clear error, with bounded memory
+//! and work, however large they are.
 //!
-//! Memory is counted by the allocator. Work is bounded by the same count: whatever any stage makes
-//! it allocates, so bytes allocated altogether stand for time and are the same on every machine.
+//! The allocator counts the memory. The same count bounds the work: every stage allocates in proportion to its work,
+//! so the total of allocated bytes stands for time and is the same on every computer.
 
 use allocation_counter::{AllocationInfo, measure};
 use lagrangian_mechanics::Compiled;
@@ -10,14 +10,13 @@ use lagrangian_spec::diagnostic::{Code, Report, Severity};
 use lagrangian_spec::source::{InMemory, Sources};
 use lagrangian_symbolic::Dag;
 
-/// The most memory, in bytes.
+/// The bound on the memory in use, in bytes.
 const MEMORY: u64 = 1 << 30;
 
-/// The most bytes that are allocated altogether: 10 s at the gigabyte a second that derivation
-/// allocates.
+/// The bound on the total of allocated bytes: 10 s at the gigabyte per second that derivation allocates.
 const WORK: u64 = 10 << 30;
 
-/// Compiles a text; what was allocated, and the codes of the errors.
+/// Compiles a text and returns the allocations and the codes of the errors.
 fn compile(text: &str) -> (AllocationInfo, Vec<Code>) {
     let mut codes = Vec::new();
     let used = measure(|| {
@@ -41,7 +40,7 @@ fn compile(text: &str) -> (AllocationInfo, Vec<Code>) {
     (used, codes)
 }
 
-/// Compiles a text within the bounds; whether it was derived. If not, it is said to be too large.
+/// Compiles a text within the bounds and returns whether it was derived; the only error may be that it is too large.
 fn is_derived(what: &str, text: &str) -> bool {
     let (used, codes) = compile(text);
     let megabytes = |bytes: u64| bytes >> 20;
@@ -56,8 +55,8 @@ fn is_derived(what: &str, text: &str) -> bool {
     codes.is_empty()
 }
 
-/// One coordinate, and a body whose height is the last of `n` definitions, each made from the one
-/// before.
+/// A machine with one coordinate and a body whose height is the last of `n` definitions,
+/// each made from the one before.
 fn chained(first: &str, rule: &str, n: usize) -> String {
     format!(
         "machine Chained in plane {{
@@ -70,7 +69,7 @@ fn chained(first: &str, rule: &str, n: usize) -> String {
     )
 }
 
-/// Rules by which definitions grow.
+/// Rules by which the definitions grow: a name, the first definition, and the next one.
 const RULES: [(&str, &str, &str); 9] = [
     ("nested sines", "x/a", "sin(f[i-1])"),
     ("nested squares", "x/a", "f[i-1]^2 + k"),
@@ -113,12 +112,12 @@ fn long_definitions_end_within_bounds() {
 fn the_longest_definitions_end_within_bounds() {
     let (what, first, rule) = RULES[0];
     assert!(!is_derived(what, &chained(first, rule, 40_000)), "{what}");
-    // One coordinate and one body: nothing in this is large but its length.
+    // A machine with one coordinate and one body, of which only the chain of definitions is long.
     let (what, first, rule) = RULES[2];
     is_derived(what, &chained(first, rule, 10_000));
 }
 
-/// The longest that `docs/limits.md` names, and longer ones, which are refused.
+/// The longest chains that `docs/limits.md` names, and longer ones, which are refused.
 #[test]
 #[ignore = "15 s of work, for the figures in docs/limits.md"]
 fn the_longest_chains_that_are_derived() {
@@ -128,7 +127,7 @@ fn the_longest_chains_that_are_derived() {
     }
 }
 
-/// What is nested four times as deep takes four times the memory and work, and no sixteen times.
+/// Definitions nested four times as deep take four times the memory and work, not sixteen times.
 #[test]
 fn nested_definitions_take_memory_in_proportion() {
     for (what, first, rule) in [RULES[0], RULES[3], RULES[5]] {
@@ -189,7 +188,7 @@ fn many_constraints_end_within_bounds() {
     is_derived("2000 constraints", &constrained(2000));
 }
 
-/// What damaged texts are made with, beside their own words.
+/// Words that are put into damaged texts, in addition to their own words.
 const WORDS: [&str; 30] = [
     "0", "1", "-1", "1/0", "1e9", "1e308", "-", "+", "*", "/", "^", "(", ")", "[", "]", "{", "}",
     ",", "..", "t", "pi", "N", "der", "sqrt", "norm", "ground", ".at", ".turn", "500", "é",
@@ -228,7 +227,7 @@ fn damaged(text: &str, random: &mut impl FnMut(usize) -> usize) -> String {
     words.join(" ")
 }
 
-/// `SEED=… DAMAGES=…` looks at so many of a seed.
+/// `SEED=… DAMAGES=…` repeats a seed with this many damaged texts.
 #[test]
 fn damaged_machines_end_within_bounds() {
     let number = |name: &str| std::env::var(name).ok().and_then(|n| n.parse::<u64>().ok());
@@ -245,7 +244,7 @@ fn damaged_machines_end_within_bounds() {
         .filter_map(|file| Some(file.ok()?.path()))
         .filter(|path| path.extension().is_some_and(|ending| ending == "machine"))
         .filter_map(|path| Some((path.clone(), std::fs::read_to_string(path).ok()?)))
-        // Others take seconds where they are not damaged much.
+        // Other machines take seconds if the damage leaves them valid.
         .filter(|(_, text)| text.len() < 4000 && !text.contains("const"))
         .collect();
     texts.sort();

@@ -1,4 +1,5 @@
-//! What sines and cosines cost, in ns per angle: of a state's angles together, and in lanes.
+//! The cost of sines and cosines, in ns per angle: for all angles of a
+//! state together, and in lanes.
 //!
 //! ```text
 //! cargo bench -p lagrangian-native
@@ -10,10 +11,10 @@ use std::time::Instant;
 use lagrangian_native::{Lanes, Number};
 use lagrangian_scalar::{Kernel, Scalar};
 
-/// States of K angles.
+/// Arrays of K angles, one for each state.
 struct Sines<'a, T, const K: usize>(&'a [[T; K]]);
 
-/// Sums everything, state after state: sums wait for one another, sines do not.
+/// Sums all sines and cosines: the sums depend on one another, the sines do not.
 impl<T: Copy, const K: usize> Kernel<T> for Sines<'_, T, K> {
     type Output = T;
 
@@ -29,7 +30,7 @@ impl<T: Copy, const K: usize> Kernel<T> for Sines<'_, T, K> {
     }
 }
 
-/// Each state waits for the last one's sines.
+/// The angles of each state depend on the sines of the previous one.
 struct Chained<'a, T, const K: usize>(&'a [[T; K]]);
 
 impl<T: Copy, const K: usize> Kernel<T> for Chained<'_, T, K> {
@@ -47,7 +48,7 @@ impl<T: Copy, const K: usize> Kernel<T> for Chained<'_, T, K> {
     }
 }
 
-/// As the program would do without this crate.
+/// The same with the standard library's functions.
 struct Plain<'a, const K: usize>(&'a [[f64; K]]);
 
 impl<const K: usize> Plain<'_, K> {
@@ -63,7 +64,7 @@ impl<const K: usize> Plain<'_, K> {
     }
 }
 
-/// The least of many, in ns a call: what disturbs only adds.
+/// The least time of many calls, in ns per call, since disturbances only add time.
 fn least<R>(mut f: impl FnMut() -> R) -> f64 {
     let once = |f: &mut dyn FnMut()| {
         let start = Instant::now();

@@ -1,5 +1,5 @@
-//! Sine and cosine against 106 bits: within the bound that `sincos.rs` proves, everywhere up to 100
-//! 000.
+//! Sine and cosine compared with 106-bit values: within the bound that `sincos.rs`
+//! proves, everywhere up to 100 000.
 //!
 //! ```text
 //! cargo test -p lagrangian-native --test sines -- --nocapture
@@ -8,7 +8,7 @@
 use lagrangian_native::Number;
 use lagrangian_scalar::{DoubleDouble, Kernel, Scalar};
 
-/// The bound, in units in the last place: 0.5 is what rounding alone takes.
+/// The bound in units in the last place, of which rounding alone takes 0.5.
 const ULPS: f64 = if cfg!(feature = "strict-libm") {
     1.0
 } else {
@@ -35,13 +35,13 @@ fn sines(angles: &[f64]) -> Vec<(f64, f64)> {
     f64::run(Sines(angles))
 }
 
-/// The distance from the truth in units of its last place.
+/// The distance from the true value in units of its last place.
 fn ulps(found: f64, truth: DoubleDouble) -> f64 {
     let place = 2.0_f64.powi(truth.hi().abs().log2().floor() as i32 - 52);
     ((DoubleDouble::from(found) - truth).hi() / place).abs()
 }
 
-/// The worst errors of sine and cosine, and where.
+/// Prints the largest errors of sine and cosine with their angles, and asserts the bound.
 fn worst(name: &str, angles: &[f64]) {
     let mut worst = [(0.0, 0.0); 2];
     for (x, (sin, cos)) in angles.iter().zip(sines(angles)) {
@@ -63,7 +63,8 @@ fn worst(name: &str, angles: &[f64]) {
     );
 }
 
-/// n numbers between two, by the fractions of the golden ratio: as even as random ones never are.
+/// n numbers in an interval by multiples of the golden ratio, which are more
+/// evenly spaced than random ones.
 fn between(low: f64, high: f64, n: u32) -> impl Iterator<Item = f64> {
     let golden = 0.618_033_988_749_894_9;
     (0..n).map(move |i| low + (high - low) * (f64::from(i) * golden).fract())
@@ -73,7 +74,7 @@ fn between(low: f64, high: f64, n: u32) -> impl Iterator<Item = f64> {
 fn the_bound_holds_in_every_octave() {
     let mut angles = Vec::new();
     for exponent in -900..=16 {
-        // Where something happens, more.
+        // More angles where the function is not trivial.
         let n = if exponent < -30 { 20 } else { 6000 };
         let low = 2.0_f64.powi(exponent);
         angles.extend(between(low, (2.0 * low).min(1e5), n));
@@ -91,8 +92,8 @@ fn the_bound_holds_within_a_turn() {
     worst("a turn", &angles);
 }
 
-/// Sines are small here, and angles have lost most of their places: those that remain must be right all
-/// the same.
+/// Here sines are small and the reduced angle has lost most of its digits, but the
+/// remaining ones must be right.
 #[test]
 fn the_bound_holds_next_to_every_multiple_of_a_right_angle() {
     let mut angles = Vec::new();
@@ -103,7 +104,7 @@ fn the_bound_holds_next_to_every_multiple_of_a_right_angle() {
     worst("multiples of π/2", &angles);
 }
 
-/// And half way between, where the other quarter begins.
+/// The same half way between, where the quarter changes.
 #[test]
 fn the_bound_holds_where_quarters_meet() {
     let mut angles = Vec::new();
@@ -114,8 +115,8 @@ fn the_bound_holds_where_quarters_meet() {
     worst("odd multiples of π/4", &angles);
 }
 
-/// sin x = x − x³/6 + … and cos x = 1 − x²/2 + … differ from x and 1 by less than half a place up
-/// to 2⁻²⁷.
+/// sin x = x − x³/6 + … and cos x = 1 − x²/2 + … differ from x and 1 by less than half a unit in the
+/// last place for x up to 2⁻²⁷.
 #[test]
 fn small_angles_are_their_own_sines() {
     let mut angles = vec![0.0, 5e-324, 1e-310, f64::MIN_POSITIVE, 2.0_f64.powi(-27)];

@@ -1,6 +1,6 @@
-//! Runs of a sweep a second, side by side in lanes and one after the other, on one core.
+//! Runs of a sweep per second on one core, in lanes and one after the other.
 //!
-//! Both make the same rows, which is checked; rounds alternate, and the median of them counts.
+//! The bench checks that both give the same rows; rounds alternate, and the median counts.
 
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -37,7 +37,7 @@ fn plan(machine: &str, until: f64, varied: [(&str, f64, f64); 1], tolerance: f64
     }
 }
 
-/// Runs a second, in pieces of so many; and the rows.
+/// Runs per second, in pieces of `piece` runs, and the rows.
 fn measure(sweep: &Sweep, piece: u64) -> (f64, String) {
     let (stop, mut all) = (AtomicBool::new(false), sweep.empty());
     let began = Instant::now();
@@ -82,7 +82,7 @@ fn main() {
             };
             let (mut alone, mut in_lanes) = (Vec::new(), Vec::new());
             for _ in 0..ROUNDS {
-                // A run alone has no lanes to share.
+                // A piece of one run uses no lanes.
                 let (one, rows) = measure(&sweep, 1);
                 let (many, same) = measure(&sweep, RUNS);
                 assert!(rows == same, "{machine}: other rows in lanes");

@@ -1,4 +1,4 @@
-//! Runs in lanes: the rows of machine code, side by side, are those of the interpreter, one run after the other, in every bit.
+//! Runs in lanes: machine code on several runs side by side gives the rows of the interpreter on one run after the other, in every bit.
 
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -51,7 +51,7 @@ fn watch(name: &str, formula: &str, ends: bool) -> Watch {
     }
 }
 
-/// All rows and samples, made in pieces of so many runs; with every digit that tells two numbers apart.
+/// All rows and samples, computed in pieces of `piece` runs and printed with enough digits to tell any two numbers apart.
 fn rows(sweep: &Sweep, piece: u64) -> (String, u64) {
     let (mut all, mut samples) = (sweep.empty(), sweep.no_samples());
     let (stop, runs) = (AtomicBool::new(false), sweep.plan().runs());
@@ -71,7 +71,8 @@ fn rows(sweep: &Sweep, piece: u64) -> (String, u64) {
     (format!("{all:?} {samples:?}"), failed)
 }
 
-/// Compares lanes, in pieces of many lengths, with the interpreter; how many runs failed. Nothing where there is no machine code.
+/// Compares lanes, in pieces of several sizes, with the interpreter, and returns how many runs failed. Without
+/// machine code it compares nothing.
 fn compare(plan: &Plan) -> u64 {
     let alone = Sweep::new(plan.clone(), Engine::Interpreter).expect("a plan");
     let (truth, failed) = rows(&alone, plan.runs());
@@ -85,7 +86,7 @@ fn compare(plan: &Plan) -> u64 {
         }
     }
     if let Ok(automatic) = Sweep::new(plan.clone(), Engine::Auto) {
-        // Code comes in the middle of it.
+        // The automatic engine changes to machine code during the sweep.
         assert!(rows(&automatic, plan.runs()).0 == truth, "{plan:?}");
     }
     failed
@@ -116,7 +117,8 @@ fn library_machines_by_every_explicit_method() {
     }
 }
 
-/// Constraints of positions and of rates; some that follow from others, which go alone; mechanisms that pass poses in which they come to do so.
+/// Constraints of positions and of rates; redundant constraints, whose runs are made alone; mechanisms that pass poses where their
+/// constraints become redundant.
 #[test]
 fn constraints_hold_in_lanes() {
     for (name, varied, until) in [
@@ -164,7 +166,7 @@ fn what_is_recorded_on_the_way() {
     plan.after = Some(0.5);
     plan.every = Some(0.25);
     assert_eq!(compare(&plan), 0);
-    // Samples at events instead; and backward in time.
+    // Samples at events instead, and backward in time.
     plan.every = None;
     plan.at_events = vec!["down".into()];
     assert_eq!(compare(&plan), 0);
@@ -173,7 +175,7 @@ fn what_is_recorded_on_the_way() {
     assert_eq!(compare(&plan), 0);
 }
 
-/// Heights beside the highest point of a throw by less than what a step moves: passed twice, or not at all, alone and in lanes.
+/// Heights that differ from the highest point of a throw by less than a step covers are passed twice or not at all, alone and in lanes.
 #[test]
 fn what_comes_and_goes_within_a_step_is_the_same_in_lanes() {
     let text = "machine Throw in plane {
@@ -197,7 +199,7 @@ fn what_comes_and_goes_within_a_step_is_the_same_in_lanes() {
     }
 }
 
-/// The pendulum that is let go from 0.1 swings for a minute, all others turn over within seconds and make room for others.
+/// The pendulum released at 0.1 swings for a minute; all others turn over within seconds and free their lanes.
 #[test]
 fn one_run_is_far_longer_than_the_others() {
     let text = library("double_pendulum");
@@ -212,7 +214,7 @@ fn one_run_is_far_longer_than_the_others() {
     assert_eq!(compare(&plan), 0);
 }
 
-/// A mass falls into a centre that attracts it, where there is no force any more; from elsewhere it swings by.
+/// A mass falls into an attracting centre, where the force is undefined; from other starts it swings past.
 const FALLING: &str = "machine Falling in plane {
     parameters { m: kg = 1, k: J*m = 1 }
     coordinates { x: m = 1, y: m = 0 }
@@ -220,7 +222,7 @@ const FALLING: &str = "machine Falling in plane {
     potentials { attraction: -k/sqrt(x^2 + y^2) }
 }";
 
-/// The inertia of `s` is 0 where `s` is: accelerations have no value there.
+/// The inertia of `s` is 0 where `s` is 0, so accelerations are undefined there.
 const CUSP: &str = "machine Cusp in plane {
     parameters { m: kg = 1, g: m/s^2 = 9.81, l: m = 1, top: m = 1 }
     coordinates { s: m = 1 }
@@ -233,12 +235,12 @@ const CUSP: &str = "machine Cusp in plane {
 fn runs_that_fail_in_the_middle_of_others() {
     let mut falling = plan(FALLING, 3.0, vec![grid("rate(y)", -0.5, 0.5, 21)]);
     assert!(compare(&falling) >= 1);
-    // Those that pass near the centre need more steps than they may take.
+    // Runs that pass near the centre need more steps than permitted.
     falling.max_steps = 90;
     let failed = compare(&falling);
     assert!((2..21).contains(&failed), "{failed} failed");
 
-    // Some meet the cusp, some come to where the spec ends, some do neither; a mass of less than 0 is refused.
+    // Some runs meet the cusp, some reach the end that the spec sets, and some neither; a negative mass is refused.
     let mut cusp = plan(
         CUSP,
         0.3,
@@ -247,7 +249,7 @@ fn runs_that_fail_in_the_middle_of_others() {
     cusp.set = vec![("top".into(), 1.7)];
     let failed = compare(&cusp);
     assert!((40..60).contains(&failed), "{failed} failed");
-    // Backward in time beads rise, and meet their end later.
+    // Backward in time the beads rise, and end later.
     cusp.until = -0.3;
     compare(&cusp);
 }

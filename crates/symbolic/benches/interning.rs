@@ -1,4 +1,4 @@
-//! What a node costs: `cargo bench -p lagrangian-symbolic`.
+//! The cost of a node: `cargo bench -p lagrangian-symbolic`.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -12,7 +12,7 @@ fn main() {
     }
 }
 
-/// Products and sums of two symbols: once as new nodes, then found again.
+/// Products and sums of two symbols, first as new nodes, then found again.
 fn pairs() {
     let dag = Dag::new();
     let symbols: Vec<_> = (0..100)
@@ -31,7 +31,7 @@ fn pairs() {
     }
 }
 
-/// M, h and the inverse dynamics of a chain of links, each turned against the one before it.
+/// M, h and the inverse dynamics of a chain of links in relative angles.
 fn chain(n: usize) {
     let start = Instant::now();
     let dag = Dag::new();

@@ -1,4 +1,4 @@
-//! Machine code against the interpreter: every function of a program, one state and lanes of several, bit for bit.
+//! Compares machine code with the interpreter, bit for bit: every function of a program, for one state and in lanes.
 
 use std::sync::Arc;
 
@@ -7,11 +7,11 @@ use lagrangian_native::{Lanes, Number};
 use lagrangian_program::{Arguments, Interpreter, Program, Role, Singular};
 use lagrangian_scalar::{Kernel, Scalar};
 
-/// Numbers, the same ones for the same seed.
+/// A stream of random numbers from a seed.
 pub struct Numbers(pub u64);
 
 impl Numbers {
-    /// Any bits.
+    /// 64 random bits.
     pub fn bits(&mut self) -> u64 {
         // splitmix64, G. L. Steele, D. Lea, C. H. Flood, Fast splittable pseudorandom number generators, 2014.
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
@@ -20,17 +20,17 @@ impl Numbers {
         z ^ (z >> 31)
     }
 
-    /// Less than n.
+    /// A random index less than n.
     pub fn below(&mut self, n: usize) -> usize {
         (self.bits() % n as u64) as usize
     }
 
-    /// Between −2 and 2.
+    /// A random number between −2 and 2.
     pub fn small(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1u64 << 51) as f64 - 2.0
     }
 
-    /// A number as a state may have it, of which some are such as no machine likes.
+    /// A random number for a state; if `is_wild`, some are NaN, infinite, huge or tiny.
     fn of_state(&mut self, is_wild: bool) -> f64 {
         const WILD: [f64; 12] = [
             0.0,
@@ -54,21 +54,21 @@ impl Numbers {
     }
 }
 
-/// A state, with whatever functions read.
+/// A state, with everything that the functions read.
 struct State {
     t: f64,
     q: Vec<f64>,
     v: Vec<f64>,
     u: Vec<f64>,
     a: Vec<f64>,
-    /// What the stages of the accelerations have left.
+    /// The values that the stages of the accelerations have computed so far.
     left: [Vec<f64>; 2],
 }
 
-/// What a function is at a state.
+/// The result of a function at a state.
 type Outcome = Result<Vec<f64>, Singular>;
 
-/// A call of the interpreter, in the arithmetic of compiled machines.
+/// A call of the interpreter in the arithmetic of compiled machines.
 struct Call<'a> {
     interpreter: &'a mut Interpreter<f64>,
     role: Role,
@@ -117,12 +117,12 @@ fn arguments(state: &State) -> Arguments<'_, f64> {
     }
 }
 
-/// Which of the undefined numbers a result is, no arithmetic says; all others have one pattern of bits.
+/// Arithmetic does not determine the bits of a NaN; all other results must have the same bits.
 fn is_same(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
 }
 
-/// How many of the results are numbers.
+/// Compares two results of a function and returns how many of the numbers are finite.
 fn compare(what: &str, expected: &Outcome, found: Option<&[f64]>) -> Result<usize, String> {
     match (expected, found) {
         (Err(_), None) => Ok(0),
@@ -142,8 +142,9 @@ fn compare(what: &str, expected: &Outcome, found: Option<&[f64]>) -> Result<usiz
     }
 }
 
-/// Holds all code of a program against the interpreter, at so many states (8, 16, …): of every eight the last ones are
-/// ordinary, the others hold numbers that are huge, tiny, undefined or infinite. How many finite results have been compared.
+/// Compares all code of a program with the interpreter at this many states (8, 16, …). Of every eight states the
+/// last ones are ordinary; the others contain numbers that are huge, tiny, NaN or infinite. Returns how many
+/// finite results were compared.
 ///
 /// # Errors
 /// The first difference.
@@ -172,7 +173,7 @@ pub fn agrees(
             }
         })
         .collect();
-    // Parameters near the given ones, a set for each of eight lanes.
+    // Parameters near the given ones, one set for each of eight lanes.
     let sets: Vec<Vec<f64>> = (0..8)
         .map(|_| {
             let near = parameters.iter();

@@ -14,7 +14,7 @@ use super::check::agrees;
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../machines");
 
-/// States for each machine: half of them with neighbours in other lanes that are undefined, infinite or huge.
+/// The number of states for each machine; half of them have NaN, infinite or huge neighbours in other lanes.
 const STATES: usize = 48;
 
 pub fn program(path: &str) -> Program {

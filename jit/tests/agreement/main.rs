@@ -1,5 +1,4 @@
-//! Machine code gives the bits of the interpreter: for the machines of the library, and for functions that are random rows
-//! of operations.
+//! Machine code gives the bits of the interpreter, for the machines of the library and for functions of random operations.
 #![cfg(target_arch = "x86_64")]
 
 mod check;

@@ -1,5 +1,5 @@
-//! Functions that no compiler would write: random rows of every operation there is, with values that wait for long, so that
-//! registers run out; and what compiling them costs.
+//! Functions that no compiler would emit: random sequences of all operations, with values that stay live for so long that
+//! registers run out. Also bounds the cost of compiling them.
 
 use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -14,10 +14,10 @@ use lagrangian_symbolic::{Dag, Function as Named, Rational};
 use super::check::{Numbers, agrees};
 use super::library::defaults;
 
-/// How many times two functions are made.
+/// How many times two functions are generated.
 const ROUNDS: u64 = 60;
 
-/// A machine whose functions are replaced.
+/// A machine whose functions are replaced by random ones.
 const FRAME: &str = "machine Frame in plane {
     parameters { m1: kg = 1.5, m2: kg = 2, m3: kg = 0.5, k: N/m = 3, l: m = 1 }
     inputs { f: N = 1, h: N = 2 }
@@ -44,7 +44,7 @@ fn frame() -> Program {
     compiled.program.into_program()
 }
 
-/// A function of so many operations. With `calls`, some of them are calls.
+/// A random function with this many operations, including calls of library functions if `calls` is set.
 fn function(
     numbers: &mut Numbers,
     frame: &Program,
@@ -62,7 +62,7 @@ fn function(
     code.extend((0..prepared).map(|index| Op::Read(Source::Prepared(index))));
     code.push(Op::Pi);
     code.push(Op::Constant(Rational::from(-3)));
-    // How far back operands may be: near ones make long rows, far ones need many registers.
+    // The maximum distance of operands: short distances make long dependency chains, long ones need many registers.
     let reach = [4, 20, 80, 1000][numbers.below(4)];
     for _ in 0..len {
         let last = code.len();
@@ -92,7 +92,7 @@ fn function(
         }
     }
     let count = code.len();
-    // Of the last half, so that much depends on each other.
+    // The results are from the last half, so that many operations contribute to them.
     let mut any = |from: usize| Value((from + numbers.below(count - from)) as u32);
     let results: Vec<Value> = (0..5).map(|_| any(count / 2)).collect();
     let guards = if role.inverts() {
@@ -139,7 +139,7 @@ fn random_rows_of_operations_have_the_bits_of_the_interpreter() {
         let mut numbers = Numbers(seed.wrapping_mul(1_000_003).wrapping_add(round));
         let mut program = frame.clone();
         let len = [3, 30, 100, 400][numbers.below(4)];
-        // One that is contracted, and has guards; one that is neither.
+        // One function that is contracted and has guards, and one that is neither.
         let roles = [Role::Accelerations, Role::WorkRate];
         program.functions = roles
             .into_iter()
@@ -152,14 +152,15 @@ fn random_rows_of_operations_have_the_bits_of_the_interpreter() {
         compared += agreed
             .unwrap_or_else(|difference| panic!("JIT_SEED={seed}, round {round}: {difference}"));
     }
-    // Five results of two functions at 16 states, for one state and in two ways for four and eight: more than a tenth of
-    // them have a value.
+    // Five results of two functions at 16 states, for one state and in two ways each for four and eight; more than a tenth
+    // of them must be finite.
     let most = ROUNDS as usize * 2 * 5 * 16 * 5 * Level::all().count();
     println!("{compared} of {most} results are finite");
     assert!(compared > most / 10);
 }
 
-/// Work is proportional to operations: a function of 100 000 does not take more of it, each, than one of 1000.
+/// The work of compiling is proportional to the number of operations: per operation, a function of 100 000
+/// takes no more than one of 1000.
 #[test]
 fn many_operations_are_compiled_in_proportion() {
     let Some(level) = Level::here() else {
@@ -171,7 +172,7 @@ fn many_operations_are_compiled_in_proportion() {
         let mut numbers = Numbers(7);
         let mut program = frame.clone();
         program.functions = vec![loop {
-            // Of many: one whose operands are far apart.
+            // Chooses a function whose operands are far apart.
             let function = function(&mut numbers, &frame, Role::Accelerations, len, true);
             if function.code.len() >= len {
                 break function;
@@ -185,8 +186,9 @@ fn many_operations_are_compiled_in_proportion() {
             let code = library.code(Role::Accelerations).expect("it compiles");
             let work = code.work();
             println!("{len} operations: {work:?}, {} bytes", code.length());
-            // Beside its own instruction an operation has at most two reads, a copy, a write and a removal; the longest are
-            // twenty instructions. A register is found within all 32, once for each of these.
+            // Besides its own instruction an operation takes at most two loads, a copy, a store and an
+            // eviction; the longest operations have twenty instructions. For each of these, finding a register
+            // examines each of the 32 once.
             assert!(work.instructions <= 12 * len, "{work:?}");
             assert!(work.evictions <= 3 * len, "{work:?}");
             assert!(work.looks <= 32 * 12 * len, "{work:?}");

@@ -1,4 +1,4 @@
-//! The language: its syntax, and what is resolved.
+//! Tests of the language: syntax and name resolution.
 
 mod resolve;
 mod syntax;

@@ -1,4 +1,4 @@
-//! What a spec means, and what is said about one that means nothing.
+//! The meaning of specs, and the messages for specs that are wrong.
 
 use std::collections::BTreeSet;
 
@@ -9,10 +9,10 @@ use lagrangian_spec::model::{Inertia, Model, Rotation};
 use lagrangian_spec::source::{InMemory, Sources};
 use lagrangian_symbolic::{Dag, Expr, Rational, evaluate};
 
-/// What most mistakes are made in.
+/// The spec into which most mistakes are put.
 const BASE: &str = include_str!("resolve/base.machine");
 
-/// The mistakes that a spec can make.
+/// A list of all mistakes that a spec can contain.
 const MISTAKES: &str = include_str!("resolve/mistakes.txt");
 
 /// The files that variants extend.
@@ -34,7 +34,7 @@ fn files() -> InMemory {
         .with("self.machine", variant("Itself", "self.machine"))
         .with("there.machine", variant("There", "back.machine"))
         .with("back.machine", variant("Back", "there.machine"));
-    // A chain of variants without an end.
+    // A chain of variants that is too long.
     (0..100).fold(files, |files, i| {
         files.with(
             format!("variant{i}.machine"),
@@ -43,7 +43,7 @@ fn files() -> InMemory {
     })
 }
 
-/// A spec with its mistakes marked `«…»`, without the marks; and where they were, in bytes.
+/// Takes a spec with its mistakes marked `«…»`, and returns it without the marks, with the marked ranges in bytes.
 fn unmarked(text: &str) -> (String, Vec<(u32, u32)>) {
     let mut plain = String::new();
     let mut marks = Vec::new();
@@ -88,7 +88,7 @@ fn resolve<'d>(
     (model, report)
 }
 
-/// Exactly the marked words are reported, all with this code, and what is said contains `words`.
+/// Checks that exactly the marked words are reported, all with this code, and that the message contains `words`.
 fn mistake(code: &str, words: &str, text: &str) -> Result<(), String> {
     let (plain, marks) = unmarked(text);
     let mut sources = Sources::new();
@@ -110,7 +110,7 @@ fn mistake(code: &str, words: &str, text: &str) -> Result<(), String> {
     Err(format!("{text}\nis to say {code}: {words}\n{shown}\n"))
 }
 
-/// The rows of the list: a code, a whole machine with marks, a part of what is said.
+/// The rows of the list: a code, a whole machine with marks, and a part of the message.
 fn listed_mistakes() -> impl Iterator<Item = (&'static str, String, &'static str)> {
     let rows = MISTAKES
         .lines()
@@ -142,11 +142,11 @@ fn every_mistake_is_told_at_its_words() {
         failures.extend(mistake(code, words, &text).err());
     }
     assert!(failures.is_empty(), "{failures}");
-    // The codes of this stage, which stand together.
+    // The codes of this stage, which are contiguous in the list.
     let first = Code::ALL.iter().position(|code| *code == ExtendsItself);
     let last = Code::ALL.iter().position(|code| *code == NoCoordinates);
     let told = |code: &&Code| !codes.contains(code.as_str());
-    let in_files = [ExtendsItself, ExtendsTooDeep]; // their mistakes stand in several files
+    let in_files = [ExtendsItself, ExtendsTooDeep]; // their mistakes involve several files
     let untold: Vec<&Code> = Code::ALL[first.unwrap()..=last.unwrap()]
         .iter()
         .filter(told)
@@ -155,7 +155,7 @@ fn every_mistake_is_told_at_its_words() {
     assert!(untold.is_empty(), "no example of {untold:?}");
 }
 
-/// The model of a sound spec.
+/// The model of a spec that must have no mistakes.
 #[track_caller]
 fn sound<'d>(dag: &'d Dag, text: &str) -> Model<'d> {
     sized(dag, text, &[])
@@ -215,7 +215,7 @@ fn constants_from_outside() {
         report.render_short(&sources)
     };
     assert!(huge.contains("[too-large]"), "{huge}");
-    // None at all is a family without members.
+    // A family may have no members.
     let dag = Dag::new();
     assert_eq!(
         sized(&dag, BASE, &[("N", Rational::ZERO)])
@@ -225,8 +225,8 @@ fn constants_from_outside() {
     );
 }
 
-/// The parameters of a model that are to be set, those that follow from others with their values for these parameters, and the mass
-/// of the first body for the same.
+/// The parameters of a model that can be set, the derived parameters with their values at these, and the
+/// mass of the first body at these.
 fn parameters(model: &Model<'_>, values: &[f64]) -> (String, String, f64) {
     let value = |symbol| {
         let mut known = model.parameters.iter().zip(values);
@@ -243,8 +243,8 @@ fn parameters(model: &Model<'_>, values: &[f64]) -> (String, String, f64) {
     (own, derived.join(", "), mass)
 }
 
-/// A mass that follows from a density, a length in mm, and a definition; a family of stiffnesses; and what names only constants, which
-/// is a default.
+/// A mass derived from a density, a length in mm and a definition; a family of stiffnesses; and a value that depends on constants
+/// only, which is a default.
 const DERIVED: &str = "machine Test in plane {
     constants { N = 2, f = 3 }
     define { area = d*w, twice = 2*f }
@@ -266,7 +266,7 @@ fn parameters_follow_from_others() {
         .map(|parameter| lagrangian_symbolic::nearest(parameter.default.expect("a default")))
         .collect();
     assert_eq!(found, defaults);
-    // ρ d w L with d = w/4 = 62.5 mm: 1024 * 0.0625 * 0.25 * 0.5; all of it is exact in doubles.
+    // ρ d w L with d = w/4 = 62.5 mm: 1024 * 0.0625 * 0.25 * 0.5, which is exact in doubles.
     let (own, derived, mass) = parameters(&model, &defaults);
     assert_eq!(own, "rho w L c k0");
     assert_eq!(
@@ -274,7 +274,7 @@ fn parameters_follow_from_others() {
         "M = 8 kg, d = 62.5 mm, k[1] = 60 N/m, k[2] = 120 N/m"
     );
     assert_eq!(mass, 8.0);
-    // The width acts twice, by d too.
+    // The width acts twice, as d depends on it.
     let (_, derived, mass) = parameters(&model, &[1024.0, 0.5, 0.5, 6.0, 1.0]);
     assert_eq!(
         derived,
@@ -286,7 +286,7 @@ fn parameters_follow_from_others() {
 #[test]
 fn a_parameter_that_is_given_follows_no_more() {
     let dag = Dag::new();
-    // A value beside the spec, in the declared unit, is the default.
+    // A value given outside the spec, in the declared unit, becomes the default.
     let model = sized(&dag, DERIVED, &[("d", Rational::from(125))]);
     assert_eq!(model.parameters[1].default, Some(dag.int(125)));
     let values = [1024.0, 125.0, 0.25, 0.5, 6.0, 10.0];
@@ -294,7 +294,7 @@ fn a_parameter_that_is_given_follows_no_more() {
     assert_eq!(own, "rho d w L c k0");
     assert_eq!(derived, "M = 16 kg, k[1] = 60 N/m, k[2] = 120 N/m");
     assert_eq!(mass, 16.0);
-    // A name alone leaves it without a value; one member of a family leaves the others.
+    // A name alone removes the value; removing it for one member of a family leaves the others.
     let (mut sources, mut report) = (Sources::new(), Report::new());
     let spec = lagrangian_spec::parse(&mut sources, "test.machine", DERIVED, &mut report);
     let spec = spec.with_given(["M", "k[2]", "rho", "nothing"].map(str::to_owned));
@@ -305,13 +305,13 @@ fn a_parameter_that_is_given_follows_no_more() {
     assert_eq!(derived, "d = 62.5 mm, k[1] = 60 N/m");
     assert_eq!(mass, 7.0);
     assert_eq!(model.parameters[0].default, None);
-    // What its formula alone used is not unused.
+    // A parameter used only by the replaced formula is not reported as unused.
     assert!(
         report.diagnostics().is_empty(),
         "{}",
         report.render_short(&sources)
     );
-    // The variant of a spec may say a number, or another formula.
+    // A variant may give a number or another formula.
     for (said, expected) in [("9", 9.0), ("2*rho*L*d*w", 16.0)] {
         let (mut sources, mut report) = (Sources::new(), Report::new());
         let variant =
@@ -351,7 +351,7 @@ fn values_for_which_a_derived_parameter_is_no_number_are_refused() {
         refused(&[1.0, -1.0]),
         ["a derived parameter is a finite number, found NaN"]
     );
-    // Of what is not known nothing is said.
+    // Unknown values cause no message.
     assert_eq!(refused(&[f64::NAN, 1.0]), Vec::<String>::new());
 }
 
@@ -392,13 +392,13 @@ fn definitions_stand_in_any_order() {
     let dag = Dag::new();
     let ends = [forward, backward].map(|frames| sound(&dag, &machine(&frames)).bodies[0].at.len());
     assert_eq!(ends, [2, 2]);
-    // A family that counts down, far deeper than any stack.
+    // A family that counts down, deeper than any stack.
     let text =
         "machine Test in plane { constants { N = 20000 } coordinates { q: rad } parameters { l: m }
         bodies { b { mass: 1, at: g[1].origin } }
         frames { g[i in 1..N] = g[i+1].shift(l, 0), g[N+1] = ground.turn(q) } }";
     sound(&dag, text);
-    // A circle as long.
+    // A circular definition of the same length.
     says(
         CircularDefinition,
         "",
@@ -410,7 +410,7 @@ fn definitions_stand_in_any_order() {
 
 #[test]
 fn deep_formulas_need_no_stack() {
-    // As deep as the parser allows, on the stack that a test has.
+    // Nesting as deep as the parser allows, on the stack of a test thread.
     let depth = lagrangian_spec::syntax::NESTING_LIMIT;
     for (open, close) in [
         ("(", ")"),
@@ -447,7 +447,7 @@ fn variants() {
     );
     let space = r#"machine Test «in space» extends "base.machine" { gravity (0, 0); }"#;
     says(SpaceChanged, "a variant moves where its base moves", space);
-    // The mistakes of a base stand in the base.
+    // Mistakes of a base are reported in the base.
     let broken = errors(r#"machine Test extends "broken.machine" { gravity (0, 0); }"#);
     assert!(broken.starts_with("broken.machine:1:"), "{broken}");
     let chain = errors(r#"machine Test extends "there.machine" { gravity (0, 0); }"#);
@@ -479,7 +479,7 @@ fn what_is_kept_of_a_start_is_by_coordinate() {
     assert_eq!(variant(&dag, "").kept, []);
 }
 
-/// What is wrong with a text.
+/// The error messages for a text.
 fn errors(text: &str) -> String {
     let mut sources = Sources::new();
     let dag = Dag::new();
@@ -506,7 +506,7 @@ fn a_variant_adds_replaces_and_removes() {
     let coordinates = |text: &str| listed(variant(&dag, text).coordinates.iter().map(|q| &q.name));
     let parameters = |text: &str| listed(variant(&dag, text).parameters.iter().map(|p| &p.name));
     assert_eq!(coordinates("gravity (0, 0);"), "x y phi q[1] q[2] q[3]");
-    // What is declared again keeps its place; what is new comes last.
+    // A redeclared coordinate keeps its place; a new one is last.
     assert_eq!(
         coordinates("coordinates { z: m, y: m = 5 }"),
         "x y phi q[1] q[2] q[3] z"
@@ -528,7 +528,7 @@ fn a_variant_adds_replaces_and_removes() {
         coordinates("remove coordinates.q; coordinates { q: m }"),
         "x y phi q"
     );
-    // A coordinate becomes a number that somebody sets, and the other way round.
+    // A coordinate may become a parameter, and a parameter a coordinate.
     assert_eq!(
         coordinates("parameters { phi: rad = 0.1 }"),
         "x y q[1] q[2] q[3]"
@@ -559,7 +559,7 @@ fn a_variant_adds_replaces_and_removes() {
         "remove springs; springs { s { stiffness: k, stretch: y } }",
     );
     assert_eq!(of(&model, "springs").count(), 1);
-    // What the base said of a removed name is wrong in the base.
+    // If the base uses a removed name, the mistake is reported in the base.
     let gone = errors(r#"machine Test extends "base.machine" { remove frames.f; }"#);
     assert!(gone.starts_with("base.machine:"), "{gone}");
 }
@@ -586,7 +586,7 @@ fn coordinates_have_rates_at_the_start() {
         rates("coordinates { der(q): rad/s = w }"),
         [0.0, 0.0, 0.0, 2.0, 2.0, 2.0]
     );
-    // A name of its own is a coordinate, also where it is `der`.
+    // A coordinate may have any name, even `der`.
     assert_eq!(
         rates("coordinates { der: m = 1, der(der): m/s = 3 }"),
         [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 3.0]
@@ -715,7 +715,7 @@ fn published_formulas() {
         "kinetic_energy, kinetic_energy cart, potential_energy, dissipation, force phi, position cart, \
          velocity cart, equation x, equation q[1], equation q[2], equation q[3]"
     );
-    // A printed formula may be wrong in its units: that is found by comparing, and remarked here.
+    // A published formula may have wrong units: the comparison with it finds that, and here it is only a remark.
     let remarks: Vec<usize> = model.published[0]
         .items
         .iter()
@@ -745,7 +745,7 @@ fn limits_on_size_end_in_messages() {
             .map(|line| line.contains("unit-mismatch")),
         Some(true)
     );
-    // Twenty derivatives of nested sines: each is some times longer than the one before.
+    // Derivatives of nested sines, each several times longer than the previous one.
     let rates: String = (1..60)
         .map(|i| format!("a{i} = der(a{}), ", i - 1))
         .collect();
@@ -753,7 +753,7 @@ fn limits_on_size_end_in_messages() {
         "machine T extends \"base.machine\" {{ define {{ a0 = sin(sin(sin(t*w)*w*t)*exp(sin(t*w))), {rates} }} }}"
     ));
     assert!(text.contains("[too-large]"), "{text}");
-    // Many members that mean the same take no memory, and still end.
+    // Many members that share one expression take no memory, but the limit still ends them.
     let sum = vec!["sin(phi)"; 2000].join(" + ");
     let text = errors(&format!(
         "machine T extends \"base.machine\" {{ define {{ a[1..90000] = {sum} }} }}"
@@ -761,7 +761,7 @@ fn limits_on_size_end_in_messages() {
     assert!(text.contains("[too-large]"), "{text}");
 }
 
-/// Expressions as numbers, each symbol by its name.
+/// Evaluates expressions, with the value of each symbol by its name.
 fn numbers(dag: &Dag, expressions: &[Expr], values: &[(&str, f64)]) -> Vec<f64> {
     evaluate(dag, expressions, |symbol| {
         let name = dag.name(symbol);
@@ -901,7 +901,7 @@ fn spatial_frames_turn_as_rotation_matrices_do() {
 
 #[test]
 fn a_chain_stays_short() {
-    // Each link is one more term, whatever hangs above it: so the equations stay linear in size.
+    // Each link adds a constant number of terms, so the equations grow linearly with the number of links.
     let nodes = |n: i64| {
         let dag = Dag::new();
         sized(
@@ -920,7 +920,7 @@ fn of<'m, 'd>(model: &'m Model<'d>, word: &'static str) -> impl Iterator<Item = 
     all.filter(move |element| element.section.word == word)
 }
 
-/// What the elements of a section deform.
+/// The stretches of the elements of a section.
 fn stretches<'d>(model: &Model<'d>, word: &'static str) -> Vec<Expr<'d>> {
     let contributions = of(model, word).flat_map(|element| &element.contributions);
     let stretches = contributions.filter_map(|contribution| match contribution {
@@ -975,7 +975,7 @@ fn a_distance_that_is_assumed_to_be_positive_has_no_root() {
     let springs = stretches(&model, "springs");
     assert_eq!(springs[..3], [r - l, y - x, z - x]);
     assert_eq!(stretches(&model, "dampers"), [r]);
-    // Nothing says which side of 0 it is on.
+    // The side of 0 on which it starts is not known.
     close(&numbers(&dag, &springs[3..], &[("x", -2.0)]), &[2.0]);
 }
 
@@ -997,7 +997,7 @@ const EXAMPLES: [(&str, &str); 5] = [
     ),
 ];
 
-/// What is wrong with one of the examples, or with what became of it.
+/// The error messages for an example of the reference, or for a damaged one.
 fn example(text: &str) -> String {
     let files = EXAMPLES
         .into_iter()
@@ -1048,7 +1048,7 @@ fn damaged_examples_end_in_messages() {
         "0", "1", "-", "*", "/", "^", "(", ")", "[", "]", "N", "x", "t", "i", "der", ".at",
         ".origin", ".turn", "1e9", "ground", "platform", "..", ",", "q",
     ];
-    // A word is left out, doubled, exchanged with another, or replaced.
+    // Removes, doubles, exchanges or replaces a word.
     let number = |name: &str| std::env::var(name).ok().and_then(|n| n.parse::<u64>().ok());
     let (seed, rounds) = (
         number("SEED").unwrap_or(20_260_001),
@@ -1062,7 +1062,7 @@ fn damaged_examples_end_in_messages() {
             .wrapping_add(1_442_695_040_888_963_407);
         (state >> 33) as usize % below
     };
-    // The examples, and with fewer rounds everything that a spec can get wrong.
+    // The examples, and in fewer rounds every mistake of the list.
     let examples = EXAMPLES
         .into_iter()
         .map(|(_, text)| (text.to_owned(), rounds));
@@ -1093,9 +1093,9 @@ fn damaged_examples_end_in_messages() {
     }
 }
 
-/// Units and how many SI units they are, as decimal fractions or quotients of two.
+/// Pairs of units of the same dimension, and their ratio as a quotient of two decimal fractions.
 const CONVERSIONS: [(&str, &str, &str, &str); 8] = [
-    // Two names of what is measured in the same, and how many of the second the first is.
+    // One of the first unit is this many of the second.
     ("mm", "m", "1", "1000"),
     ("km", "inch", "1000", "0.0254"),
     ("kg", "lb", "1", "0.45359237"),
@@ -1132,7 +1132,7 @@ fn a_number_with_a_unit_is_converted_exactly() {
             to.push(format!("{second}^({power})"));
         }
         let (from, to) = (from.join("*"), to.join("*"));
-        // As a default, as a value with a unit, and from outside.
+        // As a default, as a value with a unit, and set from outside.
         let text = format!(
             "machine Test in plane {{
                 parameters {{ a: {to} = {number}*{from}, b: {from} = {number} }}

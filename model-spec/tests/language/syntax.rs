@@ -1,4 +1,4 @@
-//! What the parser reads, and what it says about what it cannot read.
+//! What the parser accepts, and its messages for what it does not.
 
 use lagrangian_spec::diagnostic::Code::{self, *};
 use lagrangian_spec::diagnostic::{REPORT_LIMIT, Report};
@@ -22,7 +22,7 @@ fn parse(text: &str) -> (Spec, Report) {
     (spec, report)
 }
 
-/// The spec, which must have no mistakes.
+/// Parses a spec that must have no mistakes.
 #[track_caller]
 fn sound(text: &str) -> Spec {
     let (spec, report) = parse(text);
@@ -33,7 +33,7 @@ fn sound(text: &str) -> Spec {
     spec
 }
 
-/// Exactly these mistakes are reported, each at exactly these words.
+/// Checks that exactly these mistakes are reported, each at exactly these words.
 #[track_caller]
 fn says(text: &str, expected: &[(Code, &str)]) -> (Spec, Report) {
     let (spec, report) = parse(text);
@@ -48,7 +48,7 @@ fn says(text: &str, expected: &[(Code, &str)]) -> (Spec, Report) {
     (spec, report)
 }
 
-/// Exactly these mistakes are reported inside a machine.
+/// Checks that exactly these mistakes are reported inside a machine.
 #[track_caller]
 fn inside(text: &str, expected: &[(Code, &str)]) -> (Spec, Report) {
     says(&format!("machine Test in plane {{ {text} }}"), expected)
@@ -61,7 +61,7 @@ fn help(text: &str) -> Vec<String> {
     report.diagnostics().iter().filter_map(help).collect()
 }
 
-/// An expression in full brackets, to see how it was understood.
+/// An expression with all brackets, which shows how it was parsed.
 fn bracketed(expression: &Expression) -> String {
     let list = |list: &[Expression]| list.iter().map(bracketed).collect::<Vec<_>>().join(", ");
     match &expression.kind {
@@ -98,7 +98,7 @@ fn bracketed(expression: &Expression) -> String {
     }
 }
 
-/// How one expression is understood.
+/// One expression as it was parsed, with all brackets.
 fn understood(text: &str) -> String {
     let spec = sound(&format!(
         "machine Test in plane {{ define {{ x = {text} }} }}"
@@ -170,7 +170,7 @@ fn a_machine_is_what_its_text_says() {
     );
 }
 
-/// How many elements a section has.
+/// The number of elements of a section.
 fn count(spec: &Spec, word: &str) -> usize {
     spec.elements_of(word).count()
 }
@@ -335,7 +335,7 @@ fn units_are_products_of_powers() {
 
 #[test]
 fn documentation_of_a_macro_is_that_of_a_file() {
-    // As the compiler hands `///` and `/** … */` to a macro.
+    // In the form in which the compiler hands `///` and `/** … */` to a macro.
     let spec = sound(
         "#[doc = r\" First.\"] #[doc = \"\"] #[doc = \" Second.\"] #![doc = \"no\"] machine T in plane { parameters { \
          #[doc = \"\\n * Mass.\\n *  - of it\\n \"] m: kg, /// Length.\n///\n/// Of it.\n l: m } }",
@@ -409,7 +409,7 @@ fn said_twice() {
 
 #[test]
 fn unknown_section() {
-    // The section that was meant is read, so that what it declares is known.
+    // The misspelled section is still read, so that its names are declared.
     let (spec, _) = inside("paramters { m: kg }", &[(UnknownSection, "paramters")]);
     assert_eq!(spec.parameters.len(), 1);
     let (spec, _) = inside(
@@ -525,7 +525,7 @@ fn nested_too_deeply() {
         "(".repeat(1000)
     );
     assert!(parse(&units).1.has_errors());
-    // What is wide, not deep, is fine.
+    // Wide expressions, unlike deep ones, are accepted.
     for part in ["+a", "*a", ".turn(a)", "-a*b"] {
         sound(&format!(
             "machine T in plane {{ define {{ x = a{} }} }}",
@@ -672,7 +672,7 @@ fn a_broken_character_is_reported_once() {
     );
 }
 
-/// A generator of numbers that is the same everywhere: G. Marsaglia, *Xorshift RNGs*,
+/// A generator of random numbers that is the same on every platform: G. Marsaglia, *Xorshift RNGs*,
 /// J. Stat. Softw. 8 (2003) 14.
 struct Random(u64);
 
@@ -685,7 +685,7 @@ impl Random {
     }
 }
 
-/// Nothing panics, and every message has a place in the text.
+/// Checks that nothing panics, and that every message has a position in the text.
 fn survives(text: &str) {
     let (_, report) = parse(text);
     let mut sources = Sources::new();
@@ -769,7 +769,7 @@ fn spoiled_tokens_are_survived() {
 
 #[test]
 fn long_nonsense_takes_linear_time() {
-    // Each of these is quadratic in a careless lexer or parser, and would then take minutes.
+    // Each of these would take a careless lexer or parser quadratic time, and then minutes.
     let head = "machine A in plane { define { x = ";
     for piece in [
         "(",
@@ -816,7 +816,7 @@ fn the_reference_prints_what_the_parser_reads() {
     let mut machines = 0;
     for block in page.split("```machine\n").skip(1) {
         let text = block.split("```").next().unwrap_or("");
-        // The page draws published equations without what stands in them.
+        // The page shows published equations without their content.
         if !text.contains('…') {
             sound(text);
             machines += 1;

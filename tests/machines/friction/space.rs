@@ -1,5 +1,5 @@
-//! Friction along curves in space, where a guide presses in two directions: closed forms, equations typed by hand, and the same
-//! machine in the plane.
+//! Friction along curves in space, where a guide presses in two directions, tested against closed forms, equations typed by hand,
+//! and the same machine in the plane.
 
 use super::{assert_near, events, run, value};
 use crate::support::library::{interpreted, machine};
@@ -7,8 +7,8 @@ use crate::support::random::SplitMix;
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{ContactForce, Error, Machine, System, contact_forces};
 
-/// The way of a bead on a helix, from rest to a speed or from a speed to rest. With `κ = r/L²` and `L² = r² + h²` it is pressed
-/// by `|N| = m √(κ²w⁴ + g² cos²β)`, so that
+/// The distance that a bead travels on a helix from rest to a given speed, or from a speed to rest. With `κ = r/L²` and
+/// `L² = r² + h²` the wire presses on it with `|N| = m √(κ²w⁴ + g² cos²β)`, so that
 ///
 /// ```text
 /// ½ d(w²)/ds = g sin β − μ √(κ²w⁴ + g² cos²β)
@@ -40,7 +40,7 @@ impl Helix {
         self.radius / (self.length * self.length)
     }
 
-    /// The integral from rest to a speed.
+    /// The integral from rest to a given speed.
     fn way(&self, speed: f64) -> f64 {
         let (a, b) = (self.sin, self.mu * self.cos);
         let u = (self.curvature() * speed * speed / (G * self.cos)).asinh();
@@ -64,15 +64,15 @@ fn a_bead_on_a_helix_gains_speed_as_the_closed_form_says() {
         let state = run.observe(t).expect("in the run");
         let speed = helix.length * value(&state.v, "theta");
         let way = helix.length * value(&state.q, "theta");
-        // An error of the speed is one of the way as ds/dw says, which grows towards the last speed: 1e-12 of steps, some tens
-        // of them, times that.
+        // An error of the speed causes an error of the distance by ds/dw, which grows towards the terminal speed; the speed errs
+        // by 1e-12 in each of a few tens of steps.
         let (more, less) = (
             helix.way(speed * (1.0 + 1e-10)),
             helix.way(speed * (1.0 - 1e-10)),
         );
         assert_near(way, helix.way(speed), (more - less) + 1e-10 * way);
     }
-    // It never reaches the speed at which friction takes what gravity gives.
+    // It never reaches the terminal speed, at which friction balances gravity.
     let tan = helix.sin / helix.cos;
     let last = (G * helix.cos / helix.curvature()).sqrt()
         * ((tan / helix.mu) * (tan / helix.mu) - 1.0).sqrt().sqrt();
@@ -101,21 +101,21 @@ fn a_bead_comes_to_rest_on_a_flat_helix_and_stays() {
         let speed = 12.0 * helix.length;
         let way = -helix.way(speed);
         if down == 0.0 {
-            // On a circle it is an arc sine hyperbolic.
+            // On a circle, the distance is an inverse hyperbolic sine.
             let turned = (speed * speed / (G * 0.2)).asinh() / (2.0 * 0.3);
             assert_near(way, 0.2 * turned, 1e-14 * way);
         }
         let rest = value(&run.events()[0].state.q, "theta");
         assert_near(helix.length * rest, way, 1e-10 * way);
-        // To the last bit, for as long as it lasts.
+        // It stays in place to the last bit.
         assert_eq!(value(&run.end().q, "theta"), rest);
         assert_eq!(value(&run.end().v, "theta"), 0.0);
-        // All that it had was lost.
+        // All its energy was dissipated.
         let balance = run.energy_balance().expect("kept");
         let had = 0.5 * 0.01 * speed * speed + 0.01 * G * down * rest;
         assert!(balance.relative().abs() < 1e-10, "{balance:?}");
         assert_near(balance.dissipated, had, 1e-10 * had);
-        // What holds it is what pulls, and the wire carries the rest of the weight.
+        // Friction equals the downhill force, and the wire carries the other component of the weight.
         let [wire] = run.observe(50.0).expect("in the run").contacts[..] else {
             panic!("one contact");
         };
@@ -125,7 +125,7 @@ fn a_bead_comes_to_rest_on_a_flat_helix_and_stays() {
     }
 }
 
-/// What a machine with one coordinate and one guide does at a state.
+/// Acceleration and contact force at a state, for a machine with one coordinate and one guide.
 fn at(machine: &InterpretedMachine, t: f64, q: f64, v: f64) -> Result<(f64, ContactForce), ()> {
     let system = machine.prepare();
     let mut a = vec![0.0];
@@ -146,7 +146,7 @@ fn a_bead_on_a_hoop_that_is_turned_obeys_the_equations_typed_by_hand() {
         let theta: f64 = draws.uniform(-3.2, 3.2);
         let (sin, cos) = theta.sin_cos();
         for rate in [draws.uniform(-20.0, 20.0), 0.0] {
-            // In the plane of the hoop, and across it.
+            // The normal forces in the plane of the hoop, and across it.
             let within = m * (r * rate * rate + omega * omega * r * sin * sin + G * cos);
             let across = 2.0 * m * omega * r * cos * rate;
             let normal = within.hypot(across);
@@ -173,7 +173,7 @@ fn a_bead_on_a_hoop_that_is_turned_obeys_the_equations_typed_by_hand() {
 
 #[test]
 fn friction_on_a_hoop_takes_what_its_motor_gives() {
-    // It starts beside the height at which it would rest without friction, slides, and is caught.
+    // It starts near the height of its equilibrium without friction, slides, and sticks.
     let start = [("theta", 0.3, 0.0)];
     let run = run(&interpreted("bead_on_hoop"), &[], &start, (1e-11, 20.0)).expect("it runs");
     let names: Vec<String> = events(&run).into_iter().map(|(name, _)| name).collect();
@@ -183,7 +183,7 @@ fn friction_on_a_hoop_takes_what_its_motor_gives() {
         "{names:?}"
     );
     assert_eq!(value(&run.end().v, "theta"), 0.0);
-    // Where it is caught the friction that it needs is there.
+    // Where it sticks, the friction that it needs is available.
     let theta = value(&run.end().q, "theta");
     let (sin, cos) = theta.sin_cos();
     let pulls = 100.0 * 0.2 * sin * cos - G * sin;
@@ -236,7 +236,7 @@ fn prisms_in_space_are_those_in_the_plane() {
     }
 }
 
-/// What is written in coordinates acts along the guide, and presses on nothing: a spring, a force, a potential.
+/// Springs, forces and potentials written in coordinates act along the guide and do not press on it.
 #[test]
 fn what_acts_along_a_guide_in_space_does_not_press_on_it() {
     let of = |space: &str, at: &str, gravity: &str, direction: &str| {
@@ -267,7 +267,7 @@ fn what_acts_along_a_guide_in_space_does_not_press_on_it() {
     }
 }
 
-/// Two beads on rails that pass each other at right angles, tied by a rod.
+/// Two beads on crossing perpendicular rails, joined by a rod.
 const TIED: &str = "machine Tied in space {
     parameters { m1: kg = 1, m2: kg = 2, mu1: 1 = 0.3, mu2: 1 = 0.4, a: m = 0.3, l: m = 1, g: m/s^2 = 9.81 }
     coordinates { x: m, y: m }
@@ -292,7 +292,7 @@ fn two_guides_that_press_on_each_other_through_a_rod_share_it_as_typed_by_hand()
         let (x, y) = (across * angle.cos(), across * angle.sin());
         let rate = draws.uniform(-3.0, 3.0);
         let (vx, vy) = (-y * rate, x * rate);
-        // With a tension T of the rod, what presses across each rail, in its two directions.
+        // The normal force on each rail, in its two directions, for a tension T of the rod.
         let normals = |t: f64| {
             let [by_x, by_y, by_z] = [x, y, height].map(|d| t * d / length);
             [by_y.hypot(by_z - m[0] * G), by_x.hypot(by_z + m[1] * G)]
@@ -303,7 +303,7 @@ fn two_guides_that_press_on_each_other_through_a_rod_share_it_as_typed_by_hand()
             let ay = (-t * y / length - mu[1] * n2 * vy.signum()) / m[1];
             [ax, ay]
         };
-        // The rod keeps its length: x a_x + y a_y + v² = 0, which falls with T.
+        // The rod keeps its length: x a_x + y a_y + v² = 0. The left side decreases with T.
         let open = |t: f64| {
             let [ax, ay] = accelerations(t);
             x * ax + y * ay + vx * vx + vy * vy
@@ -328,8 +328,8 @@ fn two_guides_that_press_on_each_other_through_a_rod_share_it_as_typed_by_hand()
     }
 }
 
-/// A shoe on a rail, and above it a load on a rod. While the shoe slides away from under the load, the rod presses it on its rail
-/// the more the harder friction holds it.
+/// A shoe on a rail, and above it a load on a rod. While the shoe slides away from under the load, the rod presses it onto its
+/// rail more strongly the more friction brakes it.
 const PROPPED: &str = "machine Propped in space {
     parameters { m: kg = 1, M: kg = 50, mu: 1 = 0.3, l: m = 1, g: m/s^2 = 9.81 }
     coordinates { x: m, z: m }
@@ -343,8 +343,8 @@ const PROPPED: &str = "machine Propped in space {
 fn where_friction_in_space_leaves_several_motions_or_none_that_is_said() {
     // With a tension T of the rod the shoe is pressed by |m g − T z/l|, and the rod keeps its length where
     //   v² − z (g + T z/(l M)) − x (T x/l + μ |m g − T z/l|)/m = 0.
-    // This falls with T beyond T = m g l/z, and before it where μ x z/m < x²/m + z²/M: then there is one motion. Else there are
-    // two where it is above 0 at T = m g l/z, and none where it is below.
+    // This decreases with T beyond T = m g l/z, and also before that if μ x z/m < x²/m + z²/M: then there is one motion.
+    // Otherwise there are two if it is above 0 at T = m g l/z, and none if it is below.
     let (m, big, x) = (1.0, 50.0, 0.4_f64);
     let z = (1.0 - x * x).sqrt();
     for (mu, rate) in [(0.3, 0.1), (0.3, 9.0), (3.0, 0.1), (3.0, 9.0)] {

@@ -1,5 +1,5 @@
-//! The same machine, written in two ways: positions through frames and bodies, or through coordinates. Either
-//! gives the reactions that Newton's law has, or it is refused.
+//! The same machine written in two ways: with positions through frames and bodies, or through coordinates.
+//! Each way either gives the reactions of Newton's law or is refused.
 
 use std::fmt::Write;
 use std::ops::{Add, Mul};
@@ -15,7 +15,7 @@ use crate::support::random::SplitMix;
 
 const GRAVITY: f64 = 9.81;
 
-/// A number that moves: its value, its rate and its acceleration.
+/// A quantity that varies in time: its value, its rate and its acceleration.
 #[derive(Clone, Copy)]
 struct Moving([f64; 3]);
 
@@ -48,16 +48,16 @@ impl Mul<f64> for Moving {
     }
 }
 
-/// A piece of the way from the ground to a point.
+/// A segment of the path from the ground to a point.
 #[derive(Clone, Copy)]
 enum Piece {
-    /// By so much.
+    /// A constant offset.
     Offset([f64; 2]),
-    /// By a coordinate, in a direction.
+    /// A displacement by a coordinate, in a direction.
     Along(usize, f64),
     /// A rod of this length, turned by a coordinate from this angle to the vertical.
     Rod(usize, f64, f64),
-    /// By a sine of time with this frequency.
+    /// A displacement that is a sine of time with this frequency.
     Shaken([f64; 2], f64),
 }
 
@@ -101,9 +101,9 @@ fn sum(pieces: &[Piece], names: &[String]) -> String {
 
 struct Body {
     mass: f64,
-    /// From the ground.
+    /// The path from the ground.
     way: Vec<Piece>,
-    /// The guides that carry it, if the mechanics is asked.
+    /// The guides that carry the body, as a matter of mechanics.
     on: Vec<usize>,
 }
 
@@ -118,27 +118,28 @@ struct Drawn {
     names: Vec<String>,
     bodies: Vec<Body>,
     guides: Vec<Guide>,
-    /// Springs between bodies: stiffness and length.
+    /// Springs between bodies: stiffness and free length.
     springs: Vec<(usize, usize, f64, f64)>,
-    /// Forces at bodies.
+    /// Forces that act on bodies.
     forces: Vec<(usize, [f64; 2])>,
-    /// Whether it must be refused.
+    /// Whether the compiler must refuse the machine.
     is_open: bool,
 }
 
-/// Two digits, so that the text says the number.
+/// Rounds a random number to two digits, so that the text states it exactly.
 fn digits(random: &mut SplitMix, from: f64, to: f64) -> f64 {
     (random.uniform(from, to) * 100.0).round() / 100.0
 }
 
-/// One or two carts on rails, perhaps a block that slides on the first, and bodies hung on these or on each
-/// other. Each is built on what it hangs on, or with the chance `loose` is written in coordinates.
+/// Draws one or two carts on rails, perhaps a block that slides on the first, and bodies that hang on
+/// these or on each other. Each body is built on the frame of its support, or with probability
+/// `loose` is written in coordinates.
 fn draw(random: &mut SplitMix, loose: f64) -> Drawn {
     let mut names: Vec<String> = Vec::new();
     let (mut frames, mut listed, mut sliding) = (String::new(), String::new(), String::new());
     let mut bodies: Vec<Body> = Vec::new();
     let mut guides = Vec::new();
-    // By which guides each body is carried, as it is written.
+    // The guides that carry each body according to the text.
     let mut carried: Vec<Vec<usize>> = Vec::new();
     let mut is_open = false;
     let carts = 1 + (random.next() % 2) as usize;
@@ -228,7 +229,7 @@ fn draw(random: &mut SplitMix, loose: f64) -> Drawn {
         } else {
             carried[parent].clone()
         };
-        // A block in coordinates is tied to its cart by its guide.
+        // The guide of a block written in coordinates ties it to its cart.
         let is_tied = on.last().is_some_and(|last| as_written.contains(last));
         is_open |= !is_tied;
         carried.push(as_written);
@@ -291,7 +292,7 @@ fn draw(random: &mut SplitMix, loose: f64) -> Drawn {
     }
 }
 
-/// The machine of a text, or the codes of what is wrong.
+/// Compiles a text to a machine, or returns its errors.
 fn read(text: &str) -> Result<InterpretedMachine, Vec<(Code, String)>> {
     let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
     let files = &mut Disk;
@@ -308,8 +309,8 @@ fn read(text: &str) -> Result<InterpretedMachine, Vec<(Code, String)>> {
 }
 
 impl Drawn {
-    /// The force that a guide must have on what it carries, by Newton's law for all of that: along and
-    /// across it. And how large the terms are.
+    /// The force that a guide exerts on everything that it carries, by Newton's law: along and across the
+    /// guide. Also returns the size of the terms.
     fn by_newton(&self, guide: usize, t: f64, states: &[Moving]) -> ([f64; 2], f64) {
         let t = Moving([t, 1.0, 0.0]);
         let place = |body: &Body| {
@@ -389,7 +390,7 @@ fn a_machine_has_the_reactions_of_newton_however_it_is_written_or_is_refused() {
             let mut a = vec![0.0; q.len()];
             let mut forces = vec![ContactForce::default(); drawn.guides.len()];
             let found = contact_forces(&system, (t, &q, &v, &u), &mut a, &mut [], &mut forces);
-            // A guide may be jammed: there Coulomb's law leaves no motion.
+            // A guide may jam; Coulomb's law then permits no motion.
             if found.is_err() {
                 continue;
             }
@@ -397,7 +398,7 @@ fn a_machine_has_the_reactions_of_newton_however_it_is_written_or_is_refused() {
             let states: Vec<Moving> = (0..q.len()).map(|i| Moving([q[i], v[i], a[i]])).collect();
             for (k, (guide, force)) in drawn.guides.iter().zip(&forces).enumerate() {
                 let ([along, across], size) = drawn.by_newton(k, t, &states);
-                // Roundoff of accelerations, amplified by how badly masses are conditioned.
+                // Round-off of accelerations, amplified by the condition of the mass matrix.
                 let tolerance = 1e-10 * (1.0 + size);
                 let right = (force.friction - along).abs() <= tolerance
                     && (force.normal - across).abs() <= tolerance;

@@ -1,5 +1,5 @@
-//! Friction on surfaces in space, which hold their bodies from both sides: closed forms, equations typed by hand, the same machine
-//! written in other coordinates, and the same motion of a contact that may open.
+//! Friction on surfaces in space that hold a body from both sides, tested against closed forms, equations typed by hand, the same
+//! machine in other coordinates, and the same motion with a contact that may open.
 
 use super::{assert_near, events, run, value};
 use crate::support::library::{interpreted, machine};
@@ -13,7 +13,7 @@ const G: f64 = 9.81;
 fn a_puck_that_starts_along_a_level_line_comes_to_half_its_speed_down_the_slope() {
     let alpha = 0.4_f64;
     let set = [("alpha", alpha), ("mu", alpha.tan()), ("mu0", alpha.tan())];
-    // v + v cos φ stays v₀, and φ falls: dφ/dt = −g sin α sin φ/v.
+    // v + v cos φ stays equal to v₀, and φ decreases: dφ/dt = −g sin α sin φ/v.
     let start = [("x", 0.0, 0.0), ("y", 0.0, 3.0)];
     let machine = interpreted("puck_in_slot");
     let run = run(&machine, &set, &start, (1e-12, 20.0)).expect("it runs");
@@ -21,7 +21,7 @@ fn a_puck_that_starts_along_a_level_line_comes_to_half_its_speed_down_the_slope(
         let state = run.observe(t).expect("in the run");
         let (x, y) = (value(&state.v, "x"), value(&state.v, "y"));
         let speed = x.hypot(y);
-        // 1e-12 in each of some tens of steps.
+        // 1e-12 in each of a few tens of steps.
         assert_near(speed + x, 3.0, 1e-10);
     }
     let end = run.end();
@@ -44,7 +44,7 @@ fn a_puck_comes_to_rest_when_the_closed_form_says_and_stays_to_the_last_bit() {
         ];
         let machine = interpreted("puck_in_slot");
         let run = run(&machine, &set, &start, (1e-11, 100.0)).expect("it runs");
-        // v (cos φ + κ) falls by g sin α (κ² − 1) a second.
+        // v (cos φ + κ) decreases at the rate g sin α (κ² − 1).
         let stop = speed * (phi.cos() + kappa) / (G * alpha.sin() * (kappa * kappa - 1.0));
         let [(name, t)] = &events(&run)[..] else {
             panic!("{phi}: {:?}", run.events());
@@ -58,7 +58,7 @@ fn a_puck_comes_to_rest_when_the_closed_form_says_and_stays_to_the_last_bit() {
         }
         let balance = run.energy_balance().expect("kept");
         assert!(balance.relative().abs() < 1e-9, "{balance:?}");
-        // At rest friction holds it on the slope, and nothing holds it across.
+        // At rest friction holds it against the slope, and no force acts across.
         let observed = run.observe(50.0).expect("in the run");
         let [along, across] = observed.contacts[..] else {
             panic!("two tangents");
@@ -92,7 +92,7 @@ fn a_puck_that_is_held_from_both_sides_goes_as_one_that_lies_on_the_slope() {
     }
 }
 
-/// Springs that are written in coordinates act along the surface and do not press on it: a puck on them goes as one on a table that it
+/// Springs written in coordinates act along the surface and do not press on it: a puck on springs moves like one on a table that it
 /// may leave.
 #[test]
 fn springs_along_a_surface_do_not_press_on_it() {
@@ -125,7 +125,7 @@ fn springs_along_a_surface_do_not_press_on_it() {
     }
 }
 
-/// What a machine with one surface does at a state.
+/// The accelerations and contact forces at a state, for a machine with one surface.
 fn at(
     machine: &InterpretedMachine,
     q: &[f64],
@@ -153,7 +153,7 @@ fn a_bead_in_a_shell_obeys_the_equations_typed_by_hand() {
             0 => [0.0; 2],
             _ => [draws.uniform(-9.0, 9.0), draws.uniform(-9.0, 9.0)],
         };
-        // Along the meridian, upwards from the lowest place, and along the parallel.
+        // Along the meridian, upwards from the lowest point, and along the parallel.
         let slip = [r * of_theta, r * sin * of_phi];
         let speed = slip[0].hypot(slip[1]);
         let normal = (m * (speed * speed / r + G * cos)).abs();
@@ -187,7 +187,7 @@ fn a_bead_in_a_shell_obeys_the_equations_typed_by_hand() {
     assert!(rests > 5 && slides > 250, "{rests} {slides}");
 }
 
-/// The bead of the shell by two of its places, below the middle.
+/// The bead of the shell described by two of its Cartesian coordinates, below the centre.
 const IN_PLACES: &str = "machine InPlaces in space {
     parameters { m: kg = 0.05, R: m = 0.4, mu: 1 = 0.2, mu0: 1 = 0.3, g: m/s^2 = 9.81 }
     coordinates { x: m, y: m }
@@ -197,7 +197,7 @@ const IN_PLACES: &str = "machine InPlaces in space {
     sliding { shells { body: bead, on: ground, normal: (x, y, -sqrt(R^2 - x^2 - y^2)), friction: mu, static_friction: mu0 } }
 }";
 
-/// The same that is pressed outwards on one sphere, by the place of which it may fall inwards.
+/// The same bead pressed outwards on a single sphere, with three Cartesian coordinates, so that it may fall inwards.
 const MAY_OPEN: &str = "machine MayOpen in space {
     parameters { m: kg = 0.05, R: m = 0.4, mu: 1 = 0.2, mu0: 1 = 0.3, g: m/s^2 = 9.81 }
     coordinates { x: m, y: m, z: m }
@@ -234,7 +234,7 @@ fn a_spherical_pendulum_with_dry_friction_is_one_machine_in_angles_in_places_and
         let expected = [r * theta.sin() * phi.cos(), r * theta.sin() * phi.sin()];
         for other in [&in_places, &may_open] {
             let other = other.observe(t).expect("in the run");
-            // 1e-12 in each of some hundreds of steps, and where it stops what a small slip turns.
+            // 1e-12 in each of a few hundred steps, amplified near the stop, where a small slip velocity turns fast.
             assert_near(value(&other.q, "x"), expected[0], 1e-8);
             assert_near(value(&other.q, "y"), expected[1], 1e-8);
         }
@@ -252,7 +252,8 @@ fn a_spherical_pendulum_with_dry_friction_is_one_machine_in_angles_in_places_and
     assert_near(events(&in_angles)[0].1, events(&in_places)[0].1, 1e-7);
 }
 
-/// A block on a table that a rope over a pulley, along y, ties to a load: heavier along y than along x. Another pull is along x.
+/// A block on a table, tied along y by a rope over a pulley to a load, so that its inertia is greater along y than
+/// along x. A force pulls along x.
 const UNLIKE: &str = "machine Unlike in space {
     parameters { m: kg = 1, M: kg = 0.6, mu: 1 = 0.3, mu0: 1 = 0.35, l: m = 2, p: N = 2, g: m/s^2 = 9.81 }
     coordinates { x: m, y: m, s: m = 2 }
@@ -287,7 +288,7 @@ fn what_is_heavier_in_one_direction_slides_off_where_friction_lets_it() {
         }
         slides += 1;
         assert!(!first.sticks && !second.sticks);
-        // Newton's law along x, and along y of both bodies; friction is μ N against how the block sets off.
+        // Newton's law along x, and along y for both bodies; friction is μ N opposite to the direction in which the block starts.
         assert_near(a[0], pull[0] + friction[0], 1e-12 * (1.0 + p.abs()));
         assert_near(
             (1.0 + mass) * a[1],
@@ -304,7 +305,7 @@ fn what_is_heavier_in_one_direction_slides_off_where_friction_lets_it() {
 
 #[test]
 fn a_block_that_is_torn_loose_slides_as_the_formula_says() {
-    // The pull grows with time; where it is μ₀ N the block goes, along it, with what friction leaves.
+    // The pull grows with time. When it reaches μ₀ N the block slides in its direction, accelerated by the pull minus friction.
     let machine = machine(
         "machine Torn in space {
             parameters { m: kg = 1, mu: 1 = 0.3, mu0: 1 = 0.4, c: N/s = 2, g: m/s^2 = 9.81 }
@@ -322,7 +323,7 @@ fn a_block_that_is_torn_loose_slides_as_the_formula_says() {
     };
     assert_eq!(name, "table slides");
     assert_near(*t, away, 1e-10);
-    // With τ from there: w' = 2 (away + τ) − μ g.
+    // With the time τ since then: w' = 2 (away + τ) − μ g.
     let tau = 4.0 - away;
     let speed = 2.0 * away * tau + tau * tau - 0.3 * G * tau;
     assert_near(value(&run.end().v, "x"), 0.6 * speed, 1e-10);
@@ -358,10 +359,11 @@ fn two_pucks_that_slide_off_at_once_do_so_each_by_itself() {
 
 #[test]
 fn a_bead_that_goes_over_the_top_presses_outwards_and_is_braked_all_the_same() {
-    // Along a meridian it is a bead on a hoop: d(w²)/dθ = −2 g r sin θ − 2 μ |w² + g r cos θ|, in closed form while its sign stays.
+    // Along a meridian it is a bead on a hoop: d(w²)/dθ = −2 g r sin θ − 2 μ |w² + g r cos θ|, which has a closed form while the sign
+    // of the absolute value stays.
     let (r, mu) = (0.4, 0.2);
     let machine = interpreted("bead_in_shell");
-    // Where the bead is 0.3125 R above the centre the tangents jump, whose steps are to pass whatever they are.
+    // Where the bead is 0.3125 R above the centre the tangents jump; runs must pass that point with any steps.
     for fast in [
         20.0, 20.5, 21.0, 21.25, 21.5, 22.0, 22.5, 22.75, 23.0, 25.0, 27.0,
     ] {
@@ -370,7 +372,7 @@ fn a_bead_that_goes_over_the_top_presses_outwards_and_is_braked_all_the_same() {
         let end = run.end();
         let (theta, rate) = (value(&end.q, "theta"), value(&end.v, "theta"));
         assert!(theta > 3.2, "{theta}");
-        // w² = C e^(−2μθ) + g r (A cos θ + B sin θ), with A' what the equation asks.
+        // w² = C e^(−2μθ) + g r (A cos θ + B sin θ), where A and B follow from the equation.
         let a = 2.0 * (1.0 - 2.0 * mu * mu) / (1.0 + 4.0 * mu * mu);
         let b = -6.0 * mu / (1.0 + 4.0 * mu * mu);
         let part = |theta: f64| G * r * (a * theta.cos() + b * theta.sin());

@@ -1,4 +1,5 @@
-//! The fastest motion: published numbers, closed forms, the paper's own formulas, and what a minimum must obey.
+//! The fastest motion, tested against published numbers, closed forms, the paper's own formulas, and
+//! the conditions of a minimum.
 mod paper;
 #[path = "../../../../tests/support/random.rs"]
 #[allow(dead_code, reason = "each test uses some of it")]
@@ -10,14 +11,14 @@ use paper::{Machine, Paper, Print, Solved};
 use random::SplitMix;
 use transcription::least_times;
 
-/// The example: prisms of 32/13 and 20/13 kg, an incline of 45°, μ₁ = 0.1, μ₂ = 0.02; g = 9.81 m/s² gives the digits of the
-/// print.
+/// The paper's example: prisms of 32/13 and 20/13 kg, an incline of 45°, μ₁ = 0.1, μ₂ = 0.02. With g = 9.81 m/s²
+/// it gives the printed digits.
 const M1: f64 = 32.0 / 13.0;
 const M2: f64 = 20.0 / 13.0;
 const MU: [f64; 2] = [0.1, 0.02];
 const G: f64 = 9.81;
 
-/// The end (12, 6) in normal coordinates.
+/// The end, which is (12, 6) in normal coordinates.
 const END: [f64; 2] = [8.0, 4.75];
 
 /// The machine of Figure 1, from (57): reactions `N₂ = (m + M) g − m q̈₂ tan α`, `N₁/cos α = m (g − q̈₁ tan α)`.
@@ -29,7 +30,7 @@ fn prisms(friction: [f64; 2]) -> Problem {
         weights: vec![0.0, -M1],
         friction: friction[1],
     };
-    // Slip is q̇₂/cos α, and the reaction is N₁: only their product counts, so both are taken along q₂.
+    // The slip is q̇₂/cos α and the reaction N₁; only their product matters, so both are taken along q₂.
     let incline = Guide {
         name: "incline".into(),
         along: vec![0.0, 1.0],
@@ -81,7 +82,7 @@ fn close(name: &str, value: f64, expected: f64, relative: f64) {
     );
 }
 
-// Published and closed answers.
+// Published results and closed forms.
 
 #[test]
 fn the_papers_example_to_thirteen_digits() {
@@ -106,8 +107,8 @@ fn the_papers_example_to_thirteen_digits() {
         .map(|v| v * v)
         .sum();
     close("V(t₁)", twice_kinetic.sqrt(), 14.31401846415505, digits);
-    // The least reactions on the way, from differences of (42) with (31) and (57), outside of this
-    // project; nested differences have seven digits.
+    // The least reactions along the motion, computed outside of this project from differences of (42) with (31) and (57);
+    // nested differences have seven digits.
     let reactions = |guide: usize| {
         let moments = (0..=2000).map(|k| motion.after_part(f64::from(k) / 2000.0));
         let least = moments.map(|moment| moment.contacts[guide].reaction);
@@ -118,7 +119,7 @@ fn the_papers_example_to_thirteen_digits() {
     assert_eq!(motion.lapses(), vec![]);
 }
 
-/// A polyline of N pieces is slower than the fastest motion, by a share of N⁻² in the end.
+/// A polyline of N pieces is slower than the fastest motion; for large N the relative difference is proportional to N⁻².
 #[test]
 fn polylines_whose_time_is_made_least_converge_to_the_fastest_motion() {
     for friction in [MU, [0.0, 0.0], [0.3, 0.2]] {
@@ -153,7 +154,7 @@ fn normal_coordinates_of_the_example_are_the_papers() {
     close("q²", there[1], END[1], 4.0 * f64::EPSILON);
 }
 
-/// x to the right, y down; on a wire, turning by ε̇ presses with the centripetal force: ρ = −μ.
+/// x points to the right, y down. On a wire, a turn at the rate ε̇ adds the centripetal force to the normal force: ρ = −μ.
 fn ashby(mu: f64) -> Problem {
     let problem = Problem::new(&[vec![1.0, 0.0], vec![0.0, 1.0]], &[0.0, -G]).unwrap();
     problem
@@ -169,7 +170,7 @@ fn a_particle_on_a_rough_wire_is_ashbys() {
     close("ε₁", end[1].atan2(end[0]), 0.340360557240134, 1e-13);
     let c = motion.constants();
     close("k", c[1] / c[0], 0.245450167362057, 1e-13);
-    // Their closed form of the speed on the way.
+    // Ashby's closed form of the speed during the motion.
     let (mu, k) = (0.1_f64, c[1] / c[0]);
     for part in [0.2, 0.5, 0.9] {
         let moment = motion.after_part(part);
@@ -181,7 +182,7 @@ fn a_particle_on_a_rough_wire_is_ashbys() {
     }
 }
 
-/// `θ` with `(θ − sin θ)/(1 − cos θ) = x/y`, and the time `θ √(R/g)`.
+/// The parameter `θ` with `(θ − sin θ)/(1 − cos θ) = x/y`, and the time `θ √(R/g)`.
 fn cycloid(x: f64, y: f64, g: f64) -> f64 {
     let (mut low, mut high) = (0.0_f64, std::f64::consts::TAU);
     for _ in 0..200 {
@@ -209,7 +210,7 @@ fn without_friction_the_plane_cycloid() {
     }
 }
 
-/// In the metric of the mass matrix any number of coordinates has one steepest descent and one direction across.
+/// In the metric of the mass matrix, a problem in any number of coordinates is the plane of the steepest descent and one direction across it.
 #[test]
 fn without_friction_the_cycloid_in_any_number_of_coordinates() {
     let mut random = SplitMix::new(6);
@@ -225,7 +226,7 @@ fn without_friction_the_cycloid_in_any_number_of_coordinates() {
                     .collect()
             })
             .collect();
-        // The slope a e₀ is steepest along e₀.
+        // The slope a e₀ makes e₀ the direction of steepest descent.
         let slope: Vec<f64> = mass.iter().map(|row| -G * row[0]).collect();
         let problem = Problem::new(&mass, &slope).unwrap();
         let mut way: Vec<f64> = (0..n).map(|_| random.uniform(0.0, 1.0)).collect();
@@ -244,7 +245,7 @@ fn without_friction_the_cycloid_in_any_number_of_coordinates() {
         let down = mass[0].iter().zip(&way).map(|(a, x)| a * x).sum::<f64>() / mass[0][0].sqrt();
         let across = (length(&way) - down * down).sqrt();
         let motion = problem.solve(&vec![0.0; n], &way).unwrap();
-        // Where little is across, the square root takes digits.
+        // If the component across is small, the square root loses digits.
         close(
             "time",
             motion.time(),
@@ -261,7 +262,7 @@ fn without_friction_the_cycloid_in_any_number_of_coordinates() {
     }
 }
 
-/// The paper's formulas, mended, over machines that have every kind of friction.
+/// The paper's formulas, corrected, for machines with every kind of friction.
 #[test]
 fn the_papers_formulas_give_the_same_for_any_machine() {
     let mut random = SplitMix::new(1975);
@@ -295,7 +296,7 @@ fn the_papers_formulas_give_the_same_for_any_machine() {
             panic!("case {case}: the paper's formulas find nothing, {machine:?} {to:?}");
         };
         compared += 1;
-        // Their quadrature has 217 terms with cancelling factors near the start, and ε₁ comes from 60 halvings.
+        // The paper's quadrature has 217 terms with factors that cancel near the start, and ε₁ comes from 60 bisections.
         let digits = 1e-9;
         close("time", motion.time(), time, digits);
         let turn = |x: f64| (x + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU);
@@ -340,15 +341,15 @@ fn formulas_as_printed_give_another_end_or_none() {
             "{print:?} as printed gives the printed ε₁: {printed:?}"
         );
     }
-    // (44) enters the end condition by its numerator alone, which is right; λ itself breaks the first integral (39),
-    // 1 − ϑ₂ V + λ ψ = 0, as soon as the motion turns.
+    // Only the numerator of (44) enters the end condition, and that is right; λ as printed violates the first integral
+    // (39), 1 − ϑ₂ V + λ ψ = 0, as soon as the motion turns.
     let motion = prisms(MU).solve(&[0.0, 0.0], &END).unwrap();
     let e = epsilon(&motion, 0.5);
     let printed = Paper::new(&prisms_by_hand(), Print::Eq44).multiplier(e, mended.end);
     assert!((printed / motion.after_part(0.5).multiplier - 1.0).abs() > 1e-3);
 }
 
-/// (57), (59), (60) as printed are another machine.
+/// (57), (59) and (60) as printed describe another machine.
 #[test]
 fn the_example_as_printed_is_another_machine() {
     let solve = |machine: &Machine| Paper::new(machine, Print::Mended).solve([12.0, 6.0]);
@@ -359,13 +360,13 @@ fn the_example_as_printed_is_another_machine() {
     let mut machine = prisms_by_hand();
     machine.d[0][1] = M1;
     assert!(far(solve(&machine)));
-    // (59): φ₂ = d₁₂ q̇₁ has the other sign.
+    // (59): φ₂ = d₁₂ q̇₁ has the opposite sign.
     let mut machine = prisms_by_hand();
     machine.d[0][1] = -machine.d[0][1];
     assert!(far(solve(&machine)));
 }
 
-// What a minimum obeys.
+// Necessary conditions of a minimum.
 
 fn examples() -> Vec<Brachistochrone> {
     let oblique = Problem::new(&[vec![2.0, 0.7], vec![0.7, 1.5]], &[-4.0, -7.0])
@@ -381,7 +382,7 @@ fn examples() -> Vec<Brachistochrone> {
     ]
 }
 
-/// `a`, `b + c`, `d` of the examples, typed again.
+/// `a`, `b + c` and `d` of the examples, typed in again.
 type Numbers = ([[f64; 2]; 2], [f64; 2], [[f64; 2]; 2]);
 
 fn numbers() -> Vec<Numbers> {
@@ -423,7 +424,7 @@ fn energy_goes_by_its_principle_and_control_forces_do_no_work() {
                 .map(|i| (inertia[i] * m.v[i]).abs() + (r[i] * m.v[i]).abs())
                 .sum::<f64>();
             let work = u[0] * m.v[0] + u[1] * m.v[1];
-            // Ten products and sums of this size.
+            // About ten products and sums of this size.
             assert!(
                 work.abs() <= 64.0 * f64::EPSILON * size,
                 "{work} W of {size} W"
@@ -438,7 +439,8 @@ fn energy_goes_by_its_principle_and_control_forces_do_no_work() {
     }
 }
 
-/// Accelerations are rates of velocities and these of places, times too: differences over h have errors of the order h².
+/// Accelerations are derivatives of velocities, and velocities of positions, also in the times: differences with step h
+/// have errors of order h².
 #[test]
 fn places_velocities_accelerations_and_times_belong_together() {
     for motion in examples() {
@@ -472,8 +474,9 @@ fn places_velocities_accelerations_and_times_belong_together() {
     }
 }
 
-/// The first integral (39) is 0, and Euler's equations (22), in any coordinates
-/// `λ [(d − dᵀ) v̇ + r] − C − λ̇ (a + d)ᵀ v = 0` with λ for energy, hold: one of the two says λ̇, the other must agree.
+/// The first integral (39) is 0, and Euler's equations (22) hold, which in any coordinates are
+/// `λ [(d − dᵀ) v̇ + r] − C − λ̇ (a + d)ᵀ v = 0`, with λ for the energy equation. One of the equations determines λ̇, and
+/// the other must be satisfied by it.
 #[test]
 fn first_integral_and_eulers_equations_hold() {
     for (motion, (a, r, d)) in examples().iter().zip(numbers()) {
@@ -509,8 +512,8 @@ fn first_integral_and_eulers_equations_hold() {
     }
 }
 
-/// Under the control forces alone the machine arrives at the end, at the time: `(a + d) q̈ = u(t) − r` by the classical
-/// method of Runge and Kutta, whose error falls by 16 where steps are halved.
+/// Driven by the control forces alone, the machine arrives at the end at the predicted time. `(a + d) q̈ = u(t) − r` is
+/// integrated by the classical Runge–Kutta method, whose error falls by 16 when steps are halved.
 #[test]
 fn forward_simulation_under_the_control_forces_arrives() {
     for (motion, (a, r, d)) in examples().iter().zip(numbers()) {
@@ -544,16 +547,16 @@ fn forward_simulation_under_the_control_forces_arrives() {
     }
 }
 
-/// Any other way takes longer, by the square of the change: directions `x(σ)` of (30) changed by two bumps that leave the
-/// end where it is, over a way that energy goes along by `V̇ = −ψ/φ − ρ/φ V ε̇`.
+/// Every other path takes longer, by the square of its deviation. The directions `x(σ)` of (30) are changed by two bumps
+/// that keep the end in place; the speed follows from the energy equation `V̇ = −ψ/φ − ρ/φ V ε̇`.
 #[test]
 fn every_neighbouring_way_takes_longer() {
     let mu = 0.1;
     let motion = ashby(mu).solve(&[0.0, 0.0], &[1.0, 1.0]).unwrap();
-    // W = V e^{ρ ε} over s: dW²/ds = −2 ψ e^{2 ρ ε}; s = L σ² takes the root at the start away.
+    // With W = V e^{ρ ε}, dW²/ds = −2 ψ e^{2 ρ ε}; s = L σ² removes the square root at the start.
     let steps = 2000;
     let angles: Vec<(f64, f64)> = {
-        // Directions by arc length: of 20000 moments, the nearest, between which it is linear.
+        // Directions as a function of arc length, interpolated linearly between 20000 instants.
         let mut way = vec![(0.0, std::f64::consts::FRAC_PI_2)];
         let mut last = vec![0.0, 0.0];
         for k in 1..=20000 {
@@ -576,7 +579,7 @@ fn every_neighbouring_way_takes_longer() {
     let base: Vec<f64> = (0..=2 * steps)
         .map(|k| direction(f64::from(k) / f64::from(2 * steps)))
         .collect();
-    // End (for a length 1) and time of a way; Simpson's rule in σ, trapezia for W².
+    // The end and the time of a path of the given length: Simpson's rule in σ, and the trapezoidal rule for W².
     let travel = |e: &[f64], length: f64| {
         let h = 1.0 / f64::from(2 * steps);
         let push = |k: usize| {
@@ -616,7 +619,7 @@ fn every_neighbouring_way_takes_longer() {
     let bump =
         |k: usize, n: f64| (std::f64::consts::PI * n * k as f64 / f64::from(2 * steps)).sin();
     let time = |eta: f64, n: f64| {
-        // Two unknowns, the length and a second bump, put the end back at (1, 1): Newton's method by differences.
+        // Two unknowns, the length and a second bump, bring the end back to (1, 1) by Newton's method with differences.
         let (mut length, mut mend) = (whole, 0.0);
         let changed = |mend: f64| -> Vec<f64> {
             let e = base.iter().enumerate();
@@ -638,14 +641,14 @@ fn every_neighbouring_way_takes_longer() {
     };
     for n in [2.0, 3.0, 5.0] {
         let [less, none, more] = [-0.05, 0.0, 0.05].map(|eta| time(eta, n));
-        // 4000 steps of the trapezoidal rule leave 1e-7.
+        // 4000 steps of the trapezoidal rule have an error of 1e-7.
         assert!(
             (none / motion.time() - 1.0).abs() < 1e-6,
             "{none} {}",
             motion.time()
         );
         assert!(less > none && more > none, "bump {n}: {less} {none} {more}");
-        // Stationary: what is odd in η is of third order.
+        // The time is stationary: its odd part in η is of third order.
         assert!(
             (more - less).abs() < 0.2 * (more + less - 2.0 * none),
             "bump {n}: {less} {none} {more}"
@@ -653,7 +656,7 @@ fn every_neighbouring_way_takes_longer() {
     }
 }
 
-// What has no answer, and what is at the edge of having one.
+// Problems without a solution, and problems at the limit of having one.
 
 #[test]
 fn a_way_straight_down_takes_the_time_of_a_fall() {
@@ -663,12 +666,12 @@ fn a_way_straight_down_takes_the_time_of_a_fall() {
         let middle = motion.at(motion.time() / 2.0);
         close("half the time", middle.q[1], 0.5, 1e-14);
         close("C", motion.constants()[1], 1.0 / (4.0 * G).sqrt(), 1e-14);
-        // All but straight: friction takes μ g x of the energy g y, and the rest is of second order.
+        // Almost straight: friction takes μ g x of the energy g y, and all else is of second order.
         let beside = ashby(mu).solve(&[0.0, 0.0], &[1e-9, 2.0]).unwrap();
         let longer = 1.0 + mu * 1e-9 / 4.0;
         close("time", beside.time(), motion.time() * longer, 1e-14);
         let end = beside.after_part(1.0).q;
-        assert!((end[0] - 1e-9).abs() < 8.0 * f64::EPSILON, "{}", end[0]); // of a way of 2 m
+        assert!((end[0] - 1e-9).abs() < 8.0 * f64::EPSILON, "{}", end[0]); // on a path of 2 m
     }
 }
 
@@ -764,7 +767,7 @@ fn what_has_no_answer_says_why() {
         jammed.solve(&[0.0, 0.0], &[1.0, 1.0]),
         Err(Unsolved::FrictionOutweighsInertia { .. })
     ));
-    // Friction this strong, turned so that it is saved.
+    // Friction so strong that the path avoids it by turning too far.
     let sharp = ashby(1.2).solve(&[0.0, 0.0], &[-1.0, 0.05]);
     assert!(
         matches!(sharp, Err(Unsolved::TurnsTooFar { .. })),
@@ -772,8 +775,8 @@ fn what_has_no_answer_says_why() {
     );
 }
 
-/// With three coordinates a skew `d` has no fastest motion: a cone of directions gone round, in no time, multiplies the
-/// speed by the energy equation `V̇ = −V Ω(e, ė)` itself.
+/// With three coordinates and a skew `d` there is no fastest motion: going round a cone of directions, in no time,
+/// multiplies the speed by the energy equation `V̇ = −V Ω(e, ė)`.
 #[test]
 fn loops_of_directions_feed_where_friction_is_skew() {
     let d = [vec![0.0, 0.1, 0.0], vec![-0.1, 0.0, 0.0], vec![0.0; 3]];
@@ -810,7 +813,7 @@ fn loops_of_directions_feed_where_friction_is_skew() {
         }
         log_speed
     };
-    // ± 2π Ω sin² of the tilt: in one sense speed is lost, in the other it is won.
+    // ± 2π Ω sin² of the tilt: in one sense speed is lost, in the other it is gained.
     let expected = std::f64::consts::TAU * 0.1 * tilt * tilt;
     close("one way", loops(-1.0), expected, 1e-12);
     close("the other way", loops(1.0), -expected, 1e-12);
@@ -823,7 +826,7 @@ fn loops_of_directions_feed_where_friction_is_skew() {
     assert!(problem.solve(&[0.0; 3], &[1.0, 0.0, 1.0]).unwrap().time() > 0.582895463154743);
 }
 
-/// A guide that would have to pull is told: a wire turned away from the particle's weight, fast.
+/// A guide that would have to pull is reported: a wire that turns fast away from the particle's weight.
 #[test]
 fn a_reaction_that_becomes_negative_is_told() {
     let mu = 0.1;
@@ -836,7 +839,7 @@ fn a_reaction_that_becomes_negative_is_told() {
     };
     let problem = Problem::new(&[vec![1.0, 0.0], vec![0.0, 1.0]], &[0.0, -G]).unwrap();
     let problem = problem.with_guide(wire).unwrap();
-    // At the start it falls by nearly g: the reaction g − 2 q̈ is negative.
+    // At the start it falls at nearly g, so the reaction g − 2 q̈ is negative.
     let motion = problem.solve(&[0.0, 0.0], &[1.0, 1.0]).unwrap();
     let lapses = motion.lapses();
     assert_eq!(lapses.len(), 1, "{lapses:?}");

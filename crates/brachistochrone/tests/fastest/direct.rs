@@ -1,4 +1,5 @@
-//! The direct method: closed forms in other coordinates, machines outside of the conditions (17), and its order.
+//! Tests of the direct method: closed forms in other coordinates, machines outside of the conditions (17),
+//! and its order of convergence.
 mod friction;
 mod hill;
 
@@ -10,7 +11,7 @@ use lagrangian_scalar::Scalar;
 
 const G: f64 = 9.81;
 
-/// Times to (1, 1), without and with a friction of 0.1; the closed forms are in `closed_form.rs`.
+/// Times to (1, 1) without friction and with a friction of 0.1; the closed forms are in `closed_form.rs`.
 const CYCLOID: f64 = 0.582895463154743;
 const ASHBY: f64 = 0.610344506565018;
 
@@ -56,7 +57,7 @@ fn a_machine_with_constant_coefficients_has_its_closed_form() {
     close("Ashby", rough.time(), ASHBY, 1e-13);
 }
 
-/// The wire in polar coordinates r, φ about a point: `A = Jᵀ A J`, `R = Jᵀ (A J̇ v + R)`.
+/// The wire in polar coordinates r, φ about a point: `A` becomes `Jᵀ A J`, and `R` becomes `Jᵀ (A J̇ v + R)`.
 #[derive(Clone, Debug)]
 struct Polar {
     wire: Wire,
@@ -75,14 +76,14 @@ impl Terrain for Polar {
         2
     }
     fn inertia<N: Scalar>(&self, q: &[N]) -> Vec<N> {
-        // J is a turn by φ of (1, r), and the wire's A looks alike in all directions.
+        // J is a rotation by φ times diag(1, r), and the wire's A is isotropic.
         let [r, mu] = [q[0], N::from_f64(self.wire.friction)];
         vec![N::ONE, -mu * r, mu * r, r * r]
     }
     fn resistance<N: Scalar>(&self, q: &[N], v: &[N]) -> Vec<N> {
         let (sin, cos) = q[1].sin_cos();
         let mu = N::from_f64(self.wire.friction);
-        // J̇ v along r and φ.
+        // J̇ v in the directions of r and φ.
         let [ahead, aside] = [-q[0] * v[1] * v[1], v[0] * v[1] + v[0] * v[1]];
         let force = self.wire.resistance(q, v);
         let along = ahead - mu * aside + force[0] * cos + force[1] * sin;
@@ -112,7 +113,7 @@ fn the_same_in_polar_coordinates() {
     }
 }
 
-/// Control forces do no work, and the velocity is the rate of the coordinates.
+/// Checks that the control forces do no work, and that the velocity is the rate of the coordinates.
 fn obeys_energy<T: Terrain>(found: &Sought<T>) {
     let n = found.terrain().coordinates();
     for step in 1..40 {
@@ -140,7 +141,7 @@ fn obeys_energy<T: Terrain>(found: &Sought<T>) {
     }
 }
 
-/// With s = 4 Gauss points the error of the time is of the order 8.
+/// With s = 4 Gauss points the error of the time is of order 8.
 #[test]
 fn the_time_converges_at_its_order() {
     let polar = Polar {
@@ -161,11 +162,11 @@ fn the_time_converges_at_its_order() {
     }
 }
 
-/// A particle in a potential of the distance from the origin, in so many Cartesian coordinates.
+/// A particle in a potential of the distance from the origin, in `dimension` Cartesian coordinates.
 #[derive(Clone, Debug)]
 struct Central {
     dimension: usize,
-    /// `Π′(r)/r` for `Π = −1/r`, or for `Π = r²/2`.
+    /// Selects `Π′(r)/r` for `Π = −1/r` instead of `Π = r²/2`.
     attracts: bool,
 }
 
@@ -190,16 +191,16 @@ impl Terrain for Central {
     }
 }
 
-/// Through a uniform sphere of radius 1 in which a body would swing as cos t: a hypocycloid, by a circle of radius a that
-/// rolls inside. To its deepest point, at `1 − 2a` and the angle `π a`, it takes `π √(a (1 − a))`; the whole, twice that, is
-/// in G. Venezian, *Terrestrial brachistochrone*, Am. J. Phys. 34 (1966) 701.
+/// Inside a uniform sphere of radius 1, where a body would oscillate as cos t, the fastest path is a hypocycloid, made by a
+/// circle of radius a that rolls inside. To its deepest point, at `1 − 2a` and the angle `π a`, it takes `π √(a (1 − a))`; the
+/// whole path, which takes twice that, is in G. Venezian, *Terrestrial brachistochrone*, Am. J. Phys. 34 (1966) 701.
 #[test]
 fn through_a_sphere_along_a_hypocycloid() {
     for a in [0.05, 0.2, 0.4] {
         let (sin, cos) = (PI * a).sin_cos();
         let depth = 1.0 - 2.0 * a;
         for dimension in [2, 3] {
-            // In space the plane is a slanted one.
+            // In space the motion is in an inclined plane.
             let place = |x: f64, y: f64| match dimension {
                 2 => vec![x, y],
                 _ => vec![x, 0.6 * y, 0.8 * y],
@@ -218,7 +219,7 @@ fn through_a_sphere_along_a_hypocycloid() {
 
 /// About an attracting centre: Snell's law `r² φ̇/V² = K` with `V² = 2 (1/r − 1)`, and two quadratures.
 fn kepler(angle: f64, depth: f64) -> f64 {
-    // With r = 1 − (1 − depth) σ² the root at the start is gone; Gauss' rule of three points on many stretches.
+    // r = 1 − (1 − depth) σ² removes the square root at the start; three-point Gauss quadrature on many intervals.
     let integrals = |k: f64| -> [f64; 2] {
         let (steps, mut sums) = (4000, [0.0; 2]);
         for step in 0..steps {
@@ -265,7 +266,7 @@ fn about_an_attracting_centre() {
     }
 }
 
-/// A particle with air drag `½ k v²` of its power, in the plane or in a slanted plane in space: two formulations.
+/// A particle with air drag of the dissipation function `½ k v²`, in the plane or in an inclined plane in space: two formulations.
 #[derive(Clone, Debug)]
 struct Drag {
     dimension: usize,
@@ -310,7 +311,7 @@ fn drag_is_the_same_in_the_plane_and_in_space() {
         1e-12,
     );
     assert!(plane > CYCLOID);
-    // Straight down, V̇ = g − k V: way and time of the fall are closed.
+    // Straight down, V̇ = g − k V: distance and time of the fall have closed forms.
     let k = 0.7;
     let fall = |t: f64| G / k * (t - (1.0 - (-k * t).exp()) / k);
     for to in [vec![2.0, 0.0], vec![2.0, 0.0, 0.0], vec![2.0]] {
@@ -330,7 +331,7 @@ fn what_has_no_answer_says_why() {
     ));
     assert!(matches!(wire(&[1.0, -1.0]), Err(Unsolved::NotBelow { .. })));
     assert!(matches!(wire(&[1.0, 0.05]), Err(Unsolved::NotBelow { .. })));
-    // Outward from an attracting centre, and through it.
+    // Away from an attracting centre, and through it.
     let sun = |to: &[f64]| {
         let found = solve(
             Central {
@@ -343,7 +344,7 @@ fn what_has_no_answer_says_why() {
         found.map(|found| found.time())
     };
     assert!(matches!(sun(&[1.5, 0.5]), Err(Unsolved::NotBelow { .. })));
-    // Jammed from the start.
+    // Friction outweighs the inertia from the start.
     let jammed = Wire { friction: 0.1 };
     let jammed = Scaled {
         inner: jammed,
@@ -354,7 +355,7 @@ fn what_has_no_answer_says_why() {
         matches!(found, Err(Unsolved::FrictionOutweighsInertia { .. })),
         "{found:?}"
     );
-    // In space a skew part of `A` feeds loops.
+    // In space a skew part of `A` lets loops gain speed.
     let found = solve(Skew, &[0.0; 3], &[1.0; 3]).map(|found| found.time());
     assert!(
         matches!(
@@ -408,8 +409,8 @@ impl Terrain for Skew {
     }
 }
 
-/// Along a ridge, `Π = −g x − ½ k y²`: by symmetry the straight way is an extremal, and if the ridge is sharp or the way long it
-/// pays to leave it.
+/// A ridge, `Π = −g x − ½ k y²`. By symmetry the straight path is an extremal, but if the ridge is sharp or the path long,
+/// leaving it is faster.
 #[derive(Clone, Debug)]
 struct Ridge {
     sharpness: f64,
@@ -443,11 +444,11 @@ fn an_extremal_beside_which_it_is_faster_is_refused() {
         (2.0 / G).sqrt(),
         1e-12,
     );
-    // The time along y = η x (1 − x), by quadrature: on a sharp ridge less than along y = 0.
+    // The time along y = η x (1 − x), by quadrature; on a sharp ridge it is less than along y = 0.
     let time = |sharpness: f64, eta: f64| {
         let steps = 20_000;
         let stretch = |k: u32| {
-            // x = σ².
+            // The substitution x = σ².
             let sigma = (f64::from(k) + 0.5) / f64::from(steps);
             let x = sigma * sigma;
             let (y, slope) = (eta * x * (1.0 - x), eta * (1.0 - 2.0 * x));

@@ -1,4 +1,4 @@
-//! Ends that are level with the start, outside of the closed form: nothing may be lost on the way, and the motion ends at rest.
+//! Ends level with the start, which the closed form does not cover: no energy may be lost, and the motion ends at rest.
 
 use std::f64::consts::PI;
 
@@ -10,13 +10,13 @@ const G: f64 = 9.81;
 
 #[derive(Clone, Copy, Debug)]
 enum Field {
-    /// Inside of a uniform sphere of radius 1 m, where a body would swing as cos t.
+    /// Inside a uniform sphere of radius 1 m, where a body would oscillate as cos t.
     Sphere,
-    /// Weight along the second coordinate, downwards.
+    /// Uniform gravity along the second coordinate, downwards.
     Weight,
 }
 
-/// A particle of 1 kg in Cartesian coordinates, with air drag `½ drag v²` of its power.
+/// A particle of 1 kg in Cartesian coordinates, with air drag of the dissipation function `½ drag v²`.
 #[derive(Clone, Debug)]
 struct Particle {
     dimension: usize,
@@ -52,7 +52,7 @@ impl Terrain for Particle {
     }
 }
 
-/// A particle under its weight in polar coordinates r, φ, φ from straight down.
+/// A particle under gravity in polar coordinates r, φ, with φ from the downward vertical.
 #[derive(Clone, Debug)]
 struct Polar;
 
@@ -79,7 +79,7 @@ fn takes<T: Terrain>(what: &str, found: Result<Sought<T>, Unsolved>, expected: f
     let error = (found.time() / expected - 1.0).abs();
     let time = found.time();
     assert!(error < 1e-11, "{what}: {time}, not {expected}: {error:.1e}");
-    // It is at rest there, and H is 1 on the way.
+    // It is at rest at the end, and H is 1 during the motion.
     let end = found.at(found.time());
     let half = found.at(0.5 * found.time());
     let speed = |v: &[f64]| v.iter().map(|v| v * v).sum::<f64>().sqrt();
@@ -91,8 +91,8 @@ fn takes<T: Terrain>(what: &str, found: Result<Sought<T>, Unsolved>, expected: f
     assert!(found.residual() < 1e-9, "{what}: {:.1e}", found.residual());
 }
 
-/// The whole hypocycloid of a circle of radius a in one of radius 1 m: `2π √(a (1 − a))` s to the angle 2π a; G. Venezian, *Terrestrial
-/// brachistochrone*, Am. J. Phys. 34 (1966) 701.
+/// The whole hypocycloid of a circle of radius a in one of radius 1 m takes `2π √(a (1 − a))` s to the angle 2π a; G. Venezian,
+/// *Terrestrial brachistochrone*, Am. J. Phys. 34 (1966) 701.
 #[test]
 fn across_a_sphere_along_a_whole_hypocycloid() {
     for (dimension, a) in [(2, 0.05), (2, 0.2), (2, 0.4), (3, 0.2)] {
@@ -115,7 +115,7 @@ fn across_a_sphere_along_a_whole_hypocycloid() {
     }
 }
 
-/// One arch of a cycloid of the width d takes `√(2π d/g)`.
+/// One arch of a cycloid of width d takes `√(2π d/g)`.
 #[test]
 fn along_a_whole_cycloid() {
     for d in [0.3, 2.0] {
@@ -131,7 +131,7 @@ fn along_a_whole_cycloid() {
             let what = format!("{d} m in {dimension} coordinates");
             takes(&what, solve(weight, &vec![0.0; dimension], &to), time);
         }
-        // About a point 0.7 m above the middle, and one 1 m aside of it.
+        // About a point 0.7 m above the middle, and one 1 m to the side of it.
         for (x, y) in [(0.0, 0.7), (1.0, 0.9)] {
             let place = |side: f64| {
                 let from_point = [side * d / 2.0 - x, y];

@@ -1,4 +1,4 @@
-//! Fastest motions: the closed form, and the search without one.
+//! Tests of fastest motions: the closed form, and the direct search.
 
 mod closed_form;
 mod direct;

@@ -1,8 +1,8 @@
-//! The C that machines become, compiled by the C compiler of the computer and held against the
-//! interpreter.
+//! The C code emitted for machines, compiled by the computer's C compiler and
+//! compared with the interpreter.
 //!
-//! Its sine is not ours, so the numbers differ in their last digits: each must be as near to
-//! double-double as rounding allows. Where there is no C compiler, nothing is tested.
+//! The C library's sine differs from ours, so the last digits differ: each result must be as close
+//! to the double-double result as rounding permits. Without a C compiler, nothing is tested.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -18,7 +18,7 @@ use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::{Disk, Files, Sources};
 use lagrangian_symbolic::{Dag, Rational};
 
-/// A machine of the library that asks for stages as C, and its program.
+/// The C code of a machine of the library with stages, and its program.
 fn compiled(machine: &str, constants: &[(String, Rational)]) -> (String, Proved) {
     let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
     let path = format!(
@@ -47,7 +47,7 @@ fn compiled(machine: &str, constants: &[(String, Rational)]) -> (String, Proved)
 }
 
 /// A program in C that prints the accelerations, the kinetic energy and the accelerations in stages
-/// at a state, one number a line.
+/// at a state, one number per line.
 fn main_of(program: &Program, prefix: &str, t: f64, q: &[f64], v: &[f64]) -> String {
     let list = |values: &[f64]| {
         values
@@ -210,8 +210,8 @@ fn check(machine: &str, size: Option<i64>) {
     let accelerations = expected[..n].to_vec();
     expected.extend(accelerations);
     assert_eq!(printed.len(), 2 * n + 1);
-    // A unit of 2⁻⁵³ for each operation, multiplied by the condition of the mass matrix at this
-    // state.
+    // A rounding unit of 2⁻⁵³ for each operation, multiplied by the condition of
+    // the mass matrix at this state.
     let entries = n * (n + 1) / 2;
     let mut matrix = vec![DoubleDouble::ZERO; entries];
     interpreter
@@ -240,8 +240,8 @@ fn check(machine: &str, size: Option<i64>) {
     }
 }
 
-/// `‖M‖ ‖M⁻¹‖` in Frobenius' norm, of a positive definite matrix given row by row up to its
-/// diagonal.
+/// `‖M‖ ‖M⁻¹‖` in the Frobenius norm of a positive definite matrix, given as
+/// its lower triangle row by row.
 fn condition(n: usize, lower: &[DoubleDouble]) -> f64 {
     let entry = |i: usize, j: usize| lower[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
     let matrix: Vec<Vec<DoubleDouble>> = (0..n)
@@ -255,7 +255,7 @@ fn norm(matrix: &[Vec<DoubleDouble>]) -> f64 {
     squares.sum::<f64>().sqrt()
 }
 
-/// By Gauß and Jordan; a positive definite matrix needs no pivots.
+/// Gauss–Jordan elimination without pivoting, which a positive definite matrix does not need.
 fn inverse(mut matrix: Vec<Vec<DoubleDouble>>) -> Vec<Vec<DoubleDouble>> {
     for k in 0..matrix.len() {
         let pivot = std::mem::replace(&mut matrix[k][k], DoubleDouble::ONE);

@@ -1,4 +1,4 @@
-//! What repeats itself is written once, however often it does.
+//! Repeated code is emitted once, as a loop.
 
 use lagrangian_emit::rust;
 use lagrangian_mechanics::Compiled;
@@ -8,7 +8,7 @@ use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::{Disk, Files, Sources};
 use lagrangian_symbolic::{Dag, Rational};
 
-/// The program of a chain, whose links differ.
+/// The program of a chain whose links differ.
 fn chain(spec: &str, links: i64) -> Proved {
     let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
     let path = format!("{}/../../{spec}.machine", env!("CARGO_MANIFEST_DIR"));
@@ -27,8 +27,8 @@ fn chain(spec: &str, links: i64) -> Proved {
     .program
 }
 
-/// The code of a library: its text without the tables of names and the rows that the parameters are
-/// read from, which have an entry for each.
+/// The code of a library without the tables of names and the lines that read the parameters, which
+/// have an entry per parameter.
 fn code(program: &Proved) -> String {
     let text = rust::library(program, &rust::Options::default()).expect("a proof");
     let after = text.find("/// Computes what").expect("it prepares");
@@ -37,8 +37,8 @@ fn code(program: &Proved) -> String {
     format!("{}{}", &text[after..before], &text[rest..])
 }
 
-/// What grows with the links is the lists of values that loops are given, a line for each: of 128
-/// links no more than half of the code.
+/// With the number of links only the lists of values for the loops grow, by a line for each; for 128
+/// links they are at most half of the code.
 #[test]
 fn twice_the_links_are_far_from_twice_the_code() {
     for spec in ["benches/peers/chain", "machines/chain_relative"] {
@@ -54,7 +54,8 @@ fn twice_the_links_are_far_from_twice_the_code() {
     }
 }
 
-/// Long chains are written with loops, and what fits in the order of time is not.
+/// Long chains are written with loops; functions short enough to be scheduled
+/// in the order of time are not.
 #[test]
 fn loops_begin_where_a_function_is_long() {
     let has_loops = |links| code(&chain("benches/peers/chain", links)).contains("for i in");
@@ -62,7 +63,7 @@ fn loops_begin_where_a_function_is_long() {
     assert!(!has_loops(16));
 }
 
-/// `x ← x + aᵢ·qᵢ` and on, after a beginning of its own; the results are the last sum and all terms.
+/// `x ← x + aᵢ·qᵢ` repeated after a different beginning; the results are the last sum and all terms.
 fn horner(links: u32) -> Function {
     let mut code = Vec::new();
     let mut push = |op: Op| {
@@ -104,7 +105,7 @@ fn a_repeat_has_the_shortest_body_and_all_iterations() {
     let [repeat] = found.as_slice() else {
         panic!("{found:?}")
     };
-    // The product in front of it, then five operations each.
+    // After the product in front of it, each repetition has five operations.
     assert_eq!((repeat.start, repeat.period, repeat.count), (1, 5, 10));
 }
 

@@ -1,4 +1,5 @@
-//! Emitted code: C against the interpreter, loops, and what is skipped.
+//! Tests of emitted code: C compared with the interpreter, loops, and features
+//! that leave no code when absent.
 
 mod c;
 mod loops;

@@ -1,4 +1,4 @@
-//! Taylor series in emitted code: beside everything else, where they are asked for and nowhere else.
+//! Taylor series in emitted code appear only where the spec requests them, and change nothing else.
 
 use lagrangian_emit::rust::{self, Options};
 use lagrangian_mechanics::Compiled;
@@ -44,7 +44,7 @@ fn code_without_the_section_is_unchanged() {
                 ..Options::default()
             },
         );
-        // Lines are added, and none is another.
+        // The series add lines and change none of the others.
         let mut lines = with.lines();
         for line in without.lines() {
             assert!(lines.any(|other| other == line), "{name}: {line}");

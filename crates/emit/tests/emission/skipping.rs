@@ -1,9 +1,9 @@
-//! Whatever is absent from a machine leaves no operation behind, and no name.
+//! A feature that a machine lacks leaves neither an operation nor a name in its code.
 //!
-//! Every row of [`rows`] is a machine with a feature and the machine without it, said in two ways:
-//! with a constant 0, or by never having written it. The programs, the Rust and the C of these two
-//! must be the same text; how much the feature costs is printed in `docs/skipping.md`, and held
-//! here. Where a textbook's formula says how much must be left, that is held too.
+//! Every row of [`rows`] is a machine with a feature and the machine without it, written in two ways:
+//! with a constant 0, or without the feature. The program, the Rust and the C of these two must be the
+//! same text. The cost of the feature is printed in `docs/skipping.md` and checked here, and so is a
+//! textbook's count of the operations that must be left, where there is one.
 
 use std::path::Path;
 
@@ -17,18 +17,18 @@ use lagrangian_symbolic::Dag;
 
 /// A feature, with the machines that have it and that do not.
 struct Row {
-    /// What it is.
+    /// The name of the feature.
     feature: &'static str,
-    /// What is absent, as the page shows it.
+    /// The text that is absent, as the page shows it.
     shown: String,
-    /// What is counted.
+    /// The function whose operations are counted.
     role: Role,
     with: String,
-    /// The feature is switched off by a constant.
+    /// The machine with the feature switched off by a constant.
     off: String,
-    /// The feature was never written.
+    /// The machine without the text of the feature.
     never: String,
-    /// What no emitted line says without the feature, but some line does with it.
+    /// Words that no emitted line contains without the feature, but some line contains with it.
     gone: &'static [&'static str],
 }
 
@@ -66,7 +66,7 @@ fn counts(program: &Program, role: Role) -> Counts {
     function.map_or_else(Counts::default, |function| function.counts())
 }
 
-/// The spec of that name on the page.
+/// The spec with this name on the page.
 fn on_the_page(name: &str) -> String {
     let page = page();
     let head = format!("machine {name} in plane {{\n");
@@ -80,7 +80,7 @@ fn page() -> String {
     std::fs::read_to_string(path).expect("the page is there")
 }
 
-/// Machines that the page shows in stages.
+/// The machines whose stages the page shows.
 const STAGED: [&str; 6] = [
     "crusher9",
     "double_pendulum",
@@ -99,13 +99,13 @@ fn library(name: &str) -> String {
     std::fs::read_to_string(path).expect("the library is there")
 }
 
-/// The machine with more sections.
+/// A machine's text with sections added.
 fn plus(machine: &str, sections: &str) -> String {
     let end = machine.rfind('}').expect("a machine ends");
     format!("{}{sections}\n}}\n", &machine[..end])
 }
 
-/// Numbers as parameters, and as constants that are 0.
+/// A section that declares names, as parameters or as constants, all with the same value.
 fn numbers(section: &str, list: &[(&str, &str)], value: &str) -> String {
     let items: Vec<String> = list
         .iter()
@@ -114,7 +114,7 @@ fn numbers(section: &str, list: &[(&str, &str)], value: &str) -> String {
     format!("{section} {{ {} }}\n", items.join(", "))
 }
 
-/// A section that a number switches off.
+/// A feature that is a section, switched off by a number in it.
 fn section(
     feature: &'static str,
     (name, unit): (&str, &str),
@@ -134,7 +134,7 @@ fn section(
     }
 }
 
-/// A text in place of another, with numbers that switch what it says off.
+/// A feature that replaces one text by another, switched off by numbers in it.
 fn instead(
     feature: &'static str,
     list: &[(&str, &str)],
@@ -155,7 +155,7 @@ fn instead(
     }
 }
 
-/// A section that is there or not.
+/// A feature that is a section without a number that could switch it off.
 fn asked(feature: &'static str, section: &str, role: Role, gone: &'static [&'static str]) -> Row {
     let base = on_the_page("Cart");
     Row {
@@ -172,7 +172,7 @@ fn asked(feature: &'static str, section: &str, role: Role, gone: &'static [&'sta
 fn rows() -> Vec<Row> {
     let inputs = "inputs { u: N } forces { motor { on: x, value: u } }";
     let crusher = library("vibrating_crusher");
-    // The same numbers in the same place, so that the two differ in nothing else.
+    // The same numbers in the same place, so that the two machines differ in nothing else.
     let undamped = crusher.replace(" bx: N*s/m = 1500, by: N*s/m = 1500,", "");
     assert_ne!(undamped, crusher);
     let zero = plus(&undamped, "constants { bx: N*s/m = 0, by: N*s/m = 0 }");
@@ -224,7 +224,8 @@ fn rows() -> Vec<Row> {
             &["pub e:", "pub w:", "pub fn work_rate<"],
         ),
         Row {
-            // In the accelerations it costs nothing: it is added to m l² when parameters are prepared.
+            // In the accelerations it costs nothing, as it is added to m l²
+            // when parameters are prepared.
             role: Role::KineticEnergy,
             ..instead(
                 "the inertia of a body, in `kinetic_energy`",
@@ -308,7 +309,7 @@ fn what_is_switched_off_is_what_was_never_written() {
     }
 }
 
-/// What is observed, assumed or differentiated changes nothing in what is integrated.
+/// Outputs, assumptions and derivatives do not change the accelerations.
 #[test]
 fn what_is_asked_beside_the_accelerations_does_not_change_them() {
     let asked = |row: &Row| matches!(row.role, Role::Output(_) | Role::Assumption(_));
@@ -321,15 +322,15 @@ fn what_is_asked_beside_the_accelerations_does_not_change_them() {
     }
 }
 
-/// What a machine is, and what it would be.
+/// A machine, and the same machine without a feature.
 struct Pair {
     feature: &'static str,
     shown: [&'static str; 2],
     role: Role,
     with: String,
     without: String,
-    /// Multiplications, additions and divisions of the textbook's formula, and its sines: the most
-    /// that may be left.
+    /// The multiplications, additions and divisions of the textbook's formula, and its sines: an upper
+    /// bound for what is left.
     by_hand: Option<([usize; 4], &'static str)>,
 }
 
@@ -436,7 +437,7 @@ fn what_has_a_simple_structure_has_a_short_program() {
     }
 }
 
-/// What does not matter is no argument.
+/// Quantities without influence are not read.
 #[test]
 fn nothing_is_read_that_does_not_matter() {
     let reads = |spec: &str, role| {
@@ -453,13 +454,13 @@ fn nothing_is_read_that_does_not_matter() {
     let accelerations = |spec: &str| reads(spec, Role::Accelerations).expect("they are there");
     let (of_cart, sources) = accelerations(&cart);
     assert!(!of_cart.time && !of_cart.inputs);
-    // Where the cart is does not matter, and how fast it is does not either.
+    // The accelerations do not depend on the cart's position and velocity.
     assert!(!sources.contains(&Source::Coordinate(0)) && !sources.contains(&Source::Velocity(0)));
     let (of_orbit, sources) = accelerations(&orbit);
     assert!(of_orbit.velocities && !sources.contains(&Source::Coordinate(1)));
     let (of_train, _) = accelerations(&train);
     assert!(!of_train.velocities && !of_train.time && of_train.coordinates);
-    // A drive is an argument.
+    // A drive makes time an argument.
     let driven = cart.replace("at: (x, 0)", "at: (x + l*cos(pi*sqrt(k/m)*t), 0)");
     let driven = plus(&driven, "parameters { k: N/m = 2 }");
     assert!(accelerations(&driven).0.time);
@@ -505,7 +506,7 @@ fn the_page_says_what_is_counted() {
         .filter(|row| !page.lines().any(|line| line == *row))
         .collect();
     assert!(missing.is_empty(), "not on the page:\n{missing:#?}");
-    // Nor does the page have a row that nobody counts.
+    // The page has no row that is not counted here.
     let is_row = |line: &&str| {
         line.starts_with("| ")
             && !line.contains("---")

@@ -1,4 +1,5 @@
-//! What can be told of numbers that cannot be told apart, where that is known by hand.
+//! Combinations of parameters that data determine when the parameters themselves cannot be told
+//! apart, for cases known by hand.
 
 use lagrangian_fit::combinations::{Kind, combinations};
 use nalgebra::DMatrix;
@@ -7,7 +8,7 @@ fn names(all: &[&str]) -> Vec<String> {
     all.iter().map(|name| (*name).to_owned()).collect()
 }
 
-/// What is told where residuals are functions that are written down.
+/// The combinations that are reported for residuals given as functions.
 fn told(x: &[f64], null: &[&[f64]], names_of: &[&str], of: fn(&[f64]) -> Vec<f64>) -> Vec<String> {
     let null = DMatrix::from_fn(x.len(), null.len(), |j, i| null[i][j]);
     let mut is_same = |from: &[f64], to: &[f64]| {
@@ -41,7 +42,7 @@ fn sums_are_found() {
         told(&[1.0, 2.0], &[&[1.0, -1.0]], &["m1", "m2"], of),
         ["m1 + m2"]
     );
-    // At equal numbers the direction is that of a product as well, and the trial tells.
+    // At equal numbers the null direction is also that of a product, and a trial step decides.
     assert_eq!(
         told(&[1.0, 1.0], &[&[1.0, -1.0]], &["m1", "m2"], of),
         ["m1 + m2"]

@@ -1,4 +1,4 @@
-//! Least squares, against certified values and closed forms.
+//! Tests of least squares against certified values and closed forms.
 
 mod combinations;
 mod motion;

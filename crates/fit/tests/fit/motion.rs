@@ -1,4 +1,4 @@
-//! Fits of a machine whose motion is known in closed form, with its derivatives.
+//! Fits of a machine whose motion and its derivatives have closed forms.
 
 use std::sync::Arc;
 use std::time::SystemTime;
@@ -29,10 +29,10 @@ fn oscillator() -> InterpretedMachine {
         .expect("a machine")
 }
 
-/// What is true: stiffness, damping, and where it starts.
+/// The true stiffness, damping, and initial position and rate.
 const TRUTH: [f64; 4] = [30.0, 0.6, 0.2, -0.5];
 
-/// Place, rate, pull of the spring and acceleration of a mass of 2 kg, with the derivatives that the numbers carry.
+/// Position, rate, spring force and acceleration of a mass of 2 kg, with the derivatives that the numbers carry.
 fn swung(t: f64, [k, c, x, v]: [Dual<f64>; 4]) -> [Dual<f64>; 4] {
     let number = Dual::constant;
     let decay = c / number(4.0);
@@ -62,7 +62,7 @@ fn times() -> Vec<f64> {
     (0..=40).map(|k| 0.05 * f64::from(k)).collect()
 }
 
-/// A fit of stiffness, damping and start to these columns.
+/// A fit of stiffness, damping and the start to these columns.
 fn fit(columns: Vec<(Quantity, Vec<f64>)>, sigmas: Vec<f64>) -> Fit<'static> {
     let machine = oscillator();
     let sought = [
@@ -128,7 +128,8 @@ fn derivatives_are_those_of_the_closed_form() {
     for column in 0..4 {
         for t in times() {
             let value = at(t, TRUTH, None)[column].value;
-            // Steps keep errors of the tolerance each, of which there are some thirty; pull and acceleration have them times k.
+            // About thirty steps err by the tolerance each; in the force and the acceleration the errors are
+            // multiplied by the stiffness.
             let unit = [1.0, 1.0, 30.0, 15.0][column];
             let most = 100.0 * TOLERANCE * unit;
             assert!((residuals[row] - value).abs() < most, "{column} at {t}");
@@ -142,14 +143,14 @@ fn derivatives_are_those_of_the_closed_form() {
     }
 }
 
-/// Normal deviates; the seed is new in every run, and printed where a test fails.
+/// Normal deviates. The seed is new in every run, and is printed, so that a failure shows it.
 fn normal() -> impl FnMut() -> f64 {
     let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
     let seed = std::env::var("FIT_SEED");
     let seed = seed.ok().and_then(|seed| seed.parse().ok());
     let mut state: u64 = seed.unwrap_or(now.map_or(1, |now| now.as_nanos() as u64));
     println!("FIT_SEED={state}");
-    // SplitMix64, and Box and Muller.
+    // SplitMix64 and the Box–Muller transform.
     let mut uniform = move || {
         state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = state;
@@ -160,12 +161,12 @@ fn normal() -> impl FnMut() -> f64 {
     move || (-2.0 * (1.0 - uniform()).ln()).sqrt() * (std::f64::consts::TAU * uniform()).cos()
 }
 
-/// Of many made-up experiments with normal errors of known size: the errors of the estimates, measured by the covariance that
-/// each fit says, are those of a χ² with as many degrees of freedom, and so is the sum of squares that is left.
+/// In many simulated experiments with normal errors of known size, the errors of the estimates, measured by the covariance that
+/// each fit reports, follow a χ² distribution with as many degrees of freedom, and so does the residual sum of squares.
 ///
-/// With N experiments a sum of χ² with f degrees each has mean N f and variance 2 N f; six standard deviations are exceeded once
-/// in 5e8 runs. Estimates are biased by the curvature of the motion, by about their relative standard errors, 1e-3 of themselves,
-/// which is a hundredth of what is allowed.
+/// With N experiments a sum of χ² with f degrees of freedom each has mean N f and variance 2 N f; six standard deviations are
+/// exceeded once in 5e8 runs. The curvature of the motion biases the estimates by about 1e-3, their relative standard error, of
+/// their standard errors, a hundredth of what the test permits.
 #[test]
 fn errors_are_as_large_as_covariances_say() {
     const COUNT: usize = 200;
@@ -221,7 +222,7 @@ fn a_machine_that_cannot_be_is_a_step_too_far() {
     let mut fit = fit(vec![(Quantity::Coordinate(0), values)], vec![1.0]);
     fit.refusal = &|parameters| (parameters[2] < 0.55).then(|| "damped too little".into());
     let minimum = fit.search(&[32.0, 3.0, 0.2, -0.5]).expect("a minimum");
-    // To the tolerance of the runs.
+    // Accurate to the tolerance of the runs.
     for (x, y) in minimum.x.iter().zip(TRUTH) {
         assert!((x - y).abs() < 1e-6 * y.abs(), "{:?}", minimum.x);
     }

@@ -1,7 +1,7 @@
-//! The search against certified values: the Statistical Reference Datasets for nonlinear regression of the National Institute of
-//! Standards and Technology, <https://www.itl.nist.gov/div898/strd/nls/nls_main.shtml>, as it publishes them (`data/nist`; works of the
-//! government of the United States, in the public domain). Estimates, their standard deviations and the residual sum of squares
-//! are certified to eleven digits, found there with 128 bits.
+//! The search tested against certified values: the Statistical Reference Datasets for nonlinear regression of the National Institute of
+//! Standards and Technology, <https://www.itl.nist.gov/div898/strd/nls/nls_main.shtml>, as published (`data/nist`; works of the
+//! government of the United States, in the public domain). Estimates, their standard deviations and the residual sum of squares are
+//! certified to eleven digits, computed there with 128 bits.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -13,7 +13,7 @@ use nalgebra::DMatrix;
 
 type D = Dual<f64>;
 
-/// A problem as a file has it.
+/// A problem as read from its file.
 struct Dataset {
     model: fn(&[D], f64) -> D,
     starts: [Vec<f64>; 2],
@@ -102,11 +102,11 @@ fn power(x: D, y: D) -> D {
     (y * x.ln()).exp()
 }
 
-/// From one of its starts the certified estimates are found, with their standard deviations and the sum of squares.
+/// Starts from the published starts and checks the certified estimates, their standard deviations and the sum of squares.
 ///
-/// A search that ends at an offset of 1e-9 is within 1e-9 √p standard errors of the minimum; what is certified has eleven
-/// digits. Standard deviations change with the place by far less than the whole of themselves in a standard error, and rounding of
-/// derivatives costs digits with the condition of the problem, which is below 1e7 with columns of one length: 1e-8 of them.
+/// A search that ends with an offset of 1e-9 is within 1e-9 √p standard errors of the minimum; the certified values have eleven digits.
+/// Standard deviations change little over a standard error, and rounding of the derivatives costs digits by the condition of the
+/// problem, which is below 1e7 with columns of unit length: a relative error of 1e-8.
 fn check(name: &'static str, model: fn(&[D], f64) -> D, starts: &[usize]) {
     let mut set = Dataset::read(name, model);
     let free = vec![[f64::NEG_INFINITY, f64::INFINITY]; set.certified.len()];
@@ -147,7 +147,7 @@ fn check(name: &'static str, model: fn(&[D], f64) -> D, starts: &[usize]) {
                 j + 1
             );
         }
-        // At the minimum the sum changes by the square of the offset.
+        // At the minimum, the sum changes by the square of the offset.
         let off = (said.chi_squared - set.sum).abs();
         assert!(off <= 6e-11 * set.sum, "{told}: {:e}", said.chi_squared);
     }

@@ -1,4 +1,4 @@
-//! Frozen and small coordinates, against what a textbook or a paper writes.
+//! Frozen and small coordinates, compared with the formulas of textbooks and papers.
 
 use lagrangian_mechanics::Route;
 use lagrangian_print::compare::compare;
@@ -7,7 +7,7 @@ use lagrangian_symbolic::evaluate;
 
 use crate::harness::{derived, text_of};
 
-/// Everything that the machine publishes is right.
+/// Everything that the machine publishes agrees.
 fn assert_agreement(text: &str) {
     derived(text, |model, equations| {
         assert_eq!(equations.route, Route::Lagrange);
@@ -39,8 +39,9 @@ fn a_small_pendulum_is_an_oscillator() {
 
 #[test]
 fn small_keeps_products_of_small_and_large() {
-    // The rate of the small angle times the large motion stays, the small angle's square with it
-    // does not: x′ θ′ is of first order in the small ones, θ θ′ x′ of second, θ² θ′ x′ of third.
+    // The product of the small angle's rate and the large motion stays, that with the
+    // small angle's square does not: x′ θ′ is of first order in the small quantities, θ θ′
+    // x′ of second, θ² θ′ x′ of third.
     assert_agreement(
         "machine Crane in plane {
             parameters { M: kg = 5, m: kg = 1, l: m = 1, g: m/s^2 = 9.81 }
@@ -62,8 +63,9 @@ fn small_keeps_products_of_small_and_large() {
 
 #[test]
 fn the_papers_platform_is_frozen() {
-    // The paper's own kinetic energy of the debalance, with its two misprints mended: e^2 for x0^2
-    // + y0^2, and a missing constant; the equations of the platform follow from it.
+    // The paper's own kinetic energy of the debalance, with its two misprints
+    // corrected: e^2 printed for x0^2 + y0^2, and a missing constant. The equations of
+    // the platform follow from it.
     assert_agreement(
         "machine PaperCrusher extends \"vibrating_crusher.machine\" {
             remove springs.x_right; remove springs.y_left;
@@ -126,8 +128,8 @@ fn gravity_and_springs_know_nothing_of_freezing() {
     );
 }
 
-/// T, V and D of a machine of the library where its platform is turned by `epsilon` of an angle at
-/// `epsilon` of a rate, the other coordinates and rates being what they are.
+/// T, V and D of a machine of the library whose platform has the angle and the rate scaled by
+/// `epsilon`, with the other coordinates and rates unchanged.
 fn energies(machine: &str, epsilon: f64) -> [DoubleDouble; 3] {
     derived(&text_of(machine), |model, equations| {
         let number = DoubleDouble::from_f64;
@@ -165,7 +167,7 @@ fn what_a_small_angle_leaves_out_is_its_cube() {
         let epsilon = 0.5_f64.powi(k);
         let exact = energies("vibrating_crusher", epsilon);
         let small = energies("small_angle_crusher", epsilon);
-        // Springs and dampers are of second order as they are.
+        // Springs and dampers are of second order already, so they stay exact.
         for e in 1..3 {
             let limit = DoubleDouble::from_f64(1e-29) * exact[e].abs();
             assert!(!(exact[e] - small[e]).abs().exceeds(limit));
@@ -177,8 +179,8 @@ fn what_a_small_angle_leaves_out_is_its_cube() {
             continue;
         };
         // full/half = 8 (1 + ½ ε c₄/c₃ + …) for ε³ c₃ + ε⁴ c₄ + …. With (a, b) the velocity of the
-        // debalance but for θ̇ the series is θ̇ [½ θ² (a y₀ − b x₀) + ⅙ θ³ (a x₀ + b y₀) + …]:
-        // c₄/c₃ is −0.06 at this state.
+        // debalance without the part from θ̇, the series is θ̇ [½ θ² (a y₀ − b x₀) + ⅙ θ³ (a x₀ + b
+        // y₀) + …], and c₄/c₃ is −0.06 at this state.
         assert!(
             (full / half - 8.0).abs() <= 8.0 * epsilon,
             "{epsilon}: {}",
@@ -189,8 +191,8 @@ fn what_a_small_angle_leaves_out_is_its_cube() {
 
 #[test]
 fn what_freezing_leaves_out_is_of_second_order() {
-    // −θ̇ [θ (a x₀ + b y₀) − ½ θ² (a y₀ − b x₀) + …]: the cube is 0.5 ε of the square at this
-    // state.
+    // −θ̇ [θ (a x₀ + b y₀) − ½ θ² (a y₀ − b x₀) + …]: the cubic term is 0.5 ε of the
+    // quadratic one at this state.
     let off = |epsilon: f64| {
         let [exact, frozen] =
             ["vibrating_crusher", "frozen_crusher"].map(|m| energies(m, epsilon)[0]);

@@ -1,9 +1,9 @@
-//! Bushings, against equations typed in by hand.
+//! Bushings, compared with equations typed in by hand.
 
 use crate::by_hand::{assert_agreement, mutate};
 use crate::harness::derived;
 
-/// A part on an arm that turns: the forces of the bushing turn with the arm, and push it back.
+/// A part on an arm that turns: the forces of the bushing turn with the arm and react on it.
 const TURNING: &str = r#"
 machine Mounted in plane {
     parameters {
@@ -45,7 +45,8 @@ machine Mounted in plane {
 }
 "#;
 
-/// A slider on a platform: the bushing sees how far the slider is displaced, and nothing of the platform.
+/// A slider on a platform: the bushing depends on the slider's displacement relative to the platform, and
+/// not on the platform's motion.
 const CARRIED: &str = r#"
 machine Carried in plane {
     parameters {
@@ -104,7 +105,7 @@ fn a_bushing_knows_nothing_of_what_carries_both_its_frames() {
     });
 }
 
-/// What is not there costs nothing: a bushing of one stiffness is a spring, load by load.
+/// A bushing with a single stiffness gives the same loads as a spring.
 #[test]
 fn a_bushing_of_one_stiffness_is_a_spring() {
     let machine = |element: &str| {

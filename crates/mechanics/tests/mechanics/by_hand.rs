@@ -1,5 +1,5 @@
-//! Equations typed in by hand, from a paper and from textbooks, equal the derived ones; and one wrong sign anywhere in them is
-//! found.
+//! The derived equations equal equations typed in by hand from a paper and from textbooks, and the comparison finds a single
+//! wrong sign anywhere in these.
 
 use lagrangian_print::compare::compare;
 use lagrangian_spec::model::{Model, PublishedItem, stage};
@@ -7,9 +7,9 @@ use lagrangian_symbolic::{Dag, Expr, Id, Node, Rational, reachable};
 
 use crate::harness::derived;
 
-/// Vibrating crusher, with the single pair of springs and dampers of the paper and the platform's angle exact. The nine
-/// equations of the paper, corrected: `(ax, ay)` is the axis of the debalance in ground axes, which the paper takes at
-/// `theta = 0`.
+/// Vibrating crusher, with the single pair of springs and dampers of the paper and the exact platform angle. These
+/// are the nine equations of the paper, corrected: `(ax, ay)` is the axis of the debalance in ground axes, which
+/// the paper takes at `theta = 0`.
 const CRUSHER: &str = r#"
 machine PaperCrusher extends "vibrating_crusher.machine" {
     remove springs.x_right; remove springs.y_left;
@@ -70,7 +70,7 @@ machine PaperCrusher extends "vibrating_crusher.machine" {
 }
 "#;
 
-/// D. Goldstein, C. Poole, J. Safko, *Classical Mechanics*, ch. 1 and 6; here each equation is divided by its length.
+/// H. Goldstein, C. Poole, J. Safko, *Classical Mechanics*, ch. 1 and 6; here each equation is divided by its length.
 const DOUBLE_PENDULUM: &str = r#"
 machine Textbook extends "double_pendulum.machine" {
     published "by hand" {
@@ -87,8 +87,8 @@ machine Textbook extends "double_pendulum.machine" {
 }
 "#;
 
-/// R. V. Florian, *Correct equations for the dynamics of the cart-pole system*, 2007, with the pole's inertia left general,
-/// friction viscous.
+/// R. V. Florian, *Correct equations for the dynamics of the cart-pole system*, 2007, with a general inertia of
+/// the pole and viscous friction.
 const CART_POLE: &str = r#"
 machine Textbook extends "cart_pole.machine" {
     published "by hand" {
@@ -159,7 +159,7 @@ fn every_wrong_sign_and_coefficient_is_found() {
     }
 }
 
-/// Everything that a machine publishes agrees.
+/// Everything that a machine publishes agrees, and there are `items` of it.
 pub fn assert_agreement(text: &str, items: usize) {
     derived(text, |model, equations| {
         let comparisons = compare(model, equations);
@@ -173,7 +173,8 @@ pub fn assert_agreement(text: &str, items: usize) {
     });
 }
 
-/// Makes one mistake after the other in what a machine publishes. How many, and those that nobody noticed.
+/// Makes one mistake after another in what a machine publishes. Returns the number of mistakes, and those that
+/// the comparison did not find.
 pub fn mutate(text: &str) -> (usize, Vec<String>) {
     derived(text, |model, equations| {
         let mut wrong: Model = model.clone();
@@ -204,13 +205,14 @@ pub fn mutate(text: &str) -> (usize, Vec<String>) {
     })
 }
 
-/// The formula with one sign flipped, one coefficient doubled, or one power raised, for each place where that is possible.
+/// Copies of the formula with one sign flipped, one coefficient doubled, or one power raised, for each
+/// place where that is possible.
 fn mutants<'d>(dag: &'d Dag, formula: Expr<'d>) -> Vec<Expr<'d>> {
     let mut mutants = Vec::new();
     let nodes = reachable(dag, &[formula]);
     for &id in &nodes {
         let changed: Vec<Expr<'d>> = match dag.node(id) {
-            // A formula of one term, times a factor, is the same equation.
+            // A formula of one term multiplied by a factor is the same equation.
             Node::Sum(terms) if terms.len() > 1 => (0..terms.len())
                 .flat_map(|k| [(k, Rational::MINUS_ONE), (k, Rational::from(2))])
                 .map(|(k, factor)| {
@@ -221,7 +223,7 @@ fn mutants<'d>(dag: &'d Dag, formula: Expr<'d>) -> Vec<Expr<'d>> {
                 })
                 .collect(),
             Node::Product(factors) => (0..factors.len())
-                // So is a formula that is a product, times a parameter.
+                // So is a formula that is a product, multiplied by a parameter.
                 .filter(|&k| {
                     id != formula.id() || dag.expr(factors[k].0).stage() > stage::PARAMETER
                 })

@@ -1,5 +1,4 @@
-//! How freely machines move: against what is counted by hand, and against ranks that are known
-//! because the constraints were made with them.
+//! Degrees of freedom of machines, compared with counts by hand, and with ranks that are known by construction.
 
 use lagrangian_mechanics::{Freedom, Independent, contradictions, equations::freedom};
 use lagrangian_spec::diagnostic::{Code, Report};
@@ -21,7 +20,7 @@ fn counts(text: &str) -> (usize, usize, Option<(usize, usize)>) {
     (coordinates, constraints, independent)
 }
 
-/// A body that is turned by four numbers has six freedoms, and on a ball joint three.
+/// A body whose orientation is four numbers has six degrees of freedom, and three on a ball joint.
 #[test]
 fn four_numbers_are_three_freedoms() {
     let body = "machine Body in space { coordinates { x: m, y: m, z: m, e[0]: 1 = 1, e[1..3]: 1 }
@@ -82,10 +81,10 @@ fn what_is_said_twice_counts_once() {
     assert_eq!(with("rod: x^2 + y^2 = l^2"), (2, 1, Some((1, 1))));
     let twice = "rod: x^2 + y^2 = l^2, again: sqrt(x^2 + y^2) = l, rate: x*der(x) + y*der(y) = 0";
     assert_eq!(with(twice), (2, 3, Some((1, 1))));
-    // Off the constraints the rows of these two are independent, and on them they are not.
+    // The rows of these two constraints are independent off the constraints, and dependent on them.
     let rim = "rod: x^2 + y^2 = l^2, rim: (x^2 + y^2)*(x^2 + y^2 - l^2)*(2 + x/l) = 0";
     assert_eq!(with(rim), (2, 2, Some((1, 1))));
-    // A machine that cannot move.
+    // This machine cannot move.
     assert_eq!(
         with("rod: x^2 + y^2 = l^2, wall: x = 0.9"),
         (2, 2, Some((2, 2)))
@@ -98,7 +97,7 @@ fn what_is_said_twice_counts_once() {
 
 #[test]
 fn a_start_where_motions_fork_is_told() {
-    // A parallelogram of unit cranks, flat: there it may turn into a crossed one.
+    // A parallelogram of unit cranks in the flat position, where it may continue as a crossed one.
     let bars = |start: &str| {
         counts(&format!(
             "machine Bars in plane {{
@@ -123,9 +122,8 @@ fn a_start_where_motions_fork_is_told() {
 
 #[test]
 fn the_rank_of_a_mixture_is_the_rank_of_what_was_mixed() {
-    // Residuals h_k(q), independent nearly everywhere and zero at the start, mixed by integer matrices
-    // of known rank: the first `rank` columns of each row are at random, with an identity in the
-    // first rows.
+    // Residuals h_k(q), independent nearly everywhere and zero at the start, are mixed by integer matrices of known rank:
+    // the first `rank` columns of each row are random, with an identity in the first rows.
     let mut seed = 20_251_122u64;
     let mut random = move |below: u64| {
         seed = seed
@@ -179,7 +177,7 @@ fn the_rank_of_a_mixture_is_the_rank_of_what_was_mixed() {
             bodies.join(", "),
             constraints.join(", "),
         );
-        // A row of zeros constrains nothing, and is refused.
+        // A row of zeros constrains nothing and is refused.
         if constraints
             .iter()
             .any(|row| !row.contains("1)*") && !row.contains("2)*") && !row.contains("3)*"))
@@ -191,7 +189,7 @@ fn the_rank_of_a_mixture_is_the_rank_of_what_was_mixed() {
     }
 }
 
-/// What is said of contradictions.
+/// The messages about contradictions.
 fn told(text: &str) -> Vec<String> {
     derived(text, |model, equations| {
         let mut report = Report::new();
@@ -206,7 +204,7 @@ fn told(text: &str) -> Vec<String> {
     })
 }
 
-/// A particle with these constraints.
+/// The text of a particle with these constraints.
 fn particle(constraints: &str) -> String {
     format!(
         "machine P in plane {{ parameters {{ w: rad/s = 1.3, d: m = 2 }} coordinates {{ x: m = 1, y: m = 0.3 }} bodies {{ p {{ mass: 1, at: (x, y) }} }}
@@ -217,13 +215,13 @@ fn particle(constraints: &str) -> String {
 #[test]
 fn contradicting_constraints_are_named_with_their_residuals() {
     for (constraints, expected) in [
-        // At x = 3/2 both are off by the same.
+        // At x = 3/2 both have the same residual.
         (
             "one: x = 1, two: x = 2",
             "`two` contradicts `one` near the start: its residual is 5.00e-1 m",
         ),
-        // A circle of radius 1 and the line x = 2, rows measured at (1, 0.3): their lengths are 2 √1.09 and 1. The minimum
-        // of (x² − 1)²/4.36 + (x − 2)² has 2 x³ − 2 x + 4.36 (x − 2) = 0: x = 1.394885.
+        // A circle of radius 1 and the line x = 2, with rows evaluated at (1, 0.3), whose lengths are 2 √1.09 and 1. The
+        // minimum of (x² − 1)²/4.36 + (x − 2)² satisfies 2 x³ − 2 x + 4.36 (x − 2) = 0: x = 1.394885.
         (
             "rod: x^2 + y^2 = 1, wall: x = 2",
             "`wall` contradicts `rod` near the start: its residual is 6.05e-1 m",
@@ -253,7 +251,7 @@ fn contradicting_constraints_are_named_with_their_residuals() {
 fn what_can_be_met_contradicts_nothing() {
     for constraints in [
         "one: x = 1, two: x = 1",
-        // Circles that touch from outside, and from inside: no place beside the one.
+        // Circles that touch from outside, and from inside: they have exactly one common point.
         "a: x^2 + y^2 = 1, b: (x - 2)^2 + y^2 = 1",
         "a: x^2 + y^2 = 4, b: (x - 1)^2 + y^2 = 1",
         "a: x = d*sin(w*t), b: der(x) = d*w*cos(w*t)",
@@ -268,7 +266,7 @@ fn what_can_be_met_contradicts_nothing() {
     }
 }
 
-/// Rows at random through a point at random, the last a combination of the others, with and without something added.
+/// Random rows through a random point, the last a linear combination of the others, with and without an added constant.
 #[test]
 fn dependent_rows_contradict_where_something_is_added() {
     let clock = std::time::SystemTime::now()
@@ -283,7 +281,7 @@ fn dependent_rows_contradict_where_something_is_added() {
         state ^= state << 13;
         state ^= state >> 7;
         state ^= state << 17;
-        // Few digits, so that sums of products are exact.
+        // Numbers of few digits, so that sums of products are exact.
         (state >> 56) as f64 / 16.0 - 8.0
     };
     const COUNT: usize = 4;

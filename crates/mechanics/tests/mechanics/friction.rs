@@ -1,4 +1,5 @@
-//! Guided contacts: their normal reactions against formulas typed in by hand, and guides that are none.
+//! Guided contacts: their normal reactions compared with formulas typed in by hand, and guides that are
+//! refused because they guide nothing.
 
 use lagrangian_mechanics::{Carrying, Equations};
 use lagrangian_print::compare::compare;
@@ -9,7 +10,7 @@ use lagrangian_symbolic::{Dag, Expr};
 
 use crate::harness::{derived, residues, resolved, text_of};
 
-/// The expressions are equal at points of the prime field.
+/// Asserts that pairs of expressions are equal at points of the prime field.
 fn assert_equal<'d>(
     model: &Model<'d>,
     equations: &Equations<'d>,
@@ -82,7 +83,7 @@ fn the_bracket_that_the_paper_drops_is_found() {
                 ("friction q2", true)
             ]
         );
-        // −μ₂ [(m + M) g − m q̈₂ tan α], printed without the bracket: the term is positive and has μ₂.
+        // −μ₂ [(m + M) g − m q̈₂ tan α], printed without the bracket: the term that remains is positive and has the factor μ₂.
         let m = |name| symbol(model, name);
         let right = m("mu2") * m("m") * model.coordinates[1].a * m("alpha").tan();
         let printed = -(m("m") * model.coordinates[1].a * m("alpha").tan());
@@ -97,8 +98,8 @@ fn the_bracket_that_the_paper_drops_is_found() {
     });
 }
 
-/// A piston that a crank-shaped cam lifts: the piston slides between two walls that are not parallel to
-/// what lifts it, so that both press.
+/// A piston that a moving wedge lifts. It slides between walls that are not perpendicular to the face of
+/// the wedge, so both press on it.
 const LIFTED: &str = "machine Lifted in plane {
     parameters { m: kg = 1, M: kg = 2, alpha: rad = 0.4, mu: 1 = 0.2, nu: 1 = 0.1, g: m/s^2 = 9.81 }
     coordinates { x: m }
@@ -114,7 +115,7 @@ const LIFTED: &str = "machine Lifted in plane {
 #[test]
 fn two_guides_of_one_body_share_what_it_takes_to_hold_it() {
     let text = LIFTED.replace("(-cos(alpha), sin(alpha))", "(-cos(alpha), -sin(alpha))");
-    // The wedge that lifts it slopes up to the left: seen from it, the piston moves to the left and up.
+    // The wedge that lifts it slopes up to the left: relative to the wedge, the piston moves to the left and up.
     for (text, fits) in [(LIFTED, true), (text.as_str(), false)] {
         let refused = codes(text);
         assert_eq!(refused.is_empty(), fits, "{refused:?}");
@@ -126,7 +127,7 @@ fn two_guides_of_one_body_share_what_it_takes_to_hold_it() {
         let [face, slot] = &equations.sliding[..] else {
             panic!("two contacts");
         };
-        // Directions turned left: n_face = (−sin α, −cos α), n_slot = (−1, 0). Newton for the piston:
+        // The normals are the directions turned left: n_face = (−sin α, −cos α), n_slot = (−1, 0). Newton's law for the piston:
         // N_face n_face + N_slot n_slot + (0, −m g) = (0, m ẍ tan α).
         let normal = -(m * (g + a * alpha.tan()) / cos);
         assert_equal(
@@ -226,7 +227,8 @@ fn guides_that_are_none_are_refused() {
     assert!(codes(&cart(&of("body: box, on: cart, direction: (2, 0)"))).is_empty());
 }
 
-/// A bead on the parabola y = k z²/2: N = m (g + k ż²)/√(1 + k² z²) upwards, whatever the lengths of what is said of the guide.
+/// A bead on the parabola y = k z²/2: N = m (g + k ż²)/√(1 + k² z²) upwards, whatever the lengths of the
+/// vectors that describe the guide.
 #[test]
 fn the_side_of_a_normal_does_not_depend_on_lengths() {
     let guides = [
@@ -291,7 +293,7 @@ fn the_side_of_a_normal_does_not_depend_on_lengths() {
     }
 }
 
-/// A machine with a cart on a rail, and what is hung on it.
+/// A machine with a cart on a rail and further bodies.
 fn on_a_cart(coordinates: &str, rest: &str) -> String {
     format!(
         "machine Cart in plane {{
@@ -319,15 +321,15 @@ fn what_moves_with_a_guided_body_and_is_tied_to_it_by_nothing_is_refused() {
         ("frame: cart.turn(phi).shift(0, -l)", true),
         ("at: (x + l*sin(phi), -l*cos(phi))", false),
         ("frame: ground.shift(x, -l).turn(phi)", false),
-        // The frame of the cart, said again.
+        // The frame of the cart, written out again.
         ("frame: ground.shift(x, 0).turn(phi).shift(0, -l)", true),
-        // Free along the rail, and still written by it.
+        // It moves freely relative to the rail, but its position contains the coordinate of the rail.
         ("at: (x + l*phi, l)", false),
         ("at: (l*phi, l)", true),
         ("at: cart.at + (l*phi, l)", true),
-        // The rope over a pulley: it may pull as it likes.
+        // A rope over a pulley, which may pull in any direction.
         ("at: (l*phi, -x)", false),
-        // Built on the cart, and driven by something that is not.
+        // Built on the cart, with a displacement that depends on the cart's coordinate.
         ("at: cart.at + l*(phi, x/l)", false),
     ] {
         let found = codes(&hung(bob));
@@ -432,7 +434,7 @@ fn what_guides_carry_and_coordinates_move_is_known() {
     let absolute = carrying(&absolute);
     assert_eq!(absolute.carried, [vec![0], vec![1]]);
     assert_eq!(absolute.moved, built.moved);
-    // What pushes the slider pushes the wedge, and nobody says how much of that is across the floor.
+    // The force on the slider also acts on the wedge, and the spec does not determine its component across the floor.
     assert_eq!(absolute.unsaid(0), [1]);
     assert!(absolute.unsaid(1).is_empty());
     let forced = text_of("prisms")
@@ -447,7 +449,8 @@ fn what_guides_carry_and_coordinates_move_is_known() {
 #[test]
 fn what_acts_from_a_place_that_moves_with_the_body_and_is_none_of_it_is_refused_straight_across_too()
  {
-    // Above the cart, beside it at its height, and in between: written by its frame, it is the cart's; by formulas, nobody's.
+    // Places above the cart, beside it at its height, and in between: described by its frame they belong to the cart; described
+    // by formulas they belong to no body.
     let with = |place: &str, section: &str| {
         let text = format!(
             "machine Above in plane {{
@@ -483,8 +486,8 @@ fn what_acts_from_a_place_that_moves_with_the_body_and_is_none_of_it_is_refused_
 
 #[test]
 fn a_force_on_a_coordinate_that_moves_more_than_a_guide_carries_is_refused_in_any_coordinates() {
-    // A block on the slope of a cart that it is not built on, in any two coordinates. What pushes the block
-    // along the slope may push the cart back, or not; what pushes the cart alone does not ask.
+    // A block on the slope of a cart on which it is not built, in any two coordinates. A force on a coordinate that pushes the
+    // block along the slope may or may not react on the cart, so it is refused; a force on the cart alone is accepted.
     let written = |x: &str, s: &str, section: &str| {
         format!(
             "machine Block in plane {{
@@ -532,7 +535,7 @@ fn a_force_on_a_coordinate_that_moves_more_than_a_guide_carries_is_refused_in_an
     }
 }
 
-/// A cart at `a + b` along the floor, and what else there is, in coordinates that are no cart's and no bob's alone.
+/// A cart at `a + b` along the floor, and other bodies, in coordinates none of which belongs to the cart or to the bob alone.
 fn mixed(bodies: &str, guides: &str) -> String {
     format!(
         "machine Mixed in plane {{
@@ -550,12 +553,12 @@ fn mixed(bodies: &str, guides: &str) -> String {
 fn bodies_that_nothing_holds_across_a_guide_may_share_its_coordinates() {
     let away = "arm { mass: m, at: (0, l*phi) }";
     for (bodies, is_right) in [
-        // A particle that flies, and one that is held at a height, nobody says by what.
+        // A free particle, and one that is held at a height without a body or guide that holds it.
         ("bob { mass: m, at: (a - b, l*phi) }".to_owned(), true),
         (format!("bob {{ mass: m, at: (a - b, l) }}, {away}"), false),
-        // Straight up and down is across, and along is not.
+        // Vertical motion is across the guide, horizontal motion is not.
         (format!("bob {{ mass: m, at: (l, a - b) }}, {away}"), true),
-        // Two on a rod: neither can move alone.
+        // Two bodies on a rod: neither can move alone.
         (
             "bob { mass: m, at: (a - b, 2*c) }, hand { mass: m, at: (a - b + l*sin(phi), 2*c - l*cos(phi)) }"
                 .to_owned(),
@@ -566,14 +569,14 @@ fn bodies_that_nothing_holds_across_a_guide_may_share_its_coordinates() {
         let are_untied = found.iter().all(|(code, _)| *code == Code::Untied);
         assert!(are_untied && found.is_empty() == is_right, "{bodies}: {found:?}");
     }
-    // The same two, with nothing else that moves by c.
+    // The same two bodies, with nothing else that moves with c.
     let rod = mixed(
         "bob { mass: m, at: (a - b, c) }, hand { mass: m, at: (a - b + l*sin(phi), c - l*cos(phi)) }",
         "",
     );
     let rod = rod.replace("pin { mass: m, at: (0, c) }, ", "");
     assert!(codes(&rod).is_empty(), "{:?}", codes(&rod));
-    // What the guide carries is the cart alone.
+    // The guide carries only the cart.
     for text in [rod, mixed("bob { mass: m, at: (a - b, l*phi) }", "")] {
         derived(&text, |model, equations| {
             let [big, g] = ["M", "g"].map(|name| symbol(model, name));
@@ -589,7 +592,8 @@ fn bodies_that_nothing_holds_across_a_guide_may_share_its_coordinates() {
 
 #[test]
 fn one_motion_has_several_reactions_where_nobody_says_what_holds_a_body() {
-    // A block of the same places on the cart, or on a rail of its own: so written by formulas alone it is refused.
+    // A block that has the same positions when it is on the cart and when it has a rail of its own; written by
+    // formulas alone it is refused.
     let on_cart = "block { mass: m, at: cart.point(-2*b, l) }, arm { mass: m, at: (0, l*phi) }";
     let on_rail = "block { mass: m, at: (a - b, l) }, arm { mass: m, at: (0, l*phi) }";
     let rail = ", upper { body: block, on: ground, direction: (1, 0), friction: mu }";
@@ -630,7 +634,7 @@ fn in_space_a_guide_carries_the_weight_and_the_inertia_across_it() {
         let ([u, w], dag) = ([0, 1].map(|i| &model.coordinates[i]), model.dag);
         let (sin, cos) = (u.q.sin(), u.q.cos());
         let total = m + big;
-        // N = (m + M) c̈ + M ρ̈ + (m + M) g e_z, less what of it is along the wire.
+        // N = (m + M) c̈ + M ρ̈ + (m + M) g e_z, without its component along the wire.
         let curve = [
             -(r * (cos * u.v.square() + sin * u.a)),
             r * (cos * u.a - sin * u.v.square()),
@@ -653,7 +657,7 @@ fn in_space_a_guide_carries_the_weight_and_the_inertia_across_it() {
             .map(|i| (names[i], found[i], force[i] - part * tangent[i]))
             .collect();
         assert_equal(model, equations, &pairs);
-        // Its own friction is along it.
+        // The guide's own friction acts along it.
         let own: Vec<_> = (0..3)
             .map(|i| {
                 let by = wire.reactions[i].by_friction_forces[0] * square.sqrt();
@@ -666,7 +670,8 @@ fn in_space_a_guide_carries_the_weight_and_the_inertia_across_it() {
 
 #[test]
 fn in_space_too_what_a_guide_carries_is_said_or_asked_for() {
-    // Built on the bead; written by its coordinate, held by nobody knows what; and free of it.
+    // Loads that are built on the bead; that contain its coordinate, without a description of what holds
+    // them; and that are free of it.
     let built = in_space("load { mass: M, at: bead.at + l*(0, sin(w), -cos(w)) }");
     let written =
         in_space("load { mass: M, at: (r*cos(u), r*sin(u) + l*sin(w), -h*u - l*cos(w)) }");
@@ -678,14 +683,14 @@ fn in_space_too_what_a_guide_carries_is_said_or_asked_for() {
         "{:?}",
         codes(&written)
     );
-    // A direction that is not that of the wire lets the bead off it.
+    // A direction that is not tangent to the wire.
     let off = apart.replace("-h), friction", "h), friction");
     assert!(
         matches!(&codes(&off)[..], [(Code::NoGuide, _)]),
         "{:?}",
         codes(&off)
     );
-    // A second guide of the same body, and a side.
+    // A second guide of the same body, and a guide with a side.
     let guide = "friction: mu }";
     let twice = apart.replace(
         guide,
@@ -701,7 +706,7 @@ fn in_space_too_what_a_guide_carries_is_said_or_asked_for() {
     assert!(matches!(&found[..], [(Code::NotSupported, _)]), "{found:?}");
 }
 
-/// A puck at a place, held to a surface with this normal.
+/// A puck at a place, guided on a surface with this normal.
 fn on_surface(place: &str, normal: &str, more: &str) -> String {
     format!(
         "machine Puck in space {{
@@ -743,7 +748,7 @@ fn a_surface_that_is_none_is_refused_once_and_by_its_name() {
             Some(Code::NoGuide),
             "along a line of its surface",
         ),
-        // The other moves with it, and nothing says what ties them.
+        // The other body moves with it, but the spec does not say what ties them.
         (
             "(x, z, 0)",
             "(0, 0, 1)",

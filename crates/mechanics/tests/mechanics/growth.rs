@@ -1,4 +1,4 @@
-//! How programs grow with the machine: operations per link are constant.
+//! How programs grow with the machine: the number of operations per link is constant.
 
 use std::path::Path;
 
@@ -10,8 +10,8 @@ use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::{Disk, Sources};
 use lagrangian_symbolic::{Dag, Rational};
 
-/// Links in space on hinges whose axes alternate, each with a full inertia: no frame of the chain
-/// keeps a plane.
+/// Links in space on hinges with alternating axes, each with a full inertia tensor, so that no
+/// frame of the chain moves in a plane.
 const SPATIAL: &str = "machine Spatial in space {
     constants { N = 4 }
     parameters { l: m = 0.3, m: kg = 0.7, g: m/s^2 = 9.81 }
@@ -31,7 +31,7 @@ const SPATIAL: &str = "machine Spatial in space {
     gravity (0, 0, -g);
 }";
 
-/// A chain in the plane that closes, its angles measured from bar to bar or each from the ground.
+/// A closed planar chain, with angles measured from bar to bar or each from the ground.
 fn closed(from_the_ground: bool) -> String {
     let frames = if from_the_ground {
         "joint[0] = ground, joint[i in 1..N] = joint[i-1].shift(l*cos(q[i]), l*sin(q[i]))"
@@ -84,12 +84,12 @@ fn tree(depth: u32) -> String {
     )
 }
 
-/// What a machine takes.
+/// The size of a machine's programs.
 struct Size {
     accelerations: usize,
     multipliers: usize,
     mass_matrix: usize,
-    /// Nodes of everything that was derived on the way.
+    /// The number of expression nodes created during the derivation.
     nodes: usize,
 }
 
@@ -141,12 +141,12 @@ fn library(name: &str) -> String {
     std::fs::read_to_string(path).expect("a machine of the library")
 }
 
-/// Twice as many links: at most 2.05 times the operations for accelerations, 4.1 times for M, whose
-/// entries are 3.9 times as many.
+/// With twice as many links, accelerations take at most 2.05 times the operations, and M at most
+/// 4.1 times, as it has 3.9 times as many entries.
 ///
-/// Nodes: M has n²/2 entries, and each is one or more; all else that is derived is so many nodes a
-/// link. So from N = 16 to 32 and 64 they grow as a + b N + c N², and a, b, c are not negative: the
-/// second step is at most four times the first.
+/// Nodes: M has n²/2 entries of at least one node each, and everything else takes a constant number
+/// of nodes per link. So from N = 16 to 32 and 64 the count grows as a + b N + c N² with a, b, c
+/// not negative, and the second increment is at most four times the first.
 fn assert_linear(text: &str) {
     let (half, short, long) = (size(text, 16), size(text, 32), size(text, 64));
     let steps = (short.nodes - half.nodes, long.nodes - short.nodes);
@@ -201,8 +201,8 @@ fn a_tree_costs_as_much_per_bar_at_any_depth() {
         small.accelerations,
         large.accelerations
     );
-    // M couples a bar with what hangs on it and with what it hangs on, n log n pairs: 31 bars have
-    // 98 of them below one another, 63 have 258, and 31 and 63 entries on the diagonal.
+    // M couples each bar with the bars that hang on it and that it hangs on, n log n pairs: of 31
+    // bars 98 pairs, of 63 bars 258, and 31 and 63 diagonal entries.
     assert!(
         (98 + 31) * large.mass_matrix <= (258 + 63) * small.mass_matrix,
         "M: {}, {}",

@@ -1,4 +1,4 @@
-//! Machines from texts and files, and points at which to look at them.
+//! What these tests share: machines from texts and files, and points at which to evaluate them.
 
 use std::path::{Path, PathBuf};
 
@@ -9,10 +9,10 @@ use lagrangian_spec::model::Model;
 use lagrangian_spec::source::{Disk, Sources};
 use lagrangian_symbolic::{Dag, Expr, Symbol, Tangent, evaluate};
 
-/// Points at which identities are proved.
+/// The number of points at which identities are checked.
 pub const POINTS: usize = 3;
 
-/// Resolves and derives a machine, whose files lie in the library; panics with its messages if something is wrong with it.
+/// Resolves and derives a machine whose files are in the library; panics with the messages if there are errors.
 pub fn derived<R>(text: &str, look: impl for<'d> FnOnce(&Model<'d>, &Equations<'d>) -> R) -> R {
     resolved(text, |model| {
         let mut report = Report::new();
@@ -34,7 +34,7 @@ pub fn resolved<R>(text: &str, look: impl for<'d> FnOnce(&Model<'d>) -> R) -> R 
     look(&model.unwrap_or_else(|| panic!("{}", report.render_short(&sources))))
 }
 
-/// The text of a machine of the library, or of this test.
+/// The text of a machine of the library, or of these tests.
 pub fn text_of(name: &str) -> String {
     let found = all_files()
         .into_iter()
@@ -43,7 +43,7 @@ pub fn text_of(name: &str) -> String {
     std::fs::read_to_string(path).expect("machines can be read")
 }
 
-/// Every machine of the library and of this test, with its name.
+/// Every machine of the library and of these tests, with its name.
 pub fn all_machines() -> Vec<(String, String)> {
     let name = |path: &PathBuf| {
         path.file_stem()
@@ -73,13 +73,13 @@ fn all_files() -> Vec<PathBuf> {
     machines
 }
 
-/// Where the machines of the library stand.
+/// The folder of the machines of the library.
 pub fn library() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines")
 }
 
-/// The values of expressions at some points of the prime field at which all of them have one, with the accelerations that
-/// `M a = f` gives where `moving`.
+/// The values of expressions at some points of the prime field at which all of them are defined, with the accelerations of
+/// `M a = f` if `moving`.
 pub fn residues(
     model: &Model<'_>,
     equations: &Equations<'_>,
@@ -109,7 +109,7 @@ pub fn residues(
     panic!("{}: no point at which everything has a value", model.name)
 }
 
-/// What the equations say of symbols at a point.
+/// The values of symbols that the equations determine at a point.
 type Known = Vec<(Symbol, Residue)>;
 
 fn among(known: &Known, symbol: Symbol) -> Option<Residue> {
@@ -117,7 +117,7 @@ fn among(known: &Known, symbol: Symbol) -> Option<Residue> {
     found.map(|&(_, value)| value)
 }
 
-/// Velocities that the constraints admit, the accelerations there and the multipliers.
+/// Velocities that satisfy the constraints, with the accelerations and multipliers there.
 fn motion(
     model: &Model<'_>,
     equations: &Equations<'_>,
@@ -126,7 +126,7 @@ fn motion(
     let dag = model.dag;
     let constraints = &equations.constraints;
     let symbol = |e: Expr<'_>| e.as_symbol().expect("a symbol");
-    // By what it takes to stop them: M Δv = Gᵀ μ and G Δv = −φ.
+    // Projects velocities onto the constraints with the impulse that it takes: M Δv = Gᵀ μ and G Δv = −φ.
     let nothing = vec![dag.zero(); model.coordinates.len()];
     let rates = constraints.iter().map(|c| c.rate);
     let stopped = balanced(model, equations, nothing.into_iter().chain(rates), &random)?;
@@ -144,7 +144,7 @@ fn motion(
     Some(known)
 }
 
-/// Solves `M x − Gᵀ y` and `−G x` for x and y.
+/// Solves for x and y the system whose rows are `M x − Gᵀ y` and `−G x`.
 fn balanced<'d>(
     model: &Model<'d>,
     equations: &Equations<'d>,

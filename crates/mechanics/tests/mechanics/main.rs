@@ -1,4 +1,4 @@
-//! The derivation held against Lagrange, against textbooks, and against itself.
+//! The derivation, tested against Lagrange's equations, textbooks, and itself.
 
 mod approximations;
 mod bushing;

@@ -1,4 +1,4 @@
-//! The cheap route gives Lagrange's equations, for every machine.
+//! The projected route gives Lagrange's equations for every machine.
 
 use lagrangian_mechanics::{Equations, Oracle};
 use lagrangian_scalar::{DoubleDouble, Residue, Scalar};
@@ -28,7 +28,8 @@ fn every_machine_obeys_lagranges_equations() {
 fn accelerations_make_lagranges_residual_vanish() {
     for (name, text) in all_machines() {
         derived(&text, |model, equations| {
-            // With constraints there are multipliers in them: the proof of the programs has these.
+            // With constraints, the equations contain multipliers; the proof of the
+            // programs covers these machines.
             if !equations.constraints.is_empty() {
                 return;
             }
@@ -80,7 +81,7 @@ fn number(point: u32, symbol: Symbol) -> f64 {
 
 type Quantities<'d> = Vec<(String, Expr<'d>)>;
 
-/// What is derived on both routes, in one order.
+/// The quantities derived on both routes, in the same order.
 fn quantities<'d>(ours: &Equations<'d>, oracle: &Oracle<'d>) -> (Quantities<'d>, Quantities<'d>) {
     let energies = ["kinetic energy", "potential energy", "dissipation"].map(str::to_owned);
     let mut left: Quantities<'d> = energies

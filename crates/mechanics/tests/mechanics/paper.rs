@@ -1,6 +1,6 @@
-//! The crusher paper, formula by formula as printed in `machines/paper_crusher.machine`, held
-//! against the machine it describes; `docs/errata.md`, which lists what is wrong, held against
-//! that; and the corrected formulas, typed in by hand.
+//! The paper on the crusher, formula by formula as printed in `machines/paper_crusher.machine`,
+//! compared with the machine that it describes; `docs/errata.md`, which lists the errors, compared
+//! with the result; and the corrected formulas, typed in by hand.
 
 use std::collections::BTreeSet;
 
@@ -17,11 +17,11 @@ use lagrangian_symbolic::{Dag, Expr, Rational, evaluate, normal, text};
 
 use crate::harness::{derived, library, text_of};
 
-/// What is said of the formulas of the paper.
+/// The result of comparing the paper's formulas.
 struct Errata {
     /// Every formula of the block, and whether it agrees.
     formulas: Vec<(String, bool)>,
-    /// What is to be changed, dropped and added, formula by formula: as printed, as it should be.
+    /// The changes, omissions and additions, formula by formula: as printed, and as it should be.
     mistakes: Vec<[String; 3]>,
 }
 
@@ -38,7 +38,7 @@ fn errata() -> Errata {
     })
 }
 
-/// A line for each change, then for each term to drop, then for each to add.
+/// One entry for each change, then for each term to drop, then for each to add.
 fn mistakes(comparison: &Comparison<'_>) -> Vec<[String; 3]> {
     let changes = comparison.changes();
     let [add, drop] = comparison.terms().map(|terms| {
@@ -61,7 +61,7 @@ fn mistakes(comparison: &Comparison<'_>) -> Vec<[String; 3]> {
     lines
 }
 
-/// The page, from the heading of the paper on.
+/// The page from the heading of the paper on.
 fn page() -> String {
     let path = library().join("../docs/errata.md");
     let page = std::fs::read_to_string(path).expect("the page can be read");
@@ -69,7 +69,7 @@ fn page() -> String {
     page[start.expect("the paper has a section")..].to_owned()
 }
 
-/// What stands between backticks.
+/// The text between backticks.
 fn quoted(cell: &str) -> String {
     let mut parts = cell.trim().split('`');
     match (parts.next(), parts.next(), parts.next()) {
@@ -122,7 +122,7 @@ fn sixteen_of_the_papers_formulas_are_wrong() {
     let wrong = formulas.iter().filter(|(_, agrees)| !agrees).count();
     assert_eq!((wrong, formulas.len()), (16, 31));
     // Positions and velocities of three bodies, T₀ to T₃, T, U, Φ, and for nine coordinates Q and
-    // the equation.
+    // the equation of motion.
     let quantities: BTreeSet<&String> = formulas.iter().map(|(formula, _)| formula).collect();
     assert_eq!(quantities.len(), 6 + 4 + 3 + 9 + 9);
 }
@@ -135,8 +135,8 @@ fn units_give_five_of_the_misprints_away() {
             .map(|c| (c.item, c.remarks.len()))
             .filter(|(_, remarks)| *remarks > 0)
             .collect();
-        // A missing dot and s₁ too much; a missing dot; ẏ₁ is a velocity, but the rate of a mass is
-        // none; the cosine of a speed; a force and a dot too much among moments.
+        // A missing dot and a superfluous s₁; a missing dot; ẏ₁ is a velocity, but m₁ has no rate;
+        // the cosine of a velocity; a force and a superfluous dot among moments.
         let expected = [
             ("kinetic_energy mortar", 2),
             ("kinetic_energy pestle", 1),
@@ -150,7 +150,7 @@ fn units_give_five_of_the_misprints_away() {
 
 #[test]
 fn what_is_told_mends_the_print() {
-    // Every formula once more, as the comparison says to change it, through the whole compiler.
+    // Every formula with the changes that the comparison proposes, compiled again.
     let paper = text_of("paper_crusher");
     let mended = derived(&paper, |model, equations| {
         let items = model.published.iter().flat_map(|block| &block.items);
@@ -169,7 +169,7 @@ fn with_block(machine: &str, items: &str) -> String {
     format!("{open} published \"mended\" {{ {items} }} }}")
 }
 
-/// All formulas of the block «mended» are right.
+/// All formulas of a block, added to the machine, agree.
 fn assert_agreement(machine: &str, count: usize) {
     derived(machine, |model, equations| {
         let comparisons = compare(model, equations);
@@ -182,7 +182,7 @@ fn assert_agreement(machine: &str, count: usize) {
     });
 }
 
-/// `printed + Σ add − Σ drop`, as the spec writes it.
+/// `printed + Σ add − Σ drop` in the syntax of the spec.
 fn mended(item: &PublishedItem, comparison: &Comparison) -> String {
     let printed: Vec<String> = item.printed.iter().map(|&e| text(e, e.dag())).collect();
     let mut formula = match printed.as_slice() {
@@ -277,7 +277,8 @@ const CORRECTED: &str = "
         - m2*s2*sin(phi2 - phi1)*(der(der(s1)) - s1*der(phi1)^2)
         + m2*s2*cos(phi2 - phi1)*(s1*der(der(phi1)) + 2*der(s1)*der(phi1)) = 0,";
 
-/// The left sides of the platform's equations, corrected by hand, before forces; the drive in them.
+/// The left sides of the platform's equations, corrected by hand, without the
+/// suspension's forces but with the drive.
 const PLATFORM: [(&str, &str); 3] = [
     (
         "x",
@@ -300,7 +301,7 @@ const PLATFORM: [(&str, &str); 3] = [
     ),
 ];
 
-/// What depends on the suspension: U, Φ, and Q of x, y and θ.
+/// The formulas that depend on the suspension: U, Φ, and Q of x, y and θ.
 fn suspension([potential, dissipation, x, y, theta]: [&str; 5]) -> String {
     let mut items =
         format!("{CORRECTED} potential_energy = {potential}, dissipation = {dissipation},");
@@ -326,8 +327,8 @@ fn with_its_misprints_mended_the_paper_is_right_about_its_single_pair() {
 
 #[test]
 fn the_frozen_crusher_is_the_mended_paper_on_two_pairs() {
-    // Left and right pull together along x and y, and against each other's turn: no cross terms are
-    // left.
+    // The left and the right pair add up along x and y, and their couplings with the rotation
+    // cancel: there are no cross terms.
     let items = suspension([
         "cx*(x^2 + yc^2*theta^2) + cy*(y^2 + xc^2*theta^2)",
         "bx*(der(x)^2 + yc^2*der(theta)^2) + by*(der(y)^2 + xc^2*der(theta)^2)",
@@ -368,8 +369,8 @@ fn the_single_pair_leaves_one_turn_free() {
 }
 
 /// A state of the crusher, and its accelerations on four corners with the angle frozen, on four
-/// corners exactly, and on the single pair. Assembled in absolute coordinates in C++, and by a
-/// computer algebra system from T; they agree to 4e-18.
+/// corners exactly, and on the single pair. They were computed in absolute coordinates in C++, and
+/// by a computer algebra system from T; the two agree to 4e-18.
 const TIME: &str = "0.0123";
 const STATE: [&str; 18] = [
     "0.003", "-0.002", "0.04", "0.013", "0.7", "-0.3", "0.021", "-1.1", "0.45", //
@@ -453,7 +454,7 @@ fn three_models_of_the_suspension_accelerate_as_computed_elsewhere() {
                     left = left + part;
                     size = size + part.abs();
                 }
-                // The two computations agree to 4e-18 of the accelerations.
+                // The two reference computations agree to 4e-18 of the accelerations.
                 let limit = DoubleDouble::from_f64(4e-18) * size;
                 assert!(!left.abs().exceeds(limit), "{machine}, row {i}: {left:?}");
             }
@@ -471,7 +472,7 @@ fn one_more_wrong_sign_anywhere_is_found() {
     let [block] = spec.published.as_slice() else {
         panic!("one block holds all formulas");
     };
-    // Every mutant is a block of its own, so that all are held against the same equations.
+    // Every mutant is a block of its own, so that all are compared with the same equations.
     let mut mutants: Vec<(usize, String, Published)> = Vec::new();
     for (k, item) in block.items.iter().enumerate() {
         for (place, statement) in flipped(&item.statement) {
@@ -507,7 +508,8 @@ fn one_more_wrong_sign_anywhere_is_found() {
     {
         let original = &originals[*k];
         if said(comparison) == said(original) {
-            // It says the same: the formula is the same node, or as an equation its negative.
+            // The mutant is equivalent: the formula is the same node, or
+            // in an equation its negative.
             let (was, is) = (
                 &model.published[0].items[*k].printed,
                 &block.items[0].printed,
@@ -528,7 +530,7 @@ fn one_more_wrong_sign_anywhere_is_found() {
         survivors.len()
     );
     assert!(mutants.len() > 300);
-    // −J θ″ = 0 is J θ″ = 0.
+    // −J θ″ = 0 is equivalent to J θ″ = 0.
     let expected = [
         ("equation theta1", "J1*der(der(theta1))"),
         ("equation theta2", "J2*der(der(theta2))"),
@@ -536,8 +538,8 @@ fn one_more_wrong_sign_anywhere_is_found() {
     assert_eq!(survivors, expected);
 }
 
-/// The statement with the sign of one term flipped, for every term in it and in its brackets; and
-/// where that term stands.
+/// Copies of the statement with the sign of one term flipped, for every term in it and in its
+/// brackets, and the position of that term.
 fn flipped(statement: &Statement) -> Vec<(Span, Statement)> {
     let mut all = Vec::new();
     match statement {
@@ -562,7 +564,7 @@ fn flipped(statement: &Statement) -> Vec<(Span, Statement)> {
     all
 }
 
-/// The same for an expression; one of a single term is a sum of one, unless it is 0.
+/// The same for an expression; a single term counts as a sum, unless it is 0.
 fn flips(expression: &Expression) -> Vec<(Span, Expression)> {
     match &expression.kind {
         ExpressionKind::Tuple(components) => {
@@ -598,7 +600,7 @@ fn flips(expression: &Expression) -> Vec<(Span, Expression)> {
     }
 }
 
-/// The expression with the sign of a term of one of the sums in it flipped.
+/// Copies of the expression with the sign of a term of one of its inner sums flipped.
 fn inner_flips(expression: &Expression) -> Vec<(Span, Expression)> {
     let mut all = Vec::new();
     let mut push = |span, kind| {

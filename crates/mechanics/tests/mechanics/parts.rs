@@ -1,4 +1,5 @@
-//! Parts that machines are made of, against equations typed in by hand and against the same written out.
+//! Parts of machines, compared with equations typed in by hand and with the same parts
+//! written out as basic elements.
 
 use lagrangian_mechanics::{Compiled, constraints};
 use lagrangian_spec::diagnostic::Report;
@@ -11,7 +12,7 @@ use lagrangian_symbolic::{Dag, evaluate, nearest};
 use crate::by_hand::{assert_agreement, mutate};
 use crate::harness::{derived, resolved};
 
-/// Two carts on rails at a distance, and a cylinder between them; a motor between two arms.
+/// Two carts on rails at a distance with a cylinder between them, and a motor between two arms.
 const DRIVEN: &str = r#"
 machine Driven in plane {
     parameters { m: kg = 3, J: kg*m^2 = 0.2, I: kg*m^2 = 0.5, h: m = 0.4, a: m = 0.3, b: N*m*s = 0.1 }
@@ -38,7 +39,7 @@ machine Driven in plane {
 }
 "#;
 
-/// A shaft in a frame that turns, with a torque between both about the shaft's axis, which is tilted.
+/// A shaft in a frame that turns, with a torque between the two about the shaft's tilted axis.
 const SHAFT: &str = r#"
 machine Shaft in space {
     parameters { m: kg = 3, A: kg*m^2 = 0.2, C: kg*m^2 = 0.5, tilt: rad = 0.4, b: N*m*s = 0.1 }
@@ -154,14 +155,15 @@ fn every_wrong_sign_and_coefficient_of_them_is_found() {
         assert!(survivors.is_empty(), "not found: {survivors:?}");
         assert!(made >= least, "{made} mutants");
     }
-    // The square of a side, (1 + sign)/2, is that side: of what stops have in them some changes are none.
+    // The square of (1 + sign)/2 is (1 + sign)/2 itself, so some changes in the
+    // terms of stops change nothing.
     let (made, survivors) = mutate(HELD_BACK);
     let others = survivors.iter().filter(|text| !text.starts_with("force z"));
     assert_eq!(others.count(), 0, "{survivors:?}");
     assert!(made >= 60, "{made} mutants");
 }
 
-/// Before, between and beyond its bounds a stop pushes as its formula says, in numbers.
+/// Below, between and above its bounds a stop exerts the force of its formula, in numbers.
 #[test]
 fn a_stop_pushes_beyond_its_bounds_alone() {
     derived(HELD_BACK, |model, equations| {
@@ -180,7 +182,7 @@ fn a_stop_pushes_beyond_its_bounds_alone() {
         };
         // −½ ρ c A |w| w of w = ż − 3 = −1.5.
         let drag = 0.5 * 1.2 * 0.47 * 0.03 * 1.5 * 1.5;
-        // A dozen roundings of some thousand newtons.
+        // A dozen rounding units of a few thousand newtons.
         let close = |at: f64, expected: f64| {
             let error = (force(at) - drag - expected).abs();
             assert!(error < 12.0 * 2000.0 * f64::EPSILON, "{at}: {error:e}");
@@ -220,7 +222,8 @@ fn frames_turn_and_points_move_as_their_positions_say() {
     rest(MOVING_IN_PLANE, [None; 6]);
 }
 
-/// The constraints of a machine, each as its row, drift and position, in the order of their names.
+/// Asserts that constraints have the same row, drift and position as constraints written by hand, in the
+/// order of their names.
 fn same_constraints(text: &str, elements: &str, written: &str) {
     let both = text
         .replace("ELEMENTS", elements)
@@ -311,8 +314,8 @@ fn ropes_are_as_long_as_their_parts() {
     );
 }
 
-/// A coin whose coordinates see to it that it touches, one whose coordinates do not, and balls, one of
-/// them on a plate that turns.
+/// A coin whose coordinates keep it on the ground, one whose coordinates do not, and balls, one of them
+/// on a plate that turns.
 const ROLLING: &str = r#"
 machine Rolling in space {
     parameters { m: kg = 1, r: m = 0.1, A: kg*m^2 = 0.0025, C: kg*m^2 = 0.005 }
@@ -345,8 +348,8 @@ machine Rolling in space {
 
 #[test]
 fn wheels_and_balls_do_not_slip() {
-    // What touches the ground stands still, by the velocities of the textbook: of a coin
-    // ẋ = r φ̇ cos ψ, ẏ = r φ̇ sin ψ, its lean apart; of a ball ẋ = r ω_y, ẏ = −r ω_x.
+    // The point of contact is at rest, by the velocities of the textbook: for a coin ẋ = r φ̇ cos ψ,
+    // ẏ = r φ̇ sin ψ without the part from its lean; for a ball ẋ = r ω_y, ẏ = −r ω_x.
     same_constraints(
         ROLLING,
         "wheels {
@@ -366,7 +369,7 @@ fn wheels_and_balls_do_not_slip() {
     );
 }
 
-/// A motor on an arm, behind a gear; and on a slide, as mass.
+/// A motor on an arm, behind a gear; and one on a slide, as a mass.
 const GEARED: &str = r#"
 machine Geared in space {
     parameters { A: kg*m^2 = 0.2, m: kg = 2, n: 1 = 50, Jm: kg*m^2 = 1e-4, mm: kg = 0.3, k: N/m = 4 }
@@ -399,7 +402,7 @@ fn rotors_are_what_is_typed_by_hand() {
     assert!(made >= 15, "{made} mutants");
 }
 
-/// In the plane a rotor is a body that does not move from its place.
+/// In the plane a rotor is a body whose mass centre does not move.
 #[test]
 fn a_rotor_is_a_wheel_that_stays_where_it_is() {
     let machine = |rotor: &str| {
@@ -427,7 +430,7 @@ fn a_rotor_is_a_wheel_that_stays_where_it_is() {
     );
 }
 
-/// Rows that go up, stay and come down, unevenly; a row at which the slope changes its sign.
+/// Rows that rise, stay and fall, unevenly spaced, with a row at which the slope changes its sign.
 const ROWS: [[f64; 2]; 7] = [
     [-2.0, 1.0],
     [-0.5, 1.5],
@@ -438,8 +441,8 @@ const ROWS: [[f64; 2]; 7] = [
     [6.0, -1.0],
 ];
 
-/// Value and slope between these rows: `scipy.interpolate.PchipInterpolator(x, y)(at)` and its
-/// `derivative()(at)`, of SciPy 1.17.1.
+/// Value and slope between these rows, from `scipy.interpolate.PchipInterpolator(x, y)(at)` and its
+/// `derivative()(at)`, SciPy 1.17.1.
 const BY_SCIPY: [[f64; 3]; 13] = [
     [-2.0, 1.0, 0.0],
     [-1.75, 1.0116305329719963, 0.09485094850948506],
@@ -456,7 +459,7 @@ const BY_SCIPY: [[f64; 3]; 13] = [
     [6.0, -1.0, -3.9393939393939394],
 ];
 
-/// A disc that a motor drives, by a table; and what the table says at any place.
+/// A disc driven by a motor whose torque is a table, and outputs of a table at any place.
 const BY_TABLE: &str = r#"
 machine ByTable in plane {
     parameters { J: kg*m^2 = 0.1 }
@@ -474,7 +477,8 @@ machine ByTable in plane {
 
 fn by_table<R>(look: impl for<'d> FnOnce(&Model<'d>) -> R) -> R {
     let rows = ROWS.map(|[x, y]| format!("{x}, {y}\n")).concat();
-    // A straight line from 2 N m at rest to nothing at 1200 rpm, of which a row lies on it.
+    // A straight line from 2 N m at rest to zero at 1200 rpm, with a row at
+    // negative speed on the same line.
     let motor = "speed [rpm]; current [A]; torque [N*mm]\n-600; 0; 3000\n0; 0; 2000\n1200; 1; 0\n";
     let mut files = InMemory::new()
         .with("rows.csv", format!("x, y\n{rows}"))
@@ -505,7 +509,7 @@ fn outputs_at(model: &Model<'_>, at: f64) -> Vec<f64> {
 
 #[test]
 fn a_table_is_the_monotone_cubic_of_scipy() {
-    // Seven pieces of ten operations each, of numbers below 6.
+    // Seven intervals of ten operations each, on numbers below 6.
     let tolerance = 7.0 * 10.0 * 6.0 * f64::EPSILON;
     by_table(|model| {
         for [at, value, slope] in BY_SCIPY {
@@ -514,7 +518,7 @@ fn a_table_is_the_monotone_cubic_of_scipy() {
             assert!((found[1] - slope).abs() < tolerance, "{at}: {found:?}");
             assert!((found[2] - value).abs() < tolerance, "{at}: {found:?}");
         }
-        // Beyond its ends it keeps what it had there.
+        // Beyond its ends the table keeps the values at the ends.
         assert!((outputs_at(model, -3.0)[2] - 1.0).abs() < tolerance);
         assert!((outputs_at(model, 60.0)[2] + 1.0).abs() < tolerance);
     });
@@ -548,7 +552,7 @@ fn a_table_is_in_the_units_of_its_file_and_ends_where_that_ends() {
                 if Some(symbol) == rate { speed } else { 0.0 }
             });
             let full = 1200.0 * std::f64::consts::TAU / 60.0;
-            // Three pieces of ten operations each, of some N m.
+            // Three intervals of ten operations each, on a few N m.
             let tolerance = 3.0 * 10.0 * 4.0 * f64::EPSILON;
             assert!(
                 (found[0] - 2.0 * (1.0 - speed / full)).abs() < tolerance,

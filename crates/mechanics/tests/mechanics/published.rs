@@ -1,11 +1,11 @@
-//! What counts as the same formula, and what is said of one that is not.
+//! Which published formulas count as the same, and the messages about those that do not.
 
 use lagrangian_print::compare::compare;
 
 use crate::harness::derived;
 
-/// What is said of items that a pendulum publishes: the terms to add and to drop, nothing for what
-/// agrees.
+/// The result for items that a pendulum publishes: the terms to add and to drop, or
+/// nothing for an item that agrees.
 fn said(items: &str) -> Vec<Option<(Vec<String>, Vec<String>)>> {
     derived(&pendulum(items), |model, equations| {
         let said =
@@ -14,7 +14,7 @@ fn said(items: &str) -> Vec<Option<(Vec<String>, Vec<String>)>> {
     })
 }
 
-/// A pendulum that publishes some items.
+/// A pendulum that publishes these items.
 fn pendulum(items: &str) -> String {
     format!(
         "machine Pendulum in plane {{
@@ -31,7 +31,7 @@ fn pendulum(items: &str) -> String {
     )
 }
 
-/// The terms that are told as changes, as printed and as they should be; and how many are left to
+/// The terms reported as changes, as printed and as they should be, and the number of terms left to
 /// add and to drop.
 fn changes(machine: &str) -> (Vec<(String, String)>, usize) {
     derived(machine, |model, equations| {
@@ -48,7 +48,7 @@ fn changes(machine: &str) -> (Vec<(String, String)>, usize) {
     })
 }
 
-/// The mistakes in one item that is wrong.
+/// The mistakes in a single item that is wrong.
 fn mistakes(item: &str) -> (Vec<String>, Vec<String>) {
     said(item).swap_remove(0).expect("it is wrong")
 }
@@ -119,7 +119,7 @@ fn a_constant_of_the_kinetic_energy_is_a_mistake() {
     assert_eq!((add, drop), (vec![], vec!["b*g/l".to_owned()]));
 }
 
-/// Two masses on one spring, whose names differ by an index.
+/// Two masses on one spring, whose names differ only by an index.
 fn masses(kinetic_energy: &str) -> String {
     format!(
         "machine Masses in plane {{
@@ -137,14 +137,14 @@ fn a_slip_is_told_as_a_change() {
     for slip in [
         "-1/2*m1*der(x1)^2",     // the sign
         "m1*der(x1)^2",          // the number
-        "1/2*der(x1)^2",         // a factor too few
-        "1/2*m1*l*der(x1)^2",    // a factor too much
+        "1/2*der(x1)^2",         // a factor missing
+        "1/2*m1*l*der(x1)^2",    // a superfluous factor
         "1/2*m1*der(x1)",        // the power
-        "1/2*m1*x1^2",           // a dot too few
-        "1/2*m1*der(der(x1))^2", // a dot too much
+        "1/2*m1*x1^2",           // a dot missing
+        "1/2*m1*der(der(x1))^2", // a superfluous dot
         "1/2*m2*der(x1)^2",      // the index of a parameter
         "1/2*k*der(x1)^2",       // another factor
-        "-m1*der(x1)^2",         // two slips
+        "-m1*der(x1)^2",         // two mistakes
     ] {
         let (pairs, left) = changes(&masses(&format!("{slip} + 1/2*m2*der(x2)^2")));
         assert_eq!(pairs.len(), 1, "{slip}: {pairs:?}");
@@ -158,7 +158,7 @@ fn what_is_no_slip_is_dropped_and_added() {
     for (other, left) in [
         ("-1/2*k*der(x1)^2", 2), // a sign and another factor
         ("k*l", 2),              // nothing in common
-        ("0", 1),                // nothing at all
+        ("0", 1),                // empty
     ] {
         let told = changes(&masses(&format!("{other} + 1/2*m2*der(x2)^2")));
         assert_eq!(told, (vec![], left), "{other}");
@@ -167,7 +167,8 @@ fn what_is_no_slip_is_dropped_and_added() {
 
 #[test]
 fn changes_take_the_fewest_slips_together() {
-    // Both could be the first term with a slip; the second one is the second term with another.
+    // Either could be the first term with a mistake; the second one is the
+    // second term with another mistake.
     let (pairs, left) = changes(&masses("-1/2*m1*der(x1)^2 + 1/2*m2*der(x1)*der(x2)"));
     let expected = [
         ("-1/2*m1*der(x1)^2", "1/2*m1*der(x1)^2"),
@@ -192,7 +193,7 @@ fn brackets_are_told_as_printed() {
     ] {
         let (pairs, left) = change(wrong);
         assert_eq!((pairs.len(), left), (1, 0), "{wrong}: {pairs:?}");
-        // Whatever order the bracket is written in.
+        // The order of the terms in the bracket does not matter.
         let same = format!(
             "potential_energy = {right} + ({}) - ({})",
             pairs[0].0, pairs[0].1
@@ -201,7 +202,7 @@ fn brackets_are_told_as_printed() {
         let (again, _) = changes(&wrong);
         assert_eq!(again, pairs);
     }
-    // Multiplied out it is right all the same, and a mistake in it is one of a term.
+    // Multiplied out it still agrees, and a mistake in it is reported for a term.
     let open = "1/2*k*x1^2 + 1/2*k*x2^2 - k*x1*x2 + k*l*x1";
     let (pairs, left) = change(&format!("{open} + k*l*x2"));
     assert_eq!((pairs.len(), left), (1, 0), "{pairs:?}");
@@ -226,15 +227,15 @@ fn a_term_is_told_in_the_words_of_the_print() {
         ("1/2*der(x1)^2*m2", "1/2*der(x1)^2*m1"), // another index, in its place
         ("-1/2*der(x1)^2*m1", "1/2*der(x1)^2*m1"), // the sign
         ("m1*der(x1)^2/4", "1/2*m1*der(x1)^2"),   // the number, which goes to the front
-        ("der(x1)^2/2", "m1*der(x1)^2/2"),        // a factor that was not there
-        ("1/2*m1*l*der(x1)^2", "1/2*m1*der(x1)^2"), // and one too much
-        ("m1*der(x1)^2/(2*l)", "1/2*m1*der(x1)^2"), // below the line, with the number in it
+        ("der(x1)^2/2", "m1*der(x1)^2/2"),        // a factor that was missing
+        ("1/2*m1*l*der(x1)^2", "1/2*m1*der(x1)^2"), // and a superfluous one
+        ("m1*der(x1)^2/(2*l)", "1/2*m1*der(x1)^2"), // in the denominator, together with the number
     ] {
         let (pairs, left) = changes(&masses(&format!("{wrong} + 1/2*m2*der(x2)^2")));
         let expected = vec![(wrong.to_owned(), right.to_owned())];
         assert_eq!((pairs, left), (expected, 0));
     }
-    // A term that is not in the print as it stands is in the usual order.
+    // A term that does not occur in the printed order is written in the usual order.
     let (pairs, _) = changes(&masses("1/2*(m1*der(x1)^2 - der(x2)^2*m2)"));
     let expected = vec![(
         "-1/2*m2*der(x2)^2".to_owned(),

@@ -1,4 +1,4 @@
-//! Random machines against a truth that shares nothing with the compiler: differences of energies in 120 digits.
+//! Random machines compared with a reference that shares nothing with the compiler: differences of energies in 120 digits.
 
 mod machine;
 mod number;
@@ -43,7 +43,7 @@ fn compile(machine: &Machine) -> Program {
     }
 }
 
-/// What a program says at a state.
+/// The results of a program at a state.
 struct Numbers {
     mass_matrix: Vec<f64>,
     bias: Vec<f64>,
@@ -69,7 +69,7 @@ fn interpret(program: &Program, q: &[f64], v: &[f64], t: f64) -> Numbers {
             u: &[],
             a: &[],
         };
-        // A singular matrix shows in the numbers.
+        // If the matrix is singular, the numbers show it.
         let _ = interpreter.call(role, arguments, &mut results);
         results
     };
@@ -149,11 +149,11 @@ fn condition(matrix: &[Vec<Number>]) -> f64 {
     norm(&rows) * norm(&inverse)
 }
 
-/// The share by which numbers may miss the truth: 10⁻¹² of the largest, as the project promises.
+/// The relative error that is permitted: 10⁻¹² of the largest number, as the project promises.
 ///
-/// The programs have some hundreds of operations, each wrong by 2⁻⁵³ ≈ 10⁻¹⁶ of values that cancellation leaves up to some
-/// hundred times smaller: 10⁻¹² is what remains for certain. `scale` is the largest of the intermediate sums' terms: here
-/// the velocities and forces are of order 1 to 100, so that at least 1 is taken.
+/// The programs have a few hundred operations, each with an error of 2⁻⁵³ ≈ 10⁻¹⁶ of values that cancellation reduces by up
+/// to a few hundred; 10⁻¹² is certain to hold. `scale` is the largest term of the intermediate sums. The velocities and
+/// forces here are of order 1 to 100, so it is taken to be at least 1.
 const LIMIT: f64 = 1e-12;
 
 fn check(seed: u64, spatial: bool, coordinates: usize) -> Option<f64> {
@@ -162,7 +162,7 @@ fn check(seed: u64, spatial: bool, coordinates: usize) -> Option<f64> {
     compare(seed, random, &machine)
 }
 
-/// Holds the program of a machine against the truth at two random states; the worst error.
+/// Compares the program of a machine with the reference at two random states, and returns the largest error.
 fn compare(seed: u64, mut random: Random, machine: &Machine) -> Option<f64> {
     let (coordinates, program) = (machine.coordinates, compile(machine));
     let mut worst: f64 = 0.0;
@@ -235,7 +235,7 @@ fn check_many(seeds: std::ops::Range<u64>, spatial: bool) {
         "{compared} of {} machines compared, worst error {worst:e}",
         results.len()
     );
-    // Singular machines are rare: the comparison must not become empty unnoticed.
+    // Singular machines are rare; this asserts that most machines were compared.
     assert!(compared * 10 >= results.len() * 8);
 }
 
@@ -249,8 +249,8 @@ fn random_spatial_machines_obey_differences_of_their_energies() {
     check_many(1000..1016, true);
 }
 
-/// A coordinate that is the abscissa of one body and the ordinate of another gives both the same velocity, and gravity acts
-/// on one of them only.
+/// One coordinate is the abscissa of one body and the ordinate of another, so both have the same speed, but gravity acts
+/// along it on only one of them.
 #[test]
 fn bodies_that_share_velocities_along_different_axes_have_their_own_weights() {
     let worst = (2000..2060).map(|seed| {
@@ -262,7 +262,7 @@ fn bodies_that_share_velocities_along_different_axes_have_their_own_weights() {
     println!("worst error {:e}", worst.fold(0.0, f64::max));
 }
 
-/// Which operations the results of a function need; the others serve its guards.
+/// Marks the operations that the results of a function need; the others serve its guards.
 fn needed_by_results(function: &Function) -> Vec<bool> {
     let mut needed = vec![false; function.code.len()];
     function
@@ -279,8 +279,8 @@ fn needed_by_results(function: &Function) -> Vec<bool> {
     needed
 }
 
-/// Whether two programs of one machine have the same accelerations at all states, by a random point of a prime field: some
-/// machines have terms that cancel, and their signs do not matter.
+/// Whether two programs of one machine have the same accelerations at all states, checked at a random point of a prime
+/// field. In some machines terms cancel, and their signs do not matter.
 fn same_everywhere(program: &Program, other: &Program) -> bool {
     let accelerations = |program: &Program| {
         let mut index = 0;
@@ -309,7 +309,7 @@ fn same_everywhere(program: &Program, other: &Program) -> bool {
     accelerations(program) == accelerations(other)
 }
 
-/// Flips single signs in the program of the accelerations: the comparison above must notice each at one of two states.
+/// Flips single signs in the program of the accelerations; the comparison above must notice each at one of two states.
 #[test]
 fn a_wrong_sign_in_a_program_is_noticed() {
     let states = [

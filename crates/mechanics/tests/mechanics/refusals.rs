@@ -1,4 +1,4 @@
-//! Machines that have no equations are told so, at the word that is the reason.
+//! Machines that have no equations are refused, with the error at the word that causes it.
 
 use lagrangian_mechanics::Equations;
 use lagrangian_spec::diagnostic::{Code, Report};
@@ -35,7 +35,7 @@ fn sections_that_are_not_derived_yet_are_named() {
             contacts { inside { circle: rim, inside: bowl, restitution: 0.5, friction: 0.1 } }
         }",
     );
-    // Circles alone are a drawing.
+    // Circles alone are only a drawing.
     assert_eq!(codes.len(), 3);
     assert!(codes.iter().all(|(code, _)| *code == Code::NotSupported));
     let says = |what: &str| codes.iter().filter(|(_, m)| m.starts_with(what)).count();
@@ -126,7 +126,7 @@ fn too_many_coordinates_are_counted() {
 
 #[test]
 fn equations_that_outgrow_every_computer_are_refused() {
-    // Each of many bodies moves with each of many coordinates, in its own way.
+    // Each of many bodies depends on each of many coordinates in its own way.
     let codes = refused(
         "machine Dense in plane {
             constants { N = 200, B = 2000 }

@@ -1,4 +1,4 @@
-//! What is zero, constant or free of a coordinate shows.
+//! The equations show which quantities are zero, constant or independent of a coordinate.
 
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::Equations;
@@ -8,7 +8,8 @@ use lagrangian_spec::model::{Model, stage};
 
 use crate::harness::{derived, resolved, text_of};
 
-/// Entries of the lower triangle of M that are 0, and others that depend on parameters only.
+/// The number of entries of the lower triangle of M that are 0, and of those
+/// that depend on parameters only.
 fn pattern(equations: &Equations) -> (usize, usize) {
     let entries = equations.mass_matrix.lower();
     let zeros = entries.iter().filter(|entry| entry.is_zero()).count();
@@ -22,7 +23,7 @@ fn pattern(equations: &Equations) -> (usize, usize) {
 #[test]
 fn half_of_the_crushers_mass_matrix_is_zero() {
     derived(&text_of("vibrating_crusher"), |_, equations| {
-        // Constant: x, y, theta, s1, theta1, s2 and theta2 with themselves.
+        // The constant entries are the diagonal ones of x, y, theta, s1, theta1, s2 and theta2.
         assert_eq!(pattern(equations), (22, 7));
     });
 }
@@ -86,9 +87,9 @@ fn the_same_machine_gives_the_same_equations() {
 
 #[test]
 fn a_small_machine_takes_fewer_operations_multiplied_out() {
-    // Multiplications and additions of the accelerations; a projection alone takes 40, 25 and 46.
-    // That is not all that a choice goes by: a top is not taken multiplied out, since its two
-    // divisions wait for each other.
+    // Multiplications and additions of the accelerations; projection alone takes 40, 25 and 46. The
+    // choice depends on more than these: the top is not multiplied out, since its two divisions
+    // would depend on each other.
     for (name, ops) in [
         ("double_pendulum", 29),
         ("cart_pole", 19),

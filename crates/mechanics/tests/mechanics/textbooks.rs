@@ -1,5 +1,5 @@
-//! The machines of the library against the equations of textbooks, typed in by hand; and one wrong
-//! sign, coefficient or power anywhere in them is found.
+//! The machines of the library compared with equations of textbooks, typed in by hand; and the
+//! comparison finds one wrong sign, coefficient or power anywhere in them.
 
 use lagrangian_mechanics::Equations;
 use lagrangian_spec::model::Model;
@@ -46,7 +46,7 @@ machine Textbook extends "spherical_pendulum.machine" {
 "#;
 
 /// L. D. Landau, E. M. Lifshitz, *Mechanics*, section 5, problem 3 (c), with the angle from the
-/// upward vertical and without the total time derivatives that they drop.
+/// upward vertical and with the total time derivatives that they drop left out as well.
 const KAPITZA_PENDULUM: &str = r#"
 machine Textbook extends "kapitza_pendulum.machine" {
     published "Landau, Lifshitz" {
@@ -152,7 +152,8 @@ machine Textbook extends "gyroscope_in_gimbals.machine" {
 }
 "#;
 
-/// Each machine, what it publishes, and how many mistakes can be made in that at least.
+/// Each machine, the number of items that it publishes, and the least number of
+/// mistakes that can be made in these.
 const ALL: [(&str, usize, usize); 9] = [
     (SIMPLE_PENDULUM, 4, 15),
     (ELASTIC_PENDULUM, 4, 30),
@@ -181,8 +182,8 @@ fn a_mistake_in_a_textbook_is_found() {
     }
 }
 
-/// The bias is `C v` with the symbols of Christoffel, `Cᵢⱼ = Σₖ ½ (∂Mᵢⱼ/∂qₖ + ∂Mᵢₖ/∂qⱼ − ∂Mⱼₖ/∂qᵢ)
-/// vₖ`: the choice of C for which `Ṁ − 2 C` is skew, so that the arm is passive.
+/// The bias is `C v` with Christoffel's symbols, `Cᵢⱼ = Σₖ ½ (∂Mᵢⱼ/∂qₖ + ∂Mᵢₖ/∂qⱼ − ∂Mⱼₖ/∂qᵢ) vₖ`.
+/// This choice of C makes `Ṁ − 2 C` skew-symmetric, so that the arm is passive.
 #[test]
 fn the_arms_bias_is_that_of_christoffels_symbols() {
     derived(&text_of("two_joint_arm"), |model, equations| {

@@ -1,8 +1,8 @@
-//! What a mechanic is told: every code has a spec in `tests/ui/` that makes the mistake, and beside
-//! it what is printed. `CODE.SUBJECT.machine` is a further spec for a code, about a subject.
+//! The messages that users see: for every code `tests/ui/` has a spec that makes the mistake, and beside it the
+//! printed output. `CODE.SUBJECT.machine` is a further spec for a code, about a subject.
 //!
-//! After a change of the messages, `UPDATE_UI=1 cargo test -p lagrangian-mechanics --test mechanics ui` writes what
-//! is printed now. Read the difference as its reader would.
+//! After a change of the messages, `UPDATE_UI=1 cargo test -p lagrangian-mechanics --test mechanics ui` writes the
+//! current output. Read the difference as a user would.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -40,13 +40,13 @@ fn read(path: &Path) -> String {
     text.replace("\r\n", "\n")
 }
 
-/// Everything that is wrong with a spec, from its first character to its equations.
+/// All errors of a spec, from the lexer to the equations.
 fn printed(specs: &BTreeMap<String, String>, name: &str) -> (String, Vec<Code>) {
     let mut files = InMemory::new();
     for (name, text) in specs {
         files = files.with(name, text);
     }
-    // A chain of variants without an end.
+    // A chain of variants that is too long.
     for number in 0..100 {
         let base = format!("variant{}.machine", number + 1);
         let text = format!("machine Variant extends \"{base}\" {{ gravity (0, 0); }}");
@@ -78,7 +78,7 @@ fn every_mistake_is_told_as_printed_here() {
         let (found, codes) = printed(&specs, name);
         let stem = name.trim_end_matches(".machine");
         let code = stem.split('.').next().unwrap_or(stem);
-        // `cart.machine` is the sound machine that the others extend.
+        // `cart.machine` is the correct machine that the others extend.
         let belongs = codes.iter().any(|found| found.as_str() == code);
         assert_eq!(
             belongs,

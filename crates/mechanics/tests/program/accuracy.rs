@@ -1,11 +1,11 @@
-//! Rounding errors.
+//! Rounding errors of programs.
 
 use lagrangian_program::{Arguments, Interpreter, Program, Role, Shape, Slot};
 use lagrangian_scalar::{DoubleDouble, Scalar};
 
 use crate::harness::{all_machines, machine, program};
 
-/// Time, coordinates, velocities, inputs.
+/// A state: coordinates, velocities and inputs.
 struct State {
     q: Vec<f64>,
     v: Vec<f64>,
@@ -14,7 +14,7 @@ struct State {
 
 const TIME: f64 = 0.3;
 
-/// A program over numbers of some type.
+/// A program run over numbers of some type.
 struct Runner<'a, S> {
     program: &'a Program,
     interpreter: Interpreter<S>,
@@ -53,7 +53,7 @@ impl<'a, S: Scalar<Stored = S>> Runner<'a, S> {
     }
 }
 
-/// The condition number of a matrix with its rows and columns scaled to a unit diagonal, given by its lower triangle.
+/// The condition number of a matrix, given by its lower triangle, with rows and columns scaled to a unit diagonal.
 fn condition(lower: &[f64], n: usize) -> f64 {
     let entry = |i: usize, j: usize| {
         lower[Shape::index(i, j)] / (lower[Shape::index(i, i)] * lower[Shape::index(j, j)]).sqrt()
@@ -71,7 +71,7 @@ fn condition(lower: &[f64], n: usize) -> f64 {
             .fold(0.0, f64::max)
     };
     let size: f64 = norm(&left);
-    // Gauss and Jordan, without exchange of rows: the matrix is positive definite.
+    // Gauss–Jordan elimination without row exchanges, as the matrix is positive definite.
     for k in 0..n {
         let pivot = left[k][k];
         for m in [&mut left, &mut inverse] {
@@ -88,13 +88,13 @@ fn condition(lower: &[f64], n: usize) -> f64 {
     size * norm(&inverse)
 }
 
-/// The parameters of a program as its spec gives them.
+/// The default values of a program's parameters.
 fn defaults(program: &Program) -> Vec<f64> {
     let default = |p: &Slot| p.default.as_ref().map_or(1.0, |default| default.value);
     program.parameters.iter().map(default).collect()
 }
 
-/// The largest error of accelerations over some states, in condition numbers of M and units of 2⁻⁵³.
+/// The largest error of accelerations over some states, in condition numbers of M times 2⁻⁵³.
 fn worst_error(program: &Program, parameters: &[f64]) -> f64 {
     let n = program.dimension();
     let (mut fast, mut exact) = (
@@ -115,7 +115,7 @@ fn worst_error(program: &Program, parameters: &[f64]) -> f64 {
         let a = fast.call(Role::Accelerations, &state);
         let b = exact.call(Role::Accelerations, &state);
         let condition = condition(&fast.call(Role::MassMatrix, &state), n);
-        // In the norm in which M is scaled: √Mᵢᵢ aᵢ.
+        // Errors are in the norm in which M is scaled: √Mᵢᵢ aᵢ.
         let diagonal = fast.call(Role::MassMatrix, &state);
         let scale = |i: usize| diagonal[Shape::index(i, i)].sqrt();
         let size = (0..n)
@@ -128,7 +128,7 @@ fn worst_error(program: &Program, parameters: &[f64]) -> f64 {
     worst
 }
 
-/// n steps, and the phase of a drive, which is some tens of radians and rounded as such.
+/// The bound for n elimination steps and the rounding of the phase of a drive, which is a few tens of radians.
 fn bound(program: &Program) -> f64 {
     4.0 * program.dimension() as f64 + 40.0
 }
@@ -138,7 +138,7 @@ fn rounding_errors_are_those_of_a_backward_stable_solution() {
     for name in all_machines() {
         machine(&name, &[], |machine| {
             let program = &machine.program;
-            // With constraints it is not the condition of M that counts.
+            // With constraints, the condition of M is not the one that matters.
             if !program.constraints.is_empty() || !program.contacts.is_empty() {
                 return;
             }
@@ -149,7 +149,7 @@ fn rounding_errors_are_those_of_a_backward_stable_solution() {
     }
 }
 
-/// Eight bars on one another, whose centres of mass may be anywhere.
+/// Eight bars hung on one another, whose mass centres may be anywhere.
 const BARS: &str = "machine Bars in plane {
     parameters {
         g: m/s^2 = 9.81,
@@ -203,7 +203,7 @@ fn centres_of_mass_between_the_joints_save_operations() {
     ] {
         assert!(operations(assumed) + 5 * 8 < anywhere, "{assumed}");
     }
-    // Each says too little.
+    // Each of these assumptions is too weak.
     for assumed in [
         "assume { c[i] >= 0 for i in 1..8, c[i] <= l[i] for i in 1..8 }",
         "assume { c[i] > 0 for i in 1..8, l[i] > 0 for i in 1..8 }",

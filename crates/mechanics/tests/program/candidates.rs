@@ -1,4 +1,4 @@
-//! Every program that could have been taken, whether it was or not.
+//! Every candidate program, whether the compiler chose it or not.
 
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::Equations;
@@ -9,11 +9,11 @@ use lagrangian_spec::diagnostic::Report;
 use crate::harness::{all_machines, machine, program, program_of_output};
 use crate::machines::{assert_mistakes_are_found, assert_proved, mistakes_found};
 
-/// The programs of a machine: in the first all functions are their first candidates, in the
-/// second their second ones, or their last where there are fewer.
+/// The programs of a machine: the first has all functions in their first candidate, the second in their
+/// second one, or the last where there are fewer, and so on.
 fn every_program(machine: &Compiled<'_>) -> Vec<Proved> {
     let model = &machine.model;
-    // Those of `machine` may have been multiplied out already.
+    // The equations in `machine` may have been multiplied out already.
     let equations = Equations::derive(model, &mut Report::new()).expect("derived before");
     let expanded = equations.expanded();
     let lower = |choose: &dyn Fn(&[Candidate]) -> usize| {
@@ -26,7 +26,7 @@ fn every_program(machine: &Compiled<'_>) -> Vec<Proved> {
     (0..ways).map(|index| lower(&|_| index)).collect()
 }
 
-/// Checks a machine with each of these programs.
+/// Runs a check with each of these programs in place of the chosen one.
 fn for_every_program(machine: &Compiled<'_>, mut check: impl FnMut(&Compiled<'_>)) {
     for program in every_program(machine) {
         check(&Compiled {
@@ -67,7 +67,7 @@ fn no_mistake_in_any_candidate_survives() {
     }
 }
 
-/// In every candidate of every machine, a sample of some thirty mistakes.
+/// Tests a sample of about thirty mistakes in every candidate of every machine.
 #[test]
 fn no_mistake_in_a_sample_from_any_machine_survives() {
     let (mut tried, mut idle) = (0, 0);
@@ -76,7 +76,7 @@ fn no_mistake_in_a_sample_from_any_machine_survives() {
             for_every_program(machine, |machine| {
                 let functions = machine.program.all_functions();
                 let statements: usize = functions.map(|f| f.code.len()).sum();
-                // Most statements may be wrong in two ways; an odd stride meets both.
+                // Most statements may be wrong in two ways; an odd stride samples both.
                 let stride = (2 * statements / 30) | 1;
                 let (made, without_effect) = mistakes_found(machine, stride);
                 assert!(made >= 10, "{name}: {made}");
@@ -85,8 +85,8 @@ fn no_mistake_in_a_sample_from_any_machine_survives() {
             });
         });
     }
-    // Cut open and closed again, a machine does not feel what acts across its constraints: such mistakes
-    // are only found in the multipliers.
+    // After loops are cut and closed again, accelerations do not depend on forces across the
+    // constraints, so mistakes in these are only found in the multipliers.
     assert!(40 * idle <= tried, "{idle} of {tried}");
 }
 
@@ -133,8 +133,8 @@ fn the_record_tells_what_was_taken() {
                 assert_eq!(chosen.cost, function.cost(), "{name}: {}", chosen.form);
                 let most_exact = choice.candidates.iter().filter_map(|c| c.rounding).min();
                 let Some(most_exact) = most_exact else {
-                    // What is 0 at all states, as the bias of a drive that stands still by default,
-                    // has no rounding.
+                    // A result that is 0 at all states, such as the bias of a drive that is at rest by
+                    // default, has no rounding error.
                     assert!(
                         choice
                             .others()
@@ -160,7 +160,7 @@ fn the_record_tells_what_was_taken() {
     }
 }
 
-/// A double pendulum with these parameters, and what is assumed of it.
+/// The choice for a double pendulum with these parameters and this assumption.
 fn choice_of_double_pendulum(parameters: &str, assumption: &str) -> Choice {
     let program = program(&format!(
         "machine Test in plane {{
@@ -182,7 +182,7 @@ fn parameters_without_defaults_are_no_obstacle() {
     let with = choice_of_double_pendulum(known, "");
     let without = choice_of_double_pendulum("l: m, m: kg, g: m/s^2", "");
     for (with, without) in with.candidates.iter().zip(&without.candidates) {
-        // Not the same states in all respects, yet of the same machine.
+        // The states differ in some respects, but they are states of the same machine.
         let ratio = |a: &Candidate, b: &Candidate| {
             let units = |c: &Candidate| c.rounding.expect("regular states").units();
             units(a) / units(b)
@@ -198,11 +198,11 @@ fn parameters_without_defaults_are_no_obstacle() {
 #[test]
 fn where_no_state_is_regular_cost_decides() {
     let parameters = [
-        // Links of no length: no acceleration exists.
+        // Links without length: no acceleration exists.
         ("l: m = 0, m: kg = 0.7, g: m/s^2 = 9.81", ""),
-        // What is assumed never holds.
+        // The assumption never holds.
         ("l: m = 1.2, m: kg = 1, g: m/s^2 = 9.81", "l*sin(a) > 2*l"),
-        // What is assumed holds too seldom to be met.
+        // The assumption holds too rarely for sampling to find a state.
         (
             "l: m = 1.2, m: kg = 1, g: m/s^2 = 9.81",
             "sin(a) > 0.999999999999",
@@ -225,7 +225,8 @@ fn where_no_state_is_regular_cost_decides() {
 
 #[test]
 fn common_factors_are_taken_out() {
-    // x (y cos y + x (sin y + x y)), against x² y x + x² sin y + x y cos y with x y and x² shared.
+    // x (y cos y + x (sin y + x y)), compared with x² y x + x² sin y + x y cos y,
+    // where x y and x² are shared.
     let program = program_of_output("", "x^3*y + x^2*sin(y) + x*y*cos(y)");
     let choice = program.choice(Role::Output(0)).expect("two ways");
     let counts = choice.candidates.iter().map(|candidate| {

@@ -32,7 +32,7 @@ const FOUR_BAR: &str = "machine FourBar in plane {
     constraints { along: dot(B - C, (1, 0)) = 0, across: dot(B - C, (0, 1)) = 0 }
 }";
 
-/// A bead on a wire that time bends, and a skate whose blade time turns.
+/// A bead on a wire that bends with time, and a skate whose blade turns with time.
 const MOVING: &str = "machine Moving in plane {
     parameters { m: kg = 2, J: kg*m^2 = 0.3, a: m = 0.2, w: rad/s = 3, k: N/m = 4, b: N*s/m = 0.5 }
     coordinates { x: m, y: m, X: m, Y: m, phi: rad }
@@ -50,7 +50,7 @@ const MOVING: &str = "machine Moving in plane {
     }
 }";
 
-/// A cylinder that rolls in a cylinder on a platform that slides, and one that rolls on its outside.
+/// A cylinder that rolls in a cylinder on a sliding platform, and one that rolls on its outside.
 const ROLLING: &str = "machine Rolling in plane {
     parameters {
         M: kg = 5, m: kg = 1, J: kg*m^2 = 0.2, R: m = 1, r: m = 0.2, h: m = 0.1, g: m/s^2 = 9.81, k: N/m = 100,
@@ -129,7 +129,8 @@ fn a_rod_pulls_as_much_as_weight_and_turning_ask_for() {
         let q = [l * sin, -l * cos];
         let v = [l * omega * cos, l * omega * sin];
         let (a, multipliers) = solved(&machine.program, &[m, l, g], [&q, &v]).expect("regular");
-        // The constraint is scaled so that its gradient is of length 1: pressing outwards is positive.
+        // The constraint is scaled so that its gradient has length 1; a multiplier that presses
+        // outwards is positive.
         let tension = m * (g * cos + l * omega * omega);
         assert!((multipliers[0] + tension).abs() < 1e-14 * tension);
         let turning = -g / l * sin;
@@ -206,7 +207,7 @@ fn circles_touch_and_slip_as_drawn_by_hand() {
     });
 }
 
-/// A wheel on an inclined road that a lift tilts, whose pivot is off the wheel's axle.
+/// A wheel on an inclined road that a lift tilts; its mass centre is off the axle.
 const TILTED: &str = "machine Tilted in plane {
     parameters { m: kg = 2, J: kg*m^2 = 0.1, r: m = 0.3, e: m = 0.1, h: m = 1, g: m/s^2 = 9.81 }
     coordinates { tilt: rad = 0.2, x: m = 0.5, y: m = 1, phi: rad = 0.1 }
@@ -227,7 +228,7 @@ fn a_wheel_rolls_along_a_line_as_drawn_by_hand() {
         let (r, e, h) = (0.3, 0.1, 1.0);
         let [tilt, x, y, phi] = [0.2_f64, 0.5, 1.7, 0.9];
         let [tilt_dot, x_dot, y_dot, phi_dot] = [0.7, -0.4, 1.1, 2.3];
-        // The centre along the road and across it, by complex numbers: c = e^{-i tilt} (z - i h).
+        // The centre along the road and across it, with complex numbers: c = e^{-i tilt} (z - i h).
         let centre = [x + e * phi.cos(), y - h + e * phi.sin()];
         let centre_dot = [
             x_dot - e * phi.sin() * phi_dot,
@@ -235,7 +236,7 @@ fn a_wheel_rolls_along_a_line_as_drawn_by_hand() {
         ];
         let (sin, cos) = tilt.sin_cos();
         let across = cos * centre[1] - sin * centre[0];
-        // The point of the wheel that touches is r below its centre; the road's moves across it.
+        // The wheel's point of contact is r below its centre; the road's point moves across the road.
         let slip = cos * centre_dot[0] + sin * centre_dot[1] + r * phi_dot;
         let across_dot = cos * centre_dot[1]
             - sin * centre_dot[0]
@@ -261,7 +262,7 @@ fn a_wheel_rolls_along_a_line_as_drawn_by_hand() {
     });
 }
 
-/// A disc on an incline rolls down with ⅔ g sin α.
+/// A disc rolls down an incline with the acceleration ⅔ g sin α.
 #[test]
 fn a_disc_rolls_down_an_incline_with_two_thirds_of_its_weight() {
     let text = "machine Incline in plane {
@@ -286,7 +287,8 @@ fn a_disc_rolls_down_an_incline_with_two_thirds_of_its_weight() {
         for (a, expected) in a.iter().zip(expected) {
             assert!((a - expected).abs() < 1e-14 * 50.0, "{a} {expected}");
         }
-        // Pressed by the weight; friction up the road, a third of what pulls down.
+        // The normal force balances the weight; friction points up the road and is a
+        // third of the downhill force.
         assert!((multipliers[0] - m * g * cos).abs() < 1e-14 * 50.0);
         assert!((multipliers[1] + m * g * sin / 3.0).abs() < 1e-14 * 50.0);
     });
@@ -299,13 +301,13 @@ fn a_constraint_that_says_nothing_new_is_named() {
         let program = &machine.program;
         let state: [&[f64]; 2] = [&[0.6, -0.8], &[0.8, 0.6]];
         let singular = solved(program, &[1.0, 1.0, 9.81], state).expect_err("twice");
-        // Behind the coordinates; nothing but rounding is left.
+        // The index counts after the coordinates; the pivot is nothing but rounding.
         assert_eq!(singular.coordinate, 2 + 1);
         assert!(singular.ratio.abs() < 1e-14);
     });
 }
 
-/// Where its bars are in line, a parallelogram may go on in two ways.
+/// In line, the bars of a parallelogram may continue in two ways.
 #[test]
 fn a_parallelogram_in_line_has_constraints_that_depend_on_each_other() {
     compiled(FOUR_BAR, &[], |machine| {
@@ -322,7 +324,8 @@ fn a_parallelogram_in_line_has_constraints_that_depend_on_each_other() {
     });
 }
 
-/// What the accelerations are made of: their operations, and what they read of the state.
+/// The work of the accelerations: operations, divisions, and the coordinates
+/// of the state that they read.
 fn work(text: &str) -> (usize, usize, Vec<usize>) {
     compiled(text, &[], |machine| {
         let accelerations = machine.program.function(Role::Accelerations);
@@ -362,7 +365,7 @@ fn a_coordinate_that_a_constraint_fixes_is_not_there() {
     compiled(fixed, &[], assert_proved);
 }
 
-/// A bead on a wire that is bent and shaken, a wheel that rolls, a spring between them; forces on
+/// A bead on a wire that is bent and shaken, a wheel that rolls, a spring between them, and forces on
 /// coordinates that depend on others.
 const SETTLED: &str = "machine Settled in plane {
     parameters {
@@ -384,8 +387,8 @@ const SETTLED: &str = "machine Settled in plane {
     }
 }";
 
-/// A cam that a rack turns, and a follower that the cam lifts: the angle is settled by rates, and the
-/// lift through that angle.
+/// A cam turned by a rack, and a follower lifted by the cam: the constraint of rates determines the
+/// angle, and this determines the lift.
 const CAM: &str = "machine Cam in plane {
     parameters { m: kg = 2, J: kg*m^2 = 0.3, r: m = 0.2, e: m = 0.05, h: m = 0.3, k: N/m = 40, g: m/s^2 = 9.8 }
     coordinates { x: m, phi: rad = 0.4, y: m = h + e*sin(0.4) }
@@ -430,7 +433,7 @@ fn coordinates_that_constraints_settle_are_put_in() {
         assert!(choice.chosen().form.reduced);
         assert!(choice.candidates.iter().any(|c| !c.form.reduced));
     });
-    // Both ways are right, whichever is taken.
+    // Both candidates are correct, whichever is chosen.
     compiled(SETTLED, &[], |machine| {
         let (model, equations) = (&machine.model, &machine.equations);
         let choices = machine

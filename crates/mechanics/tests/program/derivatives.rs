@@ -1,4 +1,4 @@
-//! Derivatives of the accelerations: exactly those of the accelerations' program, by a few operations more.
+//! Derivatives of the accelerations are exactly those of the accelerations' program, for a few operations more.
 
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::Oracle;
@@ -40,7 +40,7 @@ fn derivatives<'p>(machine: &'p Compiled<'_>) -> &'p Function {
     function.expect("derivatives are asked for")
 }
 
-/// Nonlinear in coordinates, rates, inputs, parameters and time.
+/// A machine that is nonlinear in coordinates, rates, inputs, parameters and time.
 const NONLINEAR: &str = "machine Nonlinear in plane {
     parameters { m: kg = 2, l: m = 0.4, J: kg*m^2 = 0.1, k: N/m = 30, b: N*s^3/m^3 = 2, A: m = 0.1, w: rad/s = 7, g: m/s^2 = 9.8 }
     coordinates { x: m, phi: rad = 0.3 }
@@ -62,7 +62,8 @@ fn whatever_a_machine_depends_on_is_differentiated() {
         assert_proved(machine);
         let zero =
             |value: &_| matches!(derivatives(machine).op(*value), Op::Constant(c) if c.is_zero());
-        // Two rows, by x, phi, their rates, u and eight parameters: m cancels nowhere, w is in no statics alone.
+        // Two rows with columns for x, phi, their rates, u and eight parameters. None is zero: m does not cancel
+        // in any, and w appears in both.
         let zeros = derivatives(machine)
             .results
             .iter()
@@ -91,7 +92,7 @@ fn no_mistake_in_derivatives_survives() {
                 }
             }
             println!("{name}: {tried} mistakes, {idle} of them without effect");
-            // Terms that cancel may be wrong in the same way.
+            // Mistakes in terms that cancel may have no effect.
             assert!(
                 tried >= 50 && 50 * idle <= tried,
                 "{name}: {idle} of {tried}"
@@ -100,8 +101,8 @@ fn no_mistake_in_derivatives_survives() {
     }
 }
 
-/// Central differences of the accelerations in double-double: with steps `h` near the cube root of the roundoff, 2⁻¹⁰⁴, errors
-/// are `h²` of the third derivatives, here 1e-20, and below roundoff in `f64` by far.
+/// Central differences of the accelerations in double-double. With steps `h` near the cube root of the round-off 2⁻¹⁰⁴ the
+/// errors are `h²` of the third derivatives, here 1e-20, far below the round-off of `f64`.
 #[test]
 fn derivatives_are_slopes_of_the_accelerations() {
     const H: f64 = 1e-10;
@@ -131,7 +132,7 @@ fn derivatives_are_slopes_of_the_accelerations() {
             };
             let mut fast = Interpreter::new(program, p);
             if fast.call(Role::Derivatives, at, &mut found).is_err() {
-                return; // where random parameters make no machine, there is nothing to compare
+                return; // random parameters may not give a valid machine
             }
             let exact = |h: f64, list: usize, index: usize| -> Vec<DoubleDouble> {
                 let mut lists = lists.clone().map(|list| -> Vec<DoubleDouble> {
@@ -169,7 +170,7 @@ fn derivatives_are_slopes_of_the_accelerations() {
                     .fold(1.0_f64, |scale, slope| scale.max(slope.abs()));
                 for (i, slope) in slopes.into_iter().enumerate() {
                     let error = (found[i * width + column] - slope).abs();
-                    // A few thousand roundings of terms up to a thousand times the result.
+                    // A few thousand rounding units of terms up to a thousand times the result.
                     assert!(
                         error <= 1e-9 * scale,
                         "{name}: {} is {}, not {slope}",
@@ -182,7 +183,7 @@ fn derivatives_are_slopes_of_the_accelerations() {
     }
 }
 
-/// What is not asked for leaves no trace, and what is asked for shares what the accelerations compute.
+/// Derivatives that are not requested leave no trace, and requested ones share what the accelerations compute.
 #[test]
 fn only_what_is_asked_for_is_there() {
     machine("double_pendulum", &[], |machine| {
@@ -222,12 +223,12 @@ fn only_what_is_asked_for_is_there() {
         .expect("always")
         .counts()
         .ops();
-    // Both matrices cost more than the accelerations, and less than four times these once each.
+    // Both matrices cost more than the accelerations, and less than four times these and one of the matrices.
     assert!(ops("coordinates, rates") < 5 * alone + alone);
 }
 
-/// A prototype's figures for a plain chain of six point masses: 1502 operations for the accelerations with the full Jacobian,
-/// where differentiating the accelerations themselves takes 2321. Ours stay within 2 % of the former.
+/// The figures of a prototype for a plain chain of six point masses: 1502 operations for the accelerations with the full
+/// Jacobian, where differentiating the accelerations themselves takes 2321. The compiler stays within 2 % of the former.
 #[test]
 fn the_jacobian_of_a_chain_of_six_is_short() {
     let text = "machine Links in plane {
@@ -247,7 +248,7 @@ fn the_jacobian_of_a_chain_of_six_is_short() {
     let [six, twelve, many] = [6, 12, 24].map(ops);
     println!("operations of a with its derivatives: N = 6: {six}, 12: {twelve}, 24: {many}");
     assert!(six <= 1502 + 30, "{six}");
-    // Along the machine a column costs in proportion to the links: twice the links, four times the matrix. By the matrix a
-    // column takes its square: eight times.
+    // With elimination along the machine a column costs in proportion to the number of links, so twice the links take four
+    // times the operations. With the mass matrix a column costs the square of that, so they would take eight times.
     assert!(10 * many <= 42 * twelve, "{many} against {twelve}");
 }

@@ -1,4 +1,4 @@
-//! Zeros that do not look like zeros: no coordinate is solved for by one, and nothing is divided by one.
+//! Zeros in disguise: a factor that is zero must not be used to solve for a coordinate or as a divisor.
 
 use lagrangian_mechanics::{Equations, dependents, equations::constraints};
 use lagrangian_program::{Arguments, Interpreter, Role};
@@ -9,7 +9,7 @@ use lagrangian_symbolic::Dag;
 use crate::harness::compiled;
 use crate::machines::assert_proved;
 
-/// Zero for all lengths and angles, with another look.
+/// Expressions that are zero for all lengths and angles, but do not look it.
 const ZEROS: [&str; 4] = [
     "((2*l1*l2 + 2*l1*(l1 - (l1 + l2)))/(l1*l2))",
     "((l1 + l2)^2 - l1^2 - l2^2 - 2*l1*l2)/(l1*l2)",
@@ -17,7 +17,7 @@ const ZEROS: [&str; 4] = [
     "(tan(a)*cos(a) - sin(a) + sin(2*b) - 2*sin(b)*cos(b))",
 ];
 
-/// Two pendulums, a particle and a block, with more lines.
+/// Two pendulums, a particle and a block, with further lines.
 fn machine(lines: &str) -> String {
     format!(
         "machine Disguised in plane {{
@@ -36,7 +36,7 @@ const BODIES: &str = "bodies {
     three { mass: 3*m, at: (x, y) }, four { mass: m/2, at: (w, l1*a) },
 }";
 
-/// Where a coefficient decides what is solved for: the factor is zero.
+/// Constraints in which a coefficient decides what is solved for; the factor ZERO is zero.
 const PLACES: [&str; 7] = [
     "tie: x - y + ZERO*w = 0",
     "tie: ZERO*w + x - l1*sin(a) = 0",
@@ -57,7 +57,8 @@ fn no_coordinate_is_settled_by_a_zero() {
             assert_proved(machine);
             let model = &machine.model;
             let constraints = constraints(model);
-            // The same is settled as without the zero, in which `w` does not stand but in the last.
+            // The same coordinates are settled as without the zero, which removes `w` from
+            // all constraints but the last.
             let settled = dependents(model, &constraints);
             let is_w = |i: usize| model.coordinates[i].name.to_string() == "w";
             let may_be_w = place.contains("other");
@@ -65,7 +66,7 @@ fn no_coordinate_is_settled_by_a_zero() {
                 may_be_w || settled.iter().all(|d| !is_w(d.coordinate)),
                 "{constraint}"
             );
-            // Without rates that count it is a constraint of positions.
+            // If no rates remain, it is a constraint of positions.
             let is_holonomic = !place.contains("der") || place.contains("tau");
             assert_eq!(
                 constraints[0].position.is_some(),
@@ -111,8 +112,8 @@ fn what_moves_nothing_has_no_inertia_however_it_is_written() {
     }
 }
 
-/// A constraint of which nothing is left says nothing, and its multiplier is not whatever rounding makes it: asked for
-/// directly, the program answers that there are others.
+/// A constraint that vanishes identically determines nothing, and its multiplier must not be decided by rounding: a
+/// direct call of the program reports that the multipliers are not unique.
 #[test]
 fn a_constraint_that_is_zero_throughout_is_not_solved_for() {
     for zero in ZEROS {
@@ -133,7 +134,7 @@ fn a_constraint_that_is_zero_throughout_is_not_solved_for() {
                     a: &[],
                 };
                 let refused = interpreter.call(Role::Accelerations, arguments, &mut [0.0; 5]);
-                // Behind the five coordinates the second constraint.
+                // The index counts the second constraint after the five coordinates.
                 assert_eq!(
                     refused.map_err(|singular| singular.coordinate),
                     Err(6),

@@ -1,5 +1,5 @@
-//! Machines whose contacts stick and slide: what follows from their frictions is proved, whatever these
-//! are.
+//! Machines whose contacts stick and slide: the proof covers the dependence on the
+//! friction forces, whatever these are.
 
 use lagrangian_mechanics::Oracle;
 use lagrangian_mechanics::prove;
@@ -92,7 +92,7 @@ fn the_contacts_of_the_library_are_proved() {
     }
 }
 
-/// A program that is wrong in a sign is found out.
+/// The proof finds a program with a wrong sign.
 #[test]
 fn a_wrong_sign_in_what_friction_does_is_found() {
     compiled(GUIDED, &[], |machine| {

@@ -1,4 +1,4 @@
-//! Machines through the whole chain.
+//! What these tests share: machines compiled through all stages.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::{Disk, Sources};
 use lagrangian_symbolic::{Dag, Rational};
 
-/// Compiles a text, whose `extends` refer to the library, with other values of some constants.
+/// Compiles a text whose `extends` refers to the library, with other values of some constants.
 pub fn compiled<R>(
     text: &str,
     constants: &[(&str, i64)],
@@ -55,7 +55,7 @@ pub fn program(text: &str) -> Proved {
     compiled(text, &[], |machine| machine.program.clone())
 }
 
-/// The program of a ball on a line, with other lines of the spec, and one output.
+/// The program of a ball on a line, with the given parameters and one output.
 pub fn program_of_output(parameters: &str, output: &str) -> Proved {
     let text = format!(
         "machine Test in plane {{
@@ -68,7 +68,7 @@ pub fn program_of_output(parameters: &str, output: &str) -> Proved {
     program(&text)
 }
 
-/// The counts of an output and of `prepare`, as text.
+/// The operation counts of an output and of `prepare`, as text.
 pub fn counts_of_output(parameters: &str, output: &str) -> String {
     let program = program_of_output(parameters, output);
     program
@@ -101,14 +101,15 @@ pub fn all_machines() -> Vec<String> {
     names
 }
 
-/// Those of them whose accelerations are a function: nothing sticks or slides.
+/// The machines of the library whose accelerations are a function of the
+/// state: nothing sticks or slides.
 pub fn smooth_machines() -> Vec<String> {
     let mut names = all_machines();
     names.retain(|name| !library_text(name).contains("sliding {"));
     names
 }
 
-/// Compiles a text with derivatives by everything, whatever it asks for.
+/// Compiles a text with derivatives by everything, whatever its spec requests.
 pub fn differentiated<R>(
     text: &str,
     constants: &[(&str, i64)],

@@ -1,12 +1,12 @@
-//! Machines that constraints hold: what has no inertia of its own, and what cannot move at all. The truth is the system of
-//! M, G, f and γ, solved with exchange of rows.
+//! Machines held by constraints: parts without inertia of their own, and machines that cannot move at all. The reference
+//! is the system of M, G, f and γ, solved with row exchanges.
 
 use lagrangian_program::{Arguments, Interpreter, Program, Role, Shape, Singular};
 
 use crate::harness::{compiled, differentiated};
 use crate::machines::assert_proved;
 
-/// Points without mass at springs and dampers, which strings and rods tie to masses.
+/// Points without mass on springs and dampers, tied to masses by strings and rods.
 const TIED: [&str; 4] = [
     "machine Spring in plane {
         parameters { l: m = 1.2, k: N/m = 3, m: kg = 2 }
@@ -65,7 +65,7 @@ fn call(
         .map(|()| results)
 }
 
-/// `M a − Gᵀ λ = f`, `G a = γ` by Gauß with exchange of rows, rows scaled.
+/// Solves `M a − Gᵀ λ = f`, `G a = γ` by Gaussian elimination with row exchanges and scaled rows.
 fn solved(program: &Program, state: [&[f64]; 2]) -> Vec<f64> {
     let (n, m) = (program.dimension(), program.constraints.len());
     let get = |role, len| call(program, role, len, state).expect("nothing is divided");
@@ -116,7 +116,7 @@ fn what_has_no_inertia_is_held_by_constraints() {
                 let multipliers = call(program, Role::Multipliers, m, state).expect("regular");
                 let largest = truth.iter().fold(1.0_f64, |most, x| most.max(x.abs()));
                 for (found, truth) in a.iter().chain(&multipliers).zip(&truth) {
-                    // Some hundred operations on numbers whose condition is some hundreds.
+                    // A few hundred operations, with a condition number of a few hundred.
                     assert!(
                         (found - truth).abs() < 1e-10 * largest,
                         "{}: {found} {truth}",
@@ -157,7 +157,7 @@ fn what_nothing_holds_is_refused() {
     assert!(lagrangian_mechanics::Equations::derive(&model, &mut report).is_none());
 }
 
-/// Machines that cannot move: their coordinates are given, and the multipliers are what holds them.
+/// Machines that cannot move: the constraints determine their coordinates, and the multipliers balance the forces.
 #[test]
 fn a_machine_that_cannot_move_has_reactions() {
     let of = |constraints: &str| {
@@ -200,8 +200,7 @@ fn a_machine_that_cannot_move_has_reactions() {
     }
 }
 
-/// Of constraints that say the same, the program answers that the multipliers are not the only ones; which of them are
-/// taken is a matter of the runtime.
+/// With redundant constraints the program reports that the multipliers are not unique; the runtime chooses among them.
 #[test]
 fn constraints_that_leave_no_freedom_may_say_it_twice() {
     let of = |coordinates: &str, at: &str, constraints: &str| {

@@ -1,4 +1,4 @@
-//! What becomes of single formulas.
+//! How single formulas are lowered to operations.
 
 use lagrangian_program::{Op, Role, Source};
 
@@ -21,7 +21,7 @@ fn what_parameters_decide_is_prepared() {
 
 #[test]
 fn a_common_parameter_moves_out_of_a_sum() {
-    // p·x² + p·y² takes no more than x² + y² and one multiplication, which meets q on the way.
+    // p·x² + p·y² takes no more than x² + y² and one multiplication, which is merged with that by q.
     assert_eq!(
         counts_of_output("p: 1 = 2, q: 1 = 3", "q*(p*x^2 + p*y^2)*sin(x)"),
         "4 mul, 1 add, 1 sincos"
@@ -67,7 +67,7 @@ fn sine_and_cosine_of_opposite_angles_are_computed_once() {
 
 #[test]
 fn common_factors_are_multiplied_once() {
-    // x·y, then with the sine and with the cosine, and the product.
+    // x·y, then its products with the sine and with the cosine, and the final product.
     assert_eq!(
         counts_of_output("", "(x*y*sin(x) + 1)*(x*y*cos(y) + 2)"),
         "4 mul, 2 add, 2 sincos"
@@ -76,7 +76,7 @@ fn common_factors_are_multiplied_once() {
 
 #[test]
 fn common_terms_are_added_once() {
-    // x + y, then 1 and 2 to it, and the product.
+    // x + y, then the additions of 1 and 2, and the product.
     assert_eq!(
         counts_of_output("", "(x + y + 1)*(x + y + 2)"),
         "1 mul, 3 add"
@@ -114,7 +114,7 @@ fn long_sums_are_balanced() {
             .unwrap_or(0);
         depth[index] = below + usize::from(matches!(op, Op::Add(..) | Op::Sub(..)));
     }
-    // 64 terms are 6 levels; the text nests them one in another, which nobody unfolds.
+    // 64 terms need at least 6 levels.
     assert!(depth[output.results[0].index()] >= 6);
 }
 
@@ -160,8 +160,8 @@ fn a_listing_says_what_is_what() {
 
 #[test]
 fn what_turns_out_to_be_known_late_is_prepared() {
-    // Terms take each other away only once they are operations: a sum is left with what parameters decide. In every
-    // chart of the angles; and cut by stages.
+    // Some terms cancel only when they have become operations, which leaves a sum that depends on parameters alone.
+    // Tested with every choice of angles, and with the program split into stages.
     let charts = ["x", "x + z", "2*x - z"];
     for (first, second) in charts.iter().flat_map(|a| charts.map(|b| (*a, b))) {
         for stages in [

@@ -46,7 +46,7 @@ fn chains_of_every_length_obey_lagranges_equations() {
     }
 }
 
-/// Two carts on a rail, one of them driven by time, with a pendulum between them and a dissipation that is no quadratic form.
+/// Two carts on a rail, one driven by time, with a pendulum between them and a dissipation that is not a quadratic form.
 const DRIVEN: &str = "machine Driven in plane {
     parameters { m: kg = 2, l: m = 0.4, J: kg*m^2 = 0.1, k: N/m = 30, b: N*s^3/m^3 = 2, A: m = 0.1, w: rad/s = 7, g: m/s^2 = 9.8 }
     coordinates { x: m, phi: rad = 0.3, psi: rad = 0.1 }
@@ -66,7 +66,7 @@ fn a_machine_driven_by_time_with_coupled_bodies_obeys_lagranges_equations() {
     compiled(DRIVEN, &[], assert_proved);
 }
 
-/// A body in space that turns by time about one axis, with an inertia that couples all of them.
+/// A body in space rotated by time about one axis, with an inertia that couples all axes.
 const SPUN: &str = "machine Spun in space {
     parameters { m: kg = 2, w: rad/s = 7, c: N*m = 3, g: m/s^2 = 9.8 }
     coordinates { alpha: rad = 0.3, beta: rad = 0.2 }
@@ -83,7 +83,7 @@ fn a_spun_body_in_space_obeys_lagranges_equations() {
     compiled(SPUN, &[], assert_proved);
 }
 
-/// Mistakes in a program are found, and few of them change nothing.
+/// Asserts that the proofs find the mistakes in a program, and that few mistakes have no effect.
 pub fn assert_mistakes_are_found(machine: &Compiled<'_>, stride: usize) {
     let (tried, idle) = mistakes_found(machine, stride);
     assert!(
@@ -93,8 +93,8 @@ pub fn assert_mistakes_are_found(machine: &Compiled<'_>, stride: usize) {
     );
 }
 
-/// A mistake in a program is found, unless it changes nothing: terms that cancel may be wrong in the same way. How many were
-/// made, and how many of them change nothing.
+/// Asserts that the proofs find every mistake in a program that has an effect; mistakes in terms that cancel may have none.
+/// Returns the number of mistakes, and of those without effect.
 pub fn mistakes_found(machine: &Compiled<'_>, stride: usize) -> (usize, usize) {
     let Compiled {
         model,
@@ -113,14 +113,14 @@ pub fn mistakes_found(machine: &Compiled<'_>, stride: usize) -> (usize, usize) {
         tried += 1;
         let proof = prove_quantities(&mutant, model, &quantities)
             .and_then(|()| prove(&mutant, model, &oracle));
-        // Nothing that the expanded equations find gets through the gate, either.
+        // The gate also rejects everything that the expanded equations reject.
         let gate = Proved::new(mutant.clone(), model, equations);
         assert!(
             gate.is_err() || proof.is_ok() || same_values(model, program, &mutant),
             "{}: let through: {change}: {proof:?}",
             program.name
         );
-        // On which sides of 0 the random points of the expanded equations are is chance; the gate looks for both.
+        // The random points of the expanded equations may all be on one side of 0; the gate checks both sides.
         if proof.is_ok() && gate.is_ok() {
             idle += 1;
             assert!(
@@ -137,8 +137,8 @@ pub fn mistakes_found(machine: &Compiled<'_>, stride: usize) -> (usize, usize) {
     (tried, idle)
 }
 
-/// Whether two programs give the same numbers, but for rounding, at some state where coordinates that
-/// constraints settle are where they belong: accelerations may not look at them.
+/// Whether two programs give the same numbers up to rounding at a state where the coordinates that constraints settle have
+/// their values, as accelerations need not read them.
 pub fn same_values(model: &Model<'_>, a: &Program, b: &Program) -> bool {
     let settled = dependents(model, &constraints(model));
     let values = |program: &Program| {
@@ -170,7 +170,7 @@ pub fn same_values(model: &Model<'_>, a: &Program, b: &Program) -> bool {
                     (_, Some(i), _) => q[i],
                     (.., Some(i)) => v[i],
                     _ if is(model.time) => 0.7,
-                    // What the start has decided may be anything.
+                    // Values that the start decides may be arbitrary.
                     _ => 0.3,
                 }
             });
@@ -250,7 +250,7 @@ fn the_same_text_gives_the_same_program() {
     }
 }
 
-/// Operations of the accelerations.
+/// The number of operations of the accelerations.
 fn ops(name: &str, n: i64) -> usize {
     let constants = [("N", n)];
     let constants = if n > 0 { &constants[..] } else { &[] };
@@ -277,7 +277,7 @@ fn long_chains_grow_no_faster_than_their_length() {
 
 #[test]
 fn free_bodies_fall_apart() {
-    // From the mass matrix it is twice as many, with five divisions.
+    // Accelerations from the mass matrix take twice as many, with five divisions.
     machine("crusher9", &[], |machine| {
         let counts = machine
             .program

@@ -1,4 +1,4 @@
-//! Programs: that they compute what they were made from, that they are short, and that a wrong one is found out.
+//! Programs compute what they were lowered from, they are short, and the proof finds wrong ones.
 
 mod accuracy;
 mod candidates;

@@ -1,4 +1,4 @@
-//! The gate: no program leaves the compiler that is not what Lagrange's equations of its machine say.
+//! The gate: the compiler releases no program that does not agree with Lagrange's equations of its machine.
 
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::{Disagreement, Proved, Witness};
@@ -10,7 +10,7 @@ use lagrangian_symbolic::Dag;
 use crate::harness::{compiled, machine};
 use crate::machines::same_values;
 
-/// What is told of a text that cannot be compiled.
+/// The errors for a text that cannot be compiled.
 fn told(text: &str) -> (Vec<Code>, String) {
     let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
     let model = lagrangian_spec::model(
@@ -28,7 +28,7 @@ fn told(text: &str) -> (Vec<Code>, String) {
     (codes, report.render_short(&sources))
 }
 
-/// Damaged programs are stopped, but for damage that changes nothing.
+/// Asserts that the gate stops damaged programs, unless the damage has no effect.
 fn assert_stopped(machine: &Compiled<'_>, stride: usize) {
     let Compiled {
         model,
@@ -90,7 +90,8 @@ fn damaged_programs_of_every_kind_of_machine_are_stopped() {
     }
 }
 
-/// A quantity that was added to programs and not to the proof is not proved, and a program of it is stopped.
+/// A quantity that is added to programs but not to the proof is unproved, and the
+/// gate stops a program with it.
 #[test]
 fn a_function_that_nothing_is_compared_with_is_stopped() {
     machine("double_pendulum", &[], |machine| {
@@ -107,7 +108,8 @@ fn a_function_that_nothing_is_compared_with_is_stopped() {
     });
 }
 
-/// What a function may depend on stands in its row: the potential energy does not depend on rates.
+/// A function may only read what its row of the table permits: the potential
+/// energy does not depend on rates.
 #[test]
 fn a_function_reads_what_its_row_says() {
     machine("double_pendulum", &[], |machine| {
@@ -122,7 +124,7 @@ fn a_function_reads_what_its_row_says() {
     });
 }
 
-/// Signs, powers, tables of exponentials and more roots than a field has squares for.
+/// Signs, powers, exponentials, and more roots than the field has squares for.
 const ROOTS: &str = "machine Roots in plane {
     parameters { m: kg = 1, k: N/m = 3, c: N = 2, l: m = 1, b: kg/m = 0.1, p: 1 = 2.5 }
     coordinates { x: m = 0.3, y: m = 0.4 }
@@ -181,7 +183,7 @@ fn a_machine_without_any_state_is_refused() {
     assert!(text.contains("no state was found"), "{text}");
 }
 
-/// The first program in which an operation of a function is damaged so that the gate says this.
+/// The message for the first damaged operation of a function for which the gate reports this disagreement.
 fn blamed(
     machine: &Compiled<'_>,
     role: Role,
@@ -201,7 +203,7 @@ fn blamed(
     found.next()
 }
 
-/// A block on a rail, which is pressed to it through two rods.
+/// A block on a rail, pressed onto it through two rods.
 const RODS: &str = "machine Rods in plane {
     parameters { m: kg = 1, l: m = 1, mu: 1 = 0.2, g: m/s^2 = 9.81 }
     coordinates { s: m = 0, x: m = 0.6, y: m = 0.8, z: m = 1.2, w: m = 0.1 }
@@ -230,7 +232,7 @@ fn a_wrong_program_is_told_by_the_names_of_the_spec() {
         }
     });
     compiled(RODS, &[], |machine| {
-        // The second one alone: what was blamed used to be the first whatever had failed.
+        // Only the second constraint is damaged; the message once named the first one, whichever had failed.
         let far = damaged_row(machine, 1);
         assert!(far.contains("`far`") && !far.contains("`near`"), "{far}");
         let reaction = |found: &Disagreement| matches!(found, Disagreement::Reaction { .. });
@@ -244,8 +246,8 @@ fn a_wrong_program_is_told_by_the_names_of_the_spec() {
     });
 }
 
-/// What is said where the row and the drift of one constraint are right, and the accelerations obey
-/// all constraints but that one: its part of every response is doubled.
+/// The message when the row and the drift of one constraint are right, but the accelerations violate it
+/// alone: its part of every response is doubled.
 fn damaged_row(machine: &Compiled<'_>, constraint: usize) -> String {
     let Compiled {
         model,
@@ -258,7 +260,7 @@ fn damaged_row(machine: &Compiled<'_>, constraint: usize) -> String {
     let friction = wrong.functions.iter_mut();
     let friction = friction.into_iter().find(|f| f.role == Role::Friction);
     let function = friction.expect("it slides");
-    // A coordinate that this constraint holds and the others do not.
+    // A coordinate that this constraint contains and the others do not.
     let rows = |k: usize| &equations.constraints[k].row;
     let others = (0..equations.constraints.len()).filter(|k| *k != constraint);
     let others: Vec<usize> = others.collect();

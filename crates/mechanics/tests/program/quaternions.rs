@@ -1,10 +1,10 @@
-//! Machines with frames that are turned by four numbers: their programs by every way that there is, against Lagrange's equations.
+//! Machines with frames oriented by four numbers (quaternions): all candidates of their programs, compared with Lagrange's equations.
 
 use crate::harness::{compiled, differentiated};
 use crate::machines::assert_proved;
 use lagrangian_program::Role;
 
-/// A body that floats, with an arm on a hinge that a spring holds and a damper brakes.
+/// A floating body with an arm on a hinge, which has a spring and a damper.
 const FLOATING: &str = "machine Floating in space {
     parameters { m: kg = 3, M: kg = 1, l: m = 0.3, k: N*m = 2, c: N*m*s = 0.1, g: m/s^2 = 9.81 }
     coordinates { x: m, y: m, z: m, e[0]: 1 = 1, e[1..3]: 1, phi: rad }
@@ -18,8 +18,7 @@ const FLOATING: &str = "machine Floating in space {
     dissipations { hinge: c/2*der(phi)^2 }
 }";
 
-/// Two bodies on ball joints, on a ground that turns by itself; what brakes them depends on how they turn, and a torque on how they are
-/// turned.
+/// Two bodies on ball joints, on a ground that rotates in time; the damping depends on their angular velocity, and a torque on their orientation.
 const CHAIN: &str = "machine Chain in space {
     parameters { m: kg = 1, l: m = 0.3, w: rad/s = 2, c: N*m*s = 0.1, k: N*m = 0.3, g: m/s^2 = 9.81 }
     coordinates { e[0]: 1 = 1, e[1..3]: 1, f[0]: 1 = 1, f[1..3]: 1 }
@@ -37,7 +36,7 @@ const CHAIN: &str = "machine Chain in space {
     torques { holds { on: lower, torque: -k*lower.vector(f[1], f[2], f[3]) } }
 }";
 
-/// Particles at places that no frame has, and a constraint.
+/// Particles at places that are points of no frame, and a constraint.
 const LOOSE: &str = "machine Loose in space {
     parameters { m: kg = 1, l: m = 0.3, g: m/s^2 = 9.81 }
     coordinates { x: m, e[0]: 1 = 1, e[1..3]: 1 }
@@ -57,13 +56,13 @@ fn machines_on_quaternions_obey_lagranges_equations() {
     }
 }
 
-/// Derivatives of accelerations know of the lengths what these know.
+/// Derivatives of the accelerations use the unit length of the quaternions as the accelerations do.
 #[test]
 fn derivatives_on_quaternions_are_those_of_the_accelerations() {
     differentiated(FLOATING, &[], assert_proved);
 }
 
-/// A loop: two arms on ball joints whose tips are one point.
+/// A loop: two arms on ball joints with a common tip.
 const LOOP: &str = "machine Loop in space {
     parameters { m: kg = 1, l: m = 0.3, c: N*m*s = 0.1, g: m/s^2 = 9.81 }
     coordinates { e[0]: 1 = 1, e[1..3]: 1, f[0]: 1 = 1, f[1..3]: 1, phi: rad = 0.3, psi: rad = -0.2 }
@@ -88,7 +87,7 @@ const LOOP: &str = "machine Loop in space {
     }
 }";
 
-/// A robot of eight joints on a base that floats, its turn in words of coordinates and steps.
+/// A robot of eight joints on a floating base; the text of the base's coordinates and rotation steps is given.
 fn robot(turn: [&str; 2]) -> String {
     let [coordinates, steps] = turn;
     let joints: String = (1..=8).map(|k| format!("q{k}: rad = 0.{k}, ")).collect();
@@ -97,7 +96,7 @@ fn robot(turn: [&str; 2]) -> String {
         "base { mass: 3, inertia: (0.1, 0.2, 0.3), frame: base, at: base.point(0.01, 0, 0.02) }",
     );
     for k in 1..=8 {
-        // Two limbs of four.
+        // Two limbs of four joints.
         let above = match k {
             1 | 5 => "base".to_owned(),
             _ => format!("link{}", k - 1),
@@ -128,7 +127,7 @@ fn loops_and_stages_on_quaternions_are_proved_too() {
     }
 }
 
-/// Two limbs of joints from a ball joint to a tip, the tips one point.
+/// Two limbs of joints, each from a ball joint to a common tip.
 fn closed(joints: usize) -> String {
     let mut coordinates = String::from("e[0]: 1 = 1, e[1..3]: 1, f[0]: 1 = 1, f[1..3]: 1");
     let mut frames = String::from(
@@ -158,7 +157,7 @@ fn closed(joints: usize) -> String {
     )
 }
 
-/// In a loop, too, three columns of velocities hang on a turn, and not four: eliminated in the rates of the four numbers, accelerations of this one took
+/// In a loop, too, a rotation has three columns of velocities, not four. Eliminated in the rates of the four numbers, the accelerations of this one took
 /// 7870 operations.
 #[test]
 fn loops_are_eliminated_in_the_velocities_of_turns() {
@@ -171,8 +170,8 @@ fn loops_are_eliminated_in_the_velocities_of_turns() {
     assert!(count <= 7350, "{count}");
 }
 
-/// A base on a quaternion costs what one on angles costs, within a twentieth; with derivatives by coordinates and rates four tenths more at most, since eight of
-/// the columns are those of four numbers and their rates, none of which leaves a part of the machine alone, as yaw does.
+/// A base on a quaternion costs the same as one on angles, within a twentieth. With derivatives by coordinates and rates it costs at most four tenths more,
+/// since eight of the columns are by the four numbers and their rates, none of which leaves a part of the machine unchanged, as yaw does.
 #[test]
 fn a_robot_on_a_quaternion_costs_what_one_on_angles_does() {
     let count = |turn: [&str; 2]| -> [usize; 2] {

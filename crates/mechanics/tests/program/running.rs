@@ -1,4 +1,4 @@
-//! The interpreter.
+//! Tests of the interpreter.
 
 use lagrangian_program::{Arguments, Interpreter, Role, Singular};
 use lagrangian_scalar::{DoubleDouble, Scalar};
@@ -70,7 +70,7 @@ fn rates_at_the_start_follow_the_coordinates() {
     assert_eq!((q, v), ([2.0, 0.0], [-1.0, 1.5]));
     Interpreter::new(&orbit, &[1.0, 8.0, 4.0]).start(&mut q, &mut v);
     assert_eq!((q, v), ([4.0, 0.0], [-1.0, 2.0]));
-    // Who starts at rest has no code for it.
+    // A machine that starts at rest has no code for initial rates.
     assert_eq!(orbit.start.results.len(), 4);
     assert_eq!(program(PENDULUM).start.results.len(), 1);
 }
@@ -148,7 +148,7 @@ fn a_folded_double_pendulum_of_extreme_masses_is_no_singular_one() {
             "{m} {m2}"
         );
     }
-    // 2^-53 of the mass that moves is beyond what the matrix can hold.
+    // A moving mass of 2^-53 of the other is below the resolution of the matrix.
     let mut machine = Interpreter::new(&program, &[1e-17, 1.0, 0.5, 9.81]);
     let singular = machine.call(
         Role::Accelerations,
@@ -217,7 +217,7 @@ fn an_interpreter_gives_what_its_expressions_give() {
 
 #[test]
 fn deep_programs_run() {
-    // A chain of 20 000 operations, each of which needs the one before.
+    // A chain of 20 000 operations, each of which needs the previous one.
     let steps = "1/2 + 1/3*sin(".repeat(60);
     let output = format!("{steps}x{}", ")".repeat(60));
     let program = program_of_output("", &output);
@@ -263,7 +263,7 @@ fn drag_by_the_square_of_the_speed_is_nothing_at_rest() {
     }";
     let a = accelerations_at(text, &[0.0, 100.0], &[0.0; 2]);
     assert!(a[0] == 0.0 && (a[1] + 9.81).abs() < 1e-14, "{a:?}");
-    // c |v| v of 0.003·5·(3, −4) N on 0.1 kg.
+    // c |v| v is 0.003·5·(3, −4) N, on 0.1 kg.
     let a = accelerations_at(text, &[0.0, 100.0], &[3.0, -4.0]);
     assert!(
         (a[0] + 0.45).abs() < 1e-15 && (a[1] - 0.6 + 9.81).abs() < 1e-14,

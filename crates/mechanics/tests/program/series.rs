@@ -1,4 +1,4 @@
-//! Taylor series: that they obey the literal equations, that a wrong one is found out, and how many products they take.
+//! Taylor series obey the literal equations, wrong ones are found, and the number of their products is as expected.
 
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_program::series::{NoSeries, Row, Series};
@@ -25,8 +25,7 @@ fn pushed(force: &str) -> String {
     )
 }
 
-/// Every machine of the library has a series, proved over the prime field or over balls, or is known to have
-/// none.
+/// Every machine of the library has a series, proved over the prime field or over balls, or is known to have none.
 #[test]
 fn every_machine_has_a_proved_series_or_a_reason() {
     let mut found = 0;
@@ -50,8 +49,8 @@ fn every_machine_has_a_proved_series_or_a_reason() {
     assert!(found >= 25, "{found}");
 }
 
-/// As counted by hand: for each link a sine and a cosine and two projections; the crusher's nine coordinates turn four
-/// bodies and carry forces of springs, linear in the rest.
+/// Counts by hand: each link has a sine, a cosine and two projections; the crusher's nine coordinates rotate four
+/// bodies and carry spring forces, which are linear in the rest.
 #[test]
 fn products_are_those_counted_by_hand() {
     assert_eq!(of("double_pendulum", &[]).unwrap().products(), 8.0);
@@ -59,12 +58,12 @@ fn products_are_those_counted_by_hand() {
         let series = of("chain", &[("N", links)]).unwrap();
         assert_eq!(series.products(), 4.0 * links as f64, "{links} links");
     }
-    // Angles from link to link cost no more.
+    // Relative angles cost no more.
     let series = of("chain_relative", &[("N", 8)]).unwrap();
     assert!(series.products() <= 32.0, "{}", series.products());
 }
 
-/// Every function of the language that is smooth, of positions and of rates.
+/// Every smooth function of the language, of positions and of rates.
 #[test]
 fn every_smooth_function_has_a_recurrence() {
     let forces = [
@@ -94,7 +93,7 @@ fn every_smooth_function_has_a_recurrence() {
     }
 }
 
-/// What has a kink is refused, with its name.
+/// Functions with a kink are refused by name.
 #[test]
 fn what_has_a_kink_is_refused_by_name() {
     for function in ["abs(x)", "sign(x)", "min(x, y)", "max(x, 2*y)"] {
@@ -105,8 +104,7 @@ fn what_has_a_kink_is_refused_by_name() {
     }
 }
 
-/// A series with one wrong row is not proved: a term or a sign lost, one operand taken for another, a sine for a
-/// cosine.
+/// A series with one wrong row is not proved: a lost term or sign, a wrong operand, a sine instead of a cosine.
 #[test]
 fn damaged_series_are_not_proved() {
     let texts = [

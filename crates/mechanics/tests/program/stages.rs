@@ -1,4 +1,4 @@
-//! The accelerations in stages: those at once, with nothing done twice.
+//! Accelerations in stages equal those at once, and no operation is repeated.
 
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::Oracle;
@@ -10,10 +10,10 @@ use lagrangian_scalar::{DoubleDouble, Scalar};
 
 use crate::harness::{compiled, library_text, machine, smooth_machines};
 
-/// The requests that there are.
+/// All requests for stages.
 const REQUESTS: [&str; 3] = ["time, coordinates", "coordinates", "time"];
 
-/// A machine of the library that asks for stages.
+/// A machine of the library with stages requested.
 fn staged<R>(
     name: &str,
     constants: &[(&str, i64)],
@@ -98,7 +98,7 @@ fn no_mistake_in_a_stage_survives() {
                     survived.push(mutant.change);
                 }
             }
-            // What corrects the rounding of a phase is 0 in a field, whatever it is multiplied by.
+            // The correction of a phase's rounding is 0 in a field, whatever multiplies it.
             survived.retain(|change: &String| {
                 !(change.starts_with("at_time") && change.contains("Sin") && change.contains("Cos"))
             });
@@ -109,7 +109,7 @@ fn no_mistake_in_a_stage_survives() {
     }
 }
 
-/// Nothing that a stage knows is left to a later one, and nothing is handed on that nobody reads.
+/// Each stage does all the work that it can, and passes on only values that a later stage reads.
 #[test]
 fn a_stage_does_all_that_it_can() {
     for name in smooth_machines() {
@@ -159,7 +159,7 @@ fn a_stage_does_all_that_it_can() {
     }
 }
 
-/// Whoever does not ask has the same program, whatever others ask for.
+/// A machine that requests no stages has the same program as without this feature.
 #[test]
 fn stages_change_nothing_else() {
     for name in ["crusher9", "two_joint_arm", "chain"] {
@@ -182,8 +182,8 @@ fn stages_change_nothing_else() {
     }
 }
 
-/// In double-double the roundings of one form differ from those of the other by less than 1e-25 of
-/// what they are: the machines are far from singular here.
+/// In double-double the rounding errors of the two forms differ by a relative amount of less than
+/// 1e-25, as the machines are far from singular here.
 #[test]
 fn numbers_in_stages_are_the_numbers_at_once() {
     for name in smooth_machines() {
@@ -210,7 +210,7 @@ fn numbers_in_stages_are_the_numbers_at_once() {
                     .call(Role::Accelerations, at, &mut expected)
                     .is_err()
                 {
-                    return; // where random parameters make no machine, there is nothing to compare
+                    return; // random parameters may not give a valid machine
                 }
                 let mut found = Vec::new();
                 for role in program.staged_roles() {
@@ -234,8 +234,8 @@ fn numbers_in_stages_are_the_numbers_at_once() {
     }
 }
 
-/// Along a long chain each stage takes the same for every link, and two calls in stages take no
-/// longer than two at once.
+/// In a long chain each stage takes the same number of operations for every link, and two
+/// evaluations in stages take no more than two at once.
 #[test]
 fn stages_grow_with_the_chain() {
     for name in ["chain", "chain_relative"] {
@@ -253,15 +253,15 @@ fn stages_grow_with_the_chain() {
         });
         let [quarter, half, whole] = sizes;
         for (stage, ops) in whole.into_iter().enumerate() {
-            // So many operations for every further link, from the 24th to the 96th.
+            // The number of operations per further link is constant from the 24th to the 96th.
             let (by_24, by_48) = (half[stage] - quarter[stage], ops - half[stage]);
             assert_eq!(by_48, 2 * by_24, "{name}, stage {stage}");
         }
     }
 }
 
-/// What is repeated where only rates change is less than half of the whole, if positions are
-/// anything but constants; and where time is no argument, its stage is empty.
+/// The part that is repeated when only rates change is less than half of the whole, if positions
+/// are not constant; and without explicit time, the stage of time is empty.
 #[test]
 fn what_is_repeated_is_short() {
     for name in [

@@ -1,5 +1,5 @@
-//! Derivatives of programs forwards and backwards: proved for every machine, and the same as what the equations of motion give
-//! by elimination.
+//! Forward and backward derivatives of programs: proved for every machine, and equal to those that elimination in the
+//! equations of motion gives.
 
 use lagrangian_mechanics::Compiled;
 use lagrangian_program::{Arguments, Interpreter, Mutant, Program, Role, mutants};
@@ -27,8 +27,8 @@ fn the_tangents_and_adjoints_of_every_machine_are_proved() {
                 ops(&adjoint, Role::Adjoint),
             ];
             println!("{name}: {of} operations, {along} along a direction, {back} backwards");
-            // Of a product of two numbers a direction takes two products and a sum more, of a sum one sum more; backwards as
-            // much. Slopes of roots and quotients take a few operations each, which no machine has many of.
+            // For a product, a direction takes two more products and a sum, for a sum one more sum; backwards it takes as
+            // many. Derivatives of roots and quotients take a few operations each, and machines have few of these.
             assert!(
                 along <= 5 * of + 50 && back <= 6 * of + 50,
                 "{name}: {of}, {along}, {back}"
@@ -37,7 +37,7 @@ fn the_tangents_and_adjoints_of_every_machine_are_proved() {
     }
 }
 
-/// Every function of the language, by parameters too, in accelerations and in an output of accelerations.
+/// Every function of the language, by parameters too, in accelerations and in an output that depends on accelerations.
 const FUNCTIONS: &str = "machine Functions in plane {
     parameters { m: kg = 2, l: m = 0.4, k: N/m = 30, e: 1 = 2.5, g: m/s^2 = 9.8, w: rad/s = 3 }
     coordinates { x: m = 0.3, phi: rad = 0.4 }
@@ -63,7 +63,7 @@ fn the_derivatives_of_every_function_are_proved() {
     });
 }
 
-/// A pendulum with a weight in its output: δa = −g/l cos θ δθ − sin θ (δg/l − g/l² δl), and y = m·a changes by m δa + a δm.
+/// A pendulum whose output is a force: δa = −g/l cos θ δθ − sin θ (δg/l − g/l² δl), and y = m·a changes by m δa + a δm.
 #[test]
 fn the_tangent_of_a_pendulum_is_that_of_the_book() {
     let text = "machine Pendulum in plane {
@@ -91,7 +91,7 @@ fn the_tangent_of_a_pendulum_is_that_of_the_book() {
         };
         run.call(Role::Accelerations, at, &mut found)
             .expect("it moves");
-        // A dozen roundings of numbers up to 30.
+        // A dozen rounding units of numbers up to 30.
         let bound = 12.0 * 30.0 * f64::EPSILON;
         assert!(
             (found[0] - a).abs() < bound && (found[1] - da).abs() < bound,
@@ -104,8 +104,8 @@ fn the_tangent_of_a_pendulum_is_that_of_the_book() {
     });
 }
 
-/// The same derivatives by two ways: of the program, and of the equations of motion with accelerations held (E26). In a
-/// direction of everything, and backwards with weights.
+/// The same derivatives in two ways: of the program, and of the equations of motion with accelerations held (E26); forward in
+/// a direction of all variables, and backward with weights.
 #[test]
 fn tangents_and_adjoints_agree_with_elimination() {
     for name in [
@@ -148,7 +148,7 @@ fn tangents_and_adjoints_agree_with_elimination() {
             Interpreter::new(program, &p)
                 .call(Role::Derivatives, at, &mut rows)
                 .expect("it has derivatives");
-            // Columns: coordinates, rates, inputs, parameters.
+            // The columns are coordinates, rates, inputs and parameters.
             let direction = [&dq[..], &dv, &du, &dp].concat();
             let along = |row: &[f64]| -> (f64, f64) {
                 let terms = row[1..].iter().zip(&direction).map(|(x, y)| x * y);
@@ -178,7 +178,7 @@ fn tangents_and_adjoints_agree_with_elimination() {
             Interpreter::new(&adjoint, &p)
                 .call(Role::Adjoint, at, &mut gradient)
                 .expect("an adjoint");
-            // Some thousands of roundings, of numbers that may be a thousand times the result.
+            // A few thousand rounding units of numbers that may be a thousand times the result.
             let (mut weighed, mut size) = (0.0, 0.0);
             for (i, row) in rows.chunks(width).enumerate() {
                 let (expected, of_row) = along(row);
@@ -201,7 +201,7 @@ fn tangents_and_adjoints_agree_with_elimination() {
     }
 }
 
-/// A derivative with a wrong sign, factor, operand or function is stopped.
+/// The gate stops a derivative with a wrong sign, factor, operand or function.
 #[test]
 fn no_mistake_in_a_tangent_or_an_adjoint_survives() {
     for (name, stride) in [("cart_pole", 2), ("heavy_top", 5), ("double_pendulum", 3)] {
@@ -233,7 +233,7 @@ fn no_mistake_in_a_tangent_or_an_adjoint_survives() {
                     "{}: {tried} mistakes, {idle} of them without effect",
                     derived.name
                 );
-                // What guards a pivot is that of the program, and a term that cancels may be wrong in the same way.
+                // The guards of pivots are those of the program, and mistakes in terms that cancel may have no effect.
                 assert!(
                     tried >= 40 && 12 * idle <= tried,
                     "{name}: {idle} of {tried}"

@@ -1,4 +1,4 @@
-//! What doc comments say, in runs of words.
+//! The content of doc comments as runs of words.
 
 use lagrangian_print::document::{Run, of_docs};
 

@@ -1,4 +1,5 @@
-//! What a chapter says is conserved or absent, held against the literal Lagrange equations: said exactly where it holds.
+//! The facts that a chapter states (conserved or absent quantities) compared with the literal Lagrange equations: a fact
+//! is stated exactly if it holds.
 
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::Oracle;
@@ -10,7 +11,7 @@ use lagrangian_symbolic::{Expr, Symbol, Tangent, evaluate};
 use crate::every_machine;
 use crate::harness::{residues, total};
 
-/// For each expression whether it is zero at all points, with the accelerations of the motion if `moving`.
+/// For each expression, whether it is zero at all points, with the accelerations of the motion if `moving`.
 fn vanish(compiled: &Compiled<'_>, expressions: &[Expr<'_>], moving: bool) -> Vec<bool> {
     let points = residues(&compiled.model, &compiled.equations, expressions, moving);
     let zero = |k: usize| points.iter().all(|values| values[k] == Residue::ZERO);
@@ -32,7 +33,7 @@ fn cyclic_coordinates_are_those_that_no_energy_depends_on() {
             [oracle.kinetic_energy, oracle.potential_energy].map(|energy| energy.diff(symbol(c.q)))
         });
         let zero = vanish(compiled, &slopes.collect::<Vec<_>>(), false);
-        // The integral of a state stands in no energy either, and is no coordinate of the machine.
+        // The integral of a state is absent from the energies, too, but it is not a coordinate of the machine.
         let is_integral = |i: usize| {
             model.coordinates[i]
                 .name
@@ -57,8 +58,8 @@ fn momenta_are_conserved_exactly_where_it_is_said() {
     let (mut conserved, mut changed) = (0, 0);
     every_machine(|name, compiled| {
         let model = &compiled.model;
-        // Where as many constraints as coordinates leave a motion, they depend on each other; at random
-        // points they do not, and nothing moves there that could show what changes.
+        // If a machine moves with as many constraints as coordinates, these are dependent. At random points they are
+        // not, so nothing moves there that could show a change.
         if compiled.equations.constraints.len() >= model.coordinates.len() {
             return;
         }
@@ -80,7 +81,7 @@ fn momenta_are_conserved_exactly_where_it_is_said() {
             conserved += usize::from(zero);
             changed += usize::from(!zero);
         }
-        // And the force is what changes it.
+        // The force is the rate of the momentum.
         let pairs = facts.cyclic.iter().zip(&rates);
         let differences: Vec<_> = pairs.map(|(cyclic, &rate)| rate - cyclic.force).collect();
         assert!(
@@ -130,7 +131,7 @@ fn energy_is_conserved_exactly_where_it_is_said() {
 
 #[test]
 fn what_is_driven_without_showing_it_has_an_integral_of_jacobi() {
-    // A bead on a wire that turns steadily: T + V is not conserved, ½ m (ṙ² − ω² r²) is. Goldstein, §2.7.
+    // A bead on a wire that rotates steadily: T + V is not conserved, ½ m (ṙ² − ω² r²) is. Goldstein, §2.7.
     let text = "machine Bead in plane {
         parameters { m: kg = 1, w: rad/s = 2 }
         coordinates { r: m = 0.1 }
@@ -166,7 +167,7 @@ fn time_and_the_mass_matrix_are_free_of_what_is_said() {
         let free = vanish(compiled, &rates, false).into_iter().all(|zero| zero);
         assert_eq!(facts.autonomous, free, "{name}");
 
-        // Twice the same parameters, and everything else new.
+        // The same parameters twice, with new values for everything else.
         let at = |seed: u64| {
             evaluate(dag, oracle.mass_matrix.lower(), |symbol| {
                 let varies = dag.stage_of(symbol) > stage::PARAMETER;
@@ -179,7 +180,7 @@ fn time_and_the_mass_matrix_are_free_of_what_is_said() {
         let constant = points.windows(2).all(|pair| pair[0] == pair[1]);
         assert_eq!(facts.constant_mass_matrix, constant, "{name}");
 
-        // Blocks are joined by entries that are not zero, and there is none between two of them.
+        // The coordinates of a block are connected by nonzero entries, and all entries between two blocks are zero.
         let n = model.coordinates.len();
         let is_zero = |i: usize, j: usize| {
             let (i, j) = (i.max(j), i.min(j));

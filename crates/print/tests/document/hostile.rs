@@ -1,4 +1,4 @@
-//! Names and docs that each language takes for its own arrive as they were written.
+//! Names and docs with special characters of each language appear as they were written.
 
 use lagrangian_print::document::Document;
 use lagrangian_print::{html, latex, markdown};
@@ -6,7 +6,7 @@ use lagrangian_print::{html, latex, markdown};
 use crate::compiled;
 use crate::markup;
 
-/// Everything that Markdown, LaTeX or HTML takes for its own, and letters that fonts lack.
+/// Special characters of Markdown, LaTeX and HTML, and letters that fonts lack.
 const DOCS: &str = r#"50 % of $x_1$ & y < z > w | a\b {c} ~d^e # "f" 'g' -- [h](i) *j* <b>k</b> &lt; Ж 日 é – ² α ≤ 1. l"#;
 
 fn hostile() -> String {
@@ -51,7 +51,8 @@ fn html_shows_what_was_written() {
     compiled(&hostile(), |compiled| {
         let page = html::article(&Document::new(compiled));
         markup::check_xml(&page).unwrap_or_else(|e| panic!("{e}\n{page}"));
-        // Once about the machine, a parameter, a coordinate, the input, the body and the output.
+        // Once for each of the machine, a parameter, a coordinate, the
+        // input, the body and the output.
         let shown = markup::text_of_xml(&page);
         let docs = DOCS.replace("*j*", "j");
         assert_eq!(shown.matches(&docs).count(), 6, "{shown}");
@@ -63,7 +64,8 @@ fn html_shows_what_was_written() {
 fn markdown_shows_what_was_written() {
     compiled(&hostile(), |compiled| {
         let text = markdown::text(&Document::new(compiled));
-        // Without the escapes the words are those of the docs; with them nothing begins anything.
+        // With the escapes removed, the words are those of the docs; with them,
+        // no special construct begins.
         let plain = text
             .replace(r"\\", "\u{1}")
             .replace('\\', "")

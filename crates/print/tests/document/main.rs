@@ -1,4 +1,5 @@
-//! The chapter on a machine: its groups add up, what it says is conserved is, and its texts are well formed.
+//! The chapter on a machine: its groups add up, the quantities that it calls conserved are conserved,
+//! and its texts are well formed.
 
 mod docs;
 mod facts;
@@ -16,7 +17,7 @@ use lagrangian_print::{html, latex, markdown};
 use lagrangian_scalar::{Residue, Scalar};
 use lagrangian_spec::diagnostic::Report;
 
-/// Compiles a machine whose files lie in the library.
+/// Compiles a machine whose files are in the library.
 fn compiled<R>(text: &str, look: impl for<'d> FnOnce(&Compiled<'d>) -> R) -> R {
     resolved(text, |model| {
         let mut report = Report::new();
@@ -25,7 +26,7 @@ fn compiled<R>(text: &str, look: impl for<'d> FnOnce(&Compiled<'d>) -> R) -> R {
     })
 }
 
-/// Looks at every machine of the library and of the tests.
+/// Visits every machine of the library and of the tests.
 fn every_machine(mut look: impl for<'d> FnMut(&str, &Compiled<'d>)) {
     for (name, text) in all_machines() {
         compiled(&text, |compiled| look(&name, compiled));
@@ -77,14 +78,14 @@ fn sources_add_up_to_energies_and_forces() {
                 dag.sum(parts.filter_map(|part| part.energy))
             };
             let damps = |kind| kind == Kind::Dissipation;
-            // What acts on the integral of a state is its rate, and no force.
+            // The equation of the integral of a state has its rate, which is no force.
             let is_integral = |i: usize| {
                 model.coordinates[i]
                     .name
                     .to_string()
                     .starts_with("integral(")
             };
-            // What holds the lengths of numbers that turn frames is no source's.
+            // The terms that keep quaternions at unit length belong to no element.
             let on_lengths = groups::on_lengths(model);
             let mut differences = vec![
                 energy(&|kind| !damps(kind)) - equations.potential_energy,
@@ -116,8 +117,8 @@ fn velocity_terms_are_what_their_notes_say() {
              model, equations, ..
          }| {
             let shares = groups::shares(model);
-            // Squares grow fourfold when all rates double and keep their sign when one turns round; products of two too, but
-            // change it; what is driven does neither.
+            // Squares grow fourfold when all rates double and keep their sign when one rate changes its sign. Products of
+            // two rates also grow fourfold, but change their sign. Terms of drives do neither.
             for i in 0..model.coordinates.len() {
                 for group in groups::equation(model, equations, &shares, i) {
                     let degree = |term: &groups::Term<'_>| -> Vec<usize> {
@@ -197,7 +198,7 @@ fn every_formula_fits_the_page() {
                     continue;
                 };
                 for row in rows {
-                    // 17 cm of paper in a font of 10 points, less the indent.
+                    // 17 cm of paper in a 10 point font, less the indent.
                     let width = row.math.width() + row.indent as f32;
                     if width > 46.0 {
                         wide.push(format!("{name}: {width} em: {}", row.math.latex()));
@@ -218,7 +219,7 @@ fn every_table_fits_the_page() {
                 let Block::Table(head, rows) = block else {
                     continue;
                 };
-                // 17 cm of paper in a font of 10 points.
+                // 17 cm of paper in a 10 point font.
                 let columns = columns(&head, &rows);
                 let width: f32 = columns.iter().map(|column| column.width()).sum();
                 if width > 48.3 {

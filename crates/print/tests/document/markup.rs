@@ -1,6 +1,7 @@
-//! Whether a text is well-formed XML, and whether LaTeX would read it: by their grammars, with nothing installed.
+//! Checks that a text is well-formed XML, or that LaTeX can read it, by their grammars
+//! and without external programs.
 
-/// The elements that a chapter may have: those of HTML that it needs, and those of MathML Core.
+/// The elements that a chapter may contain: some of HTML, and those of MathML Core.
 const ELEMENTS: [&str; 46] = [
     "html", "head", "meta", "title", "style", "body", "article", "section", "h1", "h2", "h3", "p",
     "ul", "li", "div", "table", "thead", "tbody", "tr", "th", "td", "code", "math", "mrow", "mi",
@@ -8,12 +9,12 @@ const ELEMENTS: [&str; 46] = [
     "mtable", "mtr", "mtd", "span", "em", "strong", "b", "i", "br", "hr",
 ];
 
-/// Checks that elements nest and close, attributes are quoted, and `&` and `<` stand for nothing else.
+/// Checks that elements nest and close, attributes are quoted, and `&` and `<` are used only as markup.
 pub fn check_xml(text: &str) -> Result<(), String> {
     walk_xml(text, |_| {})
 }
 
-/// The words between tags, entities resolved.
+/// The text between tags, with entities resolved.
 pub fn text_of_xml(text: &str) -> String {
     let mut words = String::new();
     walk_xml(text, |text| words.push_str(text)).expect("well-formed");
@@ -94,7 +95,7 @@ fn check_attributes(attributes: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// The commands that a chapter may use: of LaTeX, textcomp and amsmath.
+/// The commands that a chapter may use, from LaTeX, textcomp and amsmath.
 const COMMANDS: &[&str] = &[
     "AtBeginDocument",
     "DeclareUnicodeCharacter",
@@ -226,11 +227,11 @@ const COMMANDS: &[&str] = &[
     "zeta",
 ];
 
-/// What is open while LaTeX is read.
+/// A construct that is open while LaTeX is read.
 #[derive(Clone, Debug, PartialEq)]
 enum Open {
     Brace,
-    /// A brace around words, inside of which there is no mathematics: `\text{`.
+    /// A brace around text, outside of mathematics: `\text{`.
     Words,
     Dollar,
     Left,

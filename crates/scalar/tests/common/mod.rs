@@ -1,4 +1,4 @@
-//! Random numbers, and the truth at 448 bits.
+//! Random numbers, and reference values with 448 bits.
 
 #![allow(
     dead_code,
@@ -7,8 +7,8 @@
 
 use astro_float_num::{BigFloat, Consts, RoundingMode};
 
-/// Bits of the truth: two numbers that differ by a cancellation of 2⁻¹¹⁰ still have three times the
-/// bits of what is tested.
+/// Bits of the reference values: after a cancellation of 2⁻¹¹⁰ they still have three times the bits
+/// of the numbers under test.
 pub const BITS: usize = 448;
 
 pub const ROUND: RoundingMode = RoundingMode::ToEven;
@@ -35,7 +35,7 @@ impl Random {
         low + (high - low) * self.unit()
     }
 
-    /// Of any sign, with a magnitude from 2^low to 2^high.
+    /// Of random sign, with a magnitude from 2^low to 2^high.
     pub fn scaled(&mut self, low: f64, high: f64) -> f64 {
         let magnitude = self.between(low, high).exp2();
         if self.bits() & 1 == 0 {
@@ -70,7 +70,7 @@ pub fn sqrt(a: &BigFloat) -> BigFloat {
     a.sqrt(BITS, ROUND)
 }
 
-/// A function of one number at [`BITS`] bits.
+/// A reference function of one number with [`BITS`] bits.
 pub type Truth = fn(&BigFloat, &mut Consts) -> BigFloat;
 
 macro_rules! truth {
@@ -86,8 +86,8 @@ pub fn constants() -> Consts {
     Consts::new().expect("memory for the constants of the truth")
 }
 
-/// The truth of atan2 by the half-angle formula 2 atan(y/(√(x² + y²) + x)), or its other form for x
-/// < 0.
+/// The reference for atan2 by the half-angle formula 2 atan(y/(√(x² + y²) + x)),
+/// or its other form for x < 0.
 pub fn atan2(y: &BigFloat, x: &BigFloat, constants: &mut Consts) -> BigFloat {
     let length = sqrt(&add(&mul(x, x), &mul(y, y)));
     let tan_of_half = if x.is_negative() {

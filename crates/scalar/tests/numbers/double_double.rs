@@ -1,4 +1,4 @@
-//! Double-double numbers against numbers of 448 bits.
+//! Double-double numbers compared with numbers of 448 bits.
 
 use crate::common::{
     BITS, ROUND, Random, Truth, add, atan2, big, constants, div, error_exponent, mul, sqrt,
@@ -6,7 +6,7 @@ use crate::common::{
 use astro_float_num::BigFloat;
 use lagrangian_scalar::{DoubleDouble, Scalar};
 
-/// The bound for the functions, 64u² = 2⁻¹⁰⁰, derived at each of them.
+/// The error bound of the functions, 64u² = 2⁻¹⁰⁰, which is derived at each of them.
 const FUNCTION: i32 = -100;
 
 const POINTS: usize = 200;
@@ -15,7 +15,7 @@ fn exact(x: DoubleDouble) -> BigFloat {
     add(&big(x.hi()), &big(x.lo()))
 }
 
-/// With a second word.
+/// A double-double with this high word and a random low word.
 fn double(hi: f64, random: &mut Random) -> DoubleDouble {
     DoubleDouble::from(hi) + DoubleDouble::from(hi * random.between(-1.0, 1.0) * 2f64.powi(-54))
 }
@@ -55,7 +55,7 @@ fn arithmetic_keeps_its_bounds() {
             double(hi, &mut random)
         });
         let (x, y) = (exact(a), exact(b));
-        // 3u², 5u², 15u², 4u²; `error_exponent` rounds up to a power of 2.
+        // The bounds are 3u², 5u², 15u², 4u²; `error_exponent` rounds up to a power of 2.
         assert!(
             error_exponent(&exact(a + b), &add(&x, &y)) <= u_squared + 2,
             "seed {seed}"
@@ -253,7 +253,7 @@ fn what_is_undefined_stays_undefined() {
         assert!(!result.is_finite(), "{result:?}");
         assert_ne!(result, result);
     }
-    // The largest numbers themselves are no trouble.
+    // The largest numbers themselves can be divided.
     let large = DoubleDouble::from(f64::MAX);
     assert_eq!((large / large).hi(), 1.0);
     assert_eq!(

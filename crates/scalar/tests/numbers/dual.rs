@@ -1,12 +1,11 @@
-//! Derivatives against differences in double-double, against closed forms, and exactly in the prime
-//! field.
+//! Derivatives compared with differences in double-double, with closed forms, and exactly in the prime field.
 
 use crate::common::Random;
 use lagrangian_scalar::{DoubleDouble, Dual, Jet, Residue, Scalar};
 
 type Function<S> = fn(S) -> S;
 
-/// Every function of one number, with the range on which it is tried.
+/// Every function of one number, with the range on which it is tested.
 fn functions<S: Scalar>() -> Vec<(&'static str, Function<S>, f64, f64)> {
     fn half<S: Scalar>() -> S {
         S::from_ratio(1, 2)
@@ -64,8 +63,8 @@ fn derivatives_equal_differences() {
             let result = dual(Dual::variable(x));
             assert_eq!(result.value, function(x), "{name}");
             let difference = (function(x + step) - function(x - step)) / (step + step);
-            // Truncation step² f‴/6 with |f‴| ≤ 10⁴ on these ranges, 1.5e-18; rounding 2⁻¹⁰⁰
-            // |f|/step below 1e-18.
+            // Truncation error step² f‴/6 with |f‴| ≤ 10⁴ on these ranges: 1.5e-18. Rounding error 2⁻¹⁰⁰
+            // |f|/step: below 1e-18.
             let error = (result.derivative - difference).abs().to_f64();
             assert!(
                 error < 1e-17,
@@ -89,7 +88,7 @@ fn kinks_have_the_mean_slope() {
 fn nested_duals_have_second_derivatives() {
     let x = Dual::variable(Dual::variable(0.7));
     let second = |y: Dual<Dual<f64>>| y.derivative.derivative;
-    // sin″ = −sin, (x⁵)″ = 20x³, to a few roundings.
+    // sin″ = −sin, (x⁵)″ = 20x³, to a few rounding units.
     assert!((second(x.sin()) + 0.7f64.sin()).abs() < 1e-15);
     assert!((second(x.powi(5)) - 20.0 * 0.7f64.powi(3)).abs() < 1e-14);
 }
@@ -118,8 +117,8 @@ fn what_is_undefined_shows() {
     assert!(Dual::variable(1.5).powi(i32::MIN).is_finite());
 }
 
-/// The coefficients of a jet are derivatives over factorials: those of nested dual numbers, which know nothing of
-/// series, exactly in the prime field where it has the function, and to 32 digits elsewhere.
+/// The coefficients of a jet are derivatives over factorials, compared with nested dual numbers, which do not use
+/// series: exactly in the prime field where it has the function, and to 32 digits elsewhere.
 #[test]
 fn jets_are_derivatives_over_factorials() {
     type Third<S> = Dual<Dual<Dual<S>>>;

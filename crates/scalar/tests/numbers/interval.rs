@@ -1,4 +1,4 @@
-//! Intervals enclose the truth, which is computed in double-double.
+//! Intervals enclose the true values, which are computed in double-double.
 
 use crate::common::Random;
 use lagrangian_scalar::{DoubleDouble, Interval, Scalar};
@@ -91,7 +91,8 @@ fn chains_of_operations_enclose_the_truth() {
                 "seed {seed}: {name} of {a:?}, {b:?} gives {interval:?} without {truth:?}"
             );
             finite += 1;
-            // Below, double-double loses its second word; above, its sine.
+            // For smaller values double-double loses its second word, for larger
+            // ones the accuracy of its sine.
             if truth.to_f64().abs() > 1e-150 && truth.to_f64().abs() < 1e15 {
                 values.push((interval, truth));
             }
@@ -103,8 +104,8 @@ fn chains_of_operations_enclose_the_truth() {
     );
 }
 
-/// The errors that the widening relies on: below 1 unit in the last place, or 2 where functions are
-/// composed.
+/// The errors on which the widening relies: below 1 unit in the last place, or 2
+/// where functions are composed.
 #[test]
 fn the_errors_of_libm_are_below_half_of_the_widening() {
     let check = |name: &str, limit: f64, result: f64, truth: DoubleDouble| {
@@ -230,14 +231,14 @@ fn what_is_unknown_stays_unknown() {
     assert!(!Interval::new(1.0, 2.0).exceeds(unknown));
 }
 
-/// Bounds at the ends of the range of `f64`, where errors of products cannot be represented.
+/// Bounds at the ends of the range of `f64`, where the errors of products cannot be represented.
 #[test]
 fn tiny_and_huge_products_are_enclosed() {
     for seed in 0..5000 {
         let mut random = Random(seed);
         let (a, b) = (random.scaled(-540.0, -480.0), random.scaled(-540.0, -480.0));
         let product = Interval::from(a) * Interval::from(b);
-        // The same product, 2¹⁰⁰⁰ times larger: exact in double-double.
+        // The same product scaled by 2¹⁰⁰⁰ is exact in double-double.
         let truth = DoubleDouble::from(a * 2f64.powi(500)) * DoubleDouble::from(b * 2f64.powi(500));
         let scaled = |x: f64| DoubleDouble::from(x * 2f64.powi(1000));
         assert!(

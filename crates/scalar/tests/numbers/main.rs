@@ -1,4 +1,4 @@
-//! Numbers: double-double, dual numbers, intervals.
+//! Tests of double-double numbers, dual numbers and intervals.
 
 #[path = "../common/mod.rs"]
 mod common;

@@ -1,11 +1,11 @@
-//! Derivatives against the rules of the textbook, carried out on plain trees in a prime field; and
-//! at depth.
+//! Derivatives compared with the textbook rules applied to plain trees in a prime field; and derivatives
+//! of deep expressions.
 
 use crate::support::{Slope, SplitMix, Tree, residue, residues, same, symbols};
 use lagrangian_scalar::{Residue, Scalar};
 use lagrangian_symbolic::{Dag, Expr, Function, Stage, Tangent, evaluate, reverse, substitute};
 
-/// The smooth functions; those that Residue takes for opaque have their derivatives all the same.
+/// The smooth functions. Those that `Residue` treats as opaque have derivatives nevertheless.
 const FUNCTIONS: [Function; 13] = [
     Function::Sin,
     Function::Cos,
@@ -44,7 +44,7 @@ fn forward_derivatives_follow_the_rules() {
             at[2].slope = Residue::ONE;
             let expected = tree.value(&at);
             let found = residue(&dag, derivative, seed);
-            // A root in the derivative need not exist where the function has a value.
+            // A root in the derivative may be undefined where the function has a value.
             if expected.value.is_finite() && expected.slope.is_finite() && found.is_finite() {
                 decided += 1;
                 assert_eq!(found, expected.slope, "case {case}: {tree:?}");
@@ -117,8 +117,8 @@ fn functions_with_corners_have_slopes_beside_them() {
             let h = 1e-5;
             let by_x = (value(e, h, 0.0) - value(e, -h, 0.0)) / (2.0 * h);
             let by_y = (value(e, 0.0, h) - value(e, 0.0, -h)) / (2.0 * h);
-            // Error of the central difference: h²/6 times the third derivative, and rounding
-            // 1e-16/h.
+            // The truncation error of the central difference is h²/6 times the third derivative, its
+            // rounding error 1e-16/h.
             assert!((value(e.diff(sx), 0.0, 0.0) - by_x).abs() < 1e-7, "{e:?}");
             assert!((value(e.diff(sy), 0.0, 0.0) - by_y).abs() < 1e-7, "{e:?}");
         }
@@ -177,7 +177,7 @@ fn a_chain_of_a_hundred_thousand_nodes_needs_no_stack() {
     assert!((values[1] - values[2]).abs() < 1e-6 * values[1].abs());
 }
 
-/// Horizontal positions of the tips of a chain of n links, each turned against the one before it.
+/// Horizontal positions of the tips of a chain of n links in relative angles.
 fn relative_chain(dag: &Dag, n: usize) -> (Vec<Expr<'_>>, Vec<Expr<'_>>, Vec<Expr<'_>>) {
     let l = dag.symbol("l", Stage::PARAMETER);
     let q: Vec<_> = (0..n)
@@ -196,7 +196,7 @@ fn relative_chain(dag: &Dag, n: usize) -> (Vec<Expr<'_>>, Vec<Expr<'_>>, Vec<Exp
     (positions, q, v)
 }
 
-/// Nodes that inverse dynamics of the chain takes: Σ m·(D²p)·∂p/∂q.
+/// The number of nodes of the inverse dynamics of the chain: Σ m·(D²p)·∂p/∂q.
 fn nodes_of_inverse_dynamics(n: usize) -> usize {
     let dag = Dag::new();
     let m = dag.symbol("m", Stage::PARAMETER);
@@ -226,7 +226,7 @@ fn nodes_of_inverse_dynamics(n: usize) -> usize {
 fn recursion_along_a_chain_is_kept() {
     let counts = [8, 16, 32, 64].map(nodes_of_inverse_dynamics);
     let per_link = |i: usize| (counts[i + 1] - counts[i]) / (8 << i);
-    // The same number of nodes for every further link.
+    // The number of nodes per further link is constant.
     assert_eq!(per_link(0), per_link(1), "{counts:?}");
     assert_eq!(per_link(1), per_link(2), "{counts:?}");
     assert!(per_link(0) < 60, "{counts:?}");
@@ -256,7 +256,8 @@ fn second_derivatives_are_derivatives_of_derivatives() {
     assert!(decided > 500, "{decided}");
 }
 
-/// `|v|ⁿ` for n = 3, 5, 7 and its slopes `n |v|ⁿ⁻² v` have values at rest, however the power is written.
+/// `|v|ⁿ` for n = 3, 5, 7 and its derivatives `n |v|ⁿ⁻² v` have values at rest,
+/// however the power is written.
 #[test]
 fn odd_powers_of_a_length_have_slopes_at_rest() {
     let dag = Dag::new();
@@ -318,7 +319,8 @@ fn odd_powers_of_a_length_have_slopes_at_rest() {
     }
 }
 
-/// What has no limit keeps none: nothing is cancelled that is not a factor as a whole.
+/// Only common factors of the whole quotient are cancelled, so a quotient
+/// without a limit stays undefined.
 #[test]
 fn quotients_by_a_root_keep_their_values_elsewhere() {
     let dag = Dag::new();

@@ -1,4 +1,4 @@
-//! What constructors simplify keeps its value, and is what `dag` promises.
+//! Simplification by constructors preserves values and keeps the invariants that `dag` promises.
 
 use crate::support::{SMOOTH, SplitMix, Tree, all_functions, residue, residues, symbols};
 use lagrangian_scalar::Scalar;
@@ -36,10 +36,10 @@ fn construction_keeps_the_value_of_every_function() {
         let at: Vec<f64> = (0..6).map(|_| 0.2 + 1.5 * random.uniform()).collect();
         let expected = tree.value(&at);
         let shaken = tree.value(&at.iter().map(|x| x * (1.0 + 1e-9)).collect::<Vec<_>>());
-        // Where a value hangs on the last digits of its arguments, two ways of rounding may well
-        // disagree.
+        // If a value depends on the last digits of its arguments, two
+        // ways of rounding may disagree.
         let stable = (expected - shaken).abs() < 1e-5 * expected.abs().min(1.0);
-        // In floating point sin(π) is not 0, and 1/sin(π) has a value.
+        // In floating point sin(π) is not 0, so 1/sin(π) has a value.
         if stable && !e.is_undefined() {
             decided += 1;
             let value = evaluate(&dag, &[e], |s| at[s.index()])[0];
@@ -261,7 +261,7 @@ fn long_rows_take_memory_in_proportion() {
     let at_once = dag.product(symbols.iter().copied());
     let value = |e| evaluate(&dag, &[e], |s| 1.0 + 1e-6 * s.index() as f64)[0];
     assert!((value(row) / value(at_once) - 1.0).abs() < 1e-9);
-    // 64 at most in every product: what is kept for a row is below 33 factors a step.
+    // At most 64 in every product; the total kept for a row is below 33 factors per step.
     let mut kept = 0;
     for id in dag.ids() {
         dag.node(id).for_each_child(|_| kept += 1);
@@ -273,7 +273,7 @@ fn long_rows_take_memory_in_proportion() {
 fn constants_are_rounded_once() {
     let dag = Dag::new();
     let hundredth = dag.constant(Rational::parse_decimal("0.01").expect("a decimal"));
-    // 4.999958333472221974206625…e-5; in f64 alone a third of the digits cancel.
+    // 4.999958333472221974206625…e-5; in f64 alone a third of the digits would cancel.
     let versine = dag.one() - hundredth.cos();
     assert_eq!(nearest(versine), 4.999_958_333_472_222e-5);
     let huge = dag.constant(Rational::from(700)).exp();

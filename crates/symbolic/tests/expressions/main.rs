@@ -1,4 +1,4 @@
-//! Expressions: made, normalized, differentiated, printed.
+//! Tests of expressions: construction, normal forms, derivatives, printing.
 
 mod calculus;
 mod construction;

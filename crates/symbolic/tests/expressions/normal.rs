@@ -1,4 +1,4 @@
-//! Expanding, folding and comparing keep values; identities vanish.
+//! Expanding, folding and comparing preserve values, and identities become zero.
 
 use crate::support::{SMOOTH, SplitMix, Tree, same, symbols};
 use lagrangian_symbolic::{Dag, Expr, Stage, Tangent, normal};
@@ -129,7 +129,7 @@ fn hopeless_expansions_are_given_up() {
     // These are one term.
     assert!(normal::expand(x[0].powi(1_000_000), 200).is_some());
     assert!(normal::expand(sum.powi(-1_000_000), 200).is_some());
-    // High multiples stay angles of their own.
+    // Large multiples of an angle are not expanded.
     let e = (1000 * x[0]).sin() + x[0].sin();
     assert_eq!(normal::expand(e, 200).map(|e| e.len()), Some(2));
     assert_eq!(normal::readable(sum.sin(), 100), sum.sin());
@@ -159,7 +159,8 @@ fn collecting_groups_by_monomials_of_symbols() {
     assert_eq!(collected, expected);
 }
 
-/// The pestle of the crusher: T₂ from positions, and as the paper prints it with its misprints.
+/// The pestle of the crusher: T₂ derived from positions, and as the paper
+/// prints it with its misprints.
 #[test]
 fn a_printed_formula_is_mended_term_by_term() {
     let dag = Dag::new();
@@ -198,7 +199,7 @@ fn a_printed_formula_is_mended_term_by_term() {
             s1 * angle.sin() * vphi1 * vs2,
             s1 * s2 * angle.cos() * vphi1 * vphi2,
         ];
-        // Both of these the print leaves out.
+        // The print omits both of these.
         let left_out = [angle.cos() * vs1 * vs2, -(s2 * angle.sin() * vs1 * vphi2)];
         let left_out = left_out.into_iter().filter(|_| !printed);
         let double = products.into_iter().chain(left_out).map(|term| 2 * term);

@@ -1,4 +1,4 @@
-//! What is printed reads like a textbook, and reads back as what it was.
+//! Printed formulas read like those of a textbook, and parse back to the same expressions.
 
 use crate::support::markup;
 use crate::support::parser::parse;
@@ -233,7 +233,8 @@ fn lines_say_what_the_formula_says() {
         let formula = math_as_built(e, &dag);
         let lines = formula.lines(12.0, 10.0);
         broken += usize::from(lines.len() > 1);
-        // Each line stands alone, and what is torn apart is only put on several lines.
+        // Each line is complete by itself, and a broken formula has the
+        // same content on several lines.
         let atoms: Vec<String> = lines
             .iter()
             .flat_map(|line| markup::atoms_of_mathml(&line.mathml()))
@@ -272,7 +273,7 @@ fn a_line_ends_between_terms_and_within_its_width() {
         lines,
         [r"\left(a + b + c\right) \left(u + v + w\right)", "+ x"]
     );
-    // A sum in parentheses is torn where nothing else helps, its power included.
+    // A sum in parentheses, with its power, is broken only if nothing else helps.
     let e = sum(["a", "b", "c"]).square();
     let lines: Vec<String> = math(e, &dag)
         .lines(4.5, 9.0)

@@ -1,6 +1,6 @@
-//! What a formula shows, read off from each language it is written in: letters, numbers, names and visible signs, in order.
+//! The visible content of a formula in each markup language: letters, numbers, names and signs, in order.
 
-/// What MathML shows; fails if elements do not close or are none that browsers draw.
+/// The visible content of MathML; panics if elements do not close or browsers do not draw them.
 pub fn atoms_of_mathml(text: &str) -> Vec<String> {
     const ELEMENTS: [&str; 16] = [
         "math", "mrow", "mi", "mn", "mo", "mtext", "mspace", "mfrac", "msup", "msub", "msubsup",
@@ -27,7 +27,7 @@ pub fn atoms_of_mathml(text: &str) -> Vec<String> {
             );
             match name {
                 "mi" | "mn" | "mo" if open.last() == Some(&("mover", 2)) => {
-                    // The accent is written after its letter here, before it in LaTeX.
+                    // The accent follows its letter here, and precedes it in LaTeX.
                     atoms.insert(
                         accents.pop().expect("a letter to put it on"),
                         before.to_owned(),
@@ -60,7 +60,7 @@ pub fn atoms_of_mathml(text: &str) -> Vec<String> {
     seen.filter(|atom| !atom.is_empty()).collect()
 }
 
-/// What LaTeX shows; fails if its brackets do not close or a command is none of those known.
+/// The visible content of LaTeX; panics if its brackets do not close or a command is unknown.
 pub fn atoms_of_latex(text: &str) -> Vec<String> {
     let mut atoms = Vec::new();
     let mut open = Vec::new();

@@ -1,5 +1,4 @@
-//! Random formulas, kept as plain trees: what the graph says about them is held against what the
-//! tree says.
+//! Random formulas kept as plain trees, with which the results of the graph are compared.
 #![allow(dead_code, reason = "each test uses its part")]
 
 pub mod markup;
@@ -35,7 +34,7 @@ impl SplitMix {
     }
 }
 
-/// A formula as written, nothing simplified.
+/// A formula as written, without simplification.
 #[derive(Clone, Debug)]
 pub enum Tree {
     Symbol(usize),
@@ -58,7 +57,7 @@ pub const SYMBOLS: [(&str, Stage); 6] = [
     ("w", Stage(4)),
 ];
 
-/// Functions whose equations a [`Residue`] knows.
+/// Functions for which [`Residue`] has equations.
 pub const SMOOTH: [Function; 5] = [
     Function::Sin,
     Function::Cos,
@@ -67,13 +66,13 @@ pub const SMOOTH: [Function; 5] = [
     Function::Tan,
 ];
 
-/// Every function, angles more often.
+/// Every function, with the smooth ones twice as often.
 pub fn all_functions() -> Vec<Function> {
     Function::ALL.into_iter().chain(SMOOTH).collect()
 }
 
 impl Tree {
-    /// A formula of at most this depth; small alphabets, so that like terms meet.
+    /// A random formula of at most this depth; it has few symbols, so that like terms occur.
     pub fn random(random: &mut SplitMix, depth: usize, functions: &[Function]) -> Tree {
         let below = |random: &mut SplitMix| Tree::random(random, depth - 1, functions);
         if depth == 0 || random.below(8) == 0 {
@@ -102,7 +101,7 @@ impl Tree {
                 random.choose(&[2, 2, 3, -1, -2, 0]),
             ),
             8 if !functions.is_empty() => {
-                // A·sin²x ± A·cos²x, hidden among other terms.
+                // A·sin²x ± A·cos²x among other terms.
                 let (a, x) = (below(random), Tree::random(random, depth - 1, &[]));
                 let square = |f| Tree::Power(Box::new(Tree::Call(f, vec![x.clone()])), 2);
                 let term = |f| Tree::Product(vec![a.clone(), square(f)]);
@@ -115,8 +114,8 @@ impl Tree {
             }
             _ if functions.is_empty() => below(random),
             _ => {
-                // A residue is no angle that has sines or quotients by π in it, and takes functions
-                // of constants for opaque.
+                // A residue cannot be an angle if it contains sines or quotients by π, and treats
+                // functions of constants as opaque.
                 let function = random.choose(functions);
                 let argument = |_| match function {
                     Function::Sin | Function::Cos | Function::Tan => {
@@ -142,7 +141,7 @@ impl Tree {
             Tree::Symbol(index) => symbols[*index],
             Tree::Constant(n, d) => dag.constant(Rational::new(*n, *d).expect("not over 0")),
             Tree::Pi => dag.pi(),
-            // Rows of operators and n-ary constructors, by turns.
+            // Alternates between chains of operators and n-ary constructors.
             Tree::Sum(terms) if terms.len() % 2 == 0 => {
                 dag.sum(terms.iter().map(|(x, c)| *c * x.build(dag, symbols)))
             }
@@ -176,7 +175,7 @@ impl Tree {
             Tree::Quotient(a, b) => a.value(symbols).over(b.value(symbols)),
             Tree::Power(x, n) => {
                 let x = x.value(symbols);
-                // 1 + 0·x: what has no value has none to the power 0 either.
+                // 1 + 0·x: an undefined value is undefined also to the power 0.
                 let one = N::ratio(1, 1).plus(N::ratio(0, 1).times(x));
                 let power = (0..n.abs()).fold(one, |power, _| power.times(x));
                 if *n < 0 {
@@ -193,7 +192,7 @@ impl Tree {
     }
 }
 
-/// What a tree is evaluated over.
+/// The numbers over which a tree is evaluated.
 pub trait Number: Copy {
     fn ratio(n: i64, d: i64) -> Self;
     fn pi() -> Self;
@@ -203,7 +202,7 @@ pub trait Number: Copy {
     fn call(f: Function, x: Self, y: Self) -> Self;
 }
 
-/// What is infinite on the way has no value in the end: 1/(1/0) is not 0.
+/// Makes the result undefined if an intermediate value is infinite: 1/(1/0) is not 0.
 fn settle<S: Scalar>(x: S) -> S {
     if x.is_finite() { x } else { x * S::ZERO }
 }
@@ -248,7 +247,7 @@ impl<S: Scalar> Number for S {
     }
 }
 
-/// A value and its derivative, by the rules of the textbook.
+/// A value and its derivative, by the textbook rules.
 #[derive(Clone, Copy, Debug)]
 pub struct Slope {
     pub value: Residue,
@@ -320,7 +319,7 @@ pub fn symbols(dag: &Dag) -> Vec<Expr<'_>> {
         .collect()
 }
 
-/// The value of every symbol in one experiment.
+/// The value of every symbol in one trial.
 pub fn residues(seed: u64) -> Vec<Residue> {
     (0..SYMBOLS.len())
         .map(|index| Residue::random(seed, index as u64))
@@ -333,7 +332,7 @@ pub fn residue(dag: &Dag, e: Expr<'_>, seed: u64) -> Residue {
     })[0]
 }
 
-/// Whether two expressions have the same value at some point where both have one.
+/// Whether two expressions have the same value at a point where both have one.
 pub fn same(dag: &Dag, a: Expr<'_>, b: Expr<'_>) -> Option<bool> {
     (0..40).find_map(|seed| {
         let (a, b) = (residue(dag, a, seed), residue(dag, b, seed));

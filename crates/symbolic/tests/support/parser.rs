@@ -1,4 +1,4 @@
-//! The spec language's expressions, for reading back what is printed.
+//! Parses expressions of the spec language, to read back what was printed.
 
 use lagrangian_symbolic::{Dag, Expr, Function, Rational};
 
@@ -8,7 +8,7 @@ pub struct Parser<'a, 'd> {
     rest: &'a str,
 }
 
-/// Reads an expression; rows of terms and of factors are built at once, as written.
+/// Parses an expression; chains of terms and of factors are built at once, as written.
 pub fn parse<'d>(dag: &'d Dag, symbols: &[(&str, Expr<'d>)], text: &str) -> Expr<'d> {
     let mut parser = Parser {
         dag,
@@ -78,7 +78,7 @@ impl<'d> Parser<'_, 'd> {
             assert!(self.eat(")"), "{}", self.rest);
             return inner;
         }
-        // A number, by the longest run that could be one.
+        // A number, from the longest run of characters that can be one.
         if self.rest.starts_with(|c: char| c.is_ascii_digit()) {
             let bytes = self.rest.as_bytes();
             let part = |i: usize| match bytes[i] {

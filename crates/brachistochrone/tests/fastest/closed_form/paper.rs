@@ -1,23 +1,23 @@
-//! The paper's own solution for two coordinates, (24)–(55), typed in by hand with its misprints mended or, one at a time,
-//! as printed. It shares nothing with the crate: another metric, another parameter, another quadrature.
+//! The paper's own solution for two coordinates, (24)–(55), typed in by hand with its misprints corrected or, one at a
+//! time, as printed. It shares nothing with the crate: it uses another metric, another parameter and another quadrature.
 
 use std::f64::consts::PI;
 
-/// Which formula is taken as it is printed.
+/// The formula that is taken as printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Print {
     Mended,
-    /// φ for 2ρ in the denominator of λ.
+    /// φ printed for 2ρ in the denominator of λ.
     Eq44,
-    /// ρ for φ, twice.
+    /// ρ printed for φ, twice.
     Eq45,
-    /// ρ for φ in numerator and denominator of Ṽ.
+    /// ρ printed for φ in numerator and denominator of Ṽ.
     Eq48,
-    /// `ψρ′ − ρψ′` and `ρψ(φ − ρ′)` in Ṽ′.
+    /// `ψρ′ − ρψ′` and `ρψ(φ − ρ′)` printed in Ṽ′.
     Eq49,
-    /// A sign in ϑ₄.
+    /// A wrong sign in ϑ₄.
     Eq50,
-    /// q¹ for q².
+    /// q¹ printed for q².
     Eq53,
 }
 
@@ -30,7 +30,7 @@ pub struct Machine {
     pub d: [[f64; 2]; 2],
 }
 
-/// In normal coordinates.
+/// The problem in normal coordinates.
 #[derive(Clone, Copy, Debug)]
 pub struct Paper {
     pub r: [f64; 2],
@@ -38,7 +38,7 @@ pub struct Paper {
     pub print: Print,
 }
 
-/// What comes out.
+/// The results.
 #[derive(Clone, Copy, Debug)]
 pub struct Solved {
     pub start: f64,
@@ -48,7 +48,7 @@ pub struct Solved {
 }
 
 impl Paper {
-    /// (24), (27), (29), (33).
+    /// Transforms to normal coordinates by (24), (27), (29), (33).
     pub fn new(machine: &Machine, print: Print) -> Paper {
         let Machine { a: m, b, c, d } = machine;
         let (a12, a) = (m[0][1], m[0][0] + 2.0 * m[0][1] + m[1][1]);
@@ -81,7 +81,7 @@ impl Paper {
         ]
     }
 
-    /// (43), on the branch on which it is driven.
+    /// (43), on the branch on which the motion is driven.
     pub fn start(&self) -> f64 {
         let ([r1, r2], [[d11, d12], [d21, d22]]) = (self.r, self.d);
         let e = ((-r2 * (1.0 + d11) + r1 * d21) / (r2 * d12 - r1 * (1.0 + d22))).atan();
@@ -152,8 +152,8 @@ impl Paper {
         [v * time * e.cos(), v * time * e.sin(), time]
     }
 
-    /// Φ, Ψ and the time by the trapezoidal rule after `x = tanh(π/2 sinh s)`. H. Takahasi and M. Mori, *Double exponential
-    /// formulas for numerical integration* (1974).
+    /// Φ, Ψ and the time by the trapezoidal rule after the substitution `x = tanh(π/2 sinh s)`. H. Takahasi and M. Mori,
+    /// *Double exponential formulas for numerical integration* (1974).
     fn integrals(&self, end: f64) -> [f64; 3] {
         let start = self.start();
         let (half, h) = ((end - start) / 2.0, 1.0 / 32.0);
@@ -203,7 +203,7 @@ impl Paper {
                 let [x, y, time] = self.integrals(end);
                 let k = (to[0].hypot(to[1])) / x.hypot(y);
                 let goes = x * to[0] + y * to[1] > 0.0;
-                // V and dt are positive on the way, and a change of sign of Δ at a pole is no root.
+                // V and dt are positive during the motion, and a change of sign of Δ at a pole is not a root.
                 let c1 = k.powf(-0.5) * self.speed((start + end) / 2.0, end)[0].signum();
                 let found = Solved {
                     start,

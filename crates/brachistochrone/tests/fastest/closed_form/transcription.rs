@@ -1,16 +1,16 @@
-//! The fastest motion in the bluntest way: a polyline whose time is made least, with nothing known of Euler's equations.
+//! The fastest motion by a direct method that does not use Euler's equations: a polyline whose time is minimized.
 //!
-//! Under the conditions (17) and in coordinates `z` in which `A = a + sym d` measures lengths, a straight piece from `z` to
-//! `z + s` changes the speed by `V² ← V² − 2 ρ·s`, and a corner that turns by `x` by `V ← V exp(−Ω x)`, as friction by the skew
-//! part of `d` goes with the turn. Both are exact, so a polyline is a motion of the machine: no slower than the fastest.
+//! Under the conditions (17), in coordinates `z` in which `A = a + sym d` measures lengths, a straight piece from `z` to
+//! `z + s` changes the speed by `V² ← V² − 2 ρ·s`. A corner that turns by `x` changes it by `V ← V exp(−Ω x)`, as the skew part
+//! of `d` acts on turns. Both are exact, so every polyline is a possible motion of the machine, and no faster than the fastest.
 
 use super::paper::Machine;
 
-/// The plane in which the machine is a point.
+/// The plane in which the machine moves as a point.
 struct Plane {
-    /// The end.
+    /// The end point.
     end: [f64; 2],
-    /// What falls: `ρ`.
+    /// The gradient `ρ` of the potential and constant friction.
     slope: [f64; 2],
     /// Ω.
     skew: f64,
@@ -32,8 +32,8 @@ impl Plane {
         }
     }
 
-    /// The time along a polyline whose corners are off the straight way by `offsets`, times its length; about equally long in
-    /// time. Infinite where it leads up too far.
+    /// The time along a polyline whose pieces take about equal times. Its corners are off the straight line by `offsets` times
+    /// the length of that line. The time is infinite if the polyline goes up too far.
     fn time(&self, offsets: &[f64]) -> f64 {
         let pieces = offsets.len() + 1;
         let [x, y] = self.end;
@@ -64,7 +64,7 @@ impl Plane {
         time
     }
 
-    /// Makes the time least by Newton's method with differences.
+    /// Minimizes the time by Newton's method with differences.
     fn least(&self, offsets: &mut [f64]) -> f64 {
         const STEP: f64 = 1e-4;
         let n = offsets.len();
@@ -117,7 +117,7 @@ impl Plane {
     }
 }
 
-/// The solution of equations with their right-hand sides behind them; what is near a minimum needs no search for pivots.
+/// Solves linear equations whose right-hand sides are the last column; near a minimum no pivoting is needed.
 fn eliminated(mut rows: Vec<Vec<f64>>) -> Vec<f64> {
     let n = rows.len();
     for k in 0..n {
@@ -133,10 +133,10 @@ fn eliminated(mut rows: Vec<Vec<f64>>) -> Vec<f64> {
     (0..n).map(|k| rows[k][n] / rows[k][k]).collect()
 }
 
-/// The least times from rest at the origin to an end, of polylines with 4, 8, 16, … pieces.
+/// The least times of polylines with 4, 8, 16, … pieces from rest at the origin to an end.
 pub fn least_times(machine: &Machine, end: [f64; 2], doublings: usize) -> Vec<f64> {
     let plane = Plane::of(machine, end);
-    // From the best of some arches.
+    // Starts with the best of several arches.
     let arch = |height: f64| {
         [1, 2, 3]
             .map(|i| height * 4.0 * (i as f64 / 4.0).powi(2) * (1.0 - (i as f64 / 4.0).powi(2)))
@@ -146,7 +146,7 @@ pub fn least_times(machine: &Machine, end: [f64; 2], doublings: usize) -> Vec<f6
     let mut offsets = first.expect("there are some").to_vec();
     let mut times = vec![plane.least(&mut offsets)];
     for _ in 0..doublings {
-        // In between, by the parabola in time through the neighbours.
+        // New corners are on the parabola in time through their neighbours.
         let known = |i: usize| {
             i.checked_sub(1)
                 .and_then(|i| offsets.get(i))

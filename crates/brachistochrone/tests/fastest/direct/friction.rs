@@ -1,10 +1,10 @@
-//! Much friction: the motion without friction is followed while friction is added. The truth is the closed form.
+//! Strong friction: the search follows the motion without friction while friction is added. The closed form is the reference.
 use super::{G, Polar, Wire, close};
 use lagrangian_brachistochrone::direct::{Outcome, Search, Start, Terrain};
 use lagrangian_brachistochrone::{Brachistochrone, Problem, Unsolved};
 use lagrangian_scalar::Scalar;
 
-/// Ashby's curve from (0, 0).
+/// The closed form (Ashby's curve) from (0, 0).
 fn closed(friction: f64, to: [f64; 2]) -> Brachistochrone {
     let mass = [vec![1.0, 0.0], vec![0.0, 1.0]];
     let skew = [vec![0.0, -friction], vec![friction, 0.0]];
@@ -14,7 +14,7 @@ fn closed(friction: f64, to: [f64; 2]) -> Brachistochrone {
         .unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The wire in polar coordinates, and its ends in them; the way does not go round the centre.
+/// The wire in polar coordinates, with its ends; the path does not go round the centre.
 fn polar(friction: f64, to: [f64; 2], centre: [f64; 2]) -> (Polar, [f64; 2], [f64; 2]) {
     let wire = Wire { friction };
     let polar = Polar { wire, centre };
@@ -24,7 +24,7 @@ fn polar(friction: f64, to: [f64; 2], centre: [f64; 2]) -> (Polar, [f64; 2], [f6
     (polar, from, end)
 }
 
-/// To these no start led without it, of 182 random wires.
+/// Of 182 random wires, these are the ones that no start solved without this continuation.
 const ROUGH: [(f64, [f64; 2], [f64; 2]); 3] = [
     (
         1.087,
@@ -62,18 +62,18 @@ fn friction_that_is_added_in_steps_leads_to_the_closed_form() {
             Outcome::Same { .. } => {}
             _ => panic!("{friction}, {to:?}: {trial}"),
         }
-        // On eight stretches the start is good to some digits.
+        // On eight intervals the start is accurate to a few digits.
         close("without friction", time, closed(0.0, to).time(), 1e-5);
         let time = closed(friction, to).time();
-        // The search takes what the last halving of its stretches changes by less than a millionth.
+        // The search accepts a result that the last halving of its intervals changes by less than a millionth.
         close("with friction", found.time(), time, 1e-6);
         assert!((found.time() - time).abs() <= found.change(), "{friction}");
     }
     assert!(alone > 0, "other starts led to all of them");
 }
 
-/// Friction beyond that up to which a smooth motion is the fastest: how far it came is said, and is not beyond what the closed form
-/// knows.
+/// If friction exceeds the limit up to which a smooth motion is the fastest, the error reports how far the continuation came, which
+/// is not beyond the limit of the closed form.
 #[test]
 fn too_much_friction_is_told_with_what_was_reached() {
     let to = [1.0, 1.0];
@@ -91,7 +91,7 @@ fn too_much_friction_is_told_with_what_was_reached() {
         },
     });
     let lost = lost.unwrap_or_else(|| panic!("{error}"));
-    // κ tan(δ/2) is 1 where motions end, by bisection.
+    // Motions end where κ tan(δ/2) = 1, which bisection finds.
     let is_there = |share: f64| {
         let friction = 2.0 * share;
         let mass = [vec![1.0, 0.0], vec![0.0, 1.0]];
@@ -117,7 +117,7 @@ fn too_much_friction_is_told_with_what_was_reached() {
     assert!(text.contains(said), "{text}");
 }
 
-/// Where friction is not known apart, nothing is followed, and the search is as it was.
+/// Without a separate friction term there is no continuation, and the search proceeds as without it.
 #[test]
 fn friction_that_is_not_known_apart_is_not_taken_away() {
     #[derive(Clone, Debug)]

@@ -1,4 +1,4 @@
-//! A particle on a smooth surface with a hill in its way: the truth is a family of rays from the start.
+//! A particle on a smooth surface with a hill in its way; the reference is a family of rays from the start.
 
 use lagrangian_brachistochrone::Unsolved;
 use lagrangian_brachistochrone::direct::{Outcome, Search, Sought, Start, Terrain, solve};
@@ -6,14 +6,13 @@ use lagrangian_scalar::Scalar;
 
 const G: f64 = 9.81;
 
-/// A particle of 1 kg at `(x, y, z)` with `z = h exp(−(x² + k y²)/w²) − s x`; z also where it starts, at (−1, 0), is below
-/// the top.
+/// A particle of 1 kg at `(x, y, z)` with `z = h exp(−(x² + k y²)/w²) − s x`. The start, at (−1, 0), is lower than the top.
 #[derive(Clone, Debug)]
 struct Hill {
     height: f64,
     width: f64,
     slope: f64,
-    /// 0 makes a ridge that has no end.
+    /// With 0 the hill is an endless ridge.
     round: f64,
 }
 
@@ -65,16 +64,17 @@ impl Terrain for Hill {
     }
 }
 
-/// Rays of the fastest motion. By Snell's law in every tangent plane the force across the way is turned round: with the
-/// acceleration `a` of a particle that is free on the surface, and unit tangents t, the acceleration along the surface is `2 t (t·a) − a`.
-/// From rest all rays start along `a`, each with its own change of the acceleration across it, j.
+/// Rays of the fastest motion. By Snell's law in every tangent plane, the force across the path is reversed: with the acceleration `a` of a
+/// particle that moves freely on the surface and the unit tangent t, the acceleration along the surface is `2 t (t·a) − a`. All rays start
+/// from rest along `a`, each with its own change j of the acceleration across it.
 struct Rays {
     hill: Hill,
-    /// Points at equal times for each j, and j.
+    /// For each j, j itself and the points at equal times.
     all: Vec<(f64, Vec<[f64; 2]>)>,
 }
 
-/// Rays are followed for so long, in s, in so many steps, and kept at every fourth; those that are to hit a place, in more.
+/// The duration of the rays in s, the number of steps, and the number of steps between kept points; rays that must
+/// hit a point take `STEPS` steps.
 const LONG: f64 = 2.0;
 const COARSE: usize = 400;
 const KEPT: usize = 4;
@@ -95,7 +95,7 @@ impl Rays {
         }
     }
 
-    /// The times of all rays through a place, the least first.
+    /// The times of all rays through a point, in ascending order.
     fn through(&self, to: [f64; 2]) -> Vec<f64> {
         let miss = |i: usize, k: usize| {
             let q = self.all[i].1[k];
@@ -123,7 +123,7 @@ impl Rays {
         times
     }
 
-    /// Newton's method on j and the time.
+    /// Newton's method for j and the time.
     fn hit(&self, to: [f64; 2], mut j: f64, mut t: f64) -> Option<f64> {
         let end = |j: f64, t: f64| trace(&self.hill, j, t, STEPS)[STEPS];
         for _ in 0..20 {
@@ -152,7 +152,7 @@ impl Rays {
     }
 }
 
-/// Places at equal times of the ray with this j, by the classical Runge–Kutta method.
+/// Positions at equal times on the ray with this j, by the classical Runge–Kutta method.
 fn trace(hill: &Hill, j: f64, until: f64, steps: usize) -> Vec<[f64; 2]> {
     let free = |q: [f64; 2]| {
         // a = −S⁻¹ g ∇z, and S⁻¹ ∇z = ∇z/(1 + |∇z|²).
@@ -168,7 +168,7 @@ fn trace(hill: &Hill, j: f64, until: f64, steps: usize) -> Vec<[f64; 2]> {
         let force = free([x, y]);
         let v = [u, w];
         let part = 2.0 * metric(v, force) / metric(v, v);
-        // Christoffel's term: ∇z (v·z″ v)/(1 + |∇z|²).
+        // The term of the Christoffel symbols: ∇z (v·z″ v)/(1 + |∇z|²).
         let lift = (xx * u * u + 2.0 * xy * u * w + yy * w * w) / (1.0 + a * a + b * b);
         [
             u,
@@ -177,7 +177,7 @@ fn trace(hill: &Hill, j: f64, until: f64, steps: usize) -> Vec<[f64; 2]> {
             part * w - force[1] - lift * b,
         ]
     };
-    // At the start ∂z/∂y is 0 and y is across; the series is good to the fourth power of the first step.
+    // At the start ∂z/∂y is 0 and y is the direction across; the series is accurate to the fourth power of the first step.
     let h = until / steps as f64;
     let force = free(FROM);
     let mut state = [
@@ -212,8 +212,8 @@ fn found(to: [f64; 2]) -> Sought<Hill> {
     solve(HILL, &FROM, &to).unwrap_or_else(|error| panic!("{to:?}: {error}"))
 }
 
-/// Every end behind the hill, beside it and on its slope is reached; of all rays through it the motion is the first, and other motions that
-/// were found are rays.
+/// The search reaches every end behind the hill, beside it and on its slope. Its motion is the fastest of all rays through the end, and the
+/// other motions that it finds are rays, too.
 #[test]
 fn every_end_about_a_hill_is_reached_along_the_first_ray() {
     let rays = Rays::new(&HILL);
@@ -222,7 +222,7 @@ fn every_end_about_a_hill_is_reached_along_the_first_ray() {
             let to = [x, y];
             let motion = found(to);
             let times = rays.through(to);
-            // Steps of a thousandth of a second from a series that is good to the fourth power: 1e-7 and less.
+            // Steps of a thousandth of a second, started by a series accurate to the fourth power: errors of 1e-7 and less.
             let near = |time: f64| times.iter().any(|ray| (ray - time).abs() < 2e-6);
             assert!(
                 (times[0] - motion.time()).abs() < 2e-6,
@@ -251,20 +251,20 @@ fn mirrored_ends_have_mirrored_motions() {
     }
 }
 
-/// Straight behind the hill there are two ways that take equally long, left and right.
+/// Exactly behind the hill there are two paths of equal time, on the left and on the right.
 #[test]
 fn both_ways_round_a_hill_are_found() {
     let motion = found([1.0, 0.0]);
     let others = motion.others();
     assert_eq!(others.len(), 1, "{:?}", motion.tried());
     assert!((others[0] - motion.time()).abs() < 1e-12);
-    // Over the top, from below it, goes nothing.
+    // The start is lower than the top, so no motion passes over it.
     let straight = &motion.tried()[0];
     assert_eq!(straight.start, Start::Straight);
     assert!(
         matches!(straight.outcome, Outcome::Lacks { energy } if energy > 0.0 && energy < 2.0 * G)
     );
-    // A little to one side it is the way on that side that is faster, and the other takes longer.
+    // A little to one side, the path on that side is faster and the other one slower.
     let motion = found([1.0, 0.1]);
     assert!(motion.at(0.7 * motion.time()).q[1] > 0.1);
     let others = motion.others();
@@ -273,7 +273,7 @@ fn both_ways_round_a_hill_are_found() {
 
 #[test]
 fn a_guess_is_a_start_and_its_ends_are_moved() {
-    // On the far side the motion is slower, and the faster one is taken all the same.
+    // The guess on the far side leads to a slower motion, but the search returns the faster one.
     let to = [1.0, 0.3];
     let both = found(to);
     let guess = vec![vec![-1.0, 0.0], vec![0.0, -0.8], vec![1.1, -0.1]];
@@ -296,7 +296,7 @@ fn a_guess_is_a_start_and_its_ends_are_moved() {
     }
 }
 
-/// Work is counted: no search does more than it may but for what was begun.
+/// The search has a budget of work, which it exceeds only by what it has begun.
 #[test]
 fn a_search_ends_with_its_budget() {
     let ridge = Hill { round: 0.0, ..HILL };
@@ -304,8 +304,8 @@ fn a_search_ends_with_its_budget() {
     let Err(Unsolved::NotFound { tried }) = error else {
         panic!("{error:?}");
     };
-    // Below the ridge there is no way past it, and every start says so.
-    // The ridge is as high everywhere: from z at the start to its crest, where 2 b x h exp(−b x²) = −s.
+    // From below the ridge no motion passes it, and every start reports that.
+    // The ridge has the same height everywhere: from z at the start to its crest, where 2 b x h exp(−b x²) = −s.
     let height = |x: f64| 0.6 * (-4.0 * x * x).exp() - 0.5 * x;
     let crest = (0..=20_000).map(|k| height(-0.2 + 1e-5 * f64::from(k)));
     let lacking = G * (crest.fold(f64::MIN, f64::max) - height(-1.0));
@@ -313,7 +313,7 @@ fn a_search_ends_with_its_budget() {
         let Outcome::Lacks { energy } = trial.outcome else {
             panic!("{tried:?}");
         };
-        // Places 256 to a way miss the crest by little, and its slope there is 0.
+        // The 256 points of a path miss the crest by little, and the slope there is 0.
         assert!((energy / lacking - 1.0).abs() < 1e-3, "{energy} {lacking}");
     }
     assert_eq!(tried[tried.len() - 1].start, Start::Frozen);

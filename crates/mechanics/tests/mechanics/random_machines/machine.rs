@@ -1,4 +1,4 @@
-//! Random machines: a tree of frames, bodies on them, what acts between them; as the text of a spec, and as numbers.
+//! Random machines as the text of a spec and as numbers: a tree of frames, bodies on them, and elements between them.
 
 use std::fmt::Write as _;
 
@@ -31,13 +31,13 @@ pub enum Step {
     Turn(usize, Linear),
 }
 
-/// c + Σ cᵢ qᵢ + c_t t + s sin(w t): what a coordinate chart and a drive are made of.
+/// c + Σ cᵢ qᵢ + c_t t + s sin(w t): the form of all displacements and angles.
 #[derive(Clone, Debug, Default)]
 pub struct Linear {
     pub constant: f64,
     pub coordinate: Vec<(usize, f64)>,
     pub time: f64,
-    /// An amplitude and a frequency of a drive.
+    /// Amplitude and frequency of a drive.
     pub drive: Option<(f64, f64)>,
 }
 
@@ -46,7 +46,7 @@ pub struct Body {
     pub frame: usize,
     pub offset: [f64; 3],
     pub mass: f64,
-    /// One moment in the plane, six entries in space; `None` for a particle.
+    /// One moment of inertia in the plane, six entries in space; `None` for a particle.
     pub inertia: Option<[f64; 6]>,
 }
 
@@ -59,7 +59,7 @@ pub struct Spring {
 #[derive(Debug)]
 pub enum Stretch {
     Linear(Linear),
-    /// The distance of two bodies less a length.
+    /// The distance between two bodies minus a length.
     Bodies(usize, usize, f64),
 }
 
@@ -69,7 +69,7 @@ pub struct Damper {
     pub stretch: Stretch,
 }
 
-/// A force in ground axes at a body's mass centre; its size depends on time and a velocity.
+/// A force in ground axes at a body's mass centre; its size depends on time and on a rate.
 #[derive(Debug)]
 pub struct Force {
     pub body: usize,
@@ -78,7 +78,7 @@ pub struct Force {
 }
 
 impl Machine {
-    /// A machine with so many coordinates, each of which moves a frame that carries a body.
+    /// A machine with this many coordinates, each of which moves a frame that carries a body.
     pub fn random(random: &mut Random, spatial: bool, coordinates: usize) -> Machine {
         let dimension = if spatial { 3 } else { 2 };
         let mut frames: Vec<Frame> = Vec::new();
@@ -108,7 +108,8 @@ impl Machine {
                 Step::Shift(shift)
             };
             frames.push(Frame { parent, step });
-            // A constant shift, so that turns about the same point do not follow one another; both ways for variety.
+            // A constant shift, so that successive rotations are not about the same point;
+            // in either order, for variety.
             let mut arm: [Linear; 3] = Default::default();
             for component in arm.iter_mut().take(dimension) {
                 component.constant = random.number(0.25, 1.0);
@@ -122,7 +123,7 @@ impl Machine {
                 .iter_mut()
                 .take(dimension)
                 .for_each(|x| *x = random.number(-0.5, 0.5));
-            // Positive definite by dominance: moments at least 1, products at most 1/4.
+            // Positive definite by diagonal dominance: moments at least 1, products at most 1/4.
             let inertia = random.chance(75).then(|| {
                 let mut entries = [0.0; 6];
                 for (k, entry) in entries.iter_mut().enumerate() {
@@ -188,8 +189,8 @@ impl Machine {
         machine
     }
 
-    /// A planar machine in which a coordinate is the abscissa of one body and the ordinate of another, so that
-    /// bodies share velocities along different axes, in any order of bodies. Some carry an arm that turns.
+    /// A planar machine in which a coordinate is the abscissa of one body and the ordinate of another, so that bodies
+    /// share velocities along different axes, in any order of bodies. Some carry an arm that rotates.
     pub fn sharing(random: &mut Random, coordinates: usize) -> Machine {
         let own = |coordinate: usize, factor: f64| Linear {
             coordinate: vec![(coordinate, factor)],
@@ -442,7 +443,7 @@ impl Linear {
         text
     }
 
-    /// Its value, in 120 digits.
+    /// The value in 120 digits.
     pub fn at(&self, q: &[Number], t: &Number) -> Number {
         let mut sum = Number::of(self.constant) + Number::of(self.time) * t;
         for (coordinate, factor) in &self.coordinate {

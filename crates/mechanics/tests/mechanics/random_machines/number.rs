@@ -1,4 +1,4 @@
-//! Numbers of 120 digits: what truth is computed in.
+//! Numbers of 120 digits, in which the reference is computed.
 
 use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -49,7 +49,7 @@ impl Number {
         Number(self.0.abs())
     }
 
-    /// The nearest `f64`, for comparisons of small differences only: through the decimal text.
+    /// The nearest `f64`, through the decimal text; only for comparing small differences.
     pub fn to_f64(&self) -> f64 {
         let text = CONSTANTS.with_borrow_mut(|c| self.0.format(Radix::Dec, ROUND, c));
         text.expect("a number").parse().expect("a number")

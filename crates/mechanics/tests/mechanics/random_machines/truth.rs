@@ -1,9 +1,10 @@
-//! The equations of motion of a random machine by differences of its energies in 120 digits: no algebra, no derivative by
-//! rule, no shared code with the compiler.
+//! The equations of motion of a random machine from differences of its energies in 120 digits, without algebra, rules of
+//! differentiation, or code shared with the compiler.
 //!
-//! Velocities are central differences with step 10⁻³⁰ (error 10⁻⁶⁰, rounding 10⁻⁹⁰). T is quadratic in the speeds, so its
-//! differences there are exact for any step. The outer differences, in time and along the coordinates, have step 10⁻²⁰:
-//! error 10⁻⁴⁰, and 10⁻⁶⁰/10⁻²⁰ = 10⁻⁴⁰ from the inner ones. The result is true to 38 digits times derivatives of order one.
+//! Velocities are central differences with step 10⁻³⁰ (truncation error 10⁻⁶⁰, rounding 10⁻⁹⁰). T is quadratic in the
+//! speeds, so differences in these are exact for any step. The outer differences, in time and along the coordinates, have
+//! step 10⁻²⁰: truncation error 10⁻⁴⁰, and 10⁻⁶⁰/10⁻²⁰ = 10⁻⁴⁰ from the inner ones. The results have 38 correct digits if
+//! derivatives are of order one.
 
 #![expect(
     clippy::needless_range_loop,
@@ -59,7 +60,7 @@ impl Truth {
             }
         }
 
-        // hᵢ = d/dt ∂T/∂vᵢ − ∂T/∂qᵢ with v held.
+        // hᵢ = d/dt ∂T/∂vᵢ − ∂T/∂qᵢ with v held constant.
         let step = Number::tenth(OUTER);
         let momentum = |i: usize, q: &[Number], t: &Number| {
             let up = kinetic(q, &shifted(&v, i, &Number::of(1.0)), t);
