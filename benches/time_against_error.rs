@@ -227,7 +227,7 @@ impl Default for Point {
     }
 }
 
-/// Prints a row; whether finer settings are worth running.
+/// Prints a row, and returns whether finer settings are worth running.
 fn print(name: &str, method: &str, setting: f64, point: Option<&Point>) -> bool {
     let Some(point) = point else {
         // The setting is too coarse for the run to finish, or the method cannot run this machine.

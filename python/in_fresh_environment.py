@@ -3,7 +3,7 @@
     cd python && maturin build --release --out dist && cd ..
     python python/in_fresh_environment.py python/dist/lagrangian-*.whl [ARGUMENTS OF PYTEST]
 
-Whatever is not in the wheel, or needed and not declared, is missed there. It ends with the status of pytest, after a line with the
+This detects missing files and undeclared dependencies of the wheel. The exit status is that of pytest, after a line with the
 time of each stage.
 """
 

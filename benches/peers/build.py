@@ -1,4 +1,4 @@
-"""Builds every form of one task by one peer; a line of JSON for each.
+"""Builds every form of one task with one peer; prints a line of JSON for each.
 
     python build.py PEER TASK VARIANT FOLDER
 """

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Closed loops over time: how far peers and we drift from the joints, err and take, on one core.
+"""Closed loops over time: joint drift, error and time of peers and of our command, on one core.
 
     benches/peers/closed_loops.py COMMAND [SECONDS]   COMMAND is the command `lagrangian`; needs requirements.txt
 
-The four-bar linkage and the five-link pendulum of machines/, typed in here by hand as uniform bars in loops. Of each run of
-SECONDS (100 if not given): the greatest distance between the parts of an opened joint, the greatest change of the energy,
-and the error of the angles at a time up to which motion is not chaotic, against the same equations in 64-bit mantissas.
+The machines are the four-bar linkage and the five-link pendulum of machines/, typed in here by hand as loops of uniform bars.
+For each run of SECONDS (100 if not given) it prints the largest distance between the parts of an opened joint, the largest
+change of the energy, and the error of the angles at a time up to which the motion is not chaotic, against the same equations
+with 64-bit mantissas.
 """
 
 import csv
@@ -32,26 +33,26 @@ TOLERANCE = 1e-9
 
 
 class Loop:
-    """Bars with absolute angles, from pin to pin; `signs` lead round the loop to the pin at (span, 0).
+    """Bars with absolute angles, from pin to pin; `signs` are their directions around the loop to the pin at (span, 0).
 
-    The last bar of a sign −1 hangs on that pin itself.
+    The last bar has the sign −1 if it hangs from that pin itself.
     """
 
     def __init__(self, name, lengths, masses, signs, span, start, compared):
         self.name, self.lengths, self.masses, self.signs, self.span = name, lengths, masses, signs, span
         self.start = numpy.array(start)
-        # Until when errors are no more than tolerance times a moderate number.
+        # Up to this time errors are at most the tolerance times a moderate number.
         self.compared = compared
         self.n = len(lengths)
 
     def centres(self):
-        """Of each bar, what it and the bars before it add to its centre: (bar, length)."""
+        """For each bar, the contributions of itself and of the bars before it to the position of its centre: (bar, length)."""
         for i, sign in enumerate(self.signs):
             before = [(j, self.lengths[j]) for j in range(i)] if sign > 0 else []
             yield before + [(i, self.lengths[i] / 2)]
 
     def equations(self, q, v, sin, cos, zero):
-        """M, f, G, γ of M a + Gᵀ λ = f, G a = γ, in whatever numbers q and v are."""
+        """M, f, G, γ of M a + Gᵀ λ = f, G a = γ, in any number type of q and v."""
         n = self.n
         s, c = [sin(x) for x in q], [cos(x) for x in q]
         across = lambda i, j: c[i] * c[j] + s[i] * s[j]
@@ -72,7 +73,7 @@ class Loop:
         return mass, force, rows, gamma
 
     def solution(self, q, v, sin, cos, zero):
-        """a and λ by Gauss's elimination of the whole system: M first, which is positive definite, then −G M⁻¹ Gᵀ."""
+        """a and λ by Gaussian elimination of the whole system: first M, which is positive definite, then −G M⁻¹ Gᵀ."""
         mass, force, rows, gamma = self.equations(q, v, sin, cos, zero)
         n, m = self.n, len(rows)
         table = [mass[i] + [row[i] for row in rows] + [force[i]] for i in range(n)]
@@ -89,7 +90,7 @@ class Loop:
         return solution
 
     def gap(self, q):
-        """How far the loop is from closed, in m."""
+        """The gap in the loop, in m."""
         x = sum(sign * length * math.cos(a) for sign, length, a in zip(self.signs, self.lengths, q))
         y = sum(sign * length * math.sin(a) for sign, length, a in zip(self.signs, self.lengths, q))
         return math.hypot(x - self.span, y)
@@ -100,7 +101,7 @@ class Loop:
         return 0.5 * numpy.dot(v, numpy.array(mass) @ v) + GRAVITY * sum(heights)
 
     def read(self, run):
-        """Greatest gap, greatest change of energy, and state at the time of comparison, of rows (t, q, v)."""
+        """The largest gap, the largest change of energy, and the state at the time of comparison, from rows (t, q, v)."""
         gap = change = 0.0
         energy = self.energy(*numpy.split(self.start, 2))
         compared = None
@@ -128,7 +129,7 @@ def five_links():
 
 
 def heyoka_run(loop, until, samples, number=float, tolerance=None):
-    """Taylor's method on the accelerations."""
+    """Taylor's method for the accelerations."""
     names = [f"q{i}" for i in range(loop.n)] + [f"v{i}" for i in range(loop.n)]
     y = heyoka.make_vars(*names)
     q, v = y[: loop.n], y[loop.n :]
@@ -145,7 +146,7 @@ def heyoka_run(loop, until, samples, number=float, tolerance=None):
 
 
 def casadi_run(form, loop, until, samples):
-    """IDAS on the equations of motion; `form` says how the joints are written."""
+    """IDAS for the equations of motion; `form` is the formulation of the joints."""
     q, v, a = (casadi.SX.sym(name, loop.n) for name in "qva")
     split = lambda x: [x[i] for i in range(loop.n)]
     mass, force, rows, gamma = loop.equations(split(q), split(v), casadi.sin, casadi.cos, casadi.SX(0))
@@ -173,7 +174,7 @@ def casadi_run(form, loop, until, samples):
     }
     options = {"abstol": TOLERANCE, "reltol": TOLERANCE, "max_num_steps": 10_000_000}
     if form != "index 1":
-        # The start is exact; errors of what is not a state of its own are left out, as its manual advises.
+        # The start is exact; algebraic variables are excluded from the error test, as the manual of IDAS advises.
         options |= {"calc_ic": False, "suppress_algebraic": True}
     step = casadi.integrator("step", "idas", dae, 0.0, list(samples), options)
     exact = loop.solution(*numpy.split(loop.start, 2), math.sin, math.cos, 0.0)
@@ -185,7 +186,7 @@ def casadi_run(form, loop, until, samples):
 
 
 def sympy_run(loop, until, samples):
-    """Lagrange's equations with multipliers, compiled by `lambdify` with `cse`, and SciPy's DOP853: PyDy's way."""
+    """Lagrange's equations with multipliers, compiled by `lambdify` with `cse`, and SciPy's DOP853, as PyDy does it."""
     clock = sympy.Symbol("t")
     q = [sympy.Function(f"q{i}")(clock) for i in range(loop.n)]
     kinetic = potential = 0
@@ -217,7 +218,7 @@ def sympy_run(loop, until, samples):
 
 
 def mujoco_run(step, integrator, loop, until, samples):
-    """Hinges with an equality that closes the loop, as stiff as its solver lets it be."""
+    """Hinges, with an equality that closes the loop, as stiff as the solver permits."""
     number = lambda x: repr(float(x))
     pin = lambda i: "0 0 0" if loop.signs[i] < 0 or i == 0 else f"{number(loop.lengths[i - 1])} 0 0"
     body = lambda i, inside: f"""<body name="bar{i}" pos="{f'{number(loop.span)} 0 0' if loop.signs[i] < 0 else pin(i)}">
@@ -249,7 +250,7 @@ def mujoco_run(step, integrator, loop, until, samples):
     def relative(x):
         return [x[i] - x[i - 1] if i in bars[1:] else x[i] for i in range(loop.n)]
 
-    # Where MuJoCo's anchor of the other body is, is settled in the model's own rest: all bars at angle 0.
+    # MuJoCo derives the anchor on the other body from the model's reference pose, in which all bars have angle 0.
     if hung:
         model.eq_data[0, 3:6] = [loop.lengths[hung[0]], 0.0, 0.0]
     else:
@@ -266,7 +267,7 @@ def mujoco_run(step, integrator, loop, until, samples):
 
 
 def pinocchio_run(step, loop, until, samples):
-    """Its constrained dynamics with Baumgarte's feedback, and the classic Runge–Kutta method of order 4."""
+    """Pinocchio's constrained dynamics with Baumgarte stabilization, and the classic Runge–Kutta method of order 4."""
     model = pinocchio.Model()
     model.gravity.linear = numpy.array([0.0, -GRAVITY, 0.0])
     joints = []
@@ -292,7 +293,7 @@ def pinocchio_run(step, loop, until, samples):
     held.append(joint)
     known.append(joint.createData())
     pinocchio.initConstraintDynamics(model, data, held, known)
-    # The third row of the joint, out of the plane, is held by all hinges already.
+    # The third row of the joint, out of the plane, is already satisfied by the hinges.
     settings = pinocchio.ProximalSettings(1e-14, 1e-12, 20)
     to = numpy.eye(loop.n)
     for i in bars[1:]:

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A ball that bounces, in MuJoCo, Exudyn and here, and a block that rocks, in MuJoCo and here: error against closed forms, and time.
+"""A bouncing ball in MuJoCo, Exudyn and our command, and a rocking block in MuJoCo and our command: error against closed forms,
+and time.
 
     benches/peers/contacts.py COMMAND      COMMAND is the command `lagrangian`; needs mujoco and exudyn (requirements.txt)
 """
@@ -20,7 +21,7 @@ GRAVITY = 9.81
 
 
 def ball(t, height=1.0, restitution=0.8):
-    """The height of a ball at t after a fall from rest: its flights are parabolas."""
+    """The height of a ball at time t after a release from rest: its flights are parabolas."""
     begins, speed = math.sqrt(2 * height / GRAVITY), math.sqrt(2 * GRAVITY * height)
     if t < begins:
         return height - GRAVITY * t * t / 2
@@ -32,8 +33,8 @@ def ball(t, height=1.0, restitution=0.8):
 
 
 def mujoco_ball(step, stiffness, until):
-    """MuJoCo's ball on a soft floor that pushes only: with the damping ratio sin φ it gives back exp(−(π − 2 φ) tan φ) of a speed
-    (T. Schwager, T. Pöschel, Granular Matter 9 (2007) 465–469), which is to be 0.8."""
+    """MuJoCo's ball on a soft floor that only pushes: with the damping ratio sin φ its restitution is exp(−(π − 2 φ) tan φ)
+    (T. Schwager, T. Pöschel, Granular Matter 9 (2007) 465–469), which must be 0.8."""
     low, high = 0.0, 1.5
     for _ in range(60):
         phi = (low + high) / 2
@@ -56,8 +57,8 @@ def mujoco_ball(step, stiffness, until):
 
 
 def exudyn_ball(step, stiffness, until):
-    """Exudyn's ball of 1 kg on a soft floor that is told to give back 0.8 of a speed, by its model of Gonthier and others (2); its other
-    model (1) is further off. Steps of generalized-α at which contact begins and ends are repeated."""
+    """Exudyn's ball of 1 kg on a soft floor with a prescribed restitution of 0.8, by its model of Gonthier and others (2); its other
+    model (1) is less accurate. Steps of generalized-α at which contact begins and ends are repeated."""
     machine = exudyn.SystemContainer().AddSystem()
     ball, fixed = machine.AddNode(items.Node1D()), machine.AddNode(items.NodePointGround())
     machine.AddObject(items.Mass1D(mass=1.0, nodeNumber=ball))
@@ -87,7 +88,7 @@ HALF_WIDTH, HALF_HEIGHT, TILT = 0.25, 1.0, 0.12248933156343208
 
 
 def first_fall():
-    """When a rigid block of R = √(b² + h²) that rocks from rest first stands upright, exactly.
+    """The exact time at which a rigid block with R = √(b² + h²) that rocks from rest first stands upright.
 
     θ̈ = −p² sin(α − θ) with p² = 3 g/(4 R) and tan α = b/h (G. W. Housner, 1963), from rest at TILT; by Simpson's rule over u, in
     which the time is smooth: θ = TILT (1 − u²).
@@ -124,7 +125,7 @@ def mujoco_block(step, stiffness):
         </mujoco>"""
     )
     data = mujoco.MjData(model)
-    # A slab in space has the inertia of one in the plane about this axis.
+    # A slab in space has the same inertia about this axis as one in the plane.
     angle = -TILT
     while data.time < 5:
         before, angle = angle, -TILT + data.qpos[2]

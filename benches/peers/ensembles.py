@@ -1,14 +1,14 @@
-"""How many trajectories a second: ensembles of ours beside heyoka's batches, MuJoCo's rollout and SciPy, at equal true error.
+"""The number of trajectories per second: our ensembles compared with heyoka's batches, MuJoCo's rollout and SciPy, at equal true error.
 
     python benches/peers/ensembles.py [--ours PROGRAM]
 
 256 double pendulums (two bobs of 1 kg on rods of 1 m, 9.81 m/s²) start at rest from a grid of angles between 0.1 and 1 rad and run for
 5 s, and 256 crushers (`machines/crusher9.machine`) from a grid of distances of mortar and pestle for 0.5 s, on one core. The error of an
-ensemble is the greatest difference of a coordinate or a rate at the end from a reference: heyoka's Taylor method in 80-bit numbers
-at 1e-19. Each tool runs with several tolerances or steps, and what it takes at one error is
-interpolated between them, logarithm against logarithm. Times are the processor's own, the best of several.
+ensemble is the largest difference of a coordinate or a rate at the end from a reference: heyoka's Taylor method in 80-bit numbers
+at 1e-19. Each tool runs with several tolerances or step lengths, and its time at a given error is
+interpolated between them on logarithmic scales. Times are processor times, the best of several.
 
-Ours is `cargo bench --bench ensemble -- --ends FOLDER`, or a program that was built of it.
+Ours is `cargo bench --bench ensemble -- --ends FOLDER`, or a program built from it.
 """
 
 import argparse
@@ -35,7 +35,7 @@ def starts():
 
 
 def clock(work, times):
-    """The least processor time of several, and what came of the last."""
+    """The smallest processor time of several runs, and the result of the last."""
     best = math.inf
     for _ in range(times):
         began = time.process_time()
@@ -56,7 +56,7 @@ def crushers():
 
 
 def pendulums():
-    """By hand, for absolute angles and equal bobs and rods."""
+    """Simplified by hand, for absolute angles and equal bobs and rods."""
     system, _, _, _, _ = motions.pendulum()
     return system, starts(), END
 
@@ -106,7 +106,7 @@ def of_mujoco():
       <body><joint type="hinge" axis="0 -1 0"/><inertial pos="0 0 -1" mass="1" diaginertia="1e-12 1e-12 1e-12"/>
         <body pos="0 0 -1"><joint type="hinge" axis="0 -1 0"/><inertial pos="0 0 -1" mass="1" diaginertia="1e-12 1e-12 1e-12"/></body>
       </body></worldbody></mujoco>"""
-    # Its second angle counts from the first rod.
+    # The second angle of this model is relative to the first rod.
     first = starts()
     first = np.stack([first[:, 0], first[:, 1] - first[:, 0], first[:, 2], first[:, 3]], axis=1)
     for steps in (100, 200, 400, 800, 1600):
@@ -135,7 +135,7 @@ def of_scipy():
 
 
 def of_ours(program):
-    """Seconds and ends of every run, by machine and method."""
+    """Seconds and end states of every run, by machine and method."""
     with tempfile.TemporaryDirectory() as folder:
         call = [program] if program else ["cargo", "bench", "--bench", "ensemble", "--"]
         said = subprocess.run([*call, "--ends", folder], cwd=ROOT, capture_output=True, text=True, check=True)

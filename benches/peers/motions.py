@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Times whole runs by heyoka's Taylor method: the double pendulum for 100 s, the crusher and chains for 5 s.
+"""Times whole runs with heyoka's Taylor method: the double pendulum for 100 s, the crusher and chains for 5 s.
 
     target/peers/python/bin/python benches/peers/motions.py [--references]
 
-The right-hand sides are simplified by hand; where steps are as short as these, that is what decides. Errors are against references
-of more digits than a double has: those of benches/time_against_error.rs, and for chains a run in 64-bit mantissas, which
-`--references` prints. Beside each run the time of four at once, each with steps of its own, divided by four.
+The right-hand sides are simplified by hand, because they dominate the time of such short steps. Errors are against references
+with more digits than f64: those of benches/time_against_error.rs, and for chains a run with 64-bit mantissas, which
+`--references` prints. Besides each run it prints a quarter of the time of four runs in lanes, each with its own steps.
 """
 
 import argparse
@@ -32,7 +32,7 @@ def pendulum():
 
 
 def crusher(stiffer=1):
-    """Newton's law of each body, as in expert/crusher.c; the springs of the platform are `stiffer` by this factor."""
+    """Newton's law for each body, as in expert/crusher.c; the springs of the platform are `stiffer` by this factor."""
     m, J, m0, e, x0, y0, w = 450.0, 60.0, 25.0, 0.04, 0.10, -0.25, 100.0
     m1, m2 = 120.0, 60.0
     cx, cy, xc, yc, bx_, by_, xb, yb = 2e5 * stiffer, 1.6e5 * stiffer, 0.35, -0.05, 400.0, 350.0, 0.35, 0.04
@@ -75,7 +75,7 @@ def crusher(stiffer=1):
 
 
 def chain(n, with_end=True):
-    """The chain of machines/chain.machine, solved by L D Lᵀ; where it ends by a run in 64-bit mantissas, if that is asked for."""
+    """The chain of machines/chain.machine, solved by L D Lᵀ, and, if requested, its end by a run with 64-bit mantissas."""
     l, m, g = 0.2, 0.5, 9.81
     J = 0.5 * 0.04 / 12
     q = hy.make_vars(*[f"q{i}" for i in range(n)])

@@ -1,7 +1,7 @@
-"""References to 40 digits: equations of motion typed in by hand, solved densely in mpmath.
+"""References with 40 digits: equations of motion typed in by hand, solved with dense matrices in mpmath.
 
-Nothing here is shared with any derivation: the crusher by Newton's law for each body and hand-written Jacobians, the
-chain by the closed form of T2, the arm by the principle of virtual power (Jourdain) in the ground frame.
+No derivation is shared with any program: the crusher uses Newton's law for each body and hand-written Jacobians, the
+chain the closed form of T2, the arm the principle of virtual power (Jourdain) in the ground frame.
 """
 
 import mpmath
@@ -40,10 +40,10 @@ def crusher(y, t):
     c1, n1 = mpmath.cos(f1), mpmath.sin(f1)
     c2, n2 = mpmath.cos(f2), mpmath.sin(f2)
     phase = p["w"] * mpf(t)
-    # The debalance's axis from the platform's origin.
+    # The debalance's axis relative to the platform's origin.
     bx, by = p["x0"] * ct - p["y0"] * st, p["x0"] * st + p["y0"] * ct
-    # Rows of the Jacobian of each point with respect to (x, y, th, s1, f1, th1, s2, f2, th2), and the part of its
-    # acceleration that stays when all q'' vanish.
+    # Rows of the Jacobian of each point with respect to (x, y, th, s1, f1, th1, s2, f2, th2), and the acceleration
+    # of the point for q'' = 0.
     radial1 = (-s1 * vf1**2 * c1 - 2 * vs1 * vf1 * n1, -s1 * vf1**2 * n1 + 2 * vs1 * vf1 * c1)
     radial2 = (-s2 * vf2**2 * c2 - 2 * vs2 * vf2 * n2, -s2 * vf2**2 * n2 + 2 * vs2 * vf2 * c2)
     spin = p["e"] * p["w"] ** 2
@@ -128,7 +128,7 @@ def arm(y, _t):
     matrix = [[zero] * 6 for _ in range(6)]
     force = [-mpf(ARM["friction"]) * rate for rate in v]
     for i, (axis, shift, mass, centre, inertia) in enumerate(ARM_LINKS):
-        # The frame: shifted along the axes of the one before it, then turned about its own axis.
+        # The frame: shifted along the axes of the previous one, then rotated about its own axis.
         arm_of_shift = apply([mpf(x) for x in shift])
         acceleration = [
             a + b + c
@@ -142,12 +142,12 @@ def arm(y, _t):
             "z": [[c, -s, zero], [s, c, zero], [zero, zero, one]],
         }[axis]
         rotation = [[sum(row[k] * turn[k][j] for k in range(3)) for j in range(3)] for row in rotation]
-        # With q'' = 0 the angular acceleration grows by omega x (axis q').
+        # With q'' = 0 the angular acceleration changes by omega x (axis q').
         alpha = [a + b for a, b in zip(alpha, cross(omega, [u * v[i] for u in unit]))]
         omega = [w + u * v[i] for w, u in zip(omega, unit)]
         axes.append(unit)
         origins.append(origin)
-        # The body: mass centre, inertia in the ground frame, what stays of its accelerations when q'' = 0.
+        # The body: mass centre, inertia in the ground frame, and its accelerations for q'' = 0.
         m = mpf(ARM[mass])
         to_centre = apply([mpf(x) for x in centre])
         at = [a + b for a, b in zip(origin, to_centre)]
@@ -173,7 +173,7 @@ def arm(y, _t):
 
 
 def accelerations(task):
-    """The accelerations at the first states of a task, nearest binary64 and what that leaves: pairs of lists."""
+    """The accelerations at the first states of a task, as the nearest binary64 and the remainder: pairs of lists."""
     equations = {"crusher": crusher, "arm": arm}.get(task.name, chain)
     rows = []
     for state in task.states[: task.judged]:

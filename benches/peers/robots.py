@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Real robots from their files of URDF: our accelerations beside Pinocchio's, and the time of our code beside its generated code.
+"""Real robots from their URDF files: our accelerations compared with Pinocchio's, and the time of our code with that of its generated code.
 
     target/peers/python/bin/python benches/peers/robots.py target/release/lagrangian [--only xarm7,g1] [--ball zyx]
         [--states 20] [--no-times]
 
-README.md says what is measured, and names the robots with their licences.
+README.md describes the measurements, and names the robots with their licences.
 """
 
 import argparse
@@ -28,7 +28,7 @@ ROOT = HERE.parent.parent
 SITE = pathlib.Path(numpy.__file__).resolve().parent.parent
 FILES = SITE / "cmeel.prefix" / "share" / "example-robot-data" / "robots"
 
-# The file, whether its base floats, what else an import needs, and the licence of the file.
+# The file, whether its base floats, further options for the import, and the licence of the file.
 ROBOTS = {
     "xarm7": ("xarm_description/urdf/xarm7.urdf", False, [], "BSD-3-Clause"),
     "kinova": ("kinova_description/robots/kinova.urdf", False, [], "BSD"),
@@ -41,8 +41,8 @@ ROBOTS = {
     "g1": ("g1_description/urdf/g1_29dof_rev_1_0.urdf", True, ["--ignore", "dont_collapse"], "BSD-3-Clause"),
 }
 
-# Of the largest acceleration. What both compute in their own way differs by some roundings of terms that cancel: condition
-# numbers of mass matrices here are below 1e4.
+# Relative to the largest acceleration. The two methods differ by some roundings of terms that cancel; the condition numbers of mass
+# matrices here are below 1e4.
 AGREE = 1e-12
 
 
@@ -54,7 +54,7 @@ def shell(words, **options):
 
 
 def seconds_of(words):
-    """CPU seconds of a command and what it starts."""
+    """CPU seconds of a command and its child processes."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     shell(words)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -62,7 +62,7 @@ def seconds_of(words):
 
 
 def coordinates_of(spec):
-    """The names of the coordinates in a spec that an import wrote."""
+    """The names of the coordinates in an imported spec."""
     inside = re.sub(r"///.*", "", spec.split("    coordinates {", 1)[1].split("\n    }", 1)[0])
     return re.findall(r"(\w+): (?:rad|m|1)\b", inside)
 
@@ -77,7 +77,7 @@ def identifier(name):
 
 
 def models(name):
-    """Pinocchio's model, with the base that it has for a floating one, and in which order the joints stand in a spec."""
+    """Pinocchio's model, with its own base for a floating one, and the order of the joints in a spec."""
     path, floats, _, _ = ROBOTS[name]
     root = pinocchio.JointModelFreeFlyer() if floats else None
     model = pinocchio.buildModelFromUrdf(str(FILES / path), root) if floats else pinocchio.buildModelFromUrdf(str(FILES / path))
@@ -85,7 +85,7 @@ def models(name):
 
 
 def joint_values(model, names, random_of):
-    """Values by the names of a spec for every joint of one coordinate."""
+    """The values of all joints with one coordinate, by their names in a spec."""
     values = {}
     for joint in model.names[1:]:
         index = model.getJointId(joint)
@@ -105,7 +105,7 @@ def rotation(axis, angle):
 
 
 def state(model, floats, ball, spec_names, draw):
-    """A random state, in a spec's coordinates and in Pinocchio's, and how accelerations of the one follow from the other."""
+    """A random state, in a spec's coordinates and in Pinocchio's, and the map from accelerations of the one to those of the other."""
     uniform = lambda: draw.uniform(-1, 1)
     q, v = dict(), dict()
     pq, pv = pinocchio.neutral(model), numpy.zeros(model.nv)
@@ -118,7 +118,7 @@ def state(model, floats, ball, spec_names, draw):
         q[identifier(joint)], v[identifier(joint)] = angle, rate
         if kind.nq == 1:
             pq[kind.idx_q] = angle
-        else:  # a continuous joint has cosine and sine
+        else:  # a continuous joint has cosine and sine as coordinates
             pq[kind.idx_q : kind.idx_q + 2] = numpy.cos(angle), numpy.sin(angle)
         pv[kind.idx_v] = rate
     if floats:
@@ -152,7 +152,8 @@ def state(model, floats, ball, spec_names, draw):
 
 
 def accelerations_agree(name, machine, command, ball, count):
-    """The largest difference to Pinocchio's, as a share of the largest acceleration: of the joints, and of the place of the base."""
+    """The largest difference from Pinocchio's accelerations, relative to the largest acceleration: of the joints, and of the
+    position of the base."""
     _, floats, _, _ = ROBOTS[name]
     model = models(name)
     data = model.createData()
@@ -176,7 +177,7 @@ def accelerations_agree(name, machine, command, ball, count):
         if floats:
             base = next(n for n in names if n.endswith("_x"))[:-2]
             axes = pinocchio.Quaternion(pq[3:7]).matrix()
-            # Of the frame: u' + w x u along its own axes.
+            # The acceleration of the frame: u' + w x u in its own axes.
             along = axes @ (theirs[:3] + numpy.cross(pv[3:6], pv[:3]))
             for k, axis in enumerate("xyz"):
                 worst = max(worst, abs(along[k] - a[f"{base}_{axis}"]) / largest)
@@ -184,7 +185,7 @@ def accelerations_agree(name, machine, command, ball, count):
 
 
 def compile_pinocchio(folder):
-    """The program that writes Pinocchio's code."""
+    """The program that generates Pinocchio's code."""
     program = folder / "pinocchio_robot"
     source = HERE / "pinocchio_robot.cpp"
     if not program.exists() or program.stat().st_mtime < source.stat().st_mtime:
@@ -207,7 +208,7 @@ def write_task(path, parameters, rows):
 
 
 def times(name, machine, command, ball, work):
-    """Nanoseconds of a call: ours, and of the quickest form of Pinocchio's; with what each took to be derived."""
+    """Nanoseconds per call for our code and for the fastest form of Pinocchio's, and the time to derive each."""
     path, floats, _, _ = ROBOTS[name]
     model = models(name)
     spec = machine.read_text()

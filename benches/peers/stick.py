@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How far a block creeps that should stick, in MuJoCo and here: an incline of 0.3 rad, friction 0.5, 1000 s.
+"""The creep of a block that should stick, in MuJoCo and in our command: an incline of 0.3 rad, friction 0.5, 1000 s.
 
     benches/peers/stick.py COMMAND      COMMAND is the command `lagrangian`; needs mujoco (requirements.txt)
 """
@@ -16,7 +16,7 @@ import mujoco
 ROOT = Path(__file__).resolve().parent.parent.parent
 ALPHA, GRAVITY, UNTIL = 0.3, 9.81, 1000.0
 
-# The best that its manual offers against slip: elliptic cones, Newton's solver, a hard ratio of
+# The best settings against slip in MuJoCo's manual: elliptic cones, Newton's solver, a high ratio of
 # frictional to normal impedance, and the pass that removes slip after each step.
 SETTINGS = {
     "default": "",
@@ -27,7 +27,7 @@ SETTINGS = {
 
 
 def creep(settings, step):
-    """How far the block slides down, in m; MuJoCo's own state after 1000 s."""
+    """The distance that the block slides down, in m, and MuJoCo's own state after 1000 s."""
     x, z = GRAVITY * math.sin(ALPHA), -GRAVITY * math.cos(ALPHA)
     model = mujoco.MjModel.from_xml_string(
         f"""<mujoco>
@@ -40,7 +40,7 @@ def creep(settings, step):
         </mujoco>"""
     )
     data = mujoco.MjData(model)
-    # What it sinks in by before it rests is not counted.
+    # The initial settling into the floor is not counted.
     while data.time < 1.0:
         mujoco.mj_step(model, data)
     start = data.qpos[0]

@@ -1,9 +1,9 @@
-"""The tasks: parameters, random states, and what every peer is to compute. See README.md."""
+"""The tasks: parameters, random states, and the results that every peer must compute. See README.md."""
 
 import math
 import struct
 
-# T1. The order is the order of the run-time parameter vector.
+# T1, in the order of the run-time parameter vector.
 CRUSHER = {
     "m": 450.0, "J": 60.0, "m0": 25.0, "e": 0.04, "x0": 0.10, "y0": -0.25, "w": 100.0,
     "m1": 120.0, "J1": 2.4, "m2": 60.0, "J2": 0.5,
@@ -16,7 +16,7 @@ ARM = {
     "h": 0.35, "a": 0.40, "b": 0.42, "c": 0.10,
     "m1": 12.0, "m2": 9.0, "m3": 6.0, "m4": 1.5, "m5": 1.0, "m6": 5.2, "friction": 0.4, "g": 9.81,
 }
-# Of each link: axis of its joint, shift of its frame in the frame before it, mass, mass centre in its own frame,
+# For each link: axis of its joint, shift of its frame in the previous frame, mass, mass centre in its own frame,
 # inertia about the mass centre (Ixx, Iyy, Izz, Ixy, Ixz, Iyz).
 ARM_LINKS = [
     ("z", (0, 0, 0), "m1", (0, -0.01, ARM["h"] / 2), (0.25, 0.25, 0.06, 0, 0, 0)),
@@ -31,7 +31,8 @@ GRAVITY = 9.81
 
 
 def chain_links(n):
-    """Length, mass, distance of the mass centre from the upper hinge, inertia about it: of each link of T2."""
+    """Length, mass, distance of the mass centre from the upper hinge, and inertia about the mass centre, for
+    each link of T2."""
     links = []
     for i in range(n):
         length = 0.4 + 0.05 * (i % 5)
@@ -45,7 +46,7 @@ def chain_links(n):
 
 
 class Random:
-    """splitmix64."""
+    """The random number generator SplitMix64."""
 
     def __init__(self, seed):
         self.state = seed
@@ -61,7 +62,7 @@ class Random:
 
 
 class Task:
-    """A machine: its size, its run-time parameters, its states, and at how many of them the error is known."""
+    """A machine: its size, its run-time parameters, its states, and the number of states whose error is known."""
 
     def __init__(self, name):
         self.name = name
@@ -73,7 +74,7 @@ class Task:
             random, count = Random(20260001), 1024
             draw = lambda: [c + random.uniform(-h, h) for c, h in zip(centre, half)] + [random.uniform(0, 10)]
         elif name == "arm":
-            # The run-time parameters, and after them the motors' torques.
+            # The run-time parameters, followed by the motors' torques.
             self.n, self.parameters, self.judged = 6, list(ARM.values()) + [0.0] * 6, 256
             random, count = Random(20260206), 1024
             draw = lambda: self.angles(random)
@@ -90,14 +91,14 @@ class Task:
         return q + [random.uniform(-3, 3) for _ in range(self.n)] + [0.0]
 
     def by_family(self):
-        """The parameters in the order of our specs: all lengths of a chain, then all masses, and so on."""
+        """The parameters in the order of our specs: for a chain all lengths, then all masses, and so on."""
         if not self.name.startswith("chain"):
             return self.parameters
         gravity, *links = self.parameters
         return [gravity] + [x for k in range(4) for x in links[k::4]]
 
     def write(self, path, parameters, references):
-        """What the timing loop reads: sizes, parameters, states, references; binary64 throughout."""
+        """The input of the timing loop: sizes, parameters, states, references; all in binary64."""
         rows = [parameters, *self.states, *references]
         sizes = [self.n, len(parameters), len(self.states), len(references)]
         with open(path, "wb") as file:

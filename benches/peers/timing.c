@@ -1,8 +1,8 @@
-// The timing loop: loads one library and measures `eval`, `eval4` and `eval8` as README.md says.
+// The timing loop: loads one library and measures `eval`, `eval4` and `eval8` as README.md describes.
 //
 //     timing LIBRARY TASK.bin
 //
-// Prints one line of JSON: nanoseconds per state, and the error against the references where TASK.bin holds them.
+// Prints one line of JSON: nanoseconds per state, and the error against the references if TASK.bin contains them.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <math.h>
@@ -31,10 +31,10 @@ static double now(void) {
     return 1e9 * time.tv_sec + time.tv_nsec;
 }
 
-// Where results go: so many that a call's stores don't wait for the ones before it.
+// Results go to many places in turn, so that the stores of a call do not wait for those before it.
 static double sink[16][MAX_N * MAX_LANES] __attribute__((aligned(64)));
 
-static int next = 0; // the state that comes next: every call gets another
+static int next = 0; // the index of the next state: every call gets another one
 
 static void independent(long calls) {
     for (long i = 0; i < calls; ++i) {
@@ -44,7 +44,8 @@ static void independent(long calls) {
     }
 }
 
-// Every coordinate and velocity waits for the results before it, as in an integrator; 1e-30 leaves the numbers alone.
+// Every coordinate and velocity depends on the previous results, as in an integrator; the factor 1e-30 keeps
+// the numbers unchanged.
 static void in_a_row(long calls) {
     static double y[2 * MAX_N] __attribute__((aligned(64))), qdd[MAX_N] __attribute__((aligned(64)));
     for (long i = 0; i < calls; ++i) {
@@ -71,7 +72,7 @@ static int ascending(const void *a, const void *b) {
 }
 
 // Nanoseconds per call: the median over samples of about 200 us, repeated while it exceeds the first quartile by more
-// than 5 %; the quietest run is kept.
+// than 5 %; the run with the least disturbance is kept.
 static double nanoseconds(void (*pass)(long)) {
     long calls = 1;
     next = 0;
@@ -104,13 +105,13 @@ static double nanoseconds(void (*pass)(long)) {
     return best;
 }
 
-// Max over components of |qdd - reference|, as a share of max |reference|.
+// Max over components of |qdd - reference|, relative to max |reference|.
 static double error_of(const double *qdd, int stride, const double *reference) {
     double difference = 0, greatest = 0;
     for (int j = 0; j < n; ++j) {
         // The reference is the sum of two numbers.
         const double d = fabs((qdd[j * stride] - reference[j]) - reference[n + j]);
-        if (!(d <= difference)) difference = d; // what is no number counts, too
+        if (!(d <= difference)) difference = d; // NaN counts as well
         greatest = fmax(greatest, fabs(reference[j]));
     }
     return difference / greatest;
@@ -138,7 +139,8 @@ static void *checked(void *value, const char *what) {
 
 int main(int count, char **words) {
     if (count != 3) return 2;
-    // One core: the last one this process may use; the first serves the interrupts of most machines.
+    // Runs on one core, the last one that this process may use; the first one handles the interrupts
+    // on most computers.
     cpu_set_t allowed, one;
     sched_getaffinity(0, sizeof allowed, &allowed);
     CPU_ZERO(&one);

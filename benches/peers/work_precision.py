@@ -1,18 +1,19 @@
 #!/usr/bin/env python3
-"""Work against precision: how long whole runs take to be how exact, ours beside its peers, in one run on one core.
+"""Work against precision: the time of whole runs against their error, for our program and its peers, in one run on one core.
 
     target/peers/python/bin/python benches/peers/work_precision.py [--only NAME,NAME] [--rounds 3] [--svg FILE] [--ours PROGRAM]
 
 Every run is one of tests/data/references: its end is known to 30 digits, and the error of a setting is the greatest |y − reference| /
-(s + |reference|) over coordinates and rates, s = 1 but for the crusher. Everybody runs with many tolerances (or steps). The rounds go
-through all of them one after the other, so that what else the computer does hits all alike, and of each setting the quickest counts.
+(s + |reference|) over coordinates and rates, with s = 1 except for the crusher. Every tool runs with many tolerances (or step
+lengths). Each round runs all settings in turn, so that other load on the computer affects all of them alike, and the fastest run
+of each setting counts.
 
-Peers integrate the equations of tests/data/references/equations.py, solved by LDLᵀ without square roots, those of the double pendulum, the
-crusher and the chains simplified by hand (motions.py). They are given compiled right-hand sides: heyoka and CasADi compile or interpret
-their own, and SciPy calls what heyoka has compiled. IDAS solves for accelerations and multipliers itself. MuJoCo runs the machines that it
-can say, with steps of fixed length.
+Peers integrate the equations of tests/data/references/equations.py, solved by LDLᵀ without square roots; those of the double pendulum, the
+crusher and the chains are simplified by hand (motions.py). They get compiled right-hand sides: heyoka and CasADi compile or interpret
+their own, and SciPy calls the function that heyoka has compiled. IDAS solves for accelerations and multipliers itself. MuJoCo runs the
+machines that it can describe, with steps of fixed length.
 
-Ours is `cargo bench --bench time_against_error`, or a program that was built of it.
+Ours is `cargo bench --bench time_against_error`, or a program built from it.
 """
 
 import argparse
@@ -35,9 +36,9 @@ REFERENCES = ROOT / "tests" / "data" / "references"
 sys.path.insert(0, str(REFERENCES))
 from equations import PROBLEMS
 
-# A setting that takes longer is run once, and finer ones of its tool are not run.
+# A setting that takes longer is run once, and finer settings of the same tool are skipped.
 LONG = 1.0
-# Runs of a setting in a round, of ours and of peers alike, where they are not longer than SHORT.
+# Runs of a setting per round, for us and for peers alike, if they take at most SHORT.
 REPEATS, SHORT = 5, 0.2
 ERRORS = (1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13)
 MOST = 1_000_000
@@ -64,7 +65,7 @@ class Run:
 
 
 class Symbols:
-    """The arithmetic of the equations over another program's expressions."""
+    """The arithmetic of the equations on another program's expressions."""
 
     number = float
 
@@ -79,7 +80,7 @@ class Symbols:
 
 
 def solved(matrix, right):
-    """x with M x = f by LDLᵀ; what is 0 is an int and costs nothing. Rows of constraints come last, so no pivot is 0."""
+    """The solution of M x = f by LDLᵀ; zeros are the int 0 and cost nothing. Rows of constraints come last, so no pivot is 0."""
     n = len(right)
     is_zero = lambda x: isinstance(x, int) and x == 0
     D, L, f = [], [[0] * n for _ in range(n)], list(right)
@@ -116,12 +117,12 @@ BY_HAND = {
     "chain_8": lambda: motions.chain(8, False),
     "chain_16": lambda: motions.chain(16, False),
 }
-# Unrolled code of these takes minutes to compile.
+# Unrolled code for these takes minutes to compile.
 COMPACT = ("andrews_squeezer", "closed_pendulum")
 
 
 class Heyoka:
-    """Taylor's method, one trajectory and four at once, each with steps of its own."""
+    """Taylor's method for one trajectory and for four in lanes, each with its own steps."""
 
     tolerances = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 1e-16)
 
@@ -187,7 +188,7 @@ class SciPy:
 
 
 class Sundials:
-    """CVODES by its Adams and BDF formulas, IDAS over the equations as they are, both through CasADi."""
+    """CVODES with its Adams and BDF formulas, and IDAS for the implicit equations, both through CasADi."""
 
     tools = ("SUNDIALS, CVODES Adams", "SUNDIALS, CVODES BDF", "SUNDIALS, IDAS")
 
@@ -252,7 +253,7 @@ class MuJoCo:
         data = mujoco.MjData(model)
         n = model.nv
         for place, x in ((data.qpos, self.run.start[:n]), (data.qvel, self.run.start[n:])):
-            # Joints of chains count from the bar before.
+            # Joint angles of chains are relative to the previous bar.
             place[:] = np.diff(x, prepend=0.0)
         clock = time.process_time()
         mujoco.mj_step(model, data, nstep=round(self.run.until / step))
@@ -272,7 +273,7 @@ def of_ours(program, name):
 
 
 def race(name, program, rounds, wanted):
-    """For each tool its settings with the least seconds and the error."""
+    """For each tool and setting the least seconds and the error."""
     run, best = Run(name), {}
 
     def note(tool, setting, seconds, error):
@@ -284,7 +285,7 @@ def race(name, program, rounds, wanted):
     for kind in wanted:
         try:
             peers.append(kind(run))
-        except Exception as why:  # noqa: BLE001, what a peer cannot do is told and left out
+        except Exception as why:  # noqa: BLE001, an error of a peer is reported and its run is omitted
             print(f"{name}: {kind.__name__}: {why}", file=sys.stderr)
     slow = set()
     for count in range(rounds):
@@ -313,7 +314,7 @@ def race(name, program, rounds, wanted):
 
 
 def front(points):
-    """Of settings those that no other beats in both error and time, by growing error."""
+    """The settings that no other beats in both error and time, by increasing error."""
     kept = []
     for error, seconds in sorted(points):
         error = max(error, 1e-18)
@@ -325,7 +326,7 @@ def front(points):
 
 
 def seconds_at(points, error):
-    """What an error costs, between the settings on either side of it, logarithm against logarithm."""
+    """The time at a given error, interpolated between the neighbouring settings on logarithmic scales."""
     kept = front(points)
     if not kept or kept[0][0] > error:
         return None
@@ -347,7 +348,7 @@ def tables(results):
 
 
 PANEL, MARGIN, IN_A_ROW = (330.0, 270.0), (56.0, 44.0), 3
-# Error to the right, from 1 to 10⁻¹⁶; time upward, from 10 µs to 10 s; both logarithmic. Down and to the right is better.
+# Error to the right, from 1 to 10⁻¹⁶; time upward, from 10 µs to 10 s; both logarithmic. Lower right is better.
 OURS = ("#0b5394", "#c8553d", "#588157", "#8a5a9e", "#b8860b", "#008b8b", "#a0522d")
 THEIRS = ("#111111", "#777777", "#e69f00", "#cc79a7", "#d55e00", "#56b4e9", "#009e73", "#999933", "#882255")
 

@@ -1,5 +1,5 @@
-//! Whatever a sound machine says, its equations and its program are derived, or a report says why
-//! not. The numbers of the program may be anything; there must be no panic on the way.
+//! For every valid machine either its equations and its program are derived, or a report explains
+//! why not. The numbers of the program are unrestricted; nothing may panic.
 #![no_main]
 
 use lagrangian_mechanics::Compiled;
@@ -18,7 +18,7 @@ fuzz_target!(|text: &str| {
         &mut sources,
         &mut report,
     );
-    // What is large is slow to derive, and shows nothing that a small machine does not show.
+    // Large machines are slow to derive, and reveal nothing that small ones do not.
     let small = model.filter(|model| model.coordinates.len() <= 8 && dag.len() <= 3000);
     if let Some(model) = small {
         let compiled = Compiled::new(model, &mut report);

@@ -1,4 +1,4 @@
-//! Whatever the text, the parser ends without a panic, and every message has a place in the text.
+//! For every text the parser ends without a panic, and every message has a position in the text.
 #![no_main]
 
 use lagrangian_spec::diagnostic::Report;

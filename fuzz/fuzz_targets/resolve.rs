@@ -1,4 +1,4 @@
-//! Whatever the text, it is either a model, or a report says why not.
+//! Every text either resolves to a model, or a report explains why not.
 #![no_main]
 
 use lagrangian_spec::diagnostic::Report;
@@ -7,7 +7,7 @@ use libfuzzer_sys::fuzz_target;
 
 const CRUSHER: &str = include_str!("../../machines/vibrating_crusher.machine");
 
-/// What a variant may extend: a sound machine, and one that extends itself.
+/// The machines that a variant may extend: a valid one, and one that extends itself.
 const BASES: [(&str, &str); 3] = [
     ("base.machine", CRUSHER),
     ("vibrating_crusher.machine", CRUSHER),

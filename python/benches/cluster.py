@@ -1,6 +1,6 @@
-"""What a sweep costs on a cluster: `python python/benches/cluster.py [threads ray dask]` in a clone, with the package and these installed.
+"""The overhead of a sweep on a cluster: `python python/benches/cluster.py [threads ray dask]` in a clone, with the package and these installed.
 
-The overhead of a chunk, by chunks of one short run, and the efficiency of two workers against one, by chunks of about a second.
+It measures the overhead of a chunk, with chunks of one short run, and the efficiency of two workers against one, with chunks of about a second.
 """
 
 import json
@@ -25,7 +25,7 @@ def plan_of(machine, until, count, length):
 
 
 def seconds(engine, plan, chunks, workers):
-    """How long all chunks of a plan take."""
+    """The time for all chunks of a plan."""
     began = time.perf_counter()
     made = sum(1 for _ in _engine(engine)(_Work(_whole_chunk), plan, range(chunks), workers))
     assert made == chunks
@@ -33,7 +33,7 @@ def seconds(engine, plan, chunks, workers):
 
 
 def again(engine, workers):
-    """Workers that are there before the clock runs, and have derived the machine; None for an engine that has its own."""
+    """Starts workers that derive the machine before the time is measured; None for an engine with its own workers."""
     if engine == "ray":
         import ray
 
@@ -50,7 +50,7 @@ def again(engine, workers):
 def main(engines):
     machine = lg.load(MACHINE)
     short, short_chunks = plan_of(machine, 0.001, SHORT, 1)
-    # As many runs as take about a second.
+    # The number of runs that takes about a second.
     tried, _ = plan_of(machine, 100.0, 16, 16)
     lg.run_chunk(tried, 0)
     began = time.perf_counter()

@@ -1,4 +1,4 @@
-"""What calls from Python cost: `python python/benches/figures.py` in a clone, with the package installed."""
+"""The time of calls from Python: `python python/benches/figures.py` in a clone, with the package installed."""
 
 import pickle
 import time
@@ -13,7 +13,7 @@ STATES = 100_000
 
 
 def least(work, times=7):
-    """The least time of several, in s."""
+    """The least time of several runs, in s."""
     found = []
     for _ in range(times):
         began = time.perf_counter()

@@ -1,4 +1,4 @@
-"""How arguments of an evaluation broadcast over states."""
+"""Broadcasts the arguments of an evaluation over states."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the command ``lagrangian`` answers about a machine, in this process, and the command itself."""
+"""Results of the command ``lagrangian`` about a machine, computed in this process, and the command itself."""
 
 from __future__ import annotations
 
@@ -223,7 +223,7 @@ def fmu(
 
 
 def _exported(machine: Any, command: str, options: Sequence[str]) -> Dict[str, Any]:
-    """What a command prints about a file that it wrote; ExportError where a compiler, or the machine, stands in the way."""
+    """The command's output about a file that it wrote; raises ExportError if a compiler or the machine prevents that."""
     try:
         return answer(machine, command, options)
     except LagrangianError as error:
@@ -293,7 +293,7 @@ class Brachistochrone:
 
 
 def _places(machine: Any, option: str, given: Any) -> List[str]:
-    """Options that say a place by coordinates; one that is not said stays as the spec has it."""
+    """Options that set coordinates; those that are not given keep the values of the spec."""
     names = machine.coordinates
     if given is None:
         return []

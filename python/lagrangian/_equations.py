@@ -1,4 +1,4 @@
-"""The equations of motion, and the arithmetic that was derived from them."""
+"""The equations of motion, and the arithmetic derived from them."""
 
 from __future__ import annotations
 
@@ -29,7 +29,8 @@ class Equations:
         return str(self._program.derive("html"))
 
     def _repr_latex_(self) -> str:
-        """The formulas of the derivation, for what shows LaTeX and no Markdown; one of more than 3000 characters is left out."""
+        """The formulas of the derivation, for viewers that show LaTeX but not Markdown; formulas of more than 3000
+        characters are omitted."""
         formulas = re.findall(r"\$\$.*?\$\$", self.markdown(), re.S)
         shown = (f if len(f) <= _LONGEST else rf"$$\text{{(a formula of {len(f)} characters)}}$$" for f in formulas)
         return "\n\n".join(shown)

@@ -1,4 +1,4 @@
-"""How exact a run is: estimates of its error, runs in double-double, and enclosures, as ``lagrangian simulate`` has them."""
+"""The accuracy of runs: error estimates, runs in double-double, and enclosures, as in ``lagrangian simulate``."""
 
 from __future__ import annotations
 

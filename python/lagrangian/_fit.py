@@ -1,4 +1,4 @@
-"""Parameters and starts from measured motions."""
+"""Estimates parameters and starts from measured motions."""
 
 from __future__ import annotations
 
@@ -113,7 +113,7 @@ class Fit:
 
 
 def _columns(data: Any) -> Mapping[str, Any]:
-    """Columns by name, t among them: of a mapping, a run or a table with columns."""
+    """The columns by name, including t, of a mapping, a run or a table with columns."""
     if isinstance(data, Mapping):
         return data
     names = [str(name) for name in data.columns]

@@ -142,7 +142,7 @@ class Linear:
         return np.asarray(self.C @ inverse + self.D)
 
     def _frequencies(self) -> np.ndarray:
-        """Angular frequencies for a plot: two decades beyond all poles and zeros."""
+        """Angular frequencies for a plot, which extend two decades beyond all poles and zeros."""
         sizes = np.abs(np.concatenate([self._poles, self._zeros]))
         sizes = sizes[np.isfinite(sizes) & (sizes > 0)]
         low, high = (sizes.min(), sizes.max()) if sizes.size else (1.0, 1.0)
@@ -240,7 +240,7 @@ class Linear:
             raise ValueError(f"{path}: the ending must be one of {', '.join([*writers, '.csv'])}")
 
     def _document(self) -> Dict[str, Any]:
-        """What ``lagrangian linearize --json`` prints."""
+        """The document that ``lagrangian linearize --json`` prints."""
 
         def labels(names: Sequence[str]) -> List[Dict[str, str]]:
             return [{"name": name, "unit": self.units[name]} for name in names]
@@ -304,7 +304,7 @@ def _inputs(machine: Any, u: Any) -> List[float]:
 
 
 def _steady(machine: Any, steady: Optional[Steady], v: List[float]) -> Tuple[List[bool], List[bool]]:
-    """Which coordinates move steadily, and which of them at rates that are sought; given rates replace those of the start."""
+    """Which coordinates move steadily, and for which of them the rate is unknown; given rates replace those of the start."""
     names = machine.coordinates
     moves, sought = [False] * len(names), [False] * len(names)
     if isinstance(steady, str):

@@ -1,4 +1,4 @@
-"""What is asked of one run or two, as ``lagrangian spectrum``, ``peaks``, ``section`` and ``compare`` answer it."""
+"""Analyses of one or two runs, as in ``lagrangian spectrum``, ``peaks``, ``section`` and ``compare``."""
 
 from __future__ import annotations
 
@@ -179,7 +179,7 @@ def _run(
     keep: Names,
     numbers: Mapping[str, Any],
 ) -> List[str]:
-    """Options of a run that is made to be looked at."""
+    """The options of a run that is made for an analysis."""
     options = [*settings(machine), *_places(machine, "--start", start), *_places(machine, "--rate", rate)]
     if isinstance(start, State) and rate is None:
         options += _places(machine, "--rate", start.v)

@@ -1,4 +1,4 @@
-"""Machines: specs, derived, with values of their parameters."""
+"""Machines: specs with derived equations and values of their parameters."""
 
 from __future__ import annotations
 
@@ -110,7 +110,7 @@ def _imported(
     constants: Optional[Mapping[str, Any]],
     parameters: Mapping[str, Number],
 ) -> "Machine":
-    """The machine that ``lagrangian import`` writes of a robot's file."""
+    """The machine that ``lagrangian import`` writes for a robot's file."""
     import warnings
 
     options = [*options, f"--limits={limits}"]
@@ -130,7 +130,7 @@ def _constants(constants: Optional[Mapping[str, Any]]) -> List[Tuple[str, str]]:
 
 
 def _exactly(name: str, value: Any) -> str:
-    """A constant as text: a float as the decimal that it prints as."""
+    """A constant as text: a float as the decimal that Python prints."""
     if isinstance(value, bool):
         raise TypeError(f"the constant {name} is {value!r}, wanted a number")
     if isinstance(value, (int, np.integer)):
@@ -211,7 +211,7 @@ class Machine(_native.Machine):
         return made
 
     def _set(self, values: Mapping[str, Number]) -> "Machine":
-        """The same program with other values, families first."""
+        """The same program with other values; those of families are set first."""
         if not values:
             return self
         names, inputs = tuple(self.parameters), tuple(self.inputs)
@@ -603,5 +603,5 @@ class Machine(_native.Machine):
 
 
 def _again(state: str, parameters: List[float], inputs: List[float]) -> Machine:
-    """A machine from its pickle."""
+    """Restores a machine from its pickle."""
     return Machine._with(_native.rebuild(state), parameters, inputs)

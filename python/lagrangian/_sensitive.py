@@ -1,4 +1,4 @@
-"""How a motion changes with its start, with parameters and with inputs."""
+"""Derivatives of a motion by its start, by parameters and by inputs."""
 
 from __future__ import annotations
 
@@ -127,7 +127,7 @@ def sensitivities(
 
 
 def _variant(machine: Any, names: Sequence[str]) -> str:
-    """The same machine, with derivatives of its accelerations."""
+    """The spec of the same machine with derivatives of its accelerations."""
     spec = json.loads(machine._program.state())
     own = spec["name"]
     name = os.path.join(os.path.dirname(own), "differentiated.machine")

@@ -1,4 +1,4 @@
-"""What drives the inputs of a run."""
+"""The signals that drive the inputs of a run."""
 
 from __future__ import annotations
 

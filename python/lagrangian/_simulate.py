@@ -1,4 +1,4 @@
-"""Runs, and what is asked for of them."""
+"""Runs, and their options."""
 
 from __future__ import annotations
 
@@ -464,7 +464,7 @@ def _identifier(name: str) -> str:
 
 
 def _written_beside(path: str, write: Callable[[Any], None]) -> None:
-    """Writes a file that has its name only when it is complete."""
+    """Writes a file that gets its name only when it is complete."""
     import tempfile
 
     folder = os.path.dirname(os.path.abspath(path))
@@ -710,7 +710,7 @@ def simulate(
 
 
 def _driven(inputs: Any, names: Tuple[str, ...]) -> List[Tuple[str, str]]:
-    """What drives inputs, as a page says it; those that are held at a number are said there anyway."""
+    """The sources of inputs, as a page names them; constant inputs are listed there anyway."""
 
     def said(what: Any) -> str:
         if callable(what):
@@ -726,7 +726,7 @@ def _driven(inputs: Any, names: Tuple[str, ...]) -> List[Tuple[str, str]]:
 
 
 def _named_arguments(function: Callable[..., Any], names: Tuple[str, ...]) -> Callable[[float, Any, Any], Any]:
-    """The function, which takes coordinates and rates by name too."""
+    """Wraps a function so that it can access coordinates and rates by name."""
 
     def called(t: float, q: np.ndarray, v: np.ndarray) -> Any:
         return function(t, Named(q, names), rates(v, names))
@@ -737,7 +737,7 @@ def _named_arguments(function: Callable[..., Any], names: Tuple[str, ...]) -> Ca
 def _all_inputs(
     function: Callable[..., Any], inputs: Tuple[str, ...], names: Tuple[str, ...]
 ) -> Callable[[float, Any, Any], Any]:
-    """A function of all inputs, as the list of their values."""
+    """Wraps a function of all inputs so that it returns the list of their values."""
 
     def called(t: float, q: np.ndarray, v: np.ndarray) -> List[float]:
         values = function(t, Named(q, names), rates(v, names))

@@ -21,7 +21,7 @@ from .errors import unknown
 
 
 class _Distribution:
-    """How the values of what is varied are drawn."""
+    """The distribution of a varied quantity."""
 
     _kind = ""
 
@@ -227,7 +227,7 @@ class Sweep:
 
 
 def _csv(columns: Mapping[str, Any]) -> str:
-    """A table as the command writes it."""
+    """A table in the command's format."""
     import csv
     import io
 
@@ -246,7 +246,7 @@ def _csv(columns: Mapping[str, Any]) -> str:
 
 
 def _place(name: str) -> Tuple[str, str]:
-    """What a name stands for: a parameter or input, ``start(x)``, ``rate(x)``."""
+    """The kind of a varied quantity and its name within it: of a parameter or input, of ``start(x)``, or of ``rate(x)``."""
     for kind in ("start", "rate"):
         if name.startswith(kind + "(") and name.endswith(")"):
             return kind, name[len(kind) + 1 : -1].strip()
@@ -254,7 +254,7 @@ def _place(name: str) -> Tuple[str, str]:
 
 
 def _factor(name: str, what: Any) -> Tuple[Dict[str, Any], int]:
-    """A factor of the design, and how many values it has."""
+    """A factor of the design, and the number of its values."""
     if isinstance(what, tuple) and len(what) == 3 and isinstance(what[2], int) and not isinstance(what[2], bool):
         a, b, k = what
         if k < 1:
@@ -269,7 +269,7 @@ def _factor(name: str, what: Any) -> Tuple[Dict[str, Any], int]:
 def _design(
     vary: Any, samples: Optional[int], design: str, seed: int, together: Sequence[str]
 ) -> Tuple[List[Dict[str, Any]], List[int], List[str]]:
-    """The factors of a design, the shape of its grid, and what is varied, in order."""
+    """The factors of a design, the shape of its grid, and the varied names, in order."""
     if not isinstance(vary, Mapping):
         if not hasattr(vary, "columns"):
             raise TypeError("vary is a mapping from names to values, or a DataFrame with a row a run")
@@ -482,7 +482,7 @@ def sweep(
 
 
 class _Place:
-    """Where the rows of a sweep go: as the command says it."""
+    """The output of a sweep's rows, as the command defines it."""
 
     def __init__(self, out: Any) -> None:
         path = os.fspath(out)
@@ -506,7 +506,7 @@ class _Place:
 
 
 def _keep_all(kept: _native.Kept, runs: int, engine: Any, threads: Optional[int], progress: Any) -> None:
-    """Makes the chunks that are not kept yet, and keeps them."""
+    """Computes the missing chunks, and keeps them."""
     missing = kept.missing()
     plan, ending = kept.plan, kept.ending
     if engine is None:
@@ -538,7 +538,7 @@ def _by_name(given: Any, machine: Any, what: str) -> Dict[str, float]:
 
 
 def _joined(parts: List[List[_Column]]) -> List[_Column]:
-    """Chunks below each other."""
+    """Concatenates chunks."""
 
     def values(place: int) -> np.ndarray:
         arrays = [np.asarray(part[place][2], dtype=object if isinstance(part[place][2], list) else None) for part in parts]
@@ -549,7 +549,7 @@ def _joined(parts: List[List[_Column]]) -> List[_Column]:
     return [(name, unit, values(place)) for place, (name, unit, _) in enumerate(parts[0])]
 
 
-#: The rows of a chunk and its samples.
+#: The rows of a chunk and its samples, if any.
 _Chunk = Tuple[List[_Column], Optional[List[_Column]]]
 
 
@@ -564,17 +564,17 @@ def run_chunk(plan: Union[str, bytes], chunk: int) -> Dict[str, Any]:
 
 
 def _whole_chunk(plan: str, chunk: int) -> _Chunk:
-    """A chunk with its samples, on another machine."""
+    """Computes a chunk with its samples, on another machine."""
     return _native.run_chunk(plan, chunk)
 
 
 def _chunk_file(plan: str, chunk: int, ending: str) -> Tuple[bytes, Optional[bytes]]:
-    """What the files of a chunk hold, on another machine."""
+    """Computes the contents of a chunk's files, on another machine."""
     return _native.chunk_file(plan, chunk, ending)
 
 
 class _Work:
-    """What is done with a chunk elsewhere: a function of the plan, the chunk and more that is fixed."""
+    """Work on a chunk in another process: a function of the plan, the chunk and further fixed arguments."""
 
     def __init__(self, function: Callable[..., Any], *more: Any) -> None:
         self.function = function
@@ -619,7 +619,7 @@ def _engine(engine: Any) -> _Engine:
 
 
 def _on_threads(work: _Work, plan: str, chunks: Iterable[int], threads: Optional[int]) -> Iterator[Tuple[int, Any]]:
-    """Chunks on the cores of this machine; Ctrl-C ends those under way."""
+    """Computes chunks on the cores of this computer; Ctrl-C stops those in progress."""
     count = _threads(threads)
     stop = _native.Stop()
     pool = ThreadPoolExecutor(count)
@@ -640,7 +640,7 @@ def _on_threads(work: _Work, plan: str, chunks: Iterable[int], threads: Optional
 
 
 def _on_ray(work: _Work, plan: str, chunks: Iterable[int], threads: Optional[int]) -> Iterator[Tuple[int, Any]]:
-    """Chunks as tasks of Ray: the plan goes once through its store, and a worker that dies has its chunks made again."""
+    """Computes chunks as tasks of Ray: the plan is stored once, and the chunks of a worker that dies are computed again."""
     import ray
 
     if not ray.is_initialized():
@@ -665,7 +665,7 @@ def _on_ray(work: _Work, plan: str, chunks: Iterable[int], threads: Optional[int
 def _on_dask(
     work: _Work, plan: str, chunks: Iterable[int], threads: Optional[int], client: Any
 ) -> Iterator[Tuple[int, Any]]:
-    """Chunks as tasks of Dask. The plan goes along with each: what is scattered dies with its worker."""
+    """Computes chunks as tasks of Dask. Each task contains the plan, because scattered data dies with its worker."""
     import distributed
 
     own = client is None
@@ -695,7 +695,7 @@ def _on_dask(
 
 
 def _progress(asked: Any, parts: int, runs: int) -> Callable[[int], None]:
-    """What is told of how many parts are done."""
+    """A function that reports the number of finished parts."""
     if not (callable(asked) or asked in ("auto", False, None)):
         raise ValueError(f"progress={asked!r}: must be 'auto', False or a function")
     began = time.monotonic()

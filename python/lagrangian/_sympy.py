@@ -1,4 +1,4 @@
-"""The equations as expressions of SymPy."""
+"""The equations as SymPy expressions."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class Symbolic:
 
 
 def _plain(name: str) -> str:
-    """A name without brackets: those of members would make SymPy split it."""
+    """A name without brackets, which would make SymPy split it."""
     return name.replace("[", "_").replace("]", "").replace(",", "_").replace(" ", "")
 
 

@@ -1,4 +1,4 @@
-"""What the command finds, and the command itself."""
+"""Results of the command's functions in Python, and the command itself."""
 
 import ctypes
 import json
@@ -139,7 +139,7 @@ machine Whirl in plane {
 def test_a_campbell_diagram_follows_modes():
     rotor = lg.loads(ROTOR)
     found = rotor.campbell("omega", (1.0, 5.0, 9))
-    # In the turning frame: w = 10 ± omega.
+    # In the rotating frame: w = 10 ± omega.
     expected = np.stack([10 - found.values, 10 + found.values], axis=1) / (2 * np.pi)
     np.testing.assert_allclose(np.sort(found.frequencies, axis=1), expected, rtol=1e-9)
     # Each mode is followed continuously, so each is a straight line.
@@ -191,7 +191,7 @@ CLOSE = 1e-11
 
 @pytest.mark.parametrize("name", ["arm", "leg", "hand"])
 def test_robots_move_as_pinocchio_moves_them(name):
-    # The references and the tolerance of the command's own test.
+    # The references and the tolerance are those of the command's own test.
     folder = ROOT / "cli" / "tests" / "command" / "import"
     robot = lg.from_urdf(folder / f"{name}.urdf")
     for point in json.loads((folder / "pinocchio.json").read_text())[name]:
@@ -207,7 +207,7 @@ MODELS = ROOT / "cli" / "tests" / "command" / "import" / "mujoco"
 
 @pytest.mark.parametrize("name", ["ant", "crane", "gripper", "half_cheetah", "hopper", "walker2d"])
 def test_models_move_as_mujoco_moves_them(name):
-    # The references and the tolerance of the command's own test.
+    # The references and the tolerance are those of the command's own test.
     model = lg.from_mjcf(MODELS / f"{name}.xml")
     for point in json.loads((MODELS / "mujoco.json").read_text())[name]:
         truth = np.array(point["accelerations"])

@@ -1,4 +1,4 @@
-"""What the documentation prints is run as it is printed."""
+"""The examples in the documentation are run, and must print the output shown."""
 
 import doctest
 import importlib

@@ -1,4 +1,4 @@
-"""A worker that is killed in mid-run loses nothing."""
+"""A worker that is killed during a run loses nothing."""
 
 import os
 import signal
@@ -21,7 +21,7 @@ def same(there, here):
 
 
 def ray_workers():
-    """The processes that make chunks."""
+    """The processes that compute chunks."""
     found = []
     for process in Path("/proc").glob("[0-9]*"):
         try:

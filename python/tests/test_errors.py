@@ -1,4 +1,4 @@
-"""Exceptions, and what they tell."""
+"""Exceptions, and the information in them."""
 
 import pickle
 

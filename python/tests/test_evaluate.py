@@ -1,4 +1,4 @@
-"""Numbers at states: against closed forms, and against the command's."""
+"""Numbers at states, against closed forms and against the command's."""
 
 import json
 import math
@@ -14,7 +14,7 @@ from conftest import ROOT
 
 
 def command():
-    """The command `lagrangian`, if it was built."""
+    """The command `lagrangian`, if it has been built."""
     given = os.environ.get("LAGRANGIAN")
     built = [ROOT / "target" / kind / "lagrangian" for kind in ("release", "debug")]
     found = [given] if given else [str(path) for path in built if path.exists()]
@@ -23,7 +23,7 @@ def command():
 
 
 def by_hand(m1, m2, l1, l2, g, q, v):
-    """The double pendulum's mass matrix and forces, typed in from the angles of both rods against the vertical."""
+    """The double pendulum's mass matrix and forces, typed in, with the angles of both rods from the vertical."""
     a, b = q
     c, s = math.cos(a - b), math.sin(a - b)
     mass = [[(m1 + m2) * l1**2, m2 * l1 * l2 * c], [m2 * l1 * l2 * c, m2 * l2**2]]
@@ -40,7 +40,8 @@ def test_numbers_are_those_of_equations_by_hand(double):
     found = double.evaluate(q, v)
     for k in range(50):
         mass, forces = by_hand(1, 1, 1, 1, 9.81, q[k], v[k])
-        # Sums of a few terms of up to 50 N m: some roundings of these, times the condition of the mass matrix, at most 1e3.
+        # Sums of a few terms of up to 50 N m: some roundings of these, times the condition number of the mass matrix,
+        # at most 1e3.
         np.testing.assert_allclose(found.mass_matrix[k], mass, atol=1e-14)
         np.testing.assert_allclose(found.forces[k], forces, atol=1e-12)
         np.testing.assert_allclose(found.accelerations[k], np.linalg.solve(mass, forces), atol=1e-10)

@@ -18,7 +18,7 @@ TEXT = """machine Oscillator in plane {
 
 
 def swung(t, m, k, c, x):
-    """x of m x'' + c x' + k x = 0, let go at rest."""
+    """x of m x'' + c x' + k x = 0, released from rest."""
     decay = c / (2 * m)
     omega = np.sqrt(k / m - decay**2)
     return np.exp(-decay * t) * x * (np.cos(omega * t) + decay / omega * np.sin(omega * t))
@@ -40,7 +40,8 @@ def test_a_fit_is_that_of_scipy():
     )
     errors = np.sqrt(np.diag(covariance))
     found = np.array([fit[name] for name in fit.names])
-    # The search ends within 1e-6 of a standard error; SciPy's derivatives are differences, of 1e-7 or so.
+    # The search ends within 1e-6 of a standard error; SciPy uses finite differences with an error
+    # of about 1e-7.
     assert np.all(np.abs(found - known) < 1e-5 * errors)
     assert np.allclose(fit.covariance, covariance, rtol=1e-4, atol=1e-4 * np.min(np.diag(covariance)))
     assert fit.converged and fit.derivatives == "integrated" and fit.measurements == kept.sum()

@@ -1,4 +1,4 @@
-"""Machines: names, values, equality, pickles."""
+"""Machines: names, values, equality, pickling."""
 
 import copy
 import math

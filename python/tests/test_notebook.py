@@ -1,4 +1,4 @@
-"""The first notebook of the README, from top to bottom in a kernel, in an environment of its own."""
+"""Runs the first notebook of the README from top to bottom in a kernel, in its own environment."""
 
 import os
 import re
@@ -21,7 +21,8 @@ def blocks():
 
 
 def cells(block):
-    """The lines of a block as cells: each that shows something is one, so that it is shown."""
+    """The lines of a block as cells: each statement with output is a cell of its own, so that the
+    output is shown."""
     lines = [line for line in block.splitlines() if line.strip()]
     return [nbformat.v4.new_code_cell(line) for line in lines] if "(\n" not in block else [nbformat.v4.new_code_cell(block)]
 

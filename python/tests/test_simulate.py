@@ -1,4 +1,4 @@
-"""Runs: against closed forms, SciPy and the command."""
+"""Runs, against closed forms, SciPy and the command."""
 
 import json
 import math
@@ -308,7 +308,7 @@ def test_the_spectrum_of_a_sine(oscillator):
     run = oscillator.simulate(10 * math.pi, every=math.pi / 100, tolerance=1e-11)
     frequencies, amplitudes = run.spectrum("x")
     peak = int(np.argmax(amplitudes))
-    # ten periods of 1/π Hz, but for the one sample that ends the run
+    # ten periods of 1/π Hz, plus the one sample that ends the run
     assert frequencies[peak] == pytest.approx(1 / math.pi, rel=2e-3)
     assert amplitudes[peak] == pytest.approx(1.0, abs=1e-2)
     with pytest.raises(ValueError, match="equally spaced"):

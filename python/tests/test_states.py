@@ -1,4 +1,4 @@
-"""States of first order under their own names, and parameters that follow from others."""
+"""First-order states under their own names, and derived parameters."""
 
 import math
 import pickle
@@ -41,7 +41,7 @@ def test_a_state_goes_by_its_name(winding):
         start.q["i"]
     assert winding.units["i"] == "A" and winding.units["der(i)"] == "A/s" and winding.docs_of["i"] == "The current."
     assert "state" in winding._repr_html_()
-    # Rates of states are accelerations: di/dt = −R i/L.
+    # The accelerations include the rates of states: di/dt = −R i/L.
     a = winding.accelerations(v={"i": [1.0, 2.0], "T": 1.0}, u={"U": 1.0})
     np.testing.assert_allclose(a[:, 1], [(1 - 2 * 1.0) / 0.5, (1 - 2 * 2.0) / 0.5], rtol=1e-15)
     np.testing.assert_allclose(a[:, 2:], -1.0, rtol=1e-15)
@@ -57,7 +57,7 @@ def test_runs_start_with_states_and_have_them(winding):
     np.testing.assert_allclose([run.end.v["T[1]"], run.end.v["T[2]"]], [8 * math.exp(-0.5), 9 * math.exp(-0.5)], atol=1e-10)
     further = winding.simulate(1.0, start=run.end, tolerance=1e-12)
     assert abs(further.end.v["i"] - 4 * math.exp(-4)) < 1e-10
-    # A law and an event that read the state by name.
+    # A law of an input and an event that read the state by name.
     held = winding.simulate(0.5, inputs={"U": lambda t, q, v: 2 * v["i"]}, events={"seen": lambda t, q, v: v["i"] - 2.9})
     assert abs(held.end.v["i"] - 3.0) < 1e-12 and not held.events
     with pytest.raises(lg.UnknownName):
@@ -137,7 +137,7 @@ def test_a_derived_parameter_is_given_a_value(tmp_path):
     assert abs(_omega(loaded) - 2.0) < 1e-14
     again = pickle.loads(pickle.dumps(given))
     assert again == given and again.parameters["J"] == 1.0 and again != disc
-    # The commands, sweeps and derivatives have it too.
+    # Commands, sweeps and derivatives use the value as well.
     assert abs(given.modes(start={"phi": 0.0}).frequencies[0] - 2.0 / (2 * math.pi)) < 1e-12
     assert abs(given.orbit(start={"phi": 0.1}).period - math.pi) < 1e-9
     found = given.sensitivities(1.0, "J", tolerance=1e-12)

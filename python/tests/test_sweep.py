@@ -1,4 +1,4 @@
-"""Sweeps: rows are those of single runs, whatever makes them."""
+"""Sweeps: rows equal those of single runs, whatever computes them."""
 
 import math
 import os
@@ -104,7 +104,7 @@ def test_samples_at_events(oscillator):
     sweep = oscillator.sweep(
         {"start(x)": [0.5, 1.0]}, until=5, events={"zero": "x"}, record="event=zero", after=1.0, tolerance=1e-12
     )
-    # cos 2t = 0 at (k + 1/2) pi/2: 2.36 and 3.93 s after the first, which comes before 1 s.
+    # cos 2t = 0 at (k + 1/2) pi/2: 2.36 and 3.93 s for the second and third; the first is before 1 s and does not count.
     t = (np.arange(1, 3) + 0.5) * math.pi / 2
     np.testing.assert_allclose(sweep.samples["t"], np.tile(t, 2), atol=1e-9)
     assert sweep.samples["run"].tolist() == [0, 0, 1, 1] and set(sweep.samples["event"]) == {"zero"}

@@ -1,4 +1,4 @@
-"""Expressions of SymPy, against the numbers that the machine computes."""
+"""SymPy expressions, against the numbers that the machine computes."""
 
 import math
 

@@ -1,7 +1,7 @@
-//! The public interface of a crate as text, read from its sources: what a user can name, with its signatures.
+//! The public interface of a crate as text, read from its sources: everything that a user can name, with its signature.
 //!
-//! `docs/api/` holds it for the library; a test says what of it was removed or changed. Items that a macro makes are not seen, and
-//! implementations of traits are seen by their heads.
+//! `docs/api/` holds it for the library; a test reports what has been removed or changed. Items that macros generate are not seen,
+//! and implementations of traits are listed only by their headers.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -11,11 +11,11 @@ use proc_macro2::{Delimiter, Spacing, TokenStream, TokenTree};
 
 use crate::modules::{Names, absolute, leaves_of_use, place, plain};
 
-/// A module as it stands in the sources.
+/// A module as written in the sources.
 struct Module {
     path: Names,
     items: Vec<Item>,
-    /// What `pub use` hands on: a path from the root of the crate, and the name here.
+    /// What `pub use` re-exports: a path from the root of the crate, and the name here.
     exports: Vec<(Names, String, String)>,
 }
 
@@ -23,23 +23,23 @@ struct Module {
 struct Item {
     /// `struct`, `fn`, `impl`, …
     kind: String,
-    /// Its name; of an implementation, that of the type.
+    /// Its name; for an implementation, the name of the type.
     name: String,
     is_public: bool,
     is_hidden: bool,
-    /// `cfg(feature = "std")` and the like, and what is derived.
+    /// `cfg(feature = "std")` and the like, and the derived traits.
     conditions: String,
     derived: Vec<String>,
-    /// Everything before its body.
+    /// All tokens before its body.
     head: Vec<TokenTree>,
-    /// What stands between its braces or parentheses, if that is part of what users see.
+    /// The tokens between its braces or parentheses, if users see them.
     body: Option<(Delimiter, Vec<TokenTree>)>,
 }
 
-/// The interface of the crate with this root file, a line for each thing that can be named, in order.
+/// The interface of the crate with this root file: a sorted list with one line for each public item.
 ///
 /// # Errors
-/// A file that is missing, or that is not Rust.
+/// A file that is missing, or that is not valid Rust.
 pub fn public(root: &Path, name: &str) -> Result<Vec<String>, String> {
     let mut modules = Vec::new();
     let folder = root.parent().unwrap_or(Path::new("."));
@@ -54,7 +54,7 @@ pub fn public(root: &Path, name: &str) -> Result<Vec<String>, String> {
     Ok(reader.lines.into_iter().collect())
 }
 
-/// What of an interface is not there any more, or is another: the lines of `before` that `now` lacks.
+/// The items that an interface has lost or changed: the lines of `before` that are not in `now`.
 pub fn lost<'a>(before: &'a str, now: &[String]) -> Vec<&'a str> {
     let now: BTreeSet<&str> = now.iter().map(String::as_str).collect();
     let lines = before.lines().filter(|line| !line.is_empty());
@@ -73,7 +73,7 @@ fn read_file(
     read_module(tokens, children, module, modules)
 }
 
-/// Reads the tokens of a module and the files of its children, which lie in `children`.
+/// Reads the tokens of a module, and the files of its children in the folder `children`.
 fn read_module(
     tokens: TokenStream,
     children: &Path,
@@ -119,7 +119,7 @@ fn read_module(
 }
 
 impl Item {
-    /// Everything before its body, as a line. The names of a function's arguments are its own affair.
+    /// Everything before its body, as one line, without the names of a function's arguments, which are not part of the interface.
     fn text(&self) -> String {
         let mut head = self.head.clone();
         let arguments = head.iter_mut().find_map(|token| match token {
@@ -152,7 +152,7 @@ impl Item {
     }
 }
 
-/// The items among tokens.
+/// The items in a token stream.
 fn items_of(tokens: Vec<TokenTree>) -> Vec<Item> {
     let mut items = Vec::new();
     let mut rest = tokens.into_iter().peekable();
@@ -201,7 +201,7 @@ fn items_of(tokens: Vec<TokenTree>) -> Vec<Item> {
                 item.is_public = false;
             }
         }
-        // Up to its body, or to its semicolon. What a constant is equal to is not part of an interface.
+        // Up to its body or its semicolon. The value of a constant is not part of the interface.
         let mut is_value = false;
         for token in rest.by_ref() {
             match &token {
@@ -268,7 +268,7 @@ fn items_of(tokens: Vec<TokenTree>) -> Vec<Item> {
     items
 }
 
-/// The name of the type that an implementation is for.
+/// The name of the type that is implemented for.
 fn type_of(head: &[TokenTree]) -> String {
     let mut depth = 0_i32;
     let mut name = String::new();
@@ -293,7 +293,7 @@ fn type_of(head: &[TokenTree]) -> String {
 struct Reader<'m> {
     modules: &'m [Module],
     lines: BTreeSet<String>,
-    /// The names of the types that can be named.
+    /// The names of the public types.
     types: BTreeSet<String>,
 }
 
@@ -302,7 +302,7 @@ impl<'m> Reader<'m> {
         self.modules.iter().find(|module| module.path == path)
     }
 
-    /// The public items of a module, under its public name.
+    /// Lists the public items of a module, under its public name.
     fn module(&mut self, path: &[String], name: &str) {
         let Some(module) = self.find(path) else {
             return;
@@ -321,7 +321,7 @@ impl<'m> Reader<'m> {
         }
     }
 
-    /// What `pub use` hands on, where it is of this crate.
+    /// Lists what `pub use` re-exports from this crate.
     fn exported(
         &mut self,
         target: &[String],
@@ -345,7 +345,7 @@ impl<'m> Reader<'m> {
             self.item(item, parents, name, known_as, conditions);
             found = true;
         }
-        /// Of exports that hand on exports.
+        /// The maximum length of a chain of re-exports.
         const DEEPEST: usize = 8;
         for (behind, other, more) in &module.exports {
             if other == last && !found && depth < DEEPEST {
@@ -356,7 +356,7 @@ impl<'m> Reader<'m> {
         found
     }
 
-    /// An item under a public name, with what is in it.
+    /// Lists an item under a public name, with its contents.
     fn item(&mut self, item: &Item, path: &[String], name: &str, known_as: &str, more: &str) {
         let full = format!("{name}::{known_as}");
         if item.kind == "mod" {
@@ -425,7 +425,7 @@ impl<'m> Reader<'m> {
         }
     }
 
-    /// What is implemented for the types that can be named.
+    /// Lists the implementations for the public types.
     fn implementations(&mut self) {
         let all = self.modules.iter().flat_map(|module| &module.items);
         for item in all.filter(|item| item.kind == "impl" && self.types.contains(&item.name)) {
@@ -463,7 +463,7 @@ impl<'m> Reader<'m> {
     }
 }
 
-/// What stands between commas, those of generics aside; without attributes.
+/// The tokens between commas, except commas within generics, without attributes.
 fn parts(tokens: &[TokenTree]) -> Vec<Vec<TokenTree>> {
     let mut parts = vec![Vec::new()];
     let mut depth = 0_i32;
@@ -512,7 +512,7 @@ fn without_attributes(tokens: Vec<TokenTree>) -> Vec<TokenTree> {
     kept
 }
 
-/// Tokens as a line, with blanks where people put them.
+/// The tokens as one line, with spaces as in formatted code.
 fn tidy(tokens: TokenStream) -> String {
     let mut text = String::new();
     let mut is_joint = false;
@@ -535,7 +535,7 @@ fn tidy(tokens: TokenStream) -> String {
         let needs_blank = match (last, first) {
             _ if is_joint => false,
             (',' | ';' | '=' | '+' | '|', _) => true,
-            // An arrow, and not the end of generics.
+            // An arrow, not the end of generics.
             ('>', _) if text.ends_with("->") => true,
             (_, '=' | '+' | '{' | '|') => true,
             (':', _) => !text.ends_with("::"),
@@ -555,11 +555,11 @@ fn tidy(tokens: TokenStream) -> String {
     text
 }
 
-/// The libraries whose interface is committed: the root of the crate, its name, and where the text lies.
+/// The libraries whose interface is committed: the root file of the crate, its name, and the file of the text.
 pub const COMMITTED: [(&str, &str, &str); 1] =
     [("src/lib.rs", "lagrangian", "docs/api/lagrangian.txt")];
 
-/// Writes the interfaces that are committed.
+/// Writes the committed interfaces.
 ///
 /// # Errors
 /// A file that cannot be read or written.
@@ -604,7 +604,7 @@ mod tests {
         }
     }
 
-    /// A crate of one file.
+    /// The interface of a crate with a single file.
     fn of(text: &str) -> Vec<String> {
         let mut modules = Vec::new();
         let tokens = text.parse().expect("it is Rust");
@@ -659,7 +659,7 @@ mod tests {
             "it::Sort::B { x: f64 }",
             "it::Thing = other_crate::Thing",
         ];
-        // `const fn` may become a function that is none, which is seen.
+        // A `const fn` that becomes an ordinary function is reported.
         let told: Vec<String> = lines
             .iter()
             .map(|line| line.replace("const fn get", "fn get"))

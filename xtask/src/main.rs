@@ -1,7 +1,7 @@
-//! Chores of those who work on the project.
+//! Tasks for developers of the project.
 //!
-//! `cargo xtask generate` compiles the machine library into `generated/`; `cargo xtask generate --check` fails where what
-//! is committed differs from that. `cargo xtask api` writes the public interface of the library into `docs/api/`.
+//! `cargo xtask generate` compiles the machine library into `generated/`; `cargo xtask generate --check` fails if the committed
+//! files differ. `cargo xtask api` writes the public interface of the library into `docs/api/`.
 
 use std::path::Path;
 use std::process::ExitCode;

@@ -1,8 +1,8 @@
-//! Which module of a crate imports from which, read from the sources, and the circles among them.
+//! The imports between the modules of a crate, read from the sources, and their cycles.
 //!
-//! Crates form no circle, or cargo would refuse them. Within a crate the same is asked of modules: among the children of any
-//! module, each taken together with everything below it, imports form no circle. A module and what is below it may name each
-//! other freely.
+//! Crates form no cycle, or cargo would refuse them. The same is required of modules within a crate: among the children of
+//! any module, each taken together with everything below it, imports form no cycle. A module and its descendants may name
+//! each other freely.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -10,13 +10,13 @@ use std::path::{Path, PathBuf};
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
-/// What a file holds.
+/// Returns the contents of a file.
 pub(crate) type Source<'a> = dyn Fn(&Path) -> std::io::Result<String> + 'a;
 
-/// The path of a module within its crate, or of an item; that of the crate's root is empty.
+/// The path of a module or an item within its crate; the path of the crate's root is empty.
 pub type Names = Vec<String>;
 
-/// The modules of a crate, and what each of them names.
+/// The modules of a crate, and the paths that each of them names.
 #[derive(Default)]
 pub struct Modules {
     modules: BTreeMap<Names, Contents>,
@@ -24,25 +24,26 @@ pub struct Modules {
 
 #[derive(Default)]
 struct Contents {
-    /// Paths in its text, from the root of the crate.
+    /// The paths in its text, from the root of the crate.
     named: BTreeSet<Names>,
-    /// What `use` brings in, by its name here: paths of this module, and of others if it is exported, go through it.
+    /// What `use` imports, by its local name. Paths of this module go through it, and those of other modules if
+    /// it is exported.
     imported: BTreeMap<String, Names>,
-    /// Where `use …::*` points to.
+    /// The targets of `use …::*`.
     globs: Vec<Names>,
 }
 
-/// Modules of one parent each of which, with what is below it, imports from the next.
+/// Sibling modules each of which, with its descendants, imports from the next.
 pub struct Circle {
     /// Their parent.
     pub parent: Names,
-    /// Their names in it.
+    /// Their names within the parent.
     pub members: Vec<String>,
     /// The imports between them, from module to module.
     pub imports: Vec<(Names, Names)>,
 }
 
-/// What an attribute says of the item behind it.
+/// What an attribute says about the item that follows.
 #[derive(Default)]
 struct Attributes {
     /// Compiled for tests or docs only.
@@ -51,16 +52,16 @@ struct Attributes {
 }
 
 impl Modules {
-    /// Reads a crate from its root file (`src/lib.rs`, `src/main.rs`). What is compiled for tests or docs only is left out.
+    /// Reads a crate from its root file (`src/lib.rs`, `src/main.rs`), without the parts that are compiled only for tests or docs.
     ///
     /// # Errors
     ///
-    /// A file that is missing, or that is not Rust.
+    /// A file that is missing, or that is not valid Rust.
     pub fn read(root: &Path) -> Result<Self, String> {
         Self::read_from(root, &|path| fs::read_to_string(path))
     }
 
-    /// Reads a crate whose files are what `source` says.
+    /// Reads a crate whose files `source` provides.
     fn read_from(root: &Path, source: &Source<'_>) -> Result<Self, String> {
         let mut modules = Self::default();
         let folder = root.parent().unwrap_or(Path::new("."));
@@ -82,7 +83,7 @@ impl Modules {
         self.read_tokens(source, tokens, children, module)
     }
 
-    /// Reads tokens of a module; the files of its children lie in `children`.
+    /// Reads the tokens of a module; the files of its children are in the folder `children`.
     fn read_tokens(
         &mut self,
         source: &Source<'_>,
@@ -147,7 +148,7 @@ impl Modules {
         Ok(())
     }
 
-    /// `name;` or `name { … }` behind `mod`.
+    /// Reads `name;` or `name { … }` after `mod`.
     fn read_child(
         &mut self,
         source: &Source<'_>,
@@ -176,7 +177,7 @@ impl Modules {
         self.modules.entry(module.clone()).or_default()
     }
 
-    /// Notes what `use` brings into a module, under another name where it gives one.
+    /// Records what `use` imports into a module, under the new name if there is one.
     fn import(&mut self, path: Names, name: Option<String>, module: &Names) {
         let mut path = absolute(path, module);
         let contents = self.contents(module);
@@ -192,9 +193,9 @@ impl Modules {
         contents.named.insert(path);
     }
 
-    /// The module in which a path ends, through what modules import; none where it leads to another crate.
+    /// The module in which a path ends, after its imports are resolved; none if it leads to another crate.
     fn target(&self, path: &[String], depth: usize) -> Option<Names> {
-        /// Of names that stand for names; more than there are, so that a circle of them ends.
+        /// The maximum number of imports of imports; larger than any real chain, so that a cycle of them ends.
         const DEEPEST: usize = 16;
         if depth > DEEPEST {
             return None;
@@ -226,7 +227,7 @@ impl Modules {
         Some(module)
     }
 
-    /// Which module imports from which.
+    /// Pairs of modules, of which the first imports from the second.
     pub fn imports(&self) -> BTreeSet<(Names, Names)> {
         let of_module = |(module, contents)| {
             let targets = Contents::named(contents).filter_map(|path| self.target(path, 0));
@@ -237,7 +238,7 @@ impl Modules {
         self.modules.iter().flat_map(of_module).collect()
     }
 
-    /// The circles among the children of each module.
+    /// The cycles among the children of each module.
     pub fn circles(&self) -> Vec<Circle> {
         // By parent, and by the names of two of its children.
         let mut between: BTreeMap<Names, Imports> = BTreeMap::new();
@@ -287,7 +288,7 @@ type Imports = BTreeMap<(String, String), BTreeSet<(Names, Names)>>;
 impl Attributes {
     fn read(&mut self, tokens: &TokenStream) {
         let text = tokens.to_string().replace(' ', "");
-        // Docs link to whatever they like.
+        // Links in docs are unrestricted.
         let of = [
             "cfg(test)",
             "cfg(all(test",
@@ -302,7 +303,7 @@ impl Attributes {
     }
 }
 
-/// The siblings from which a child imports, directly or through others.
+/// The siblings from which a child imports, directly or indirectly.
 fn reached<'a>(name: &String, imports: &'a Imports) -> BTreeSet<&'a String> {
     let mut found = BTreeSet::new();
     let mut next = vec![name];
@@ -316,7 +317,7 @@ fn reached<'a>(name: &String, imports: &'a Imports) -> BTreeSet<&'a String> {
     found
 }
 
-/// The file of a child, and the folder of its own children.
+/// The file of a child module, and the folder of its own children.
 pub(crate) fn place(
     source: &Source<'_>,
     folder: &Path,
@@ -336,7 +337,7 @@ pub(crate) fn place(
     }
 }
 
-/// A path in the text of a module, from the root of the crate.
+/// The path from the root of the crate, for a path in the text of a module.
 pub(crate) fn absolute(path: Names, module: &Names) -> Names {
     let mut base = module.clone();
     let mut words = path.into_iter().peekable();
@@ -372,7 +373,7 @@ fn end_of_statement(tokens: &[TokenTree], at: usize) -> usize {
         .map_or(tokens.len(), |n| at + n)
 }
 
-/// `a::b::c` from a word on, and the index behind it.
+/// The path `a::b::c` that begins with the word at this index, and the index after it.
 fn path_at(tokens: &[TokenTree], mut at: usize) -> (Names, usize) {
     let is_colon =
         |i: usize| matches!(tokens.get(i), Some(TokenTree::Punct(mark)) if mark.as_char() == ':');
@@ -389,7 +390,7 @@ fn path_at(tokens: &[TokenTree], mut at: usize) -> (Names, usize) {
     (path, at)
 }
 
-/// The paths of a tree of `use`, each with the name it is given where that is another.
+/// The paths of a `use` tree, each with its new name if it is renamed.
 pub(crate) fn leaves_of_use(
     tokens: &[TokenTree],
     prefix: &[String],
@@ -434,7 +435,7 @@ mod tests {
 
     use super::*;
 
-    /// The roots of the crates of the workspace.
+    /// The root files of the crates of the workspace.
     fn roots() -> Vec<PathBuf> {
         let project = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
         let crates = fs::read_dir(project.join("crates")).expect("a folder");
@@ -465,7 +466,7 @@ mod tests {
         assert!(told.is_empty(), "{told}");
     }
 
-    /// A crate of these files.
+    /// A crate with these files.
     fn read(files: &[(&str, &str)]) -> Modules {
         let source = |path: &Path| {
             let found = files.iter().find(|(name, _)| path == Path::new(name));

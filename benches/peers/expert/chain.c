@@ -1,6 +1,6 @@
-// T2 as an expert would write it: the chain seen from its end. The links below a hinge answer its acceleration a with the
-// force P a + r; a link's own turning is eliminated from that, hinge by hinge (Featherstone's articulated bodies, in the
-// absolute angles of the task). N is given by the compiler's command line.
+// T2 as an expert would write it: the chain seen from its end. If a hinge has the acceleration a, the links below it exert the
+// force P a + r on it; the rotation of each link is eliminated from that, hinge by hinge (Featherstone's articulated bodies, in the
+// absolute angles of the task). N is defined on the compiler's command line.
 //
 //     D = I + m c^2 + l^2 n.P'n,  k = m c n + l P'n,  tau = l n.(r' - l w^2 P'e)     e along the link, n across
 //     P = P' + m - k k'/D,        r = r' - w^2 (m c e + l P'e) - k tau/D,   theta'' = -(k.a + tau)/D
@@ -12,7 +12,7 @@
 #error "N is 2 or a multiple of 4"
 #endif
 
-static double last; // one by the last link's inertia about its hinge
+static double last; // the reciprocal of the last link's inertia about its hinge
 static double g, l[N], m[N], mc[N], inertia[N];
 
 void eval_setup(const double *p) {
@@ -28,7 +28,7 @@ typedef double d1;
 #define CHAIN(V)                                                                                                       \
     V kx[N], ky[N], tau[N], by[N];                                                                                     \
     V pxx, pxy, pyy, rx, ry;                                                                                           \
-    { /* the last link: nothing hangs from it */                                                                       \
+    { /* the last link has no links below it */                                                                       \
         const int i = N - 1;                                                                                           \
         const V s = SIN(i), c = COS(i), w2 = RATE(i) * RATE(i);                                                        \
         const V bx = mc[i] * c, by_ = mc[i] * s;                                                                       \
@@ -60,7 +60,7 @@ typedef double d1;
         QDD(i) = a;                                                                                                    \
     }
 
-// Angles are loaded as they stand: a wide load behind narrow stores would wait for them.
+// Angles are loaded directly from the state: a wide load after narrow stores would stall.
 #if N % 8 == 0
 #define WIDTH 8
 #define SINCOS_OF_ONE sincos8

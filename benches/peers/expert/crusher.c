@@ -27,8 +27,7 @@ void eval_setup(const double *p) {
     k.by_m1 = 1 / p[7], k.by_m2 = 1 / p[9];
 }
 
-// The algebra, once for numbers and once for each kind of vector; Y(i) and QDD(i) reach component i of the state and
-// of the result.
+// The algebra, for scalars and for each vector type; Y(i) and QDD(i) access component i of the state and of the result.
 #define BODY(V)                                                                                                        \
     const V s1 = Y(3), s2 = Y(6), om = Y(11), vs1 = Y(12), vf1 = Y(13), vs2 = Y(15), vf2 = Y(16);                      \
     const V bx = k.x0 * ct - k.y0 * st, by = k.x0 * st + k.y0 * ct;                                                    \
@@ -78,7 +77,7 @@ void eval(const double *y, double t, const double *p, double *qdd) {
         SINCOS(Y(2), zero, &st, &ct);                                                                                  \
         SINCOS(Y(4), zero, &n1, &c1);                                                                                  \
         SINCOS(Y(7), zero, &n2, &c2);                                                                                  \
-        SINCOS(phase, TAKE(zero + k.w, time, phase), &sw, &cw); /* what rounding took from the phase, fused */         \
+        SINCOS(phase, TAKE(zero + k.w, time, phase), &sw, &cw); /* with the rounding error of the phase, by a fused operation */         \
         BODY(V)                                                                                                        \
     }
 #define Y(i) (((const VECTOR *)y)[i])

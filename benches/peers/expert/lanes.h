@@ -1,4 +1,4 @@
-// Vectors of four and eight, and sine and cosine of all their lanes at once.
+// Vectors of four and eight numbers, and the sine and cosine of all their lanes.
 #pragma once
 #include <string.h>
 
@@ -7,8 +7,8 @@ typedef long long i4 __attribute__((vector_size(32)));
 typedef double d8 __attribute__((vector_size(64)));
 typedef long long i8 __attribute__((vector_size(64)));
 
-// Both are polynomials in z = r^2 through the Chebyshev nodes of [0, (pi/4)^2]: sin r = r + r z S(z) within 2e-17 of
-// itself, cos r = 1 - z/2 + z^2 C(z) within 9e-19 (computed in 60 digits).
+// Both are polynomials in z = r^2 through the Chebyshev nodes of [0, (pi/4)^2]: sin r = r + r z S(z) with a relative
+// error of 2e-17, cos r = 1 - z/2 + z^2 C(z) with an error of 9e-19 (computed with 60 digits).
 #define S0 -0x1.5555555555555p-3
 #define S1 0x1.1111111110bb1p-7
 #define S2 -0x1.a01a019e8357dp-13
@@ -25,14 +25,14 @@ typedef long long i8 __attribute__((vector_size(64)));
 #define HALF_PI 0x1.921fb54442d18p+0
 #define HALF_PI_LOW 0x1.1a62633145c07p-54
 #define TWO_BY_PI 0x1.45f306dc9c883p-1
-// Adding 1.5 * 2^52 rounds to a whole number and leaves it in the last bits.
+// Adding 1.5 * 2^52 rounds to an integer and leaves it in the low bits.
 #define ROUNDER 6755399441055744.0
 
-// `low` is what rounding took from the angle. Right for |x| < 1e5.
+// `low` is the rounding error of the angle. Valid for |x| < 1e5.
 #define SINCOS(NAME, V, I)                                                                                             \
     static inline __attribute__((always_inline)) void NAME(V x, V low, V *sin, V *cos) {                               \
         const V shifted = x * TWO_BY_PI + ROUNDER, k = shifted - ROUNDER;                                              \
-        const V head = x - k * HALF_PI; /* exact: fused, and the two are close */                                      \
+        const V head = x - k * HALF_PI; /* exact, because it is fused and the operands are close */                                      \
         const V r = head - k * HALF_PI_LOW;                                                                            \
         const V rest = (head - r) - k * HALF_PI_LOW + low;                                                             \
         const V z = r * r, z2 = z * z;                                                                                 \

@@ -1,1 +1,2 @@
-"""One module for each peer, with `forms(task, variant, folder)`: every form worth trying, ready to be called."""
+"""One module for each peer, with a function `forms(task, variant, folder)` that returns every form worth trying,
+ready to be called."""

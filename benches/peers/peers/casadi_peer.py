@@ -7,11 +7,11 @@ from peers.common import OPTIMIZED, Clock, TooLong, command, ready
 
 
 def crusher_lagrange(q, v, t, p):
-    """M and f from the energies alone, by derivatives."""
+    """M and f from the energies alone, by differentiation."""
     where, T, U, D = crusher_energies(q, v, t, p)
     momentum = ca.gradient(T, v)
     matrix = ca.jacobian(momentum, v)
-    # d/dt of the momentum but for M v'.
+    # d/dt of the momentum without M v'.
     bias = ca.jtimes(momentum, q, v) + ca.jacobian(momentum, t)
     force = ca.gradient(T, q) - ca.gradient(U, q) - ca.gradient(D, v) - bias
     return matrix, force
@@ -38,7 +38,7 @@ def crusher_energies(q, v, t, p):
 
 
 def crusher_projected(q, v, t, p):
-    """M = sum m JᵀJ, and the bias accelerations projected by the same Jacobians: what a reader of Kane would write."""
+    """M = sum m JᵀJ, and the bias accelerations projected with the same Jacobians, as in Kane's method."""
     bodies, _, U, D = crusher_energies(q, v, t, p)
     matrix = ca.diag(ca.vertcat(0, 0, p["J"], 0, 0, p["J1"], 0, 0, p["J2"]))
     force = -ca.gradient(U, q) - ca.gradient(D, v)
@@ -52,7 +52,7 @@ def crusher_projected(q, v, t, p):
 
 
 def crusher_by_hand(q, v, t, p):
-    """M and f as one simplifies them on paper: differences of angles, common masses."""
+    """M and f simplified by hand: with differences of angles, and common masses."""
     x, y, th, s1, f1, _, s2, f2, _ = ca.vertsplit(q)
     vx, vy, vth, vs1, vf1, _, vs2, vf2, _ = ca.vertsplit(v)
     ct, st, c1, n1, c2, n2 = ca.cos(th), ca.sin(th), ca.cos(f1), ca.sin(f1), ca.cos(f2), ca.sin(f2)
@@ -76,7 +76,8 @@ def crusher_by_hand(q, v, t, p):
         matrix[j, i] = value
     phase = p["w"] * t
     spin = p["e"] * p["w"] ** 2
-    # Bias accelerations: of the debalance, of the mortar along its radius and across, of the pestle on the mortar.
+    # Bias accelerations of the debalance, of the mortar along its radius and across it, and of the pestle
+    # on the mortar.
     dx, dy = -bx * vth**2 - spin * ca.cos(phase), -by * vth**2 - spin * ca.sin(phase)
     r1, a1 = -s1 * vf1**2, 2 * vs1 * vf1
     r2, a2 = -s2 * vf2**2, 2 * vs2 * vf2
@@ -160,7 +161,7 @@ def function(task, variant, form, solver):
     p = ca.SX.sym("p", len(numbers))
     read = p if variant == "par" else ca.SX(numbers)
     named = dict(zip(tasks.CRUSHER, ca.vertsplit(read))) if task == "crusher" else ca.vertsplit(read)
-    # Differentiating needs q and v as symbols.
+    # Differentiation needs q and v as symbols.
     q, v = ca.SX.sym("q", n), ca.SX.sym("v", n)
     matrix, force = equations(task)[form](q, v, t, named)
     qdd = ca.substitute(SOLVERS[solver](matrix, force), ca.vertcat(q, v), y)
@@ -177,7 +178,8 @@ void eval(const double *y, double t, const double *p, double *qdd) {
 
 
 def forms(task, variant, folder):
-    """Every form that could be the fastest. Large chains are solved by LDL only: QR takes several times the work."""
+    """Every form that could be the fastest. Large chains are only solved by LDL, because QR takes several
+    times the work."""
     n = tasks.Task(task).n
     wanted = [(form, solver) for form in equations(task) for solver in SOLVERS]
     if task != "crusher" and n > 4:

@@ -1,4 +1,4 @@
-"""What every peer's builder shares."""
+"""Functions that all builders of peers share."""
 
 import resource
 import subprocess
@@ -7,7 +7,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent.parent
 OPTIMIZED = ["gcc", "-O3", "-march=native", "-shared", "-fPIC"]
-# CPU seconds that a C compiler may spend on one file (T4).
+# CPU seconds that a C compiler may take for one file (T4).
 COMPILE_LIMIT = 120
 
 
@@ -16,7 +16,7 @@ class TooLong(Exception):
 
 
 class Clock:
-    """CPU seconds of this process since the last question."""
+    """CPU seconds of this process since the last call."""
 
     def __init__(self):
         self.before = time.process_time()
@@ -28,8 +28,8 @@ class Clock:
 
 
 def command(words, limit=COMPILE_LIMIT, cwd=None, what="compiling"):
-    """Runs a command; its CPU seconds, children included, come back."""
-    # Nobody may take more than whoever calls was given (`run --limit`).
+    """Runs a command; returns its CPU seconds, including child processes."""
+    # The limit of the calling process (`run --limit`) cannot be raised.
     given = resource.getrlimit(resource.RLIMIT_CPU)[1]
     if given != resource.RLIM_INFINITY:
         limit = max(1, min(limit, given - 1))

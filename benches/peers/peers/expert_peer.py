@@ -1,4 +1,4 @@
-"""C written by hand: the limits that generated code is held against."""
+"""C written by hand: the reference for generated code."""
 
 from peers.common import HERE, OPTIMIZED, command, ready
 

@@ -1,7 +1,7 @@
-"""heyoka: compiled functions by LLVM, of one state and of several at once.
+"""heyoka: functions compiled by LLVM, for one state and for several at once.
 
-Its expressions are transcribed, operation by operation, from CasADi's graphs: the same forms compete. The object code of
-the compiled functions is linked into a library, so that it is called like everybody else's.
+Its expressions are transcribed, operation by operation, from CasADi's graphs, so that the same forms are compared. The object code
+of the compiled functions is linked into a library, so that it is called in the same way as that of the other peers.
 """
 
 import subprocess
@@ -65,7 +65,7 @@ def linked(folder, name, functions):
             shim.append(f"void {symbol}(const double *y, double t, const double *p, double *qdd)")
             shim.append(f"{{ cfunc_{symbol}(qdd, y, p, &t); }}")
         else:
-            # Parameters are read lane by lane: each number as often as there are lanes.
+            # Parameters are read lane by lane, so each number is repeated for every lane.
             shim.append(f"extern many cfunc_{symbol};")
             shim.append(f"static double p_{symbol}[{lanes} * 512];")
             shim.append(f"void setup_{symbol}(const double *p, int n)")
@@ -76,7 +76,7 @@ def linked(folder, name, functions):
 
 
 def sources(task, variant, folder):
-    """The CasADi functions that are transcribed, with what deriving them took."""
+    """The CasADi functions that are transcribed, with the time of their derivation."""
     clock = Clock()
     if task == "crusher":
         for form in ("projected", "by hand"):
@@ -91,14 +91,14 @@ def sources(task, variant, folder):
 def forms(task, variant, folder):
     n, count = tasks.Task(task).n, len(tasks.Task(task).parameters)
     wheel = Path(hy.__file__).resolve().parent.parent / "heyoka.libs"
-    vectors = [*wheel.glob("libheyoka-*"), *wheel.glob("libsleef-*")]  # where sines of several angles are
+    vectors = [*wheel.glob("libheyoka-*"), *wheel.glob("libsleef-*")]  # contain vectorized sines
     variables = [hy.expression(f"y{i}") for i in range(2 * n)]
     for name, f, derive in sources(task, variant, folder):
         clock = Clock()
         read = [variables, [hy.time], [hy.par[i] for i in range(count)]]
         results = transcribed(f, read)
         derive += clock.lap()
-        # What is as large as this is compiled in its compact mode only.
+        # Functions of this size are only compiled in compact mode.
         compact = f.n_instructions() > 20000
         compiled = {lanes: None for lanes in (8, 4)}
         for lanes in compiled:

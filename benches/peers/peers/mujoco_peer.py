@@ -13,8 +13,8 @@ def chain(n):
 
 
 def chain_of(links):
-    """Length, mass, distance of the mass centre and inertia about it, of each link."""
-    # In the plane x, z; a turn about -y takes the downward vertical towards +x.
+    """Length, mass, distance of the mass centre and inertia about it, for each link."""
+    # In the plane x, z; a rotation about -y takes the downward vertical towards +x.
     nested, ends = [], []
     before = 0.0
     for length, mass, centre, inertia in links:

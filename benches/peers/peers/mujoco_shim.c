@@ -1,5 +1,5 @@
-// MuJoCo's smooth forward dynamics (no contacts, no constraints, no integration) behind the interface of the timing loop.
-// MODEL, ABSOLUTE are given by the compiler's command line.
+// MuJoCo's smooth forward dynamics (no contacts, no constraints, no integration) with the interface of the timing loop.
+// MODEL and ABSOLUTE are defined on the compiler's command line.
 #include <mujoco/mujoco.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@ static mjModel *m;
 static mjData *d;
 
 void eval_setup(const double *p) {
-    (void)p; // the model holds the numbers
+    (void)p; // the model contains the parameters
     char message[1000] = "";
     m = mj_loadXML(MODEL, 0, message, sizeof message);
     if (!m) {

@@ -1,4 +1,4 @@
-"""Our own: `lagrangian library`."""
+"""Our own code: `lagrangian library`."""
 
 import os
 
@@ -18,5 +18,5 @@ def forms(task, variant, folder):
     call = [os.environ["LAGRANGIAN"], "library", spec, *size, "--out", library]
     spent = command(call)
     derive = command([os.environ["LAGRANGIAN"], "derive", spec, *size, "--as", "rust", "--out", folder / "machine.rs"])
-    command([*call, "--lanes", "4,8"])  # what is timed has eight lanes besides the four that everybody gets
+    command([*call, "--lanes", "4,8"])  # the timed library has eight lanes in addition to the four of every peer
     yield ready("`lagrangian library`", library, derive, 0.0, spent - derive)

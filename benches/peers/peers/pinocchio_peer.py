@@ -1,6 +1,6 @@
 """Pinocchio: the articulated-body algorithm over CasADi's symbols, generated as C; and its own compiled algorithm.
 
-The wheel on PyPI holds no `pinocchio.casadi`; the program pinocchio_codegen.cpp is the same from the same headers.
+The wheel on PyPI does not contain `pinocchio.casadi`; the program pinocchio_codegen.cpp does the same with the same headers.
 """
 
 import os
@@ -18,7 +18,7 @@ void eval(const double *y, double t, const double *p, double *qdd) {
 
 
 def generate(task, frame, folder):
-    """Writes the C and the CasADi function; CPU seconds of both, and the path without its ending."""
+    """Writes the C and the CasADi function; returns the CPU seconds of both, and the path without its extension."""
     stem = folder / f"aba_{frame}"
     words = [os.environ["PINOCCHIO_CODEGEN"], task, frame, str(stem)]
     printed = subprocess.run(words, check=True, capture_output=True, text=True).stdout

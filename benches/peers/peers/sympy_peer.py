@@ -63,7 +63,8 @@ def chain(t, p, n):
 
 
 def forms(task, variant, folder):
-    """Lagrange's method itself (`LagrangesMethod` differentiates the same L in the same way, and takes no dissipation)."""
+    """Lagrange's method written out (`LagrangesMethod` differentiates the same L in the same way, but does
+    not support dissipation)."""
     clock = Clock()
     t = dynamicsymbols._t
     size = tasks.Task(task)

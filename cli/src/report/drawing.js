@@ -1,6 +1,6 @@
-// The picture of the machine on a canvas.
+// Draws the machine on a canvas.
 
-/** Colours of the style sheet, as a canvas takes them; read again when the theme changes. */
+/** Colours of the style sheet in the form that a canvas needs; read again when the theme changes. */
 class Palette {
   constructor() {
     this.probe = document.createElement('span');
@@ -21,13 +21,13 @@ class Palette {
   }
 }
 
-/** The colour of one of several: a few that stay apart, or a ramp of hues along a large family. */
+/** The colour of one member of a family: from a few distinct colours, or from a ramp of hues for a large family. */
 function seriesColour(index, count) {
   if (count <= 8) return `var(--c${index})`;
   return `hsl(${Math.round(210 + (290 * index) / count) % 360} 65% var(--ramp))`;
 }
 
-/** Everything that is drawn, from the picture that the page holds; see scene.rs for what its fields mean. */
+/** The whole drawing, from the picture that the page holds; see scene.rs for the meaning of its fields. */
 class Drawing {
   constructor(canvas, picture, motion) {
     this.canvas = canvas;
@@ -40,7 +40,7 @@ class Drawing {
     this.showsForces = true;
     this.forces = [];
     this.impacts = null;
-    /** How long the impulse of an impact stays to be seen, in s of the run. */
+    /** How long the impulse of an impact stays visible, in s of the run. */
     this.glow = 0;
     this.trail = 0;
     this.follow = null;
@@ -55,17 +55,17 @@ class Drawing {
     this.recolour();
   }
 
-  /** The vector of the values at a place, in three components. */
+  /** The vector of the values at a place, always with three components. */
   vector(x, place) {
     return [x[place], x[place + 1], this.picture.dimension === 3 ? x[place + 2] : 0];
   }
 
-  /** One of the axes at a place. */
+  /** One of the axes that begin at a place. */
   axis(x, place, index) {
     return this.vector(x, place + index * this.picture.dimension);
   }
 
-  /** A point given in a body's axes. */
+  /** The position of a point given in a body's axes. */
   inBody(x, body, local) {
     let point = this.vector(x, body.at);
     if (body.axes === null) return along(point, 1, [...local, 0].slice(0, 3));
@@ -79,7 +79,7 @@ class Drawing {
     this.colours = bodies.map((_, index) => this.palette.series(index, bodies.length));
   }
 
-  /** Several springs and dampers at one place are drawn side by side. */
+  /** Draws several springs and dampers at the same place side by side. */
   arrangeElements() {
     const groups = new Map();
     for (const element of this.picture.elements) {
@@ -91,8 +91,8 @@ class Drawing {
     }
   }
 
-  /** What stands about the centre of something smaller, as a gimbal about its rotor, is drawn as a wire; and which bodies have
-   * no outline at all. */
+  /** Bodies that surround the centre of a smaller one, such as a gimbal around its rotor, are drawn as wire frames. Also finds the bodies
+   * without an outline. */
   arrangeBodies() {
     const { bodies, circles } = this.picture;
     const size = ({ solid }) => Math.hypot(solid.radius ?? 0, ...[solid.half ?? 0].flat());
@@ -103,7 +103,7 @@ class Drawing {
     });
   }
 
-  /** The points that a picture must show, with the room that each needs around it. */
+  /** The points that a picture must show, with the margin that each needs. */
   extent(x) {
     const { picture } = this;
     const points = [];
@@ -124,7 +124,7 @@ class Drawing {
     return points.filter(([point, radius]) => Number.isFinite(radius) && point.every(Number.isFinite));
   }
 
-  /** How large the motion is: what the view shows, and how high the ground lies. */
+  /** Determines the size of the motion, which sets the view, and the height of the ground. */
   measure() {
     const { motion, view } = this;
     const instants = Math.min(600, Math.max(2, motion.count));
@@ -137,12 +137,12 @@ class Drawing {
     this.reach = Math.max(...spans, 0) || 1;
     shown.push(...this.sketches());
     view.reset(shown);
-    // The ground plane: through the origin, or below what hangs from it.
+    // The ground plane: through the origin, or below the lowest hanging point.
     const [lowest] = range(view.up);
     this.floor = lowest < -0.02 * this.reach ? lowest : 0;
   }
 
-  /** Gives contacts their forces, from the curves that hold these, and the impulses of their impacts. */
+  /** Connects contacts with the curves of their forces, and with the impulses of their impacts. */
   bear(curves, impacts) {
     const named = new Map(curves.map((curve) => [curve.name, curve]));
     this.forces = this.picture.contacts.map((contact) => ({
@@ -156,7 +156,7 @@ class Drawing {
     this.weigh();
   }
 
-  /** Which force and which impulse are drawn as long as a fifth of the motion: one that few exceed. */
+  /** Determines which force and which impulse are drawn with a fifth of the size of the motion: the 95th percentile. */
   weigh() {
     const most = (sizes) => sizes.sort((a, b) => a - b)[Math.floor(0.95 * (sizes.length - 1))] ?? 0;
     const sizes = this.forces.flatMap(({ curves }) => Array.from(curves[0]?.times ?? [], (t) => Math.hypot(...curves.map((curve) => curve.at(t)))));
@@ -165,7 +165,7 @@ class Drawing {
     this.fullImpulse = most(Array.from(times, (_, k) => Math.hypot(...impulses.slice(3 * k, 3 * k + 3))));
   }
 
-  /** Where a contact touches, and a force with these components on what touches there. */
+  /** The point of contact, and the force with these components on the body there. */
   forceOf(x, contact, components) {
     if (contact.placed === 'line') {
       return [this.inBody(x, this.picture.bodies[contact.body], contact.foot), [...contact.force.map((f) => components[0] * f), 0]];
@@ -177,7 +177,7 @@ class Drawing {
     return [this.vector(x, contact.point), force];
   }
 
-  /** The forces of contact at time `t`, and the impulses of the impacts just before: on the body that a contact names first. */
+  /** The contact forces at time `t`, and the impulses of recent impacts, on the body that a contact names first. */
   contactForces(t, x) {
     const found = this.forces.map(({ contact, curves }) => {
       const [point, force] = this.forceOf(x, contact, curves.map((curve) => curve.at(t)));
@@ -185,7 +185,7 @@ class Drawing {
     });
     if (this.impacts) {
       const { times, contacts, impulses } = this.impacts;
-      // Times are stored in 24 binary digits, and an impact is to be seen at its instant.
+      // Times are stored with 24 binary digits, and an impact must be visible at its own instant.
       const [from, to] = [this.motion.from, this.motion.to];
       const late = 2 ** -22 * Math.max(Math.abs(from), Math.abs(to));
       let [first, last] = [0, times.length];
@@ -206,7 +206,7 @@ class Drawing {
     });
   }
 
-  /** An arrow for each force of contact, and for each impulse, which fades. One that is longer than the picture is cut there, and has no tip. */
+  /** An arrow for each contact force, and for each impulse, which fades. An arrow that is longer than the picture is cut off and has no tip. */
   drawForces(t, x) {
     const { view, palette, context: c } = this;
     for (const { name, point, force, unit: of, full, age } of this.contactForces(t, x)) {
@@ -222,7 +222,7 @@ class Drawing {
     }
   }
 
-  /** What lengths of arrows mean, above the scale. */
+  /** The scales of the arrows, above the scale bar. */
   drawForceScales() {
     const { view, palette } = this;
     const scales = [[this.fullForce, 'N', palette.force], [this.fullImpulse, 'N s', palette.impact]];
@@ -238,7 +238,7 @@ class Drawing {
     }
   }
 
-  /** Springs and dampers of which only the line of action is known get a stand on the ground, at some distance. */
+  /** Springs and dampers of which only the line of action is known are attached to a stand on the ground, at some distance. */
   sketches() {
     const { picture, motion } = this;
     const elements = picture.elements.filter((element) => element.placed === 'sketch');
@@ -251,11 +251,11 @@ class Drawing {
         0.02 * this.reach,
       );
       const off = Math.hypot(...element.foot);
-      // At the rim of what the body is drawn as, or else as far out as the line of action is from its centre.
+      // At the rim of the body's outline, or, if the line of action lies outside it, as far along the line as its distance from the centre.
       const edge = off < radius ? Math.sqrt(radius ** 2 - off ** 2) : off;
       element.lug = off < radius ? null : radius / Math.hypot(off, edge);
       const away = element.along.map((a) => a * element.side);
-      // The direction is given at the start; the point moves with the body from there.
+      // The direction is fixed at the start; the point then moves with the body.
       element.edge = [...away.map((a) => a * edge), 0];
       element.edgeLocal = this.toBody(x, body, element.edge);
       const foot = this.inBody(x, body, element.foot.map((f, k) => f + element.edgeLocal[k]));
@@ -264,13 +264,13 @@ class Drawing {
     return elements.map((element) => [element.stand, 0]);
   }
 
-  /** A vector in the ground's axes, in those of a body. */
+  /** Converts a vector from the ground's axes to those of a body. */
   toBody(x, body, vector) {
     if (body.axes === null) return vector;
     return [0, 1].map((k) => dot(vector, this.axis(x, body.axes, k)));
   }
 
-  /** Where the mass centres have been: closely enough that straight lines show it. */
+  /** The paths of the mass centres, sampled densely enough for straight lines. */
   tracePaths() {
     const { motion, picture } = this;
     const bodies = picture.bodies;
@@ -302,7 +302,7 @@ class Drawing {
     }
   }
 
-  /** Fits the drawing to the canvas, or to a sheet; `sharpness` is in pixels of the picture for each of the page. */
+  /** Fits the drawing to the canvas, or to a sheet; `sharpness` is the number of picture pixels per page pixel. */
   resize(sharpness = window.devicePixelRatio || 1, width = this.canvas.clientWidth, height = this.canvas.clientHeight) {
     const { canvas, view } = this;
     view.width = width || 640;
@@ -325,7 +325,7 @@ class Drawing {
     c.font = '12px system-ui, sans-serif';
     this.drawGround();
     this.drawTrails(t);
-    // What is nearer to the viewer covers what is not; in the plane all are equally near, and the order stays.
+    // Nearer parts cover farther ones; in the plane all have the same depth, and the order stays.
     const parts = [];
     this.drawCircles(x, parts);
     this.drawSolids(x, parts);
@@ -340,7 +340,7 @@ class Drawing {
     this.drawScale();
     if (this.showsForces) this.drawForceScales();
     this.drawGravity(x);
-    // On paper, where no clock stands beside it.
+    // For printing, where the page's clock is not beside it.
     this.text(this.stamp, 14, 18, palette.ink);
   }
 
@@ -377,7 +377,7 @@ class Drawing {
     if (stroke) this.stroke(stroke, width);
   }
 
-  /** A grid in the plane of the machine, or on the ground; the axes of the ground. */
+  /** A grid in the plane of the machine or on the ground, and the axes of the ground. */
   drawGround() {
     const { view, palette } = this;
     if (this.picture.dimension === 2) {
@@ -434,7 +434,7 @@ class Drawing {
     c.fillText(words, px, py);
   }
 
-  /** Where the mass centres were before, paler the longer ago. */
+  /** The trails of the mass centres, which fade with age. */
   drawTrails(t) {
     const { motion, picture, view } = this;
     const share = motion.duration === 0 ? 0 : (t - motion.from) / motion.duration;
@@ -442,7 +442,7 @@ class Drawing {
     const start = Math.max(0, end - this.trail * this.pathSteps);
     if (!(end > start)) return;
     const c = this.context;
-    // In a long chain a few show the motion, and sixty hide it; the last is always among them.
+    // In a long chain a few trails show the motion, while sixty would hide it; the last is always included.
     const every = Math.ceil(picture.bodies.length / 16);
     const most = 12_000 / (picture.bodies.length / every);
     const stride = Math.max(1, Math.ceil((end - start) / most));
@@ -485,7 +485,7 @@ class Drawing {
   drawCircles(x, parts) {
     const { picture, view, palette } = this;
     const radiusOf = (circle) => Math.abs(x[circle.radius]);
-    // Two about one centre are a ring, as a bored cylinder is.
+    // Two circles about the same centre form a ring, such as a bored cylinder.
     const rings = Map.groupBy(picture.circles, (circle) => `${circle.body} ${circle.center}`);
     for (const circles of rings.values()) {
       const [outer, inner] = circles.toSorted((a, b) => radiusOf(b) - radiusOf(a));
@@ -503,7 +503,7 @@ class Drawing {
           this.fill(colour, inner ? 0.22 : 0.08);
           for (const circle of circles) {
             this.disc([px, py], radiusOf(circle) * view.scale, null, colour, 1.6);
-            // Shows how it is turned.
+            // Shows its rotation.
             const center = this.vector(x, circle.center);
             const at = (share) => view.project(along(center, share * radiusOf(circle), this.axis(x, circle.axes, 0)));
             this.line(at(0.88), at(1), colour, 2.4);
@@ -584,7 +584,7 @@ class Drawing {
     });
   }
 
-  /** A flat face; lighter the more it faces the viewer. */
+  /** A flat face; the more it faces the viewer, the lighter it is. */
   face(points, normal, colour, parts, hollow) {
     const projected = points.map((point) => this.view.project(point));
     const depth = projected.reduce((sum, p) => sum + p[2], 0) / projected.length;
@@ -648,7 +648,7 @@ class Drawing {
       }
       return;
     }
-    // The mantle, in strips without edges: their depth keeps them between the ends.
+    // The lateral surface, in strips without edges: their depth keeps them between the ends.
     for (let i = 0; i < count; i += 2) {
       const points = [rim(-1, i), rim(-1, i + 2), rim(1, i + 2), rim(1, i)].map((p) => this.view.project(p));
       parts.push({
@@ -660,7 +660,7 @@ class Drawing {
         },
       });
     }
-    // Spokes show how it spins; one is marked.
+    // Spokes show the rotation; one is marked.
     for (const side of [-1, 1]) {
       const center = along(at, side * half, axis);
       for (let i = 0; i < 4; i++) {
@@ -670,7 +670,7 @@ class Drawing {
     }
   }
 
-  /** A direction given in a body's axes. */
+  /** Converts a direction from a body's axes to the ground's. */
   turned(x, body, direction) {
     return direction.reduce((sum, s, k) => along(sum, s, this.axis(x, body.axes, k)), [0, 0, 0]);
   }
@@ -704,7 +704,7 @@ class Drawing {
     }
   }
 
-  /** The support at the origin of the ground, on the side where the machine is not. */
+  /** The support at the origin of the ground, on the side away from the machine. */
   drawStand(at, parts) {
     const { view, palette } = this;
     const machine = dot(view.home.center, view.above) >= 0 ? 1 : -1;
@@ -722,7 +722,7 @@ class Drawing {
     });
   }
 
-  /** A piece of the ground: a line across a direction, hatched beyond. */
+  /** A piece of the ground: a line across a direction, hatched beyond it. */
   hatch([px, py], [dx, dy], half) {
     const { palette } = this;
     const across = (s, out) => [px - s * dy + out * dx, py + s * dx + out * dy];
@@ -747,7 +747,7 @@ class Drawing {
         const end = this.inBody(x, body, local);
         ends = [element.stand, end].map((point) => view.project(point));
         if (element.lug !== null) {
-          // An arm of the body that reaches out to the line of action.
+          // An arm of the body that extends to the line of action.
           const at = this.vector(x, body.at);
           const root = view.project(along(at, element.lug, along(end, -1, at)));
           const colour = this.colours[element.body];
@@ -764,7 +764,7 @@ class Drawing {
     const length = Math.hypot(dx, dy);
     if (length < 2) return;
     const [ex, ey] = [dx / length, dy / length];
-    // What is short is thin, too.
+    // A short element is also thin.
     const thin = Math.min(1, length / 40);
     const aside = 15 * thin * element.beside;
     // Along the element, and across it.
@@ -776,7 +776,7 @@ class Drawing {
     if (element.placed === 'sketch') this.hatch(at(0, 0), [-ex, -ey], 9);
     const colour = element.damper ? palette.muted : palette.ink;
     if (element.damper) {
-      // The pot stays with the first end, the piston with the second.
+      // The cylinder is attached to the first end, the piston to the second.
       const pot = Math.min(26, 0.5 * length);
       const start = 0.5 * (length - pot);
       this.line(at(0, 0), at(start, 0), colour, 1.3);
@@ -811,7 +811,7 @@ class Drawing {
     this.stroke(element.damper ? this.palette.muted : this.palette.ink, 1.2);
   }
 
-  /** Mass centres: a ball for a particle, the usual quartered disc for a body. Area grows with the cube root of the mass. */
+  /** Mass centres: a ball for a particle, the usual quartered disc for a body. The area grows with the cube root of the mass. */
   drawCentres(x) {
     const { picture, view, palette } = this;
     const heaviest = Math.max(...picture.bodies.map((body) => body.mass));
@@ -899,7 +899,7 @@ class Drawing {
   }
 }
 
-/** A length with a unit that keeps the number short. */
+/** A length as text, with a unit that keeps the number short. */
 function lengthText(metres) {
   const [factor, name] = metres >= 1000 ? [1e-3, 'km'] : metres >= 0.1 ? [1, 'm'] : metres >= 1e-3 ? [1e3, 'mm'] : [1e6, 'µm'];
   return `${figure(metres * factor, 3)} ${name}`;

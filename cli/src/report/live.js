@@ -1,13 +1,13 @@
-// The machine itself, in the page: sliders change its parameters and its start, and it runs again, by the method of the command.
+// Runs the machine in the page: sliders change its parameters and its start, and it is integrated again by the method of the command.
 
-/** An explicit pair of Runge–Kutta, by its published coefficients. */
+/** An explicit embedded Runge–Kutta pair, with its published coefficients. */
 class Integrator {
   constructor(method, tolerance, mostSteps) {
     Object.assign(this, { method, tolerance, mostSteps });
     this.steps = 0;
   }
 
-  /** How large a vector is that is divided by the tolerances of the state before and after. */
+  /** The norm of a vector whose components are divided by the tolerances of the state before and after the step. */
   norm(vector, before, after) {
     let sum = 0;
     for (let i = 0; i < vector.length; i++) {
@@ -17,7 +17,8 @@ class Integrator {
     return Math.sqrt(sum / Math.max(1, vector.length));
   }
 
-  /** Brings the state `y` to each of the times in turn, and tells each; `hold` moves it after each step. What stops it is thrown. */
+  /** Integrates the state `y` to each of the times in turn, and calls `tell` at each; `hold` projects it after each step.
+   * Failures are thrown. */
   run(f, y, times, tell, hold) {
     const { a, c, error, coarse, power, stages, change: [least, most] } = this.method;
     const forward = times[times.length - 1] >= times[0] ? 1 : -1;
@@ -41,7 +42,8 @@ class Integrator {
       while ((until - t) * forward > 0) {
         const left = Math.abs(until - t);
         if (h === 0) {
-          // As if by Euler's method: a hundredth of the state, or a millionth of the way.
+          // Chosen from a step of Euler's method: it may change the state by a hundredth of its size, or the step is a millionth
+          // of the interval.
           const [size, rate] = [this.norm(y, y, y), this.norm(slopes[0], y, y)];
           h = size > 1e-5 && rate > 1e-5 ? Math.min(0.01 * (size / rate), left) : Math.min(1e-6, left);
         }
@@ -52,7 +54,7 @@ class Integrator {
           for (let i = 0; i < y.length; i++) next[i] = y[i] + step * part[i];
           if (stage < stages) f(t + c[stage] * step, next, slopes[stage]);
         }
-        // Some pairs look at the slope of the new point, too.
+        // Some pairs also use the slope at the new point.
         if (error.length > stages) f(t + step, next, slopes[stages]);
         let off = this.norm(sum(error, error.length), y, next);
         if (coarse && off > 0) {
@@ -80,17 +82,18 @@ class Integrator {
 }
 
 /**
- * What holds a state on the constraints of the machine: the least change by its inertia, dq = W Gᵀ (G W Gᵀ)⁻¹ (−g) with W the inverse
- * of the mass matrix, and the same of rates with their residuals. Coordinates that the spec keeps stay as they are at the start.
+ * Projects a state onto the constraints of the machine by the smallest change in the metric of inertia, dq = W Gᵀ (G W Gᵀ)⁻¹ (−g)
+ * with W the inverse of the mass matrix, and likewise the rates with their residuals. Coordinates that the spec keeps do not
+ * change at the start.
  */
 class Constraints {
   constructor(p, { holonomic, kept }, n) {
-    // Those of positions first: rates obey all of them, positions these.
+    // Holonomic constraints first: rates must satisfy all constraints, positions only these.
     const order = [true, false].flatMap((wanted) => holonomic.flatMap((is, k) => (is === wanted ? [k] : [])));
     Object.assign(this, { p, holonomic, kept, n, order });
   }
 
-  /** The residuals of each constraint in positions and in rates, by the sizes of their terms. */
+  /** The residuals of each constraint in positions and in rates, relative to the sizes of their terms. */
   residuals(t, y) {
     const { p, n } = this;
     const [q, v] = [y.subarray(0, n), y.subarray(n)];
@@ -102,14 +105,14 @@ class Constraints {
     };
   }
 
-  /** How far the state is off, as a share of the sizes of the terms. */
+  /** The largest residual, relative to the sizes of the terms. */
   off(t, y) {
     const { positions, rates } = this.residuals(t, y);
     const share = ({ residuals, sizes }) => residuals.map((x, k) => Math.abs(x) / sizes[k]);
     return Math.max(...share(positions), ...share(rates));
   }
 
-  /** Cholesky's factor of the mass matrix without the coordinates that are kept; none where it is not positive definite. */
+  /** The Cholesky factor of the mass matrix without the coordinates that are kept; none if it is not positive definite. */
   factor(t, y, kept) {
     const { p, n } = this;
     const m = machine.mass_matrix(p, t, y.subarray(0, n)).map((row) => Array.from(row));
@@ -129,7 +132,7 @@ class Constraints {
     return m;
   }
 
-  /** The matrices of a pose: the factor of inertia, and the rows of the constraints made orthogonal in its metric. */
+  /** The matrices of a pose: the factor of the mass matrix, and the rows of the constraints, orthogonalized in its metric. */
   prepare(t, y, kept) {
     const { n } = this;
     const m = this.factor(t, y, kept);
@@ -150,7 +153,7 @@ class Constraints {
       const whole = dot(carried, carried);
       let rest = carried;
       const along = basis.map(() => 0);
-      // Twice is enough.
+      // Two passes of Gram–Schmidt suffice.
       for (let pass = 0; pass < 2; pass++) {
         basis.forEach(({ unit }, j) => {
           const part = dot(rest, unit);
@@ -159,13 +162,13 @@ class Constraints {
         });
       }
       const square = dot(rest, rest);
-      // What depends on rows before it says nothing new.
+      // Rows that depend on earlier ones are redundant.
       if (square > 1e-12 * whole) basis.push({ k, along, size: Math.sqrt(square), unit: rest.map((entry) => entry / Math.sqrt(square)) });
     });
     return { m, basis };
   }
 
-  /** Residuals along the orthogonal rows: their length is how far the state has to go, in the metric of inertia. */
+  /** Residuals along the orthogonal rows: their norm is the distance to the constraints in the metric of inertia. */
   along({ basis }, residuals, level) {
     const values = [];
     for (const { k, along, size } of basis) {
@@ -175,7 +178,7 @@ class Constraints {
     return values;
   }
 
-  /** Takes what stands along the rows off `x`, by the least move. */
+  /** Subtracts the values along the rows from `x` by the smallest change. */
   moveBack({ m, basis }, values, kept, x) {
     const { n } = this;
     const change = new Float64Array(n);
@@ -189,7 +192,7 @@ class Constraints {
     }
   }
 
-  /** Newton's method on positions or on rates, with the matrices of one pose while it contracts, as the command has it. */
+  /** Newton's method on positions or on rates, which keeps the matrices of one pose as long as it contracts, as in the command. */
   newton(t, y, level, matrices, kept, x) {
     const length = (values) => Math.hypot(...values);
     const seen = () => this.residuals(t, y)[level];
@@ -214,11 +217,11 @@ class Constraints {
     }
   }
 
-  /** Moves a state onto the constraints; what is not there in the end is thrown. */
+  /** Projects a state onto the constraints; throws if that fails. */
   hold(t, y, isStart) {
     if (!this.order.length || !(this.off(t, y) > (isStart ? 1e-15 : 1e-10))) return;
     const { n } = this;
-    // Rates begin with the matrices with which positions ended, unless other ones are kept.
+    // The rates begin with the last matrices of the positions, unless other coordinates are kept.
     let matrices = null;
     for (const [level, from] of [['positions', 0], ['rates', n]]) {
       const kept = isStart && this.kept.includes(true) ? this.kept.slice(from, from + n) : null;
@@ -234,7 +237,7 @@ class Live {
     Object.assign(this, { player, data, motion: player.motion, wanted: false });
     this.parameters = Float64Array.from(data.parameters);
     this.inputs = Float64Array.from(data.inputs);
-    // Start values that somebody has said; the others follow the parameters.
+    // Start values that the user has set; the others follow the parameters.
     this.said = data.start.slice();
     const list = byId('sliders');
     const add = (group, name, unit, value, set) => {
@@ -279,7 +282,7 @@ class Live {
     });
   }
 
-  /** Runs before the next picture, once, however often a slider has moved. */
+  /** Schedules one run before the next picture, however often a slider has moved. */
   ask() {
     if (this.wanted) return;
     this.wanted = true;
@@ -291,7 +294,7 @@ class Live {
 
   run() {
     const { motion, data, player } = this;
-    // Behind the coordinates stand the integrals of states of first order, which are not drawn.
+    // The integrals of first-order states follow the coordinates; they are not drawn.
     const n = machine.coordinates.length;
     const drawn = motion.n;
     const before = performance.now();
@@ -335,7 +338,7 @@ class Live {
     player.dirty = true;
   }
 
-  /** What a curve with points of its own is now; nothing, where the page cannot say. */
+  /** Updates a curve that has points of its own, or empties it if the page cannot compute it. */
   refresh(curve, p, times, states) {
     if (!curve.times) return;
     const n = machine.coordinates.length;
@@ -366,7 +369,7 @@ class Live {
 
 const live = new Live(player, JSON.parse(byId('live-data').textContent));
 
-// For those who want to drive it: by the names and numbers of the sliders, as `canvas.live.set('l1', 2)`.
+// For scripts that control the page: by the names and numbers of the sliders, as in `canvas.live.set('l1', 2)`.
 player.canvas.live = Object.freeze({
   set: (name, value) => {
     const label = [...document.querySelectorAll('#sliders label')].find((one) => one.dataset.name === name);

@@ -1,8 +1,9 @@
 'use strict';
 
-// The motion: what the page holds of it, and the state of the machine at any instant.
+// The motion: the data in the page, and the state of the machine at any instant.
 
-/** 32-bit numbers from base 64. They are little-endian, as every machine is that runs a browser. */
+/** Decodes 32-bit numbers from base64. They are little-endian, as is every computer that
+ * runs a browser. */
 function floats(text) {
   const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
   return new Float32Array(bytes.buffer);
@@ -22,17 +23,17 @@ class Motion {
     this.x = new Float64Array(data.values);
   }
 
-  /** How long it lasts, in s; negative for a run backward in time. */
+  /** Its duration, in s; negative for a run backward in time. */
   get duration() {
     return this.to - this.from;
   }
 
-  /** When a stored state was. All but the last are equally far apart. */
+  /** The time of a stored state. All but the last are equally spaced. */
   time(index) {
     return index === this.count - 1 ? this.to : this.from + index * this.interval;
   }
 
-  /** Coordinates and rates at time `t`: the cubic through the states before and after. */
+  /** Coordinates and rates at time `t`, from the cubic through the neighbouring states. */
   state(t) {
     const { n, q, v, states } = this;
     const last = this.count - 2;
@@ -59,7 +60,8 @@ class Motion {
     return this;
   }
 
-  /** The drawn values at time `t`; see `kinematics`, which the spec's expressions were made into. */
+  /** The drawn values at time `t`; see `kinematics`, which is generated from
+   * the spec's expressions. */
   values(t) {
     this.state(t);
     kinematics(t, this.q, this.parameters, this.x);
@@ -67,14 +69,14 @@ class Motion {
   }
 }
 
-/** The numbers 1, 2, 5 times powers of ten: the greatest that is not above `most`. */
+/** The largest number of the form 1, 2 or 5 times a power of ten that does not exceed `most`. */
 function round125(most) {
   const power = 10 ** Math.floor(Math.log10(most));
   const digit = most / power;
   return (digit >= 5 ? 5 : digit >= 2 ? 2 : 1) * power;
 }
 
-/** A number in so many digits, plain or with an exponent, with a true minus sign. */
+/** A number with this many digits, in decimal or exponential notation, with a true minus sign. */
 function figure(x, digits = 5) {
   if (!Number.isFinite(x)) return '–';
   const size = Math.abs(x);

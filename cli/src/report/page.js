@@ -1,4 +1,4 @@
-// The page: what its controls do.
+// The controls of the page.
 
 const byId = (id) => document.getElementById(id);
 
@@ -30,7 +30,7 @@ class Player {
     return Math.abs(this.motion.duration);
   }
 
-  /** Shows the machine at time `t`, or at the end of the run that is nearer to it. */
+  /** Shows the machine at time `t`, or at the nearer end of the run if `t` is outside it. */
   seek(t) {
     const { from, to } = this.motion;
     if (!Number.isFinite(t)) return;
@@ -59,7 +59,7 @@ class Player {
     byId('play').setAttribute('aria-pressed', String(this.playing));
   }
 
-  /** One picture, if there is something new to see. */
+  /** Draws one picture if something has changed. */
   frame(now) {
     if (this.playing) this.advance(now);
     if (this.dirty) this.show(now);
@@ -67,7 +67,7 @@ class Player {
   }
 
   advance(now) {
-    // After a pause of the browser's own the machine goes on where it was.
+    // After the browser has paused the page, the motion continues from where it was.
     const passed = this.before === null ? 0 : Math.min((now - this.before) / 1000, 0.25);
     this.before = now;
     const { from, to, duration } = this.motion;
@@ -101,7 +101,7 @@ class Player {
   layOut() {
     this.drawing.resize();
     this.plots.forEach((plot) => plot.build());
-    // At once: a canvas that was resized is empty.
+    // Draw at once, because resizing clears a canvas.
     this.show(performance.now());
   }
 
@@ -115,7 +115,7 @@ class Player {
     this.connectSpeed();
     const trail = byId('trail');
     const setTrail = () => {
-      // The square gives short trails more of the slider.
+      // The square gives short trails more of the slider's range.
       drawing.trail = Number(trail.value) ** 2;
       this.dirty = true;
     };
@@ -148,7 +148,7 @@ class Player {
       : 'Drag to move, wheel to zoom. Space plays, ← and → step, Home and End go to the ends.';
   }
 
-  /** Speeds from slow motion to hurry; at first one at which the run takes a few seconds. */
+  /** Speeds from slow to fast motion; initially one at which the run takes a few seconds. */
   connectSpeed() {
     const speeds = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100];
     const select = byId('speed');
@@ -159,7 +159,7 @@ class Player {
     const slow = speeds.filter((speed) => this.length / speed >= 4);
     this.speed = Math.min(slow.length ? Math.max(...slow) : speeds[0], 1);
     select.value = this.speed;
-    // An impulse is seen for a sixth of a second.
+    // An impulse is visible for a sixth of a second.
     const setSpeed = () => {
       this.speed = Number(select.value);
       this.drawing.glow = this.speed / 6;
@@ -169,11 +169,11 @@ class Player {
     setSpeed();
   }
 
-  /** Turning, moving and zooming, with a mouse or with fingers. */
+  /** Rotating, moving and zooming, with a mouse or with fingers. */
   connectPointer() {
     const { canvas, drawing: { view } } = this;
     const spatial = view.dimension === 3;
-    // In the plane one finger scrolls the page and two work on the picture.
+    // In the plane one finger scrolls the page, and two change the view.
     canvas.style.touchAction = spatial ? 'none' : 'pan-y';
     const fingers = new Map();
     canvas.addEventListener('pointerdown', (event) => {
@@ -212,7 +212,7 @@ class Player {
   connectKeys() {
     document.addEventListener('keydown', (event) => {
       if (event.ctrlKey || event.metaKey || event.altKey) return;
-      // Controls have uses of their own for these keys.
+      // Controls use these keys themselves.
       if (event.target.closest?.('input, select, button, a, summary')) return;
       const step = this.motion.duration / (event.shiftKey ? 20 : 200);
       const keys = {
@@ -245,7 +245,7 @@ class Player {
     dark.addEventListener('change', repaint);
     repaint();
     byId('print').addEventListener('click', () => window.print());
-    // On paper the picture is light, and as sharp as a printer.
+    // For printing, the picture is light and has the resolution of a printer.
     let theme;
     window.addEventListener('beforeprint', () => {
       theme = root.dataset.theme;
@@ -254,7 +254,7 @@ class Player {
       this.drawing.resize(3, 700, 440);
       this.drawing.stamp = byId('clock').textContent;
       this.drawing.draw(this.t);
-      // In two columns.
+      // The width for two columns.
       this.plots.forEach((plot) => plot.build(340));
     });
     window.addEventListener('afterprint', () => {
@@ -278,7 +278,7 @@ class Player {
 
 const player = new Player();
 
-// For those who want to drive the page, a test among them: the canvas answers, and nothing is global.
+// For scripts and tests that control the page: the interface is a property of the canvas, and nothing is global.
 player.canvas.report = Object.freeze({
   get t() { return player.t; },
   seek: (t) => player.seek(t),
@@ -290,7 +290,7 @@ player.canvas.report = Object.freeze({
     const x = player.motion.values(t);
     return picture.bodies.map((body) => Array.from(x.slice(body.at, body.at + picture.dimension)));
   },
-  /** The forces of contact that are drawn at time `t`, in N, and impulses, in N s, with the points where they act. */
+  /** The contact forces that are drawn at time `t`, in N, and impulses, in N s, with their points of action. */
   forces: (t) => {
     const { drawing, motion } = player;
     return drawing.contactForces(t, motion.values(t)).map(({ name, point, force, unit: of }) => ({ name, point, force, unit: of }));

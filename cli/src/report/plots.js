@@ -16,7 +16,7 @@ function html(name, attributes = {}, ...children) {
   return element;
 }
 
-/** A quantity along the run: from the states, or from points of its own. */
+/** A quantity along the run: from the states, or with points of its own. */
 class Curve {
   constructor(description, motion) {
     this.name = description.name;
@@ -52,7 +52,8 @@ class Curve {
     return values[low] + share * (values[high] - values[low]);
   }
 
-  /** Points to draw it by on so many pixels: every stretch's lowest and highest, or the cubic between few states. */
+  /** The points that draw it on this many pixels: the minimum and maximum of every interval, or the cubics
+   * between a few states. */
   points(pixels) {
     const { motion, times, values } = this;
     if (times) return Array.from(times, (t, i) => [t, values[i]]);
@@ -147,7 +148,7 @@ class Plot {
       }
     }
     if (!(low <= high)) [low, high] = [0, 1];
-    // What spans no more than rounding does is drawn as the constant that it is.
+    // A curve that only varies by round-off is drawn as a constant.
     const largest = Math.max(Math.abs(low), Math.abs(high));
     const constant = largest > this.rounding ? 0.1 * largest : 1;
     const margin = high - low > this.rounding ? 0.06 * (high - low) : constant;
@@ -191,7 +192,7 @@ class Plot {
     this.show(this.t ?? motion.from);
   }
 
-  /** Moves the cursor; the numbers beside the names cost more, and may be left for later. */
+  /** Moves the cursor; updating the numbers beside the names is slower, and may be postponed. */
   show(t, numbers = true) {
     this.t = t;
     this.cursor.setAttribute('x1', this.x(t));

@@ -1,4 +1,4 @@
-// Where a point of the machine is on the screen: an orthographic view, so that the scale bar is true everywhere.
+// Maps points of the machine to the screen: an orthographic view, so that the scale bar is valid everywhere.
 
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const along = (a, s, b) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
@@ -9,7 +9,7 @@ const cross = (a, b) => [
   a[0] * b[1] - a[1] * b[0],
 ];
 
-/** From where to where points reach along a direction, each with the room around it. */
+/** The range of points along a direction, including the margin of each. */
 function rangeOf(points, direction) {
   let [low, high] = [Infinity, -Infinity];
   for (const [point, radius] of points) {
@@ -21,7 +21,7 @@ function rangeOf(points, direction) {
 }
 
 class View {
-  /** `up` is the direction that stays upright in space. */
+  /** `up` is the direction that is drawn upright in space. */
   constructor(dimension, up) {
     this.dimension = dimension;
     this.up = up;
@@ -34,7 +34,7 @@ class View {
     this.reset([]);
   }
 
-  /** Takes the first point of view, and shows these points with the room that each needs around it. */
+  /** Returns to the initial view, and shows these points with their margins. */
   reset(points = this.shown) {
     this.shown = points;
     this.azimuth = -1.05;
@@ -50,12 +50,12 @@ class View {
       [0, 0, 0],
     );
     const sizes = ranges.map(([low, high]) => high - low);
-    // A motion along a line gets some room across it, and one that stands still some at all.
+    // A motion along a line gets a minimum width across it, and a machine at rest a minimum size.
     const least = 0.02 * Math.max(...sizes) || 1;
     this.home = { center, size: [Math.max(sizes[0], least), Math.max(sizes[1], least)] };
   }
 
-  /** Turns the view about the upright direction, and up or down, by angles. */
+  /** Rotates the view about the upright direction and in elevation, by angles. */
   turn(azimuth, elevation) {
     this.azimuth += azimuth;
     this.elevation = Math.min(Math.max(this.elevation + elevation, -1.57), 1.57);
@@ -71,7 +71,7 @@ class View {
     this.above = cross(this.toward, this.right);
   }
 
-  /** Pixels in a metre. */
+  /** Pixels per metre. */
   get scale() {
     const [width, height] = this.home.size;
     const margin = Math.min(this.width, this.height) * 0.1 + 12;
@@ -80,7 +80,7 @@ class View {
     return this.zoom * Math.min(across, down);
   }
 
-  /** A point in metres as pixels, and how near it is to the viewer. */
+  /** Projects a point in metres to pixels; the third number grows towards the viewer. */
   project(point) {
     const d = along(point, -1, this.center ?? this.home.center);
     const scale = this.scale;
@@ -91,14 +91,15 @@ class View {
     ];
   }
 
-  /** The same as numbers: pixels are `x[0] + x[1] X + x[2] Y + x[3] Z`, and so for `y`. For what is drawn by the thousand. */
+  /** The same projection as coefficients, for drawing thousands of points: pixels are `x[0] + x[1] X + x[2] Y + x[3] Z`,
+   * and likewise for `y`. */
   get map() {
     const [px, py] = this.project([0, 0, 0]);
     const scale = this.scale;
     return { x: [px, ...this.right.map((r) => scale * r)], y: [py, ...this.above.map((a) => -scale * a)] };
   }
 
-  /** The point in the plane of the screen, through the centre of the view, that is shown at these pixels. */
+  /** The point at these pixels, in the plane parallel to the screen through the centre of the view. */
   unproject(x, y) {
     const scale = this.scale;
     const center = this.center ?? this.home.center;
@@ -106,7 +107,7 @@ class View {
     return along(right, -(y - this.height / 2 - this.shift[1]) / scale, this.above);
   }
 
-  /** Zooms and keeps the point under the pointer where it is. */
+  /** Zooms; the point under the pointer keeps its place. */
   zoomAt(x, y, factor) {
     const zoom = Math.min(Math.max(this.zoom * factor, 1e-3), 1e5);
     const ratio = zoom / this.zoom;

@@ -1,5 +1,5 @@
-//! What works with what: every command on a small machine of each kind either does its work or is refused at the word. The rows are in
-//! `audit/rows.txt`, and the table of `docs/limits.md` is made of them.
+//! The combinations of features: every command on a small machine of each kind either works or is refused with an error. The rows are in
+//! `audit/rows.txt`, and the table of `docs/limits.md` is generated from them.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use super::support::{Scratch, lagrangian, root};
 
-/// The machines, and what the table calls them.
+/// The machines, and their names in the table.
 const KINDS: [(&str, &str); 10] = [
     ("plain", "plain"),
     ("states", "`states`"),
@@ -21,15 +21,15 @@ const KINDS: [(&str, &str); 10] = [
     ("in_space", "in space"),
 ];
 
-/// What becomes of a command on a machine.
+/// The outcome of a command on a machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Outcome<'t> {
     Works,
-    /// It works, and a warning says something of the machine.
+    /// It works, with a warning about the machine.
     Told(&'t str),
-    /// It works in another way, and a warning says so.
+    /// It works differently, with a warning that says so.
     Warned(&'t str),
-    /// It works, but whether something is found depends on the machine: if not, these words say what to do.
+    /// It works, but whether it finds a result depends on the machine; if not, these words give advice.
     Searched(&'t str),
     Refused(&'t str),
 }
@@ -101,12 +101,12 @@ fn table(rows: &[Row<'_>]) -> String {
     table
 }
 
-/// A folder that goes when the test is done.
+/// A folder that is removed when the test ends.
 struct Folder(PathBuf);
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0); // a folder that stays does no harm
+        let _ = fs::remove_dir_all(&self.0); // a remaining folder does no harm
     }
 }
 
@@ -130,7 +130,7 @@ fn every_command_works_on_every_kind_of_machine_or_is_refused_at_the_word() {
         ];
         assert!(lagrangian(&measured).status.success(), "{name} runs");
         let whole = fs::read_to_string(data).expect("it was written");
-        // Times and the first coordinate.
+        // The times and the first coordinate.
         let columns = whole
             .lines()
             .map(|line| line.splitn(3, ',').take(2).collect::<Vec<_>>().join(","));
@@ -154,7 +154,7 @@ fn every_command_works_on_every_kind_of_machine_or_is_refused_at_the_word() {
                     output.status.success() && said.contains(words)
                 }
                 Outcome::Searched(words) => output.status.success() || said.contains(words),
-                // That constraints are redundant is known after the run, which has been told by then.
+                // Redundant constraints are only detected by the run, so there may already be output.
                 Outcome::Refused(words) => {
                     matches!(output.status.code(), Some(1 | 2))
                         && said.contains(words)
@@ -172,7 +172,7 @@ fn every_command_works_on_every_kind_of_machine_or_is_refused_at_the_word() {
                     output.status.code()
                 ));
             }
-            // Nothing stands where a command was refused.
+            // A refused command leaves no files.
             let is_refused = matches!(row.outcomes[kind], Outcome::Refused(_));
             let made = ["html", "csv", "fmu", "so"].map(|ending| format!("{out}.{ending}"));
             if let (true, Some(made)) = (
@@ -196,7 +196,7 @@ fn the_table_of_the_docs_is_that_of_the_rows() {
     );
 }
 
-/// A contact that cannot be held shut is named, and of one without friction nothing is said of friction.
+/// A contact that cannot be kept closed is named, and without friction the message does not mention friction.
 #[test]
 fn a_contact_that_nothing_holds_shut_is_named() {
     let of = |start: &str, constraints: &str, gap: &str| {
@@ -215,8 +215,8 @@ fn a_contact_that_nothing_holds_shut_is_named() {
         assert_eq!(output.status.code(), Some(1), "{gap}");
         String::from_utf8_lossy(&output.stderr).into_owned()
     };
-    // The gap changes the less with y the nearer it is to 0. How near y comes to 0 is for rounding to say: of starts that are next to each other to
-    // the last digit some come to 0, some beside it.
+    // The derivative of the gap by y vanishes as y approaches 0. How close y comes to 0 depends on round-off: of starts that differ by one rounding
+    // some reach 0, and others do not.
     let ulps = (0..128).map(|k| f64::from_bits(0.1_f64.to_bits() + k));
     let vanishing = ulps.map(|start| of(&format!("l*{start:?}"), "", "y^3/l^2"));
     // It is driven into the floor.

@@ -1,18 +1,20 @@
-//! Where energy goes in contacts: each has a line of its own, and together they are what the balance of energy says.
+//! The energy dissipated in contacts: each kind of loss is listed separately, and their sum is what the
+//! energy balance says.
 
 use serde_json::Value;
 
 use crate::collisions::{close, is_good, number, simulate};
 use crate::support::{Scratch, lagrangian};
 
-/// What a contact took, by its name.
+/// A quantity of the contact with this name.
 fn of_contact(run: &Value, contact: &str, what: &str) -> f64 {
     let contacts = run["unilateral_contacts"].as_array().expect("contacts");
     let own = contacts.iter().find(|own| own["name"] == contact);
     number(&own.unwrap_or_else(|| panic!("no {contact}: {run:#}"))[what])
 }
 
-/// All contacts together are what the balance says, beside dampers of the machine.
+/// Checks that the losses of all contacts add up to those of the energy balance, for machines without dampers
+/// of their own.
 fn is_booked(run: &Value, within: f64) {
     is_good(run);
     let contacts = run["unilateral_contacts"].as_array().expect("contacts");
@@ -44,7 +46,8 @@ fn impacts_take_what_a_ball_fell_from() {
     close(number(&run["damping_loss"]), 0.0, 1e-12);
 }
 
-/// A sphere that slips until it rolls has left m v²/7 in friction. Until then, at t, it is μ m g (v t − 7/4 μ g t²).
+/// A sphere that slips until it rolls has lost m v²/7 by friction. Before that, at t, the loss is μ m g (v t − 7/4
+/// μ g t²).
 #[test]
 fn friction_takes_what_a_ball_loses_until_it_rolls() {
     let spec = "machines/contacts/bowling_ball.machine";
@@ -83,7 +86,7 @@ fn friction_takes_what_a_ball_loses_until_it_rolls() {
     }
 }
 
-/// Rolling resistance takes ¾ m v², and friction nothing of a disc that does not slip.
+/// Rolling resistance dissipates ¾ m v², and friction nothing, if a disc does not slip.
 #[test]
 fn rolling_resistance_has_a_line_of_its_own() {
     let run = simulate("machines/contacts/rolling_out.machine", 5.0, &[]);
@@ -96,7 +99,7 @@ fn rolling_resistance_has_a_line_of_its_own() {
     close(of_contact(&run, "floor", "friction_loss"), 0.0, 1e-12);
 }
 
-/// What a shaken box does to the ball in it, it does through its walls.
+/// The work of a shaken box on the ball in it is done by its walls.
 #[test]
 fn walls_that_move_do_their_work_through_contacts() {
     let run = simulate("machines/contacts/shaken_box.machine", 3.0, &[]);
@@ -106,8 +109,8 @@ fn walls_that_move_do_their_work_through_contacts() {
     close(by_walls, number(&run["work"]), 1e-13);
 }
 
-/// A damped spring takes the difference of the kinetic energies before and after it, whether by its damper or by what it
-/// holds when it opens.
+/// A damped spring dissipates the difference of the kinetic energies before and after the contact, by its damper or by the
+/// energy that it holds when the contact opens.
 #[test]
 fn damping_of_a_contact_takes_what_a_bounce_loses() {
     let spec = Scratch::new(
@@ -139,7 +142,7 @@ fn a_crushers_energy_is_all_accounted_for() {
     assert!(of_contact(&run, "outer", "impact_loss") > 1.0);
 }
 
-/// In time stepping, too, a block that slides to rest has lost its energy by friction, and not in impacts.
+/// With time stepping, too, a block that slides to rest loses its energy by friction, not in impacts.
 #[test]
 fn friction_is_no_impact_in_time_stepping() {
     let spec = Scratch::new(
@@ -164,7 +167,7 @@ fn friction_is_no_impact_in_time_stepping() {
     ]);
     let text = String::from_utf8(output.stdout).expect("text");
     let run: Value = serde_json::from_str(&text).expect("a document");
-    // Half of m v² but for the last step, in which it stops.
+    // Half of m v², except for the last step, in which it stops.
     close(of_contact(&run, "floor", "friction_loss"), 1.0, 2e-2);
     close(of_contact(&run, "floor", "impact_loss"), 0.0, 2e-2);
     close(number(&run["dissipated"]), 1.0, 1e-9);

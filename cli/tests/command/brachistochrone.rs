@@ -1,4 +1,4 @@
-//! The fastest motion as a user asks for it.
+//! The fastest motion, through the command line.
 
 use crate::support::{Page, Scratch, floats, lagrangian, root};
 use serde_json::Value;
@@ -40,7 +40,8 @@ fn what_is_no_motion_of_the_machine_is_not_called_the_fastest() {
     let prisms = std::fs::read_to_string(root().join("machines/prisms.machine")).expect("a spec");
     let built_on = "wedge.shift(-q2, -q2*tan(alpha))";
     assert!(prisms.contains(built_on));
-    // Written by coordinates, nothing says which body a force on q2 acts on, nor what the floor carries of it.
+    // If bodies are placed by coordinates, it is not determined on which body a force on q2 acts, nor which reaction
+    // the floor has.
     let unsaid = prisms.replace(built_on, "ground.shift(q1 - q2, -q2*tan(alpha))");
     for (spec, options, why) in [
         (&prisms, &["--to", "q1=-8"][..], "slides backwards"),
@@ -69,7 +70,7 @@ fn a_bead_goes_along_a_cycloid_and_the_wire_does_no_work() {
     for moment in found["path"].as_array().expect("a path") {
         let number = |what: &str, name: &str| moment[what][name].as_f64().expect("a number");
         let work = |name: &str| number("control", name) * number("v", name);
-        // Forces of 20 N at 5 m/s.
+        // Relative to forces of 20 N at 5 m/s.
         assert!((work("x") + work("y")).abs() < 100.0 * 64.0 * f64::EPSILON);
     }
     assert_eq!(found["warnings"], serde_json::json!([]));
@@ -77,7 +78,7 @@ fn a_bead_goes_along_a_cycloid_and_the_wire_does_no_work() {
 
 #[test]
 fn ends_may_be_normal_coordinates() {
-    // (24) for the mass 4 kg: the first along (1, 1)/√8, the second along (1, −1)/√8; (1, −1) is (0, √8).
+    // Equation (24) for the mass 4 kg: the first coordinate along (1, 1)/√8, the second along (1, −1)/√8; (1, −1) is (0, √8).
     let found = solved(
         BEAD,
         &[
@@ -93,7 +94,7 @@ fn ends_may_be_normal_coordinates() {
 
 #[test]
 fn outside_of_the_conditions_the_direct_method_says_which_fail() {
-    // The bead in polar coordinates: the same motion.
+    // The bead in polar coordinates has the same motion.
     let polar = BEAD
         .replace("(x, y) }", "(x*cos(y), x*sin(y) - 2) }")
         .replace("x: m, y: m", "x: m = 2, y: rad = pi/2");
@@ -118,14 +119,14 @@ fn outside_of_the_conditions_the_direct_method_says_which_fail() {
         because.contains("the force on `x` depends on `x`") && !because.contains("`y`"),
         "{because}"
     );
-    // The spring holds back.
+    // The spring slows the motion.
     assert!(found["time"].as_f64().expect("a time") > CYCLOID);
     let error = solved(&spring, &["--natural", "--to", "x=1,y=-1"])["error"].to_string();
     assert!(error.contains("there are no normal coordinates"), "{error}");
 }
 
-/// A spring on the wedge, and a floor that gets rougher: the machine itself, simulated with its own law of friction under the
-/// forces that the direct method found, arrives. Its steps are good to 1e-11.
+/// A spring on the wedge, and a floor whose roughness increases: the machine itself, simulated with its own law of friction
+/// under the forces that the direct method found, arrives. Its steps are accurate to 1e-11.
 #[test]
 fn a_machine_with_friction_outside_of_the_conditions_arrives() {
     let rough = "machine Rough in plane {
@@ -171,7 +172,7 @@ fn what_has_no_fastest_motion_says_why() {
     let held = BEAD.replace("gravity", "constraints { c: x = y } gravity");
     let found = error(&held, "x=1,y=-1");
     assert!(found.contains("has constraints"), "{found}");
-    // Outside of the conditions (17).
+    // This violates the conditions (17).
     let spring = BEAD.replace(
         "gravity",
         "springs { s { stiffness: 3, stretch: x } } gravity",
@@ -205,7 +206,7 @@ fn the_end_is_the_specs_the_calls_or_of_both() {
     );
 }
 
-/// The spec's defaults are the paper's example; published to six digits, recomputed to forty elsewhere.
+/// The spec's defaults are the paper's example; its time is published to six digits, and was recomputed to forty elsewhere.
 #[test]
 fn the_prisms_take_the_papers_time() {
     let arguments = ["brachistochrone", "machines/prisms.machine", "--json"];
@@ -228,7 +229,7 @@ fn the_prisms_take_the_papers_time() {
     close(&found["end"]["q"]["q1"], 8.0, 1e-13);
     close(&found["end"]["q"]["q2"], 4.75, 1e-13);
     assert_eq!(found["warnings"], serde_json::json!([]));
-    // The machine itself, with its own law of friction, under the forces that were found; steps are good to 1e-11.
+    // The machine itself, with its own law of friction, under the computed forces; steps are accurate to 1e-11.
     assert!(found["arrival"].as_f64().expect("a number") < 1e-9);
     assert!(found["control_power"].as_f64().expect("a number") < 1e-10);
     for moment in found["path"].as_array().expect("a path") {
@@ -282,7 +283,7 @@ fn a_page_shows_the_fastest_motion_beside_that_of_the_machine_left_to_itself() {
     };
     let [fastest, free] = ["fastest", "free"].map(last);
     assert!((fastest[0] - 8.0).abs() < 1e-5 && (fastest[1] - 4.75).abs() < 1e-5);
-    // Two equations typed in by hand: a q̈ = −c − friction of (57), with both sliding forwards.
+    // Two equations typed in by hand: a q̈ = −c − friction of (57), with both bodies sliding forwards.
     let (m, w, g) = (32.0 / 13.0, 20.0 / 13.0, 9.81);
     let a = [[m + w, -m - 0.02 * m], [-m - 0.1 * m, 2.0 * m]];
     let f = [-0.02 * (m + w) * g, m * g - 0.1 * m * g];
@@ -308,7 +309,8 @@ const HILL: &str = "machine Hill in space {
     gravity (0, 0, -g);
 }";
 
-/// Times of other motions, and what was tried, are told; the times themselves are held against rays in the library's tests.
+/// The times of other local solutions, and the number of tries, are reported; the times themselves are compared with rays in
+/// the library's tests.
 #[test]
 fn what_was_tried_is_said() {
     let spec = Scratch::new("hill.machine", HILL);
@@ -333,7 +335,7 @@ fn what_was_tried_is_said() {
     let [one, other] = of("found")[..] else {
         panic!("{tried:?}");
     };
-    // Left and right of the hill.
+    // To the left and to the right of the hill.
     close(&one["time"], other["time"].as_f64().expect("a time"), 1e-12);
     assert_eq!(
         one["aside"]["y"].as_f64(),
@@ -343,7 +345,7 @@ fn what_was_tried_is_said() {
         let index = trial["same"].as_u64().expect("an index") as usize;
         assert_eq!(tried[index]["outcome"], "found");
     }
-    // A ridge that has no end.
+    // An endless ridge.
     let ridge = ["--set", "far=0", "--to", "x=1,y=0"];
     let failed = solved(HILL, &ridge);
     let tried = failed["tried"].as_array().expect("a list");
@@ -364,7 +366,7 @@ fn what_was_tried_is_said() {
 
 #[test]
 fn a_guess_is_a_table() {
-    // The motion on the near side of the hill, for the end on the far side.
+    // A guess on the near side of the hill, for the solution on the far side.
     let spec = Scratch::new("guessed.machine", HILL);
     let way = Scratch::new("way.csv", "");
     let arguments = [
@@ -405,7 +407,7 @@ fn a_guess_is_a_table() {
     std::fs::write(&way.0, "x,y\n0,0\n1,-1\n").expect("a file");
     let error = solved(BEAD, &["--to", "x=1,y=-1", "--guess", way.path()])["error"].to_string();
     assert!(error.contains("closed form"), "{error}");
-    // No output takes the place of the guess.
+    // No output may overwrite the guess.
     let files = [
         "--to",
         "x=1,y=0.3",

@@ -1,5 +1,5 @@
-//! The page in a browser: its controls are pressed, and where it puts every body is held against the model's own
-//! expressions in double-double.
+//! The page in a browser: the test operates its controls, and compares its positions of all bodies with the model's own expressions
+//! in double-double.
 //!
 //! Needs Chromium or Chrome: on the path, or named by the environment variable `CHROMIUM`.
 
@@ -19,10 +19,11 @@ use serde_json::Value;
 
 const TOLERANCE: f64 = 1e-11;
 
-/// What the page promises between stored states: this part of what a coordinate spans, and for angles no more than this.
+/// The page's bound on the interpolation error between stored states, as a fraction of a coordinate's range; for angles it is also
+/// the absolute bound.
 const INTERPOLATION: f64 = 2e-4;
 
-/// How many stored states are asked for, and as many instants between them.
+/// The number of stored states that are compared, and of instants between them.
 const ASKED: usize = 12;
 
 fn browser() -> PathBuf {
@@ -43,7 +44,7 @@ fn browser() -> PathBuf {
         .expect("Chromium or Chrome on the path, or its file in CHROMIUM")
 }
 
-/// What the document is after its scripts have run for so many seconds of their own time.
+/// The document after its scripts have run for this many seconds of virtual time.
 fn loaded(page: &Path) -> String {
     let profile = Scratch::new("profile", "");
     let folder = profile.0.parent().expect("a folder");
@@ -59,7 +60,7 @@ fn loaded(page: &Path) -> String {
             "--disable-sync",
             "--window-size=1300,900",
             "--virtual-time-budget=60000",
-            // Only what lies beside the page, for the one that shows it in a frame.
+            // A page that shows another one in a frame may read the files beside it.
             "--allow-file-access-from-files",
         ])
         .arg(format!("--user-data-dir={}", folder.display()))
@@ -72,7 +73,7 @@ fn loaded(page: &Path) -> String {
     String::from_utf8(output.stdout).expect("text")
 }
 
-/// The text of an element without elements in it, by its id.
+/// The text of the element with this id, which contains no elements.
 fn text_of(html: &str, tag: &str, id: &str) -> Option<String> {
     let (_, rest) = html.split_once(&format!("<{tag} id=\"{id}\">"))?;
     let (text, _) = rest.split_once(&format!("</{tag}>"))?;
@@ -80,7 +81,7 @@ fn text_of(html: &str, tag: &str, id: &str) -> Option<String> {
     Some(plain.replace("&nbsp;", "\u{a0}").replace("&amp;", "&"))
 }
 
-/// What scripts that are added to a page write into it.
+/// The result that scripts added to a page write into it.
 fn verdict(page: &Page, scripts: &str) -> Value {
     let watch = include_str!("browser/watch.js");
     let html = page
@@ -92,7 +93,7 @@ fn verdict(page: &Page, scripts: &str) -> Value {
     serde_json::from_str(&verdict).expect("JSON")
 }
 
-/// Looks at the page of a machine: nothing goes wrong, everything has a place, something is drawn.
+/// Checks the page of a machine: there are no errors, everything has a position, and something is drawn.
 fn look(spec: &str, options: &[&str]) {
     let page = Page::of(spec, options);
     let script = include_str!("browser/look.js");
@@ -112,14 +113,14 @@ fn look(spec: &str, options: &[&str]) {
     assert!(verdict["formulas"].as_u64() > Some(3), "{spec}: {verdict}");
 }
 
-/// Presses every control of the page of a machine, and compares its positions.
+/// Operates every control of the page of a machine, and compares its positions.
 fn check(spec: &str, options: &[&str]) {
     let until: f64 = options[0].parse().expect("the end of the run");
     let tolerance = TOLERANCE.to_string();
     let call = ["--tolerance", &tolerance, "--until"];
     let page = Page::of(spec, &[&call, options].concat());
     let states = page.states().len();
-    // Stored states first, then instants between them, those in the middle among them.
+    // Stored states first, then instants between them, including midpoints.
     let chosen = |k: usize| k * (states - 2) / (ASKED - 1);
     let stored = (0..ASKED).map(|k| page.time(chosen(k)));
     let between = (0..ASKED).map(|k| {
@@ -162,16 +163,16 @@ fn check(spec: &str, options: &[&str]) {
     }
 }
 
-/// Where the bodies are, by the expressions of the model in double-double, and how far the page may be from that.
+/// The positions of the bodies by the expressions of the model in double-double, and the error that the page may have.
 struct Truth {
     model: Model<'static>,
     run: Solution<InterpretedMachine>,
     parameters: Vec<f64>,
     coordinates: Vec<Symbol>,
-    /// The mass centres of all bodies, component by component; and their derivatives by the coordinates.
+    /// The components of the mass centres of all bodies, and their derivatives by the coordinates.
     components: Vec<Expr<'static>>,
     slopes: Vec<Vec<Expr<'static>>>,
-    /// Between what each coordinate stays.
+    /// The range of each coordinate.
     extremes: Vec<(f64, f64)>,
 }
 
@@ -180,7 +181,7 @@ impl Truth {
         let path = root().join(spec);
         let path = path.to_str().expect("text");
         let (_, text) = Disk.read(path, None).expect("a spec");
-        // It lives as long as the test does.
+        // It must live as long as the test.
         let dag: &'static Dag = Box::leak(Box::default());
         let (mut sources, mut report) = (Sources::new(), Report::new());
         let files = &mut Disk;
@@ -224,8 +225,8 @@ impl Truth {
         }
     }
 
-    /// For each body and component the position at time `t`, and the error that is allowed: by the roundoff of what is
-    /// stored, and by interpolation.
+    /// For each body and component the position at time `t`, and the allowed error: from the rounding of stored values,
+    /// and from interpolation.
     fn at(&self, t: f64, interpolated: bool) -> Vec<Vec<(f64, f64)>> {
         let q = self.run.at(t).expect("within the run").q.values;
         let value = |symbol: Symbol| {
@@ -259,7 +260,7 @@ impl Truth {
                 let slopes = evaluate(self.model.dag, slopes, value);
                 let slopes = slopes.iter().enumerate();
                 let error: f64 = slopes.map(|(i, slope)| slope.hi().abs() * allowed(i)).sum();
-                // Slopes change a little over such errors; the functions of a browser are exact to a few units in the
+                // A margin for the change of slopes over such errors; the functions of a browser are accurate to a few units in the
                 // last of 53 binary digits.
                 let error = 1.05 * error + 1e-13 * (1.0 + position.hi().abs());
                 (position.hi(), error)
@@ -310,7 +311,7 @@ fn every_machine_of_the_library_is_drawn() {
     assert!(seen >= 9, "{seen}");
 }
 
-/// With the forces of their contacts, in the plane and in space.
+/// In the plane and in space, with the forces of their contacts.
 #[test]
 #[ignore = "needs Chromium"]
 fn machines_whose_parts_collide_are_drawn() {
@@ -334,7 +335,7 @@ fn a_machine_that_does_not_move_is_drawn() {
     look("machines/double_pendulum.machine", &["--until", "0"]);
 }
 
-/// The narrowest window of a browser is wider than a phone: the page is shown in a frame.
+/// The minimum width of a browser window is wider than a phone, so the page is shown in a frame.
 #[test]
 #[ignore = "needs Chromium"]
 fn a_phone_shows_all_of_it() {
@@ -376,7 +377,7 @@ fn a_run_backward_in_time_moves() {
     check("machines/cart_pole.machine", &["-2"]);
 }
 
-/// Every function that an expression can hold, where it places a body.
+/// Every function of expressions is used in the position of a body.
 #[test]
 #[ignore = "needs Chromium"]
 fn every_function_places_a_body() {
@@ -399,7 +400,7 @@ fn every_function_places_a_body() {
     check(spec.path(), &["1"]);
 }
 
-/// The end of a run by the command, coordinates and rates.
+/// The final coordinates and rates of a run by the command.
 fn end_of(spec: &str, until: f64, tolerance: f64, options: &[String]) -> Vec<f64> {
     let until = format!("{until:?}");
     let tolerance = format!("{tolerance:?}");
@@ -425,9 +426,9 @@ fn end_of(spec: &str, until: f64, tolerance: f64, options: &[String]) -> Vec<f64
     [numbers("q"), numbers("v")].concat()
 }
 
-/// A page that computes: a slider moves, the curve changes, and what it shows are the command's numbers. Both keep the tolerance in
-/// each step, so they differ by no more than all these errors together, each grown as nearby motions part: by how much is seen
-/// from runs of the command whose starts are a millionth off.
+/// A page that integrates: a slider moves, the curve changes, and the values shown are the command's. Both satisfy the tolerance in
+/// each step, so they differ at most by the sum of all these errors, each multiplied by the growth of the distance between nearby
+/// motions. The growth is measured by runs of the command whose starts differ by a millionth.
 #[test]
 #[ignore = "needs Chromium"]
 fn a_page_runs_its_machine_again() {
@@ -444,7 +445,7 @@ fn a_page_runs_its_machine_again() {
         ),
         // Driven at 100 rad/s.
         ("machines/vibrating_crusher.machine", "0.5", &[("m", 620.0)]),
-        // On constraints of positions, onto which the start is moved, and on one of rates.
+        // With holonomic constraints, onto which the start is projected, and with a nonholonomic one.
         (
             "machines/four_bar.machine",
             "1",
@@ -455,7 +456,7 @@ fn a_page_runs_its_machine_again() {
             "1",
             &[("J", 0.09), ("der(phi)", 1.4)],
         ),
-        // With a state of first order, and turned by four numbers.
+        // With a first-order state, and with rotation by a quaternion.
         (
             "machines/dc_motor.machine",
             "0.05",
@@ -504,7 +505,7 @@ fn a_page_runs_its_machine_again() {
             let list = of.as_array().expect("numbers").iter();
             list.map(|x| x.as_f64().expect("a number")).collect()
         };
-        // Behind the rates of the coordinates stand states of first order.
+        // First-order states follow the rates of the coordinates.
         let n = numbers(&run["states"]).len() / numbers(&run["times"]).len() / 2;
         let options: Vec<String> = changes
             .iter()
@@ -523,8 +524,8 @@ fn a_page_runs_its_machine_again() {
             let known = end_of(spec, times[k], 1e-11, &options);
             let size = known.iter().fold(1.0f64, |most, x| most.max(x.abs()));
             let mut growth = 1.0f64;
-            // What is said of a start that constraints move is no state that a motion begins with: there the numbers that are changed
-            // are changed by a millionth more.
+            // With constraints the given start is not the initial state of a motion, because it is projected; so the changed
+            // parameters are varied by a millionth more instead.
             let is_held = page.html.contains("function constraint_matrix(");
             for at in (0..options.len()).step_by(2).filter(|_| is_held) {
                 let mut moved = options.clone();
@@ -542,7 +543,7 @@ fn a_page_runs_its_machine_again() {
                 };
                 let mut moved: Vec<String> = options.clone();
                 let mark = format!("{name}=");
-                // Options and their values take turns.
+                // Options and their values alternate.
                 let mut pairs = moved.chunks(2);
                 let said = pairs.position(|pair| pair[0] == option && pair[1].starts_with(&mark));
                 if let Some(at) = said {
@@ -564,7 +565,7 @@ fn a_page_runs_its_machine_again() {
             println!("{spec}, at {} s: bound {bound:e}", times[k]);
             assert!(bound < 0.01, "{spec}: nothing would break {bound:e}");
         }
-        // As it was: the first run, which the page holds in single precision.
+        // After the reset, the first run, which the page stores in single precision.
         let back = numbers(&verdict["back"]);
         assert_eq!(back.len(), found.len());
         let end = end_of(spec, times[times.len() - 1], 1e-11, &[]);
@@ -574,7 +575,7 @@ fn a_page_runs_its_machine_again() {
     }
 }
 
-/// What a page cannot run is refused, with the reason; a page without `--live` holds nothing of it.
+/// A machine that a page cannot run is refused with the reason; a page without `--live` contains no code for it.
 #[test]
 fn pages_that_compute_are_of_machines_that_they_can_run() {
     for (spec, options, words) in [

@@ -1,10 +1,10 @@
-//! `--method auto`: which methods a run takes, against closed forms, against each method alone, and against itself.
+//! `--method auto`: the methods that a run takes, against closed forms, against each method alone, and against repetition.
 
 use serde_json::Value;
 
 use crate::support::{Scratch, lagrangian};
 
-/// Runs a command that must succeed, for its JSON.
+/// Runs a command that must succeed; returns its JSON.
 fn answer(arguments: &[&str]) -> Value {
     let output = lagrangian(&[&["simulate"], arguments, &["--json"]].concat());
     let text = String::from_utf8(output.stdout).expect("text");
@@ -26,7 +26,7 @@ fn evaluations(run: &Value) -> f64 {
     run["evaluations"].as_f64().expect("a number")
 }
 
-/// A slow oscillation, x = cos t, beside a mass that creeps back in a thick oil: y ~ exp(−t/2), and what is fast, at 2e4/s, dies away at once.
+/// A slow oscillation, x = cos t, and a mass that creeps back in a viscous oil: y ~ exp(−t/2). The fast mode, at 2e4/s, decays at once.
 const DAMPED: &str = "machine Damped in plane {
     parameters { k: N/m = 1, c: N*s/m = 2e4 }
     coordinates { x: m = 1, y: m = 1 }
@@ -61,13 +61,13 @@ fn what_is_stiff_goes_on_by_a_method_of_radau_whose_order_the_tolerance_asks_for
         let run = answer(&call);
         assert_eq!(methods(&run), ["dop853", method], "{run:#}");
         let since = run["methods"][1]["t"].as_f64().expect("a number");
-        // Some 110 steps of 6.1/c.
+        // About 110 steps of 6.1/c.
         assert!(since < 200.0 * 6.1 / 2e4, "{since}");
         let bound = 1e3 * tolerance.parse::<f64>().expect("a number");
         let x = run["q"]["x"].as_f64().expect("a number");
         assert!((x - until.cos()).abs() < bound, "{tolerance}: {x}");
         let alone = answer(&[&call[..], &["--method", method]].concat());
-        // What it took to find out: a hundred steps, and those of the test.
+        // The cost of the detection: a hundred steps, and those of the test.
         assert!(
             evaluations(&run) < evaluations(&alone) + 150.0 * 12.0,
             "{tolerance}: {} and {}",
@@ -77,7 +77,7 @@ fn what_is_stiff_goes_on_by_a_method_of_radau_whose_order_the_tolerance_asks_for
     }
 }
 
-/// As before, but the oil thins out: what was stiff is not any more.
+/// As before, but the viscosity decreases, so the machine does not stay stiff.
 const THINNING: &str = "machine Thinning in plane {
     parameters { k: N/m = 1, c: N*s/m = 2e4 }
     coordinates { x: m = 1, y: m = 1 }
@@ -92,7 +92,7 @@ fn what_is_stiff_no_more_goes_back() {
     let run = answer(&[scratch.path(), "--until", "60"]);
     assert_eq!(methods(&run), ["dop853", "radau9", "dop853"], "{run:#}");
     let back = run["methods"][2]["t"].as_f64().expect("a number");
-    // c exp(−2t) is below the rate of a step of dop853, some 10/s, from 3.8 s on.
+    // c exp(−2t) falls below the rate of a step of dop853, about 10/s, at 3.8 s.
     assert!((3.0..20.0).contains(&back), "{back}");
     let x = run["q"]["x"].as_f64().expect("a number");
     assert!((x - 60.0_f64.cos()).abs() < 1e-6, "{x}");
@@ -109,13 +109,13 @@ fn a_run_that_changes_its_method_has_the_same_bits_each_time_and_whatever_is_rec
         answer(&[&call[..], &["--out", table.path(), "--every", "0.5"]].concat()),
     ];
     assert_eq!(runs[1]["evaluations"], runs[0]["evaluations"]);
-    // What is recorded costs evaluations, of `dop853` three in each step, and no more than that.
+    // Recording costs evaluations, with `dop853` three in each step, but does not change the run.
     for run in &runs[1..] {
         for name in ["q", "v", "steps", "methods"] {
             assert_eq!(run[name], runs[0][name], "{name}");
         }
     }
-    // The record between steps is as exact, whichever method took them.
+    // The record between steps is equally accurate with either method.
     let text = std::fs::read_to_string(table.path()).expect("a table");
     let mut rows = text.lines();
     let columns: Vec<&str> = rows.next().expect("a header").split(',').collect();
@@ -146,6 +146,6 @@ fn the_summary_says_what_was_chosen_and_why() {
         text.contains("held short by stability and not by accuracy; the fastest rate is 2.0e4/s"),
         "{text}"
     );
-    // Nothing is left to warn of.
+    // There is no warning.
     assert_eq!(String::from_utf8_lossy(&output.stderr), "");
 }

@@ -35,7 +35,7 @@ pub fn close(found: f64, expected: f64, within: f64) {
     assert!(error <= within, "{found} is {error:e} off {expected}");
 }
 
-/// Without error, and with an energy balance that closes to rounding of what was turned over.
+/// Asserts that a run has no error, and an energy balance that closes up to round-off of the energy exchanged.
 #[track_caller]
 pub fn is_good(run: &Value) {
     assert_eq!(run["error"], Value::Null, "{run:#}");
@@ -47,15 +47,15 @@ pub fn is_good(run: &Value) {
     );
 }
 
-/// √(2h/g) (1 + e)/(1 − e), of h = 1 m and e = 0.8; the fifth impact at √(2h/g) (1 + 2(e + … + e⁴)), and e⁵ √(2gh)
-/// after it.
+/// The bounces accumulate at √(2h/g) (1 + e)/(1 − e), with h = 1 m and e = 0.8; the fifth impact is at √(2h/g) (1 + 2(e + … + e⁴)), and the speed
+/// after it is e⁵ √(2gh).
 #[test]
 fn a_ball_comes_to_rest_where_its_bounces_accumulate() {
     let run = simulate("machines/contacts/bouncing_ball.machine", 5.0, &[]);
     is_good(&run);
     let impacts = events(&run, "impact");
     let times = |k: usize| number(&impacts[k]["t"]);
-    // A time is rounded at each of the impacts before it.
+    // Each earlier impact adds a rounding of the time.
     close(times(0), 0.451_523_640_985_730_9, 1e-15);
     close(times(4), 2.584_160_102_089_535, 1e-14);
     close(
@@ -68,13 +68,13 @@ fn a_ball_comes_to_rest_where_its_bounces_accumulate() {
     close(number(&closes[0]["t"]), 4.063_712_768_871_578, 1e-12);
     assert!(number(&closes[0]["time_error"]) < 1e-8);
     assert_eq!((number(&run["q"]["y"]), number(&run["v"]["y"])), (0.0, 0.0));
-    // All that it had at the height of 1 m.
+    // The entire potential energy at the height of 1 m.
     close(number(&run["impact_loss"]), 0.1 * 9.81, 1e-12);
     close(number(&run["energy_residual"]), 0.0, 1e-12);
 }
 
-/// A ball whose height is measured from far below bounces to the same time, as far as rounding of its place lets it be
-/// told: bounces of rounding are closed before they are noise.
+/// A ball whose height is measured from far below has the same accumulation time, as far as the rounding of its position allows: bounces as low as
+/// round-off are ended before they become noise.
 #[test]
 fn bounces_as_low_as_rounding_are_closed() {
     let spec = Scratch::new(
@@ -90,11 +90,11 @@ fn bounces_as_low_as_rounding_are_closed() {
     let run = simulate(spec.path(), 5.0, &[]);
     is_good(&run);
     let closes = events(&run, "closes");
-    // 1e-13 m of height are 1.4e-7 s of fall, and so much may be wrong in each of a few bounces.
+    // A height of 1e-13 m corresponds to a fall of 1.4e-7 s, which is the possible error of each of the last bounces.
     close(number(&closes[0]["t"]), 4.063_712_768_871_578, 3e-6);
 }
 
-/// With all closed contacts in one impact: (−1/3, 2/3, 2/3) of e = 1, (0, 1/2, 1/2) of ½, (1/3, 1/3, 1/3) of 0.
+/// With all closed contacts in one impact: (−1/3, 2/3, 2/3) for e = 1, (0, 1/2, 1/2) for e = ½, (1/3, 1/3, 1/3) for e = 0.
 #[test]
 fn a_cradle_moves_as_moreaus_law_says() {
     let third = 1.0 / 3.0;
@@ -115,7 +115,7 @@ fn a_cradle_moves_as_moreaus_law_says() {
     }
 }
 
-/// On a spring with a stop at its middle every flight takes half a period, and each bounce leaves e of the speed.
+/// On a spring with a stop at its equilibrium every flight takes half a period, and each impact multiplies the speed by e.
 #[test]
 fn an_oscillator_bounces_every_half_period() {
     let run = simulate("machines/contacts/impact_oscillator.machine", 10.0, &[]);
@@ -134,8 +134,8 @@ fn an_oscillator_bounces_every_half_period() {
     }
 }
 
-/// Housner's block: a quarter of a period by the elliptic integral of a rigid pendulum turned over, and 1 − 3/2 sin²α
-/// of the angular velocity after each impact; twelve impacts in a row.
+/// Housner's block: its quarter period is the elliptic integral of an inverted rigid pendulum, and each impact multiplies the angular velocity by 1 −
+/// 3/2 sin²α; twelve impacts in a row.
 #[test]
 fn a_block_rocks_as_housner_says() {
     let run = simulate("machines/contacts/rocking_block.machine", 1.0, &[]);
@@ -143,7 +143,7 @@ fn a_block_rocks_as_housner_says() {
     let impacts = events(&run, "impact");
     close(number(&impacts[0]["t"]), 0.493_803_215_078_831_9, 1e-12);
     let after = number(&impacts[0]["v"]["theta"]).abs();
-    // ω before by energy: it falls from θ₀ to 0 about its corner, R² = b² + h².
+    // ω before the impact by energy: the block falls from θ₀ to 0 about its corner, R² = b² + h².
     let (b, h, g) = (0.25_f64, 1.0_f64, 9.81_f64);
     let tilt = 0.122_489_331_563_432_08_f64;
     let fall = b * tilt.sin() + h * tilt.cos() - h;
@@ -158,8 +158,8 @@ fn a_block_rocks_as_housner_says() {
     close(number(&run["energy_residual"]), 0.0, 1e-9);
 }
 
-/// Walls that move work on the ball: the rate at which it leaves a wall is e times that at which it came, and the
-/// balance closes with the work of the walls in it.
+/// Moving walls do work on the ball: the ball leaves a wall with e times the relative velocity of its approach, and the energy balance includes the
+/// work of the walls.
 #[test]
 fn the_walls_of_a_shaken_box_work_on_the_ball() {
     let run = simulate("machines/contacts/shaken_box.machine", 3.0, &[]);
@@ -173,8 +173,8 @@ fn the_walls_of_a_shaken_box_work_on_the_ball() {
     close(number(&run["energy_residual"]), 0.0, 1e-12);
 }
 
-/// E. J. Routh: a ball that is thrown with the speed v and slips at u = v + rω rolls after 2u/(7μg), at v − 2u/7; friction
-/// has then taken m u²/7.
+/// E. J. Routh: a ball that is thrown with the speed v and slips at u = v + rω rolls after 2u/(7μg), at v − 2u/7; by then friction has
+/// dissipated m u²/7.
 #[test]
 fn a_ball_slips_until_it_rolls() {
     let (m, r, mu, g, v) = (7.0, 0.108, 0.1, 9.81, 8.0);
@@ -199,8 +199,8 @@ fn a_ball_slips_until_it_rolls() {
     }
 }
 
-/// A disc that rolls off a round hump from the angle φ₀ slips where its friction, mg sin φ/3, is all that there is of
-/// μ mg (7 cos φ − 4 cos φ₀)/3; without friction it leaves the hump at cos φ = ⅔ cos φ₀ and flies along a parabola.
+/// A disc that rolls off a round hump from the angle φ₀ begins to slip where its friction, mg sin φ/3, reaches the limit μ mg (7 cos φ − 4 cos φ₀)/3.
+/// Without friction it leaves the hump at cos φ = ⅔ cos φ₀ and flies along a parabola.
 #[test]
 fn a_disc_slips_on_a_hump_and_leaves_it() {
     let spec = "machines/contacts/disc_over_hump.machine";
@@ -237,13 +237,13 @@ fn a_disc_slips_on_a_hump_and_leaves_it() {
     assert_eq!(impacts[0]["contact"], "floor");
     let flight = number(&impacts[0]["t"]) - number(&lifts[0]["t"]);
     close(flight, fall, 1e-10);
-    // It keeps what it had along the ground.
+    // The impact does not change the velocity along the ground.
     let lost = 0.5 * m * (down * down + 2.0 * g * height);
     close(number(&run["impact_loss"]), lost, 1e-9);
 }
 
-/// A level dimer goes with its plate as one ball does: both ends stick, lift and meet the plate together, though their
-/// friction along the rod depends on each other. It leaves the plate where that falls away by g.
+/// A level dimer follows its plate as a single ball does: both ends stick, lift off and land together, although their friction forces along the rod
+/// depend on each other. It leaves the plate when the downward acceleration of the plate reaches g.
 #[test]
 fn both_ends_of_a_level_dimer_lift_together() {
     let spec = "machines/contacts/dimer.machine";
@@ -292,8 +292,7 @@ fn both_ends_of_a_level_dimer_lift_together() {
     close(number(&tumbling["q"]["x"]), 0.0, 1e-12);
 }
 
-/// The crusher's first twelve impacts without friction, recomputed elsewhere in quadruple precision: time, contact,
-/// rate of the gap and impulse.
+/// The crusher's first twelve impacts without friction, computed independently in quadruple precision: time, contact, rate of the gap and impulse.
 #[test]
 fn the_crusher_collides_as_it_does_in_quadruple_precision() {
     #[rustfmt::skip]
@@ -324,12 +323,11 @@ fn the_crusher_collides_as_it_does_in_quadruple_precision() {
         close(number(&impact["impulse"][0]), impulse, 1e-9 * impulse);
     }
     let closes = events(&run, "closes");
-    // Where twelve impacts point to, to the seven digits that they know of it.
+    // The limit that twelve impacts extrapolate to, to the seven digits that they determine.
     close(number(&closes[0]["t"]), 0.04744749, 5e-8);
 }
 
-/// With friction and for as long as it takes to settle: it never penetrates by more than the tolerance, nothing is
-/// pulled, and the books close.
+/// With friction, until the motion settles: no penetration exceeds the tolerance, no contact force is tensile, and the energy balance closes.
 #[test]
 fn the_crusher_runs_for_a_second_with_friction() {
     let run = simulate("machines/contacts/colliding_crusher.machine", 1.0, &[]);
@@ -343,11 +341,11 @@ fn the_crusher_runs_for_a_second_with_friction() {
             "{event}"
         );
     }
-    // Of some 10⁴ J that are turned over.
+    // Relative to about 10⁴ J of exchanged energy.
     close(number(&run["energy_residual"]), 0.0, 1e-6);
 }
 
-/// A block on a belt, held by a spring: the period of stick and slip in closed form, by a unilateral contact.
+/// A block on a belt, held by a spring: the period of stick and slip in closed form, with a unilateral contact.
 #[test]
 fn a_block_on_a_belt_sticks_and_slips_in_time() {
     let spec = Scratch::new(
@@ -374,8 +372,7 @@ fn a_block_on_a_belt_sticks_and_slips_in_time() {
     close(number(&run["energy_residual"]), 0.0, 1e-10);
 }
 
-/// A ball that slides and then rolls, on a plane with friction μ: it rolls at 5/7 of its speed for a sphere, of a disc
-/// at 2/3, after v₀/(3 μ g).
+/// A body that slides on a plane with friction μ and then rolls: a sphere rolls at 5/7 of its initial speed, a disc at 2/3, after v₀/(3 μ g).
 #[test]
 fn a_disc_slides_until_it_rolls() {
     let spec = Scratch::new(
@@ -396,12 +393,12 @@ fn a_disc_slides_until_it_rolls() {
     close(number(&sticks[0]["t"]), 3.0 / (3.0 * 0.2 * 9.81), 1e-12);
     close(number(&run["v"]["x"]), 2.0, 1e-12);
     close(number(&run["v"]["theta"]), -20.0, 1e-11);
-    // It stays on the floor to rounding.
+    // It stays on the floor up to round-off.
     close(number(&run["q"]["y"]), 0.1, 1e-15);
 }
 
-/// A disc that falls flat on a plane with Newton's, Poisson's and Stronge's laws: without coupling of normal and
-/// tangent they are one, and the tangential impulse is what sticks or what friction allows.
+/// A disc that falls flat on a plane by Newton's, Poisson's and Stronge's laws: without coupling between the normal and tangential directions they
+/// agree, and the tangential impulse is the one of sticking or the limit of friction.
 #[test]
 fn laws_agree_where_nothing_couples_normal_and_tangent() {
     for law in ["newton", "poisson", "poisson_glocker", "stronge"] {
@@ -432,7 +429,7 @@ fn laws_agree_where_nothing_couples_normal_and_tangent() {
     }
 }
 
-/// A slanting rod with e = 0.9 and μ = 0.3 gains energy by Newton's law, which is told, and none by Stronge's.
+/// A slanting rod with e = 0.9 and μ = 0.3 gains energy by Newton's law, which is reported, and none by Stronge's.
 #[test]
 fn energy_that_newtons_law_creates_is_told() {
     let rod = |law: &str, tilt: f64| {
@@ -463,7 +460,7 @@ fn energy_that_newtons_law_creates_is_told() {
     assert!(gained > 0);
 }
 
-/// Painlevé's rod ends the run with the name of its contact and the state, and runs below the friction of 4/3.
+/// Painlevé's rod ends the run with an error that names its contact and the state; below a friction of 4/3 it runs.
 #[test]
 fn a_rod_on_rough_ground_is_a_paradox_by_name() {
     let run = simulate("machines/contacts/painleve_rod.machine", 0.3, &[]);
@@ -476,8 +473,8 @@ fn a_rod_on_rough_ground_is_a_paradox_by_name() {
     );
 }
 
-/// Two corners of a box that falls flat meet at once, and a box on three feet in a line stands although nobody knows
-/// what each of them carries.
+/// Two corners of a box that falls flat meet the ground at once. A box on three collinear feet stands although the distribution of the
+/// load is undetermined.
 #[test]
 fn several_contacts_meet_and_share_a_load() {
     let spec = Scratch::new(
@@ -500,12 +497,12 @@ fn several_contacts_meet_and_share_a_load() {
     close(number(&events(&run, "impact")[0]["t"]), fall, 1e-13);
     close(number(&run["q"]["y"]), 0.5, 1e-12);
     close(number(&run["q"]["theta"]), 0.0, 1e-12);
-    // Friction stops it in the impact: μ times the impulse is more than its momentum.
+    // Friction stops it during the impact, because μ times the impulse exceeds its momentum.
     close(number(&run["q"]["x"]), fall, 1e-12);
     close(number(&run["energy_residual"]), 0.0, 1e-9);
 }
 
-/// A ball that just touches a ceiling, and one that just does not.
+/// A ball that just touches a ceiling, and one that just misses it.
 #[test]
 fn grazing_is_neither_missed_nor_doubled() {
     for (height, impacts) in [(1.0 + 1e-9, 0), (1.0 - 1e-9, 1)] {
@@ -526,7 +523,7 @@ fn grazing_is_neither_missed_nor_doubled() {
     }
 }
 
-/// What starts inside of something is told, and by how a start on it is no impact.
+/// A start with penetration is reported as an error; a start on the surface is not an impact.
 #[test]
 fn a_start_inside_of_something_is_an_error() {
     let run = simulate("machines/contacts/bouncing_ball.machine", 0.1, &[]);
@@ -548,8 +545,8 @@ fn a_start_inside_of_something_is_an_error() {
     assert!(said.contains("penetrated"), "{said}");
 }
 
-/// Random discs of random masses in a box without gravity: with e = 1 energy is kept, nothing leaves the box, and
-/// no disc goes through another.
+/// Random discs of random masses in a box without gravity: with e = 1 energy is conserved, nothing leaves the box, and no disc
+/// passes through another.
 #[test]
 fn random_discs_in_a_box_keep_their_energy() {
     let clock = std::time::SystemTime::now()
@@ -612,7 +609,7 @@ fn random_discs_in_a_box_keep_their_energy() {
         let impacts = events(&run, "impact");
         assert!(!impacts.is_empty(), "seed {seed}");
         let energy_lost = number(&run["impact_loss"]).abs();
-        // Each impact rounds an energy of about 1 J some ten times.
+        // Each impact rounds an energy of about 1 J about ten times.
         assert!(
             energy_lost < 1e-14 * impacts.len() as f64,
             "seed {seed}: {energy_lost}"
@@ -627,8 +624,8 @@ fn random_discs_in_a_box_keep_their_energy() {
     }
 }
 
-/// A box that slides towards the edge of a step tips where friction would have its support beyond the edge, at x = −μ h; then it tumbles
-/// from step to step, never into one, and rests: all that it had, at the start and by its fall, is lost.
+/// A box that slides towards the edge of a step tips when the resultant of the normal force would pass the edge because of friction, at x = −μ h. It
+/// then tumbles from step to step without penetrating one, and comes to rest: its entire initial energy, including that of its height, is dissipated.
 #[test]
 fn a_box_tumbles_down_a_stair() {
     let spec = "machines/contacts/box_on_stair.machine";
@@ -638,10 +635,10 @@ fn a_box_tumbles_down_a_stair() {
     let tips = (speed - f64::sqrt(speed * speed + 2.0 * mu * g * (start + mu * h))) / (mu * g);
     let lifts = events(&run, "lifts");
     assert_eq!(lifts[0]["contact"], "r[1]");
-    // Forces are known to 1e-11 of their terms, and so is where one vanishes.
+    // Forces are accurate to 1e-11 of their terms, and so is the instant at which one vanishes.
     close(number(&lifts[0]["t"]), tips, 1e-11);
     close(number(&lifts[0]["q"]["x"]), -mu * h, 1e-11);
-    // Upside down on the lowest step.
+    // It rests upside down on the lowest step.
     close(number(&run["q"]["theta"]), -PI, 1e-12);
     close(number(&run["q"]["y"]), 0.18 + h, 1e-12);
     let had = 0.5 * m * speed * speed + m * g * 2.0 * 0.18;
@@ -675,14 +672,14 @@ fn a_box_tumbles_down_a_stair() {
             .map(|x| x.parse().expect("number"))
             .collect();
         for &k in &gaps {
-            // The dense output of a step is as exact as its tolerance of 1e-9.
+            // Dense output is as accurate as the tolerance of a step, 1e-9.
             assert!(row[k] > -1e-9, "{} = {} at {}", names[k], row[k], row[0]);
         }
     }
 }
 
-/// Without its debalance the mortar, with the pestle in its middle, flies through the axis of the cylinder, where polar coordinates have no place; in
-/// relative coordinates it does as in its own.
+/// Without its debalance and with the pestle in its middle, the mortar flies through the axis of the cylinder, where polar coordinates are singular;
+/// in relative coordinates it moves as in its own.
 #[test]
 fn a_mortar_passes_through_the_centre_in_either_coordinates() {
     let run = |spec: &str, starts: [&str; 4], rates: [&str; 2]| -> Value {
@@ -705,7 +702,7 @@ fn a_mortar_passes_through_the_centre_in_either_coordinates() {
     );
     let [first, second] = [&own, &relative].map(|run| events(run, "impact"));
     assert_eq!(first.len(), second.len());
-    // 0.024 m at 0.4 m/s, through the axis 0.01 s after the start.
+    // It travels 0.024 m at 0.4 m/s, and passes the axis 0.01 s after the start.
     close(number(&first[0]["t"]), 0.06, 1e-12);
     for (own, relative) in first.iter().zip(&second) {
         close(number(&own["t"]), number(&relative["t"]), 1e-12);

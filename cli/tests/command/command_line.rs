@@ -1,4 +1,4 @@
-//! The command as a user calls it: what it prints, where, and with which exit status.
+//! The command as a user calls it: its output, the channel of each output, and the exit status.
 
 mod engines;
 mod kept;
@@ -121,13 +121,13 @@ fn a_wrong_print_is_mended_and_a_right_one_agrees() {
     assert_eq!(published[1]["item"], "equation y");
     assert_eq!(published[1]["drop"].as_array().expect("a list").len(), 1);
     assert_eq!(published[1]["add"].as_array().expect("a list").len(), 1);
-    // The sign is a slip, and its two terms stand in both lists.
+    // The sign is a misprint, and its two terms appear in both lists.
     let change = &published[1]["change"][0];
     assert_eq!(change["from"], published[1]["drop"][0]);
     assert_eq!(change["to"], published[1]["add"][0]);
     assert_eq!(published[0]["change"], Value::Array(Vec::new()));
     assert_eq!(published[1]["remarks"], Value::Array(Vec::new()));
-    // A misprint is a result, not a mistake of the spec.
+    // A misprint is a result, not an error of the spec.
     assert_eq!(status(&lagrangian(&["check", spec.path()])), 0);
 }
 
@@ -207,13 +207,13 @@ fn evaluate_answers_every_point_and_keeps_their_order() {
     let results = json(&output);
     let results = results.as_array().expect("a list");
     assert_eq!(results.len(), 6);
-    // m1 = 1, m2 = 3, l1 = l2 = 1: M = [[4, 3], [3, 3]] where both hang; T = ½·3·2².
+    // m1 = 1, m2 = 3, l1 = l2 = 1: M = [[4, 3], [3, 3]] with both hanging; T = ½·3·2².
     assert_eq!(
         results[0]["mass_matrix"],
         serde_json::json!([[4.0, 3.0], [3.0, 3.0]])
     );
     assert_eq!(number(&results[0]["kinetic_energy"]), 6.0);
-    // The upper rod horizontal, the lower one hanging: the bobs fall freely.
+    // The upper rod is horizontal, the lower one hangs: the bobs fall freely.
     assert!((number(&results[1]["accelerations"][0]) + 9.81).abs() < 1e-12);
     for (index, word) in [(2, "2 coordinates"), (3, "theta3"), (4, "nonsense")] {
         let error = results[index]["error"].as_str().expect("an error");
@@ -238,8 +238,7 @@ fn evaluate_gives_multipliers_by_name_and_reactions_by_coordinate() {
     let output = lagrangian(&["evaluate", spec.path(), "--rate", "x=3"]);
     assert_eq!(status(&output), 0, "{}", err(&output));
     let result = &json(&output)[0];
-    // The rod holds the weight and turns the velocity round; its gradient at the lowest point is
-    // (0, -1).
+    // The rod carries the weight and provides the centripetal force; its gradient at the lowest point is (0, -1).
     let pull = 2.0 * (9.81 + 3.0 * 3.0 / 0.5);
     assert!((number(&result["multipliers"]["rod"]) + pull).abs() < 1e-13 * pull);
     assert!((number(&result["reactions"][1]) - pull).abs() < 1e-13 * pull);
@@ -249,7 +248,7 @@ fn evaluate_gives_multipliers_by_name_and_reactions_by_coordinate() {
 
 #[test]
 fn a_constraint_that_is_said_twice_is_held_in_halves() {
-    // The second is twice the first: half of the tension is a quarter of the multiplier.
+    // The second constraint is twice the first: half of the tension is a quarter of the multiplier.
     let spec = Scratch::new(
         "twice.machine",
         "machine Twice in plane {
@@ -275,7 +274,7 @@ fn a_constraint_that_is_said_twice_is_held_in_halves() {
     near(&result["reactions"][1], pull);
     near(&result["accelerations"][1], 18.0);
 
-    // Hanging at rest, where nothing accelerates but for rounding.
+    // Hanging at rest, with accelerations of zero up to round-off.
     let spec = Scratch::new(
         "hanging.machine",
         "machine Hanging in plane {
@@ -291,7 +290,7 @@ fn a_constraint_that_is_said_twice_is_held_in_halves() {
     let output = lagrangian(&["simulate", spec.path(), "--until", "0.1"]);
     assert_eq!(status(&output), 0, "{}", err(&output));
 
-    // Two that contradict each other have no answer, and say which.
+    // Two contradictory constraints have no solution; the error names them.
     let spec = Scratch::new(
         "torn.machine",
         "machine Torn in plane {
@@ -348,8 +347,8 @@ fn simulate_reports_writes_and_draws() {
     let output = lagrangian(&arguments);
     assert_eq!(status(&output), 0, "{}", err(&output));
     let document = json(&output);
-    // From 120° and 90° at rest; extrapolation in binary128, docs/benchmarks.md. The motion multiplies errors by less
-    // than 100 in this second.
+    // From 120° and 90° at rest; extrapolation in binary128, docs/benchmarks.md. In this second the motion multiplies errors by
+    // less than 100.
     let truth = [
         ("theta1", -0.419_157_996_853_289_1),
         ("theta2", -1.024_023_228_436_775_5),
@@ -386,7 +385,7 @@ fn simulate_reports_writes_and_draws() {
 #[test]
 fn a_run_that_ends_early_says_when_and_why_and_keeps_what_there_is() {
     let table = Scratch::new("early.csv", "");
-    // The pestle flies through the mortar's centre: the assumption s2 > 0 ends after half a second.
+    // The pestle flies through the mortar's centre: the assumption s2 > 0 fails after half a second.
     let arguments = [
         "simulate",
         "machines/vibrating_crusher.machine",
@@ -574,14 +573,14 @@ fn a_run_that_is_stiff_says_so_at_once() {
         said.contains("stiff") && said.contains("--method radau5"),
         "{said}"
     );
-    // Once, and among the warnings of the summary too.
+    // The advice appears once, and also among the warnings of the summary.
     assert_eq!(said.matches("--method radau5").count(), 1, "{said}");
     assert!(out(&output).contains("warning: the machine is stiff"));
     let implicit = by("radau5");
     assert_eq!(err(&implicit), "");
 }
 
-/// A cart on a spring, in units of the workshop, and in those of the SI.
+/// A cart on a spring, in workshop units, and in SI units.
 const WORKSHOP: &str = "machine Cart in plane {
     parameters { m: g = 500, k: N/mm = 0.2, d: mm = 5, n: rpm = 1500 }
     inputs { pull: kN = 0.001 }
@@ -633,7 +632,7 @@ fn a_declared_unit_is_what_numbers_are_measured_in_outside() {
             json(&lagrangian(&[&["evaluate", spec.path()], more].concat()))[0].clone()
         };
         let (theirs, ours) = (run(&workshop, &theirs), run(&si, &ours));
-        // Ten operations lie between them at most.
+        // The results differ by at most ten operations.
         let same = |a: f64, b: f64| {
             assert!(
                 (a - b).abs() <= 10.0 * f64::EPSILON * b.abs(),
@@ -657,7 +656,7 @@ fn a_declared_unit_is_what_numbers_are_measured_in_outside() {
             same(theirs, factor * ours);
         }
     }
-    // In points of a list too, and in the code.
+    // Also in a list of points, and in generated code.
     let points = |d: &str| format!("[{{\"parameters\": {{\"d\": {d}}}}}]");
     let at = |spec: &Scratch, d: &str| {
         let output = with_input(&["evaluate", spec.path(), "--at", "-"], &points(d));
@@ -704,12 +703,12 @@ fn warnings_are_told_and_denied_on_demand() {
             .iter()
             .all(|diagnostic| diagnostic["severity"] == "warning")
     );
-    // Other commands do what they are asked, and say it on the other channel.
+    // Other commands succeed, and print the warning on the other channel.
     let output = lagrangian(&["evaluate", spec.path()]);
     assert_eq!(status(&output), 0);
     assert!(json(&output)[0]["accelerations"][0].is_number());
     assert!(err(&output).contains("warning: "));
-    // Every warning has its answer.
+    // Every warning has a correction.
     let meant = text
         .replace("w: rad = 90", "w: rad = 90*rad")
         .replace("u: N", "_u: N");
@@ -720,8 +719,9 @@ fn warnings_are_told_and_denied_on_demand() {
     assert_eq!(status(&output), 0, "{}", err(&output));
 }
 
-/// `√(1 + w²) − w` loses its digits where w is great, and `1/(√(1 + w²) + w)`, the same number, keeps them: six operations and no
-/// difference, each off by half a unit at most. Half a unit of the result is unavoidable, and as much for w and for τ at most.
+/// `√(1 + w²) − w` loses digits for large w, and `1/(√(1 + w²) + w)`, the same number, keeps them: it has six operations and no
+/// difference, each with an error of at most half a unit. Half a unit of the result is unavoidable, and at most as much for w
+/// and for τ.
 #[test]
 fn a_formula_that_loses_digits_is_told_from_one_that_keeps_them() {
     let text = "machine Wheel in plane { parameters { tau: s = 1 } coordinates { phi: rad, der(phi): rad/s = 3 } \
@@ -741,7 +741,7 @@ fn a_formula_that_loses_digits_is_told_from_one_that_keeps_them() {
     assert_eq!(poor["kind"], "extreme");
     let w = number(&poor["state"]["v"]["phi"]);
     assert!(w > 1e4, "{poor}");
-    // What the command says of that state, against the number without a difference.
+    // The value that the command reports at that state, compared with the number computed without a difference.
     let point = Scratch::new("point.json", &format!("[{}]", poor["state"]));
     let there = json(&lagrangian(&[
         "evaluate",
@@ -761,7 +761,7 @@ fn a_formula_that_loses_digits_is_told_from_one_that_keeps_them() {
         (error / (4.0 * half_unit)..=1.001 * error / half_unit).contains(&share),
         "{poor}"
     );
-    // The table for readers names the formula and the state.
+    // The readable table names the formula and the state.
     let text = out(&lagrangian(&["check", spec.path(), "--accuracy"]));
     assert!(
         text.contains("the worst state, for output poor: {\"t\":"),
@@ -810,7 +810,7 @@ fn what_a_spec_may_not_say_may_not_be_set() {
         ),
     ] {
         let (name, value) = set.split_once('=').expect("an assignment");
-        // From outside, and in the spec: the same words.
+        // The messages are the same for the call and for the spec.
         let output = lagrangian(&["simulate", spec.path(), "--until", "0.1", "--set", set]);
         assert_eq!(status(&output), 2, "{set}");
         assert!(err(&output).contains(words), "{set}: {}", err(&output));
@@ -848,7 +848,7 @@ fn a_name_is_one_in_both_spellings() {
     }
 }
 
-/// Names with an accent, which the call types in the other spelling, and values with units.
+/// Names with an accent, which the call types in the other Unicode normalization, and values with units.
 #[test]
 fn names_and_values_from_outside_are_read_as_those_of_a_spec() {
     let text = "machine Outside in plane { parameters { caf\u{e9}: kg = 1, speed: rpm = 60, tilt: rad = 1 } \
@@ -926,7 +926,7 @@ fn names_and_values_from_outside_are_read_as_those_of_a_spec() {
         assert_eq!(status, Some(2), "{arguments:?}: {text}");
         assert!(text.contains(words), "{arguments:?}: {text}");
     }
-    // A variant that changes nothing is its base under another name.
+    // A variant without changes is its base under another name.
     let text = format!("machine Same extends \"{}\" {{ }}", spec.path());
     let same = Scratch::new("same.machine", &text);
     let output = lagrangian(&["check", same.path()]);

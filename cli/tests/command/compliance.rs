@@ -1,4 +1,4 @@
-//! Contacts that yield, against closed forms.
+//! Compliant contacts against closed forms.
 
 use std::f64::consts::PI;
 
@@ -7,7 +7,7 @@ use serde_json::Value;
 use crate::collisions::{close, events, is_good, number, simulate};
 use crate::support::{Scratch, lagrangian};
 
-/// A mass that flies into a wall which yields: at x = −1 m, with 3 m/s.
+/// A mass that flies into a compliant wall at x = −1 m, with 3 m/s.
 fn into_a_wall(parameters: &str, law: &str, until: f64) -> Value {
     let spec = Scratch::new(
         "wall.machine",
@@ -25,7 +25,7 @@ fn into_a_wall(parameters: &str, law: &str, until: f64) -> Value {
     run
 }
 
-/// When it closes and when it opens.
+/// The times at which the contact closes and opens.
 fn touches(run: &Value) -> [f64; 2] {
     ["closes", "opens"].map(|kind| {
         let found = events(run, kind);
@@ -34,8 +34,8 @@ fn touches(run: &Value) -> [f64; 2] {
     })
 }
 
-/// With ζ = b/(2 √(k m)) = sin φ, the force is used up after (π − 2 φ)/(ω cos φ), and exp(−(π − 2 φ) tan φ) of the speed
-/// are left. (T. Schwager, T. Pöschel, Granular Matter 9 (2007) 465–469.)
+/// With ζ = b/(2 √(k m)) = sin φ, the force reaches zero after (π − 2 φ)/(ω cos φ), with exp(−(π − 2 φ) tan φ) of the
+/// initial speed. (T. Schwager, T. Pöschel, Granular Matter 9 (2007) 465–469.)
 #[test]
 fn a_spring_with_a_damper_bounces_as_its_damping_says() {
     for (b, phi) in [(0.0, 0.0), (40.0, 0.5_f64.asin()), (72.0, 0.9_f64.asin())] {
@@ -47,13 +47,13 @@ fn a_spring_with_a_damper_bounces_as_its_damping_says() {
         let left = 3.0 * (-(PI - 2.0 * phi) * phi.tan()).exp();
         close(number(&run["v"]["x"]), -left, 1e-10);
         close(number(&run["energy_residual"]), 0.0, 1e-10);
-        // What the damper took, and what the spring held when the force was used up.
+        // The dissipation of the damper, and the energy left in the spring when the force reached zero.
         let lost = 9.0 - left * left;
         close(number(&run["dissipated"]), lost, 1e-9);
     }
 }
 
-/// A Hertzian contact lasts 2.943275 d/v with d = (5 m v²/(4 K))^(2/5), and gives back what it took.
+/// A Hertzian contact lasts 2.943275 d/v with d = (5 m v²/(4 K))^(2/5), and returns all its energy.
 #[test]
 fn a_hertzian_contact_lasts_as_long_as_hertz_says() {
     let run = into_a_wall("K: N/m^(3/2) = 3e5", "hertz(K)", 0.5);
@@ -82,8 +82,8 @@ fn hunt_and_crossleys_contact_leaves_the_speed_of_its_closed_form() {
     close(number(&run["energy_residual"]), 0.0, 1e-10);
 }
 
-/// A layer is loaded for a quarter of a period of k₁ and unloaded for one of k₂; √(k₁/k₂) of the speed is left, and it is
-/// thinner by d (1 − k₁/k₂). What comes back more slowly than before does not crush it again.
+/// A crushable layer is loaded for a quarter of a period of k₁ and unloaded for one of k₂. The speed after it is √(k₁/k₂)
+/// of that before, and the layer is thinner by d (1 − k₁/k₂). A slower second impact does not crush it again.
 #[test]
 fn a_layer_is_crushed_once() {
     let spec = Scratch::new(
@@ -111,10 +111,10 @@ fn a_layer_is_crushed_once() {
     close(opens[0] - turns[0], PI / 2.0 / 40.0, 1e-12);
     let lost = 0.75 * deepest;
     close(number(&events(&run, "opens")[0]["q"]["x"]), lost, 1e-12);
-    // It flies to the wall and back, and is stopped and sent back by what is elastic.
+    // The mass flies to the elastic wall and back, and is reversed by the elastic part of the layer.
     close(closes[1] - opens[0], 2.0 * (2.0 + lost) / 1.5, 1e-11);
     close(opens[1] - closes[1], PI / 40.0, 1e-11);
-    // As deep as before, and no deeper.
+    // It penetrates as deep as before, and no deeper.
     assert!(times("crushes").is_empty());
     close(number(&run["v"]["x"]).abs(), 1.5, 1e-11);
     let crushing = 9.0 * 0.75;
@@ -128,8 +128,8 @@ fn a_layer_is_crushed_once() {
     close(number(&run["energy_residual"]), 0.0, 1e-11);
 }
 
-/// A force that grows from beat to beat drives a plate into a layer: each beat crushes it further from where the last one
-/// ended, and all that was crushed is a function of the greatest depth.
+/// A force that grows from beat to beat drives a plate into a layer: each beat crushes it further from where the previous
+/// one ended, and the total crushing is a function of the greatest depth.
 #[test]
 fn a_layer_is_crushed_further_from_its_greatest_depth() {
     let spec = Scratch::new(
@@ -148,7 +148,7 @@ fn a_layer_is_crushed_further_from_its_greatest_depth() {
     is_good(&run);
     let (turns, crushes) = (events(&run, "turns"), events(&run, "crushes"));
     assert!(crushes.len() >= 4, "{run:#}");
-    // Where it is crushed again is where it last turned.
+    // Crushing continues at the depth of the previous turning point.
     let mut deepest = 0.0_f64;
     for crushed in &crushes {
         let t = number(&crushed["t"]);
@@ -165,8 +165,8 @@ fn a_layer_is_crushed_further_from_its_greatest_depth() {
     close(number(&run["energy_residual"]), 0.0, 1e-9);
 }
 
-/// On a floor that yields, a disc slides until it rolls: at 2/3 of its speed, after v/(3 μ g), exactly and without a creep
-/// that a friction without sticking would have. It lies as deep as its weight presses it, and does not move there.
+/// On a compliant floor a disc slides until it rolls: at 2/3 of its speed, after v/(3 μ g), exactly and without the creep
+/// of friction laws without sticking. Its depth is the static one under its weight, and is constant.
 #[test]
 fn friction_of_a_floor_that_yields_is_coulombs() {
     let spec = Scratch::new(
@@ -184,14 +184,14 @@ fn friction_of_a_floor_that_yields_is_coulombs() {
     is_good(&run);
     let sticks = events(&run, "sticks");
     assert_eq!(sticks.len(), 1, "{run:#}");
-    // The weight is balanced to rounding, which the oscillation about its rest carries on.
+    // The weight is balanced up to round-off, which excites an oscillation about the equilibrium.
     close(number(&sticks[0]["t"]), 3.0 / (3.0 * 0.2 * 9.81), 1e-10);
     close(number(&run["v"]["x"]), 2.0, 1e-10);
     close(number(&run["v"]["theta"]), -20.0, 1e-9);
     close(number(&run["energy_residual"]), 0.0, 1e-9);
 }
 
-/// A wall that yields and moves works on the ball: the balance closes with it.
+/// A moving compliant wall does work on the ball, and the energy balance includes it.
 #[test]
 fn a_wall_that_yields_and_moves_works() {
     let spec = Scratch::new(
@@ -213,7 +213,8 @@ fn a_wall_that_yields_and_moves_works() {
     close(number(&run["energy_residual"]), 0.0, 1e-10);
 }
 
-/// A layer in the bore of the crusher: its crushing work is what no impact and no damper took, and the balance closes.
+/// A layer in the bore of the crusher: the work of crushing is the energy that no impact and no damper dissipated, and
+/// the balance closes.
 #[test]
 fn the_crusher_crushes_a_layer() {
     let run = simulate("machines/contacts/layered_crusher.machine", 0.2, &[]);
@@ -225,7 +226,7 @@ fn the_crusher_crushes_a_layer() {
     close(number(&run["energy_residual"]), 0.0, 1e-6);
 }
 
-/// What is wrong with a law of force is said at the wrong word.
+/// Errors in a law of force are reported at the wrong word.
 #[test]
 fn mistakes_in_laws_of_force_are_told() {
     for (field, said) in [

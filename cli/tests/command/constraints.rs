@@ -3,7 +3,7 @@
 use crate::support::{Scratch, lagrangian};
 use serde_json::Value;
 
-/// A pendulum of 1 kg and 1 m as a particle, from the level, with constraints.
+/// A pendulum of 1 kg and 1 m as a particle, released from the horizontal, with these constraints.
 fn pendulum(constraints: &str) -> Scratch {
     let text = format!(
         "machine Bob in plane {{\n    parameters {{ m: kg = 1, l: m = 1, g: m/s^2 = 9.81 }}\n    \
@@ -33,7 +33,7 @@ fn number(value: &Value) -> f64 {
     value.as_f64().expect("a number")
 }
 
-/// The place at 10 s: IFToMM library of benchmarks A01, by Jacobi's functions.
+/// The position at 10 s: IFToMM library of benchmarks A01, by Jacobi's functions.
 fn assert_at_the_end(document: &Value) {
     assert!((number(&document["q"]["x"]) + 0.275_087_462_576_116_9).abs() < 2e-11);
     assert!((number(&document["q"]["y"]) + 0.961_419_205_099_125).abs() < 2e-11);
@@ -56,7 +56,7 @@ fn what_is_left_of_constraints_is_reported_and_multipliers_are_recorded() {
         .iter()
         .position(|name| *name == "multiplier(rod) [N/m]")
         .expect("the multiplier");
-    // The rod pulls by 28.29… N at the end: R = λ (x, y).
+    // The rod's tension at the end is 28.29… N: R = λ (x, y).
     let last: f64 = rows.next_back().expect("rows")[column]
         .parse()
         .expect("a number");
@@ -96,11 +96,11 @@ fn a_start_off_the_constraints_is_moved_onto_them_and_told() {
     let text = warnings[0].as_str().expect("text");
     let told = text.strip_prefix("the start was moved onto the constraints: `x` from -1.25 to ");
     let moved: f64 = told.expect(text).parse().expect("a number");
-    // Newton's method ends where no more than 10⁻¹³ is left.
+    // Newton's method ends when the residual is at most 10⁻¹³.
     assert!((moved + 1.0).abs() <= 1e-13, "{text}");
 }
 
-/// A pendulum of 1 m that starts off its rod, with what it keeps of that.
+/// A pendulum of 1 m that starts off its rod, with a `keep` section.
 fn kept(keep: &str) -> Scratch {
     let text = format!(
         "machine Bob in plane {{ parameters {{ m: kg = 1, l: m = 1, g: m/s^2 = 9.81 }} \
@@ -110,7 +110,8 @@ fn kept(keep: &str) -> Scratch {
     Scratch::new("kept.machine", &text)
 }
 
-/// Whether names and numbers are those of a triangle with the sides 3, 4 and 5: x ẋ + y ẏ = 0 there.
+/// Checks that positions and rates are those of a triangle with the sides 3, 4 and 5, where x ẋ + y
+/// ẏ = 0.
 fn assert_kept(state: &Value) {
     for (of, name, known) in [
         ("q", "x", 0.6),
@@ -119,7 +120,7 @@ fn assert_kept(state: &Value) {
         ("v", "y", 0.375),
     ] {
         let found = number(&state[of][name]);
-        // The residual that is promised, over the rod's slope in `y`.
+        // The guaranteed residual, divided by the derivative of the constraint by `y`.
         assert!((found - known).abs() < 1e-13 / 0.8, "{of} {name}: {found}");
     }
 }
@@ -135,19 +136,19 @@ fn what_spec_and_call_keep_of_a_start_stays() {
     };
     assert_kept(&start(&spec, &[]));
     assert_kept(&start(&none, &["--keep", "x,der(x)"]));
-    // The call's stand in place of the spec's.
+    // The call's `keep` replaces that of the spec.
     let least = start(&none, &[]);
     assert_eq!(start(&spec, &["--keep", "none"])["q"], least["q"]);
     assert_ne!(least["q"]["x"], 0.6);
     assert_eq!(start(&spec, &["--keep", "y"])["q"]["y"], -0.9);
 
-    // A variant takes some of it away.
+    // A variant removes some of it.
     let base = spec.path();
     let text = format!("machine Less extends \"{base}\" {{ remove keep.der(x); remove keep.x; }}");
     let less = Scratch::new("less.machine", &text);
     assert_eq!(start(&less, &[])["q"], least["q"]);
 
-    // Numbers at the states that a run would begin with.
+    // The values at the states with which a run would begin.
     let evaluate = |spec: &Scratch, arguments: &[&str]| -> Value {
         let output = lagrangian(&[&["evaluate", spec.path()], arguments].concat());
         serde_json::from_slice(&output.stdout).expect("a document")
@@ -157,7 +158,7 @@ fn what_spec_and_call_keep_of_a_start_stays() {
     // λ of the rod: m (|v|² + g·q) on the unit circle, with y = −0.8.
     let tension = -(0.25 + 0.375 * 0.375) - 9.81 * 0.8;
     assert!((number(&point["multipliers"]["rod"]) - tension).abs() < 1e-12);
-    // Without the option a point is what it says.
+    // Without the option a point is not projected.
     assert!(evaluate(&spec, &[])[0].get("q").is_none());
 }
 
@@ -186,7 +187,7 @@ fn what_cannot_be_kept_is_told() {
             let said = [output.stdout, output.stderr].concat();
             let said = String::from_utf8(said).expect("text");
             assert!(said.contains(words), "{keep}: {said}");
-            // A point without numbers is a result of `evaluate`.
+            // For `evaluate` a point without accelerations is a result.
             let status = if command[0] == "evaluate" && status == 1 {
                 0
             } else {

@@ -1,4 +1,5 @@
-//! What runs say of rolling contacts: whether they press, and how much friction they need.
+//! The results of runs about rolling contacts: whether the normal force is compressive, and how much
+//! friction they need.
 
 use crate::support::{Scratch, lagrangian};
 use serde_json::Value;
@@ -65,7 +66,7 @@ fn a_disc_leaves_a_drum_where_seven_cosines_are_four() {
     let start = std::f64::consts::FRAC_PI_2 - 1.4;
     let angle_at = |t: f64| std::f64::consts::FRAC_PI_2 - number(&until(t)["q"]["psi"]);
 
-    // The instant is found to roundoff of time, the motion to ten digits.
+    // The instant is found to round-off of time, the motion to ten digits.
     let leaves = angle_at(number(&contact["pulls_from"])).abs();
     assert!((7.0 * leaves.cos() - 4.0 * start.cos()).abs() < 1e-9);
     let slips = angle_at(number(&contact["slips_from"])).abs();
@@ -81,17 +82,17 @@ fn a_disc_leaves_a_drum_where_seven_cosines_are_four() {
         "{said}"
     );
 
-    // Events of contacts are not those of the machine.
+    // Events of contacts are not listed as events of the machine.
     assert_eq!(run["events"], serde_json::json!([]));
-    // Before that there is nothing to say.
+    // Before that there is no warning.
     let before = until(0.9 * number(&contact["slips_from"]));
     assert_eq!(warnings(&before), "");
     assert_eq!(before["contacts"][0]["pulls_from"], Value::Null);
     assert_eq!(before["contacts"][0]["slips_from"], Value::Null);
 }
 
-/// Of a cylinder that swings in another up to the angle a, the friction is greatest there: with
-/// β = J/(m r²), `N = m g (cos φ + 2 (cos φ − cos a)/(1 + β))` and `T = β m g sin φ/(1 + β)`.
+/// For a cylinder that swings in another up to the angle a, the required friction is greatest there: with β =
+/// J/(m r²), `N = m g (cos φ + 2 (cos φ − cos a)/(1 + β))` and `T = β m g sin φ/(1 + β)`.
 #[test]
 fn a_cylinder_that_swings_needs_most_friction_where_it_turns_round() {
     let beta = 9.225 / (180.0 * 0.25_f64.powi(2));
@@ -108,13 +109,13 @@ fn a_cylinder_that_swings_needs_most_friction_where_it_turns_round() {
     assert_eq!(contact["friction"], Value::Null);
     assert_eq!(contact["pulls_from"], Value::Null);
     let needed = number(&contact["friction_needed"]);
-    // Between looks, the greatest is that of a parabola.
+    // Between samples the maximum is that of a parabola.
     assert!((needed - most).abs() < 2e-3 * most, "{needed} {most}");
     let quarter = 0.408_121_442_879_583_4 / 4.0;
     let at = number(&contact["friction_needed_at"]) / quarter;
     assert!((at - 1.0).abs() < 0.02 || (at - 3.0).abs() < 0.02, "{at}");
     assert_eq!(warnings(&run), "");
-    // At rest at the end of its swing.
+    // At rest at the turning point of its swing.
     let point = json(&["evaluate", machine]);
     let contact = &point[0]["contacts"]["contact"];
     let weight = 180.0 * g;
@@ -122,8 +123,8 @@ fn a_cylinder_that_swings_needs_most_friction_where_it_turns_round() {
     assert!((number(&contact["friction_needed"]) - most).abs() < 1e-12);
 }
 
-/// Section 1.4 of the reference problems: mortar and cylinder pull on each other at the start, and the
-/// force between them changes its sign within a revolution of the debalance.
+/// Section 1.4 of the reference problems: mortar and cylinder pull on each other at the start, and the force
+/// between them changes its sign within a revolution of the debalance.
 #[test]
 fn the_crush_process_would_open_its_contacts_within_a_revolution() {
     let machine = "machines/crushing_crusher.machine";

@@ -1,4 +1,4 @@
-//! Parameters that follow from others, against closed forms and against the same machine with its formula typed in.
+//! Derived parameters, against closed forms and against the same machine with the formula typed in.
 
 use std::fmt::Write as _;
 
@@ -15,7 +15,7 @@ const DISC: &str = "machine Disc in plane {
 }
 ";
 
-/// The disc with its inertia typed in: nothing follows from anything.
+/// The disc with its inertia typed in, without derived parameters.
 const TYPED: &str = "machine Disc in plane {
     parameters { m: kg = 2, r: m = 0.5, c: N*m = 4, J: kg*m^2 = 0.25 }
     coordinates { phi: rad = 0.3 }
@@ -52,7 +52,7 @@ fn number(value: &Value) -> f64 {
         .unwrap_or_else(|| panic!("no number: {value}"))
 }
 
-/// Where the disc is after a second, by `simulate`; a tolerance of 1e-12 over some forty steps.
+/// The angle of the disc after a second, by `simulate`; a tolerance of 1e-12 over about forty steps.
 fn end(spec: &str, more: &[&str]) -> f64 {
     let run = ["simulate", spec, "--until", "1", "--tolerance", "1e-12"];
     let found = answer(&[&run[..], more].concat());
@@ -76,7 +76,7 @@ fn a_derived_parameter_follows_what_it_depends_on() {
         end(spec.path(), &["--set", "m=3", "--set", "r=0.4"]),
         phi(3.0, 0.4, 1.0),
     );
-    // Set itself it does not follow: J = 1 is that of a disc of 8 kg.
+    // A derived parameter that is set no longer follows the others: J = 1 is that of a disc of 8 kg.
     near(
         end(spec.path(), &["--set", "J=1", "--set", "m=3"]),
         phi(8.0, 0.5, 1.0),
@@ -85,14 +85,14 @@ fn a_derived_parameter_follows_what_it_depends_on() {
         end(spec.path(), &["--const", "J=1", "--set", "m=3"]),
         phi(8.0, 0.5, 1.0),
     );
-    // All of these numbers are exact in doubles, so the two spellings run through the same values.
+    // All of these numbers are exact in f64, so both specs use the same values.
     let bits = |spec: &Scratch, more: &[&str]| end(spec.path(), more).to_bits();
     assert_eq!(bits(&spec, &[]), bits(&typed, &[]));
     assert_eq!(
         bits(&spec, &["--set", "m=4"]),
         bits(&typed, &["--set", "m=4", "--set", "J=0.5"])
     );
-    // One unit behind another: 10 r is 20 m, and the output is in mm; 20 mm of edge are 20 mm.
+    // A chain of units: 10 r is 20 m, and the output is in mm; 20 mm of edge are 20 mm.
     let travel = |set: &str| {
         let found = answer(&["evaluate", spec.path(), "--set", set]);
         number(&found[0]["outputs"]["travel"])
@@ -133,7 +133,7 @@ fn runs_side_by_side_follow_too() {
     for (found, m) in end("m=1,2,5").into_iter().zip([1.0, 2.0, 5.0]) {
         assert!((found - phi(m, 0.5, 1.0)).abs() < CLOSE, "{m}: {found}");
     }
-    // J itself: that of discs of 4 and 8 kg.
+    // J itself is varied: its values are those of discs of 4 and 8 kg.
     for (found, m) in end("J=0.5,1").into_iter().zip([4.0, 8.0]) {
         assert!((found - phi(m, 0.5, 1.0)).abs() < CLOSE, "{m}: {found}");
     }
@@ -166,11 +166,11 @@ fn derivatives_go_through_what_follows() {
     let by_omega = -START * f64::sin(omega);
     assert!((by("m", &[]) - by_omega * -omega / (2.0 * 2.0)).abs() < 1e-9);
     assert!((by("r", &[]) - by_omega * -omega / 0.5).abs() < 1e-9);
-    // With J set, the mass does nothing, and J is a parameter like any other: ω is proportional to J^(-1/2).
+    // With J set, the mass has no effect, and J is an ordinary parameter: ω is proportional to J^(-1/2).
     assert_eq!(by("m", &["--set", "J=0.25"]), 0.0);
     let found = by("J", &["--set", "J=0.25"]);
     assert!((found - by_omega * -omega / (2.0 * 0.25)).abs() < 1e-9);
-    // The frequency by `modes`, c/J = 16 and, at 8 kg, 4.
+    // The squared frequency by `modes`: c/J = 16, and 4 at 8 kg.
     let frequency = |more: &[&str]| {
         let call = ["modes", spec.path(), "--start", "phi=0"];
         let found = answer(&[&call[..], more].concat());

@@ -1,7 +1,7 @@
-//! `derive --as sympy|matlab|julia|javascript`: the text, run by what runs such texts, gives what `evaluate` prints.
+//! `derive --as sympy|matlab|julia|javascript`: the text, run in its own language, gives what `evaluate` prints.
 //!
-//! Each of these is tested where it is installed: Python with SymPy (the variable LAGRANGIAN_PYTHON, or `python3`), Octave,
-//! Node. Of Julia, only what its grammar says is looked at, where Python has `tree_sitter_julia`.
+//! Each language is tested where it is installed: Python with SymPy (the variable LAGRANGIAN_PYTHON, or `python3`), Octave,
+//! Node. For Julia only the grammar is checked, if Python has `tree_sitter_julia`.
 
 use std::io::Write as _;
 use std::process::{Command, Stdio};
@@ -10,7 +10,8 @@ use serde_json::{Value, json};
 
 use crate::support::{Scratch, lagrangian, root};
 
-/// Inputs and outputs of accelerations; constraints; facts and time; a top in space; functions of every kind.
+/// With inputs and outputs that depend on accelerations; with constraints; with facts and time; a top in space; functions
+/// of every kind.
 const MACHINES: &[&str] = &[
     "cart_pole",
     "four_bar",
@@ -40,7 +41,7 @@ fn text(spec: &str, form: &str) -> String {
     String::from_utf8(output.stdout).expect("text")
 }
 
-/// What the command itself computes, at the start with every rate moved, and the point in the order of the program.
+/// What the command itself computes at the start with every rate changed, and the point in the order of the program.
 fn expected(spec: &str) -> (Value, Value) {
     let output = lagrangian(&["simulate", spec, "--until", "0", "--json"]);
     let start: Value = serde_json::from_slice(&output.stdout).expect("JSON");
@@ -88,7 +89,7 @@ fn flat(value: &Value) -> Vec<f64> {
     }
 }
 
-/// `found` are a mass matrix, accelerations, both energies and the outputs, in one list.
+/// Compares `found`, a list of the mass matrix, accelerations, both energies and the outputs.
 fn compare(spec: &str, expected: &Value, found: &Value) {
     let parts = [
         "mass_matrix",
@@ -110,7 +111,7 @@ fn compare(spec: &str, expected: &Value, found: &Value) {
     }
 }
 
-/// Every machine, by a program that is given the text and the point.
+/// Checks every machine with a program that gets the text and the point.
 fn check(form: &str, ending: &str, runner: &dyn Fn(&Scratch, &Value) -> Value) {
     let functions = Scratch::new("functions.machine", FUNCTIONS);
     let library = MACHINES
@@ -157,7 +158,7 @@ fn octave_computes_what_evaluate_prints() {
         return;
     }
     check("matlab", "m", &|file, point| {
-        // The file has the name of its function.
+        // The file must have the name of its function.
         let text = std::fs::read_to_string(&file.0).expect("the text");
         let line = text
             .lines()
@@ -211,7 +212,7 @@ fn the_text_of_julia_is_julia() {
     }
 }
 
-/// With symbols, formulas come out: those of a pendulum by hand.
+/// With symbols the functions return formulas: those of a pendulum by hand.
 #[test]
 fn sympy_gives_the_formulas_of_a_pendulum() {
     let python = std::env::var("LAGRANGIAN_PYTHON").unwrap_or_else(|_| "python3".into());

@@ -1,4 +1,4 @@
-//! `lagrangian fit` against SciPy on closed forms, against what is known of made-up data, and one way of saying against another.
+//! `lagrangian fit` against SciPy for closed forms, against the known parameters of synthetic data, and for equivalent descriptions against each other.
 
 use std::fmt::Write as _;
 
@@ -24,7 +24,7 @@ fn fit(arguments: &[&str]) -> Value {
     serde_json::from_str(&text).expect("JSON")
 }
 
-/// What is said of a call that fails, and its exit status.
+/// The message of a call that fails, and its exit status.
 fn refused(arguments: &[&str]) -> (i32, String) {
     let output = lagrangian(&[&["fit"], arguments].concat());
     let said = String::from_utf8(output.stderr).expect("text");
@@ -58,11 +58,11 @@ fn by_scipy(name: &str) -> Value {
     all[name].clone()
 }
 
-/// Estimates and covariances are those of SciPy.
+/// Checks that estimates and covariances are those of SciPy.
 ///
-/// The search ends within 1e-6 of a standard error; the runs' own errors, 1e-9 of a motion whose noise is above 1e-2 of it, are
-/// 1e-7 of one. Covariances change with the place by less than themselves in a standard error, and their derivatives are as
-/// exact as the tolerance times the steps of a run: 1e-6 of the product of the standard errors.
+/// The search ends within 1e-6 of a standard error. The error of the runs is 1e-9 of the motion, whose noise is above 1e-2 of it, so it is 1e-7 of a standard
+/// error. Over a distance of one standard error covariances change by less than themselves, and their derivatives have an error of the tolerance times the
+/// number of steps in a run: 1e-6 of the product of the standard errors.
 fn assert_agrees(result: &Value, known: &Value) {
     let errors: Vec<f64> = (0..list(&known["estimate"]).len())
         .map(|j| number(&known["covariance"][j][j]).sqrt())
@@ -102,7 +102,7 @@ fn an_oscillator_is_fitted_as_scipy_does() {
     assert_eq!(result["converged"], true);
 }
 
-/// What approaches b₁ at the rate b₂, `y = b₁ (1 − e^{−b₂ x})`: a state of first order, with time as x.
+/// Exponential approach to b₁ at the rate b₂, `y = b₁ (1 − e^{−b₂ x})`: a first-order state, with time as x.
 const APPROACH: &str = "machine Approach in plane {
     parameters { b1: 1 = 500, b2: 1/s = 1e-4 }
     coordinates { idle: m }
@@ -112,14 +112,14 @@ const APPROACH: &str = "machine Approach in plane {
     outputs { seen: 1 = y }
 }";
 
-/// Misra1a and BoxBOD of the Statistical Reference Datasets for nonlinear regression of the National Institute of Standards and
-/// Technology (<https://www.itl.nist.gov/div898/strd/nls/nls_main.shtml>): data, the second of both starts for the search, certified
-/// parameters and standard deviations with eleven digits, and the residual sum of squares.
+/// Misra1a and BoxBOD of the Statistical Reference Datasets for nonlinear regression of the National Institute of Standards and Technology
+/// (<https://www.itl.nist.gov/div898/strd/nls/nls_main.shtml>): data, the second of the two starts for the search, certified parameters and standard
+/// deviations with eleven digits, and the residual sum of squares.
 #[test]
 fn certified_parameters_of_nist_are_found_as_a_motion() {
     let sets = [
         (
-            // Pressure against volume of a monomolecular adsorption, by D. Misra, 1978.
+            // Volume of a monomolecular adsorption against pressure, by D. Misra, 1978.
             "77.6,10.07 114.9,14.73 141.1,17.94 190.8,23.93 239.9,29.61 289.0,35.18 332.8,40.02 378.4,44.82 434.8,50.76 477.3,55.05 \
              536.8,61.01 593.1,66.40 689.1,75.47 760.0,81.78",
             ["b1=250", "b2=5e-4"],
@@ -168,9 +168,8 @@ fn certified_parameters_of_nist_are_found_as_a_motion() {
     }
 }
 
-/// A globe on a cycloid, resisted by the air in three powers of its velocity. A metre stands for one of Newton's inches, a second
-/// for the root of length over gravity, so that a swing takes π; and the velocity counts in those of a whole arc of 7½ inches, his
-/// V = 1.
+/// A globe on a cycloid with air resistance in three powers of its velocity. The unit of length is one of Newton's inches; the unit of time is the square
+/// root of length over gravity, so a swing takes π. The velocity is measured in units of that of a whole arc of 7½ inches, Newton's V = 1.
 const GLOBE: &str = "machine Globe in plane {
     parameters { a: N = 1e-4, b: N = 1e-3, c: N = 2e-3, m: kg = 1, k: N/m = 1, u: m/s = 3.75 }
     coordinates { x: m }
@@ -181,14 +180,14 @@ const GLOBE: &str = "machine Globe in plane {
     outputs { swing: m = sqrt(x^2 + der(x)^2*m/k) }
 }";
 
-/// The first published identification of a mechanism. I. Newton let a globe of wood swing until an eighth of its arc was lost, from 4, 16
-/// and 64 inches for 121, 35½ and 9⅔ swings, put the loss in a swing as `AV + B V^(3/2) + CV²`, found A = 0.0000916, B = 0.0010847 and C =
-/// 0.0029558, and from these the resistance, `7/11 AV + 7/10 B V^(3/2) + 3/4 CV²` parts of 121 of its weight (*Philosophiae naturalis
-/// principia mathematica*, book II, section VI, general scholium; from the second edition, 1713, on).
+/// The first published identification of a mechanism. I. Newton let a wooden globe swing until an eighth of its arc was lost, from 4, 16 and 64 inches for
+/// 121, 35½ and 9⅔ swings. He set the loss per swing to `AV + B V^(3/2) + CV²`, found A = 0.0000916, B = 0.0010847 and C = 0.0029558, and from these the
+/// resistance, `7/11 AV + 7/10 B V^(3/2) + 3/4 CV²` parts of 121 of its weight (*Philosophiae naturalis principia mathematica*, book II, section VI, general
+/// scholium; from the second edition, 1713, on).
 ///
-/// He took each loss at the middle of its arcs, where it is that of the whole way up to the square of a fifteenth, 0.45 %. Of the ⅔ of a swing
-/// that is not whole, from its middle on, the loss is 0.513 of a swing's, `∫|cos³t|` from 0 to 2π/3 over 4/3: of that case he has
-/// 1.6 % more swings than lose.
+/// He attributed each loss to the middle of its arcs, where it equals the mean over the whole interval up to the square of a fifteenth, 0.45 %. The partial ⅔
+/// of a swing, counted from its middle, has 0.513 of the loss of a swing: `∫|cos³t|` from 0 to 2π/3, over 4/3. In that case his number of swings is 1.6 %
+/// larger than the number of equivalent losses.
 #[test]
 fn newtons_pendulum_is_resisted_as_he_found() {
     let spec = Scratch::new("globe.machine", GLOBE);
@@ -225,8 +224,8 @@ fn newtons_pendulum_is_resisted_as_he_found() {
     }
 }
 
-/// The benchmark EMPS (A. Janot, M. Gautier, M. Brunot, *Data Set and Reference Models of EMPS*, 2019), by its closed loop in place of an inverse
-/// model; the spec and what the table is are in `docs/command-line.md`. The record names no licence, so it is not here: the variable `EMPS` says where it is.
+/// The benchmark EMPS (A. Janot, M. Gautier, M. Brunot, *Data Set and Reference Models of EMPS*, 2019), identified with its closed loop instead of an inverse
+/// model; `docs/command-line.md` has the spec and describes the table. The record states no licence, so it is not included: the variable `EMPS` is its path.
 #[test]
 #[ignore = "needs the record of the benchmark EMPS"]
 fn a_published_identification_is_found_again() {
@@ -249,7 +248,7 @@ fn a_published_identification_is_found_again() {
         "M,Fv,Fc,offset",
     ];
     let result = fit(&[&[spec.path()], &call[..]].concat());
-    // As their script prints them, with its standard deviations.
+    // As printed by their script, with its standard deviations.
     let published = [
         (95.1089, 0.1085),
         (203.5034, 1.1460),
@@ -286,7 +285,7 @@ fn two_experiments_have_starts_of_their_own() {
         "der(x)=2*cm/s",
     ];
     let result = fit(&call);
-    // In the order of the call: of each coordinate the starts in both experiments, then the rates.
+    // In the order of the call: for each coordinate the starts in both experiments, then the rates.
     let names: Vec<&str> = list(&result["fitted"])
         .iter()
         .map(|one| one["name"].as_str().expect("a name"))
@@ -313,7 +312,7 @@ fn two_experiments_have_starts_of_their_own() {
     assert_agrees(&result, &sorted);
 }
 
-/// x of the oscillator at times, in closed form.
+/// x of the oscillator at time t, in closed form.
 fn swung(t: f64, [m, k, c]: [f64; 3], [x, v]: [f64; 2]) -> f64 {
     let decay = c / (2.0 * m);
     let omega = (k / m - decay * decay).sqrt();
@@ -341,7 +340,7 @@ fn what_cannot_be_told_apart_is_named_with_what_can() {
     let free = table("t,x [m]", times(3.0, 60), |t| {
         vec![swung(t, [2.0, 30.0, 0.6], [0.1, 0.0])]
     });
-    // Masses, stiffnesses and dampings have one factor in common.
+    // Without forces, masses, stiffnesses and dampings are known only up to a common factor.
     let result = fit(&[spec.path(), "--data", free.path(), "--fit", "m,k,c"]);
     for one in list(&result["fitted"]) {
         assert_eq!(one["standing"], "entangled", "{one}");
@@ -358,13 +357,13 @@ fn what_cannot_be_told_apart_is_named_with_what_can() {
         .collect();
     let names: Vec<&str> = told.iter().map(|(name, _)| *name).collect();
     assert_eq!(names, ["m/c", "k/c"], "{result:#}");
-    // What is exact but for the tolerance comes back so.
+    // Identifiable combinations are recovered to the tolerance of the run.
     assert!((told[0].1 / (2.0 / 0.6) - 1.0).abs() < 1e-6, "{told:?}");
     assert!((told[1].1 / 50.0 - 1.0).abs() < 1e-6, "{told:?}");
     let said = result["warnings"][0].as_str().expect("a warning");
     assert!(said.contains("only m/c, k/c are told"), "{said}");
 
-    // Of two masses that move as one the sum is told; and gravity is at right angles to the motion.
+    // If two masses move as one, only their sum is identifiable; gravity is at right angles to the motion, so the depth is not.
     let two = OSCILLATOR
         .replace("m: kg = 2", "m: kg = 0.5, m2: kg = 1, depth: m = 3")
         .replace("block {", "second { mass: m2, at: (x, depth) }, block {");
@@ -427,13 +426,13 @@ fn of_a_pendulum_gravity_by_length_is_told() {
     let combination = &result["combinations"][0];
     assert_eq!(combination["formula"], "l/g");
     assert_eq!(combination["unit"], "m/(m/s^2)");
-    // A motion to 1e-9 through some seven periods.
+    // A motion with an error of 1e-9 over about seven periods.
     assert!(
         (number(&combination["value"]) * 9.81 / 0.6 - 1.0).abs() < 1e-7,
         "{combination}"
     );
     assert_eq!(result["fitted"][0]["standing"], "ineffective");
-    // Mass at the value where it began; a search that stays put in what is not told.
+    // The mass keeps its initial value: the search does not move in directions that the data do not determine.
     assert_eq!(number(&result["fitted"][0]["value"]), 1.0);
 }
 
@@ -450,7 +449,7 @@ fn units_of_a_table_change_nothing() {
     let [a, b] = [&si, &other]
         .map(|data| estimates(&fit(&[spec.path(), "--data", data.path(), "--fit", "k,c"])));
     for ((x, e), (y, f)) in a.iter().zip(&b) {
-        // Rounding of the table, times 1e3 for all that is made of it.
+        // Rounding of the table, amplified by at most 1e3 in the results.
         assert!(
             (x - y).abs() < 1e-12 * x && (e - f).abs() < 1e-10 * e,
             "{a:?} {b:?}"
@@ -475,7 +474,7 @@ fn a_spring_and_a_formula_that_pushes_like_one_give_one_answer() {
         )
         .replace("coordinates", "inputs { u: N } coordinates");
     let pushed = Scratch::new("pushed.machine", &pushed);
-    // A start that follows from what is fitted, beside one that does not: 0.1 m either way at k = 25.
+    // A start that depends on the fitted parameters, and one that does not: 0.1 m in both cases at k = 25.
     let sigmas = ["--sigma", "x=1e-3", "--sigma", "a=0.02"];
     let same = ["--data", data.path(), "--fit", "k,c"];
     let a = fit(&[&[spring.path()], &same[..], &sigmas].concat());
@@ -496,13 +495,13 @@ fn a_start_that_follows_from_a_parameter_moves_with_it() {
         .replace("x: m = 0.1", "x: m = p/k")
         .replace("m: kg = 2,", "m: kg = 2, p: N = 3,");
     let spec = Scratch::new("loaded.machine", &text);
-    // Hung with 3 N on 30 N/m, and let go.
+    // Released from the equilibrium under 3 N on 30 N/m.
     let data = table("t,x [m]", times(2.0, 40), |t| {
         vec![swung(t, [2.0, 30.0, 0.6], [0.1, 0.0]) + 1e-3 * (631.0 * t).sin()]
     });
     let call = [spec.path(), "--data", data.path(), "--fit", "k,c,p"];
     let a = fit(&call);
-    // The same start as a number of its own: p = k x.
+    // The same start as an independent parameter: p = k x.
     let plain = Scratch::new("oscillator.machine", OSCILLATOR);
     let b = fit(&[plain.path(), "--data", data.path(), "--fit", "k,c,start(x)"]);
     let (a, b) = (estimates(&a), estimates(&b));
@@ -535,7 +534,7 @@ fn derivatives_on_constraints_are_those_without() {
         outputs { height: m = y }
         gravity (0, -9.81);
     }";
-    // A constraint that follows from the two.
+    // A redundant constraint, which follows from the other two.
     let twice = tied.replace(
         "along: y = -l*cos(theta)",
         "along: y = -l*cos(theta), rod: x^2 + y^2 = l^2",
@@ -613,7 +612,7 @@ fn derivatives_on_constraints_are_those_without() {
     );
     let near = |a: &Value, b: &Value| {
         for ((x, e), (y, f)) in estimates(a).into_iter().zip(estimates(b)) {
-            // Differences over 1e-3 of a number are exact to about a millionth, and so is where their search ends.
+            // Finite differences with a relative step of 1e-3 are accurate to about a millionth, and so is the end of a search that uses them.
             assert!(
                 (x - y).abs() < 1e-4 * e && (e - f).abs() < 1e-4 * e,
                 "{a:#} {b:#}"
@@ -622,7 +621,7 @@ fn derivatives_on_constraints_are_those_without() {
     };
     near(&a, &b);
     near(&a, &c);
-    // A start that constraints hold is told by what is kept of it.
+    // A start on constraints is determined by its kept coordinates.
     let call = [&call[..2], &["--fit", "l,c,start(theta)"], &call[4..]].concat();
     let a = fit(&[&[swing.path()], &call[..]].concat());
     let b = fit(&[&[tied.path()], &call[..], &["--keep", "theta,der(theta)"]].concat());
@@ -632,7 +631,7 @@ fn derivatives_on_constraints_are_those_without() {
 
 #[test]
 fn friction_of_what_slides_is_fitted() {
-    // A block thrown at 3 m/s stops by μ g: x = v t − μ g t²/2 until t = v/(μ g) = 1.02 s.
+    // A block thrown at 3 m/s stops by friction μ g: x = v t − μ g t²/2 until t = v/(μ g) = 1.02 s.
     let spec = "machine Block in plane {
         parameters { mu: 1 = 0.2 }
         coordinates { x: m, der(x): m/s = 3 }
@@ -668,7 +667,7 @@ fn bounds_hold_and_are_named() {
             .contains("`c` stayed at a bound"),
         "{held}"
     );
-    // The other numbers are those of the fit with it held there.
+    // The other estimates are those of a fit in which this parameter is fixed at its bound.
     let alone = fit(&[
         spec.path(),
         "--data",
@@ -680,12 +679,12 @@ fn bounds_hold_and_are_named() {
     ]);
     let (a, b) = (&held["fitted"][0], estimates(&alone)[0]);
     assert!((number(&a["value"]) - b.0).abs() < 2e-6 * b.1, "{a} {b:?}");
-    // One degree of freedom more or less.
+    // The difference is one degree of freedom.
     assert!(
         (number(&a["standard_error"]) / b.1 - 1.0).abs() < 1e-6,
         "{a} {b:?}"
     );
-    // Bounds that do not matter change nothing.
+    // Inactive bounds change nothing.
     let wide = fit(&[&call[..], &["--bounds", "c=0..", "--bounds", "k=1..1e3"]].concat());
     let free = fit(&call);
     for ((x, e), (y, _)) in estimates(&wide).into_iter().zip(estimates(&free)) {
@@ -696,7 +695,7 @@ fn bounds_hold_and_are_named() {
 #[test]
 fn several_searches_leave_a_minimum_that_is_not_the_least() {
     let spec = Scratch::new("oscillator.machine", OSCILLATOR);
-    // Eight periods: from a stiffness of 10 the phase is off by half of them, and the way is over hills.
+    // Eight periods: with the initial stiffness of 10 the phase is off by half of them, and there are local minima on the way.
     let data = table("t,x [m]", times(13.0, 130), |t| {
         vec![swung(t, [2.0, 30.0, 0.1], [0.1, 0.0])]
     });
@@ -731,7 +730,7 @@ fn estimated_deviations_are_those_of_the_residuals() {
     ];
     let auto = fit(&[&[spec.path()], &data[..], &["--sigma", "auto"]].concat());
     let sigma = |place: usize| number(&auto["columns"][place]["sigma"]);
-    // As given they lead to the same estimates, and the sum of squares is the number of degrees of freedom.
+    // Given explicitly, the same deviations lead to the same estimates, and the sum of squares is the number of degrees of freedom.
     let given = [format!("x={}", sigma(0)), format!("der(x)={}", sigma(1))];
     let again = fit(&[
         &[spec.path()],
@@ -744,7 +743,8 @@ fn estimated_deviations_are_those_of_the_residuals() {
     }
     let chi = number(&again["chi_squared"]) / number(&again["degrees_of_freedom"]);
     assert!((chi - 1.0).abs() < 1e-5, "{chi}");
-    // The noise was made with 3 mm and 2 cm/s: 59 degrees of freedom know it to 1 / √(2·59), here within four of these.
+    // The noise was generated with 3 mm and 2 cm/s. With 59 degrees of freedom its deviation has a relative error of 1 / √(2·59); the bound is
+    // four times that.
     assert!((sigma(0) / 0.003 - 1.0).abs() < 4.0 * 0.092, "{}", sigma(0));
     assert!((sigma(1) / 0.02 - 1.0).abs() < 4.0 * 0.092, "{}", sigma(1));
 }
@@ -767,7 +767,7 @@ fn what_was_fitted_comes_back_as_a_spec_a_table_and_a_drawing() {
         "--plot",
         plot.path(),
     ]);
-    // The variant runs as the fit did: its residuals have the sum of squares of the fit.
+    // A run of the variant repeats the fit's: its residuals have the same sum of squares.
     let run = Scratch::new("run.csv", "");
     let made = lagrangian(&[
         "simulate",
@@ -813,7 +813,7 @@ fn what_was_fitted_comes_back_as_a_spec_a_table_and_a_drawing() {
         .map(|(y, x)| (y - x).powi(2))
         .sum();
     assert!((sum / number(&result["chi_squared"]) - 1.0).abs() < 1e-6);
-    // So has the table, a row less for each that measures nothing.
+    // The table has the same sum; rows without measurements are omitted.
     let residuals = column(&read(&rows), "residual(x) [m]");
     let sum: f64 = residuals.iter().map(|r| r * r).sum();
     assert!((sum / number(&result["chi_squared"]) - 1.0).abs() < 1e-12);
@@ -821,7 +821,7 @@ fn what_was_fitted_comes_back_as_a_spec_a_table_and_a_drawing() {
         residuals.len(),
         measured.iter().filter(|y| !y.is_nan()).count()
     );
-    // A point for each measurement in each of two panels, and the sign in the legend.
+    // Each of two panels has a point for each measurement; the legend has one more.
     let drawing = read(&plot);
     assert_eq!(drawing.matches("<circle").count(), 2 * residuals.len() + 1);
 }
@@ -833,7 +833,7 @@ fn an_experiment_may_have_values_and_inputs_of_its_own() {
         "inputs { u: N } forces { push { on: x, value: u } } dampers",
     );
     let spec = Scratch::new("driven.machine", &text);
-    // Against a constant push the equilibrium moves: x = u/k + (x0 − u/k) cos …
+    // Under a constant force the equilibrium shifts: x = u/k + (x0 − u/k) cos …
     let pushed = |u: f64, m: f64| {
         move |t: f64| {
             vec![
@@ -982,7 +982,7 @@ fn what_is_wrong_is_said() {
         assert_eq!(status, 2, "{arguments:?}: {said}");
         assert!(said.contains(why), "{arguments:?}: {said}");
     }
-    // A motion that there is not is a matter of the run.
+    // A motion that does not exist is an error of the run.
     let (status, said) = refused(&[
         spec.path(),
         "--data",

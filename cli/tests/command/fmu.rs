@@ -1,4 +1,4 @@
-//! `lagrangian fmu`: importers in C, and FMPy where it is, get from a unit what `evaluate` and `simulate` print.
+//! `lagrangian fmu`: importers in C, and FMPy where it is installed, get from a unit what `evaluate` and `simulate` print.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use super::support::{Scratch, lagrangian, root};
 
-/// The files of a unit.
+/// The files in a unit.
 fn files(unit: &Path) -> BTreeMap<String, Vec<u8>> {
     let file = fs::File::open(unit).expect("a unit");
     let mut archive = zip::ZipArchive::new(file).expect("an archive");
@@ -29,7 +29,7 @@ fn text(files: &BTreeMap<String, Vec<u8>>, name: &str) -> String {
     String::from_utf8(files[name].clone()).expect("text")
 }
 
-/// Makes a unit; what the command prints as JSON.
+/// Makes a unit; returns the JSON that the command prints.
 fn unit(spec: &str, at: &Scratch, options: &[&str]) -> Value {
     let arguments = [&["fmu", spec, "--out", at.path(), "--json"], options].concat();
     let output = lagrangian(&arguments);
@@ -38,7 +38,7 @@ fn unit(spec: &str, at: &Scratch, options: &[&str]) -> Value {
     serde_json::from_slice(&output.stdout).expect("JSON")
 }
 
-/// The value of an attribute in the line of a variable with a reference.
+/// The value of an attribute on the line of the variable with this reference.
 fn attribute(description: &str, reference: usize, name: &str) -> Option<String> {
     let mark = format!("valueReference=\"{reference}\"");
     let mut lines = description.lines();
@@ -63,13 +63,13 @@ fn run(command: &mut Command, input: &str) -> String {
     String::from_utf8(output.stdout).expect("text")
 }
 
-/// What an importer asks of a machine: values off the defaults, a state, and the end of a run from it.
+/// What an importer does with a machine: values off the defaults, a state, and the end of a run from it.
 struct Case<'a> {
     machine: &'a str,
     constants: &'a [&'a str],
     until: f64,
     method: &'a str,
-    /// By FMPy: parameters and starts that are set.
+    /// The parameters and starts that FMPy sets.
     set: &'a [(&'a str, f64)],
     start: &'a [(&'a str, f64)],
 }
@@ -108,7 +108,7 @@ const CASES: &[Case<'_>] = &[
         set: &[("m", 0.6)],
         start: &[("q[2]", -0.1)],
     },
-    // An input and outputs, one of them of accelerations.
+    // With an input and outputs, one of which depends on accelerations.
     Case {
         machine: "cart_pole",
         constants: &[],
@@ -119,7 +119,7 @@ const CASES: &[Case<'_>] = &[
     },
 ];
 
-/// Machines that are held on constraints, of positions and of rates alone.
+/// Machines with holonomic and with nonholonomic constraints.
 const CONSTRAINED: &[Case<'_>] = &[
     Case {
         machine: "four_bar",
@@ -147,7 +147,7 @@ const CONSTRAINED: &[Case<'_>] = &[
     },
 ];
 
-/// Further machines that FMPy runs: with a state of first order, and turned by four numbers.
+/// Further machines that FMPy runs: one with a first-order state, and one rotated by a quaternion.
 const FURTHER: &[Case<'_>] = &[
     Case {
         machine: "dc_motor",
@@ -175,7 +175,7 @@ const FURTHER: &[Case<'_>] = &[
     },
 ];
 
-/// By an importer in C.
+/// Compares a unit with the command, by an importer in C.
 fn check(case: &Case<'_>, version: &str, driver: &str, header: &str) {
     let spec = format!("machines/{}.machine", case.machine);
     let at = Scratch::new("Machine.fmu", "");
@@ -193,7 +193,7 @@ fn check(case: &Case<'_>, version: &str, driver: &str, header: &str) {
     }
     fs::write(folder.join("driver.c"), driver).expect("a file");
     fs::write(folder.join("many.h"), include_str!("fmu/many.h")).expect("a file");
-    // Every function of the standard is there: else this is not linked.
+    // Linking fails unless every function of the standard exists.
     let declared = text(&files, &format!("sources/{header}"));
     let declared = declared
         .lines()
@@ -227,11 +227,11 @@ fn check(case: &Case<'_>, version: &str, driver: &str, header: &str) {
     let outputs = evaluated(&[], "")[0]["outputs"]
         .as_object()
         .map_or(0, |outputs| outputs.len());
-    // Everything a little off its default, in no pattern.
+    // Every value a little off its default, without a pattern.
     let off = |k: usize| 1.0 + 0.1 * ((k * 37 + 11) % 101) as f64 / 101.0;
     let line_of = |reference: usize, name: &str| match version {
         "3" => attribute(&description, reference, name),
-        // Start and unit stand in the line below.
+        // Start and unit are on the next line.
         _ => {
             let mark = format!("valueReference=\"{reference}\"");
             let mut lines = description.lines().skip_while(|line| !line.contains(&mark));
@@ -278,7 +278,7 @@ fn check(case: &Case<'_>, version: &str, driver: &str, header: &str) {
     expected.extend(numbers(&at_point["potential_energy"]));
     let evaluations = expected.len();
 
-    // The run of the command starts at 0: machines that time drives are compared from there.
+    // The run of the command starts at 0, so machines that depend on time are compared from there.
     let words = |values: &mut dyn Iterator<Item = f64>| -> String {
         values.map(|x| format!("{x:?} ")).collect()
     };
@@ -299,7 +299,7 @@ fn check(case: &Case<'_>, version: &str, driver: &str, header: &str) {
     };
     let found = read(run(&mut driver(), &given_to(t)));
     for (k, (x, known)) in found.iter().zip(&expected).enumerate() {
-        // Code of C rounds each operation, the interpreter fuses some: 1e-12 of the largest is thousands of roundings.
+        // Compiled C rounds each operation, while the interpreter fuses some: 1e-12 of the largest is thousands of roundings.
         let largest = expected.iter().fold(0.0f64, |most, x| most.max(x.abs()));
         let bound = 1e-12 * largest;
         assert!(
@@ -309,7 +309,7 @@ fn check(case: &Case<'_>, version: &str, driver: &str, header: &str) {
         );
     }
     let found = read(run(&mut driver(), &given_to(0.0)));
-    // Nothing is read before it is written, nothing beyond its end, and nothing stays behind.
+    // There are no uninitialized reads, no accesses out of bounds, and no leaks.
     if version == "2" {
         let mut valgrind = Command::new("valgrind");
         match valgrind.arg("--version").output() {
@@ -337,7 +337,7 @@ fn check(case: &Case<'_>, version: &str, driver: &str, header: &str) {
     .concat();
     let until = format!("{:?}", case.until);
     options.extend(["--until", &until, "--tolerance", "1e-12", "--json"].map(str::to_owned));
-    // Inputs that are held; and in 2.0 those that grow by 0.5 in each second.
+    // Inputs are constant; in 2.0 there are also inputs that grow by 0.5 per second.
     let grow = driven.clone().zip(&u).flat_map(|(k, x)| {
         let unit = line_of(k, "unit").expect("a unit");
         let formula = format!("{}={x:?}*({unit})+0.5*({unit})/s*t", name(k));
@@ -368,7 +368,7 @@ fn check(case: &Case<'_>, version: &str, driver: &str, header: &str) {
 
 #[test]
 fn an_importer_of_3_gets_what_the_command_prints() {
-    // A driven machine with facts, a family of coordinates, an input with outputs of accelerations.
+    // A driven machine with facts, a family of coordinates, and an input with outputs that depend on accelerations.
     for case in [&CASES[1], &CASES[3], &CASES[4]] {
         check(case, "3", include_str!("fmu/driver3.c"), "fmi3Functions.h");
     }
@@ -384,8 +384,7 @@ fn an_importer_of_2_gets_what_the_command_prints() {
     );
 }
 
-/// The archive: its files, the same bytes from the same spec, another token from another machine, and nothing but text without a
-/// compiler.
+/// The archive: its files; identical bytes for the same spec; another token for another machine; and only text without a compiler.
 #[test]
 fn the_same_machine_is_the_same_unit() {
     let spec = "machines/double_pendulum.machine";
@@ -420,7 +419,7 @@ fn the_same_machine_is_the_same_unit() {
     let files = files(&other.0);
     assert!(files.keys().all(|name| !name.starts_with("binaries")));
     let description = text(&files, "modelDescription.xml");
-    // q, v and a of two angles, then the parameters: references are the places.
+    // q, v and a of two angles, then the parameters: references are consecutive.
     assert_eq!(attribute(&description, 7, "name").as_deref(), Some("m1"));
     assert_eq!(attribute(&description, 7, "start").as_deref(), Some("2.0"));
     assert_eq!(
@@ -441,7 +440,7 @@ fn the_same_machine_is_the_same_unit() {
     );
 }
 
-/// Starts by formulas of parameters follow these until somebody sets them; units, factors and outputs are those asked for.
+/// Starts that are formulas of parameters follow them until somebody sets the starts; units, factors and outputs are those requested.
 #[test]
 fn a_description_says_what_was_asked_for() {
     let spec = "machine Mm in plane {
@@ -481,7 +480,8 @@ fn a_description_says_what_was_asked_for() {
     assert!(machine.contains("START_IS_SET[] = {0, 1, 0, 0, 0};"));
 }
 
-/// Starts follow parameters until somebody sets them; a fact that breaks is told once, and where there is no acceleration, of what.
+/// Starts follow parameters until somebody sets them. A fact that ceases to hold is reported once; missing accelerations are reported
+/// with the cause.
 #[test]
 fn a_unit_says_what_is_wrong() {
     let spec = "machine Pole in plane {
@@ -520,7 +520,7 @@ fn a_unit_says_what_is_wrong() {
     }
 }
 
-/// A ball and a pendulum with events whose instants have closed forms, as a unit of a version.
+/// A ball and a pendulum with events whose instants have closed forms, as a unit of this version of FMI.
 fn eventful(version: &str, method: &str, further: &[&str]) -> (Scratch, Value) {
     let spec = "machine Two in plane {
         parameters { g: m/s^2 = 9.81, high: m = 2.3 }
@@ -537,7 +537,7 @@ fn eventful(version: &str, method: &str, further: &[&str]) -> (Scratch, Value) {
     let options = [
         &["--fmi", version, "--method", method, "--rate", "y=3"][..],
         &["--event", "high=y-high", "--event", "low=y-1*m"],
-        // Zero at the start but for a rounding, of another sign than a little later.
+        // Zero at the start up to round-off, whose sign differs from the one a little later.
         &["--event", "begin=y/3-0.6666666666666667*m"],
         &["--event", "bottom=theta"],
         further,
@@ -547,7 +547,7 @@ fn eventful(version: &str, method: &str, further: &[&str]) -> (Scratch, Value) {
     (at, made)
 }
 
-/// Instants, counts, ends of steps and saved states, by an importer in C; and what the descriptions say.
+/// Instants, counts, ends of steps and saved states, by an importer in C; and the contents of the descriptions.
 #[test]
 fn a_unit_finds_its_events() {
     let cases = [
@@ -580,7 +580,7 @@ fn a_unit_finds_its_events() {
         run(cc.arg("-Wl,-rpath,."), "");
         run(Command::new("./driver").current_dir(folder), "");
         if !further.is_empty() {
-            continue; // references behind the formulas are others
+            continue; // the references after the formulas differ
         }
         let description = text(&files, "modelDescription.xml");
         let wanted: &[&str] = match version {
@@ -599,7 +599,7 @@ fn a_unit_finds_its_events() {
             assert!(description.contains(words), "{words}: {description}");
         }
     }
-    // Without events nothing of that.
+    // Without events none of these exist.
     let at = Scratch::new("Pendulum.fmu", "");
     let made = unit("machines/double_pendulum.machine", &at, &["--sources-only"]);
     assert_eq!(made["events"], json!(0));
@@ -609,7 +609,7 @@ fn a_unit_finds_its_events() {
     }
 }
 
-/// What comes and goes within a step is found, of events and of facts, and facts at their instants too.
+/// Two sign changes within one step are found, of events and of facts; those of facts also have their instants.
 #[test]
 fn a_unit_finds_what_comes_and_goes_within_a_step() {
     let spec = "machine Two in plane {
@@ -639,7 +639,7 @@ fn a_unit_finds_what_comes_and_goes_within_a_step() {
     }
 }
 
-/// Runs an importer in C with a unit of FMI 3.0, which is to find what it says.
+/// Runs an importer in C, which checks a unit of FMI 3.0.
 fn drive(at: &Scratch, made: &Value, driver: &str) {
     let folder = at.0.parent().expect("a folder");
     for (name, content) in &files(&at.0) {
@@ -655,7 +655,7 @@ fn drive(at: &Scratch, made: &Value, driver: &str) {
         fs::write(folder.join(name), content).expect("a file");
     }
     let mut cc = Command::new("cc");
-    // Of the header some is for others.
+    // The header contains functions for other importers.
     let flags = ["-std=c99", "-Wall", "-Werror", "-Wno-unused-function"];
     cc.current_dir(folder).args(flags);
     cc.arg(format!("-DTOKEN={}", made["token"]));
@@ -664,8 +664,8 @@ fn drive(at: &Scratch, made: &Value, driver: &str) {
     run(Command::new("./driver").current_dir(folder), "");
 }
 
-/// A wheel that turns uniformly needs no short steps: each event of its angle is found in one that takes it hundreds of times around, and so where
-/// its coordinate is a pure number or the way that it rolls.
+/// A wheel that rotates uniformly allows long steps: each event of its angle is found in a step with hundreds of revolutions, also if its
+/// coordinate is a pure number or the distance rolled.
 #[test]
 fn a_unit_finds_what_happens_at_each_turn() {
     let wheels = [
@@ -702,7 +702,7 @@ fn a_unit_finds_what_happens_at_each_turn() {
     }
 }
 
-/// What comes and goes about a turning point is found where a step lies symmetrically about it, so that odd terms of the motion vanish.
+/// Two sign changes about a turning point are found in a step that is symmetric about it, so that the odd terms of the motion vanish.
 #[test]
 fn a_unit_finds_what_comes_and_goes_in_the_middle_of_a_step() {
     let spec = "machine Two in plane {
@@ -808,7 +808,7 @@ fn what_no_unit_can_be_is_refused() {
     }
 }
 
-/// What there is no default for is asked for; and given, it is the default.
+/// Values without a default must be given to the command, and then are the defaults.
 #[test]
 fn everything_in_a_unit_has_a_start_value() {
     let spec = "machine M in plane {
@@ -828,7 +828,7 @@ fn everything_in_a_unit_has_a_start_value() {
     assert!(output.status.success());
 }
 
-/// How long a unit takes for steps of a millisecond: `cargo test --workspace --test command real_time -- --ignored --nocapture`.
+/// The time that a unit takes for steps of a millisecond: `cargo test --workspace --test command real_time -- --ignored --nocapture`.
 #[test]
 #[ignore = "a measurement"]
 fn units_run_in_real_time() {
@@ -860,7 +860,7 @@ fn units_run_in_real_time() {
     }
 }
 
-/// By FMPy, in the Python that the variable LAGRANGIAN_PYTHON names, or `python3`.
+/// Uses FMPy in the Python that the variable LAGRANGIAN_PYTHON names, or `python3`.
 #[test]
 fn fmpy_validates_and_simulates() {
     let python = std::env::var("LAGRANGIAN_PYTHON").unwrap_or_else(|_| "python3".into());
@@ -877,7 +877,7 @@ fn fmpy_validates_and_simulates() {
         let said = run(&mut command, "");
         assert!(said.contains("valid"), "{version}: {said}");
     }
-    // A start that is off its constraint by a hundredth, and moves along the rod onto it.
+    // A start that violates its constraint by a hundredth, and is projected onto it along the rod.
     let rod = "machine Rod in plane {
         parameters { m: kg = 2, l: m = 1, g: m/s^2 = 9.81 }
         coordinates { x: m = 0.606, y: m = -0.808 }
@@ -936,8 +936,8 @@ fn fmpy_validates_and_simulates() {
     }
 }
 
-/// The structure says what each derivative depends on: of a double pendulum by the book, the first acceleration by angles and
-/// rates, the rate by itself; parameters are known at the start only, and time is nowhere.
+/// The model structure lists the dependencies of each derivative. For a double pendulum, by the book, the first acceleration depends on angles and
+/// rates, and the derivative of an angle only on its rate; parameters are fixed after the start, and nothing depends on time.
 #[test]
 fn a_description_tells_what_depends_on_what() {
     let spec = "machines/double_pendulum.machine";
@@ -961,7 +961,7 @@ fn a_description_tells_what_depends_on_what() {
             assert!(description.contains(line), "{line}: {description}");
         }
     }
-    // Accelerations of a cart by its coordinate: none; by the input, yes.
+    // The acceleration of the cart does not depend on its coordinate, but on the input.
     let at = Scratch::new("Cart.fmu", "");
     unit("machines/cart_pole.machine", &at, &["--sources-only"]);
     let description = text(&files(&at.0), "modelDescription.xml");
@@ -971,17 +971,17 @@ fn a_description_tells_what_depends_on_what() {
         let (_, rest) = line?.split_once("dependencies=\"")?;
         Some(rest.split('"').next()?.to_owned())
     };
-    // Coordinates 1 and 2, the cart's first; rates 3 and 4; parameters behind the accelerations, then the input.
+    // Coordinates are 1 and 2, the cart's first; rates 3 and 4; parameters follow the accelerations, then the input.
     let acceleration = of(5).expect("an acceleration");
     let on: Vec<&str> = acceleration.split(' ').collect();
     assert!(!on.contains(&"1") && on.contains(&"2"), "{acceleration}");
 }
 
-/// Libraries for other platforms, by compilers that are told the target or named by it; each in its folder.
+/// Libraries for other platforms, each in its folder, by compilers that take the target as an option or have it in their name.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_unit_has_libraries_for_the_targets_that_are_asked_for() {
-    // Writes what it was asked for where a compiler writes its library.
+    // Writes its arguments to the file that a compiler would write.
     let script = "#!/bin/sh\nout=\nfor word; do [ \"$before\" = -o ] && out=$word; before=$word; done\nprintf '%s ' \"$@\" > \"$out\"\n";
     let compiler = Scratch::new("compiler", script);
     run(Command::new("chmod").args(["+x", compiler.path()]), "");

@@ -1,4 +1,4 @@
-//! The command as a library: what a program around it asks about a spec in memory.
+//! The command as a library: calls by a host program about a spec in memory.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -54,6 +54,6 @@ fn a_flag_ends_a_run() {
     let stop = Arc::new(AtomicBool::new(true));
     let options = ["--until", "1e9", "--max-steps", "1000000"].map(str::to_owned);
     let said = answer(&ball(), "simulate", &options, &stop);
-    // 128 and the number of SIGINT.
+    // 128 plus the number of SIGINT.
     assert_eq!(said.status, 130, "{said:?}");
 }

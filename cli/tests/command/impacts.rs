@@ -1,4 +1,4 @@
-//! Machines whose parts collide: what is known of them from elsewhere, and orders of impacts.
+//! Impacts of machines against independent results, and sequences of simultaneous impacts.
 
 use std::f64::consts::PI;
 
@@ -7,8 +7,8 @@ use serde_json::Value;
 use crate::collisions::{close, events, is_good, number, simulate};
 use crate::support::{Scratch, lagrangian};
 
-/// One after the other, three equal balls in a row with e = 1 leave with (0, 0, 1), and with e = ½ with (0.203125, 0.234375,
-/// 0.5625): by hand, and in quadruple precision elsewhere.
+/// With sequential impacts and e = 1 three equal balls in a row leave with (0, 0, 1), and with e = ½ with (0.203125, 0.234375, 0.5625): by
+/// hand, and in quadruple precision elsewhere.
 #[test]
 fn a_cradle_moves_ball_by_ball_where_the_order_says_so() {
     for (e, expected) in [
@@ -41,8 +41,8 @@ fn a_cradle_moves_ball_by_ball_where_the_order_says_so() {
     }
 }
 
-/// A rod whose tip slips over rough ground in a pose in which no motion has Coulomb's law: an impact without a collision. Its
-/// impulse is Routh's: p₁ until the slip of 5 m/s has stopped, and p₂ until the tip, which sticks, no longer closes.
+/// A rod whose tip slips over rough ground in a pose for which Coulomb's law has no solution: an impact without a collision. Its impulse is
+/// Routh's: p₁ until the slip of 5 m/s has stopped, and p₂ until the sticking tip no longer approaches the ground.
 #[test]
 fn a_jammed_rod_is_stopped_by_an_impact_without_a_collision() {
     let rod = |turns: f64| {
@@ -86,19 +86,19 @@ fn a_jammed_rod_is_stopped_by_an_impact_without_a_collision() {
         1e-13,
     );
     close(number(&impact["slip"][1]), 0.0, 1e-14);
-    // Of a mass of 1 kg impulses are changes of the rates.
+    // For a mass of 1 kg impulses are the changes of the rates.
     let [x, y] = ["x", "y"].map(|name| number(&impact["v"][name]));
     close(x, -5.0 + 3.0 * first - nt / tt * second, 1e-13);
     close(y, first + second, 1e-13);
     close(number(&run["energy_residual"]), 0.0, 1e-11);
-    // Where its turning lifts it, it opens.
+    // With a rotation that lifts the tip, the contact opens.
     let run = simulate(rod(4.0).path(), 0.01, &[]);
     is_good(&run);
     assert!(events(&run, "impact").is_empty(), "{run:#}");
     close(number(&run["v"]["x"]), -5.0, 1e-13);
 }
 
-/// In a circle all chords are alike: the ball meets the wall at equal times and angles, a hundred times in a row.
+/// In a circle all chords are equal: the ball meets the wall at equal intervals and angles, a hundred times in a row.
 #[test]
 fn a_billiard_ball_keeps_its_angle() {
     let run = simulate("machines/contacts/billiard.machine", 92.0, &[]);
@@ -114,7 +114,7 @@ fn a_billiard_ball_keeps_its_angle() {
     let first = (reach * sin).atan2(reach * cos - 0.5);
     for (k, impact) in impacts.iter().enumerate() {
         let t = (reach + k as f64 * chord) / speed;
-        // Each impact rounds the direction, and all later ones inherit it.
+        // Each impact rounds the direction, and all later ones inherit the error.
         let within = 1e-13 * (k + 10) as f64;
         close(number(&impact["t"]), t, within * 10.0);
         let angle = first - k as f64 * (std::f64::consts::PI - 2.0 * incidence);
@@ -124,7 +124,7 @@ fn a_billiard_ball_keeps_its_angle() {
     }
 }
 
-/// The slider's first contact in quadruple precision: two corners at once where it does not turn, and one where it does.
+/// The slider's first contact in quadruple precision: two corners at once without rotation, and one with it.
 #[test]
 fn a_slider_with_play_meets_its_guide_when_it_should() {
     let slider = "machines/contacts/slider_crank_clearance.machine";
@@ -156,8 +156,8 @@ fn a_slider_with_play_meets_its_guide_when_it_should() {
     close(number(&impact["t"]), 0.002_690_903_648_407_842, 1e-15);
 }
 
-/// Siconos's run of the woodpecker, by Moreau and Jean's scheme of first order in steps of 20 µs: after two beats, with 4
-/// impacts of the beak and sleeve in each, its state is ours within one percent. The beak pecks every 0.146 s.
+/// Siconos's run of the woodpecker, by Moreau and Jean's scheme of first order in steps of 20 µs: after two beats, each with 4 impacts of
+/// the beak and sleeve, its state agrees with ours within one percent. The beak pecks every 0.146 s.
 #[test]
 fn the_woodpecker_goes_down_its_pole_as_elsewhere() {
     let run = simulate("machines/contacts/woodpecker.machine", 0.2998, &[]);
@@ -171,7 +171,7 @@ fn the_woodpecker_goes_down_its_pole_as_elsewhere() {
     for (of, name, expected) in expected {
         close(number(&run[of][name]), expected, 0.01 * f64::abs(expected));
     }
-    // The lower end of the sleeve is on the pole.
+    // The lower end of the sleeve touches the pole.
     close(number(&run["q"]["phiM"]), -0.0006 / 0.0058, 1e-12);
     let pecks: Vec<f64> = (events(&run, "impact").into_iter())
         .filter(|impact| impact["contact"] == "beak")
@@ -182,7 +182,7 @@ fn the_woodpecker_goes_down_its_pole_as_elsewhere() {
     close(number(&run["energy_residual"]), 0.0, 1e-12);
 }
 
-/// A block with `corners` rocks as one with two points does, bit by bit.
+/// A block with `corners` rocks exactly as one with two points, bit by bit.
 #[test]
 fn corners_are_points() {
     let points = simulate("machines/contacts/rocking_block.machine", 1.2, &[]);
@@ -208,8 +208,8 @@ fn corners_are_points() {
     }
 }
 
-/// Discs fall into a bowl. Nothing is pulled, nothing is penetrated, and the balance closes. (Of the twenty of the machine eight
-/// do here, which are derived in less time.)
+/// Discs fall into a bowl. No contact force is tensile, there is no penetration, and the energy balance closes. (Eight of the machine's
+/// twenty discs are used here, which take less time to derive.)
 #[test]
 fn discs_pile_up_in_a_bowl() {
     let pile = "machines/contacts/pile.machine";
@@ -220,7 +220,7 @@ fn discs_pile_up_in_a_bowl() {
     is_good(&run);
     assert!(events(&run, "impact").len() > 20);
     for impact in events(&run, "impact") {
-        // Discs have momenta of some 0.1 N s, whose rounding is in every impulse.
+        // Discs have momenta of about 0.1 N s, whose rounding affects every impulse.
         let [normal, tangential] = [0, 1].map(|k| number(&impact["impulse"][k]));
         assert!(
             normal >= 0.0 && tangential.abs() <= 0.3 * normal * (1.0 + 1e-9) + 1e-15,
@@ -242,15 +242,15 @@ fn discs_pile_up_in_a_bowl() {
 }
 
 /// The motion of an impact pair with two impacts in each period: between the walls the mass flies with v = 2 ω (d − A sin φ)/π, and Newton's
-/// law leaves it so where A ω cos φ = v (1 − e)/(1 + e). Of the two phases that obey this the later one repels, and a run leaves it; about
-/// the other one errors fade, and every impact is where it should be.
+/// law requires A ω cos φ = v (1 − e)/(1 + e). Of the two phases that satisfy this, the later one is unstable, and a run leaves it; near the
+/// other one errors decay, and every impact is at its closed-form time and place.
 #[test]
 fn an_impact_pair_keeps_its_period() {
     let (m, amplitude, w) = (1.0_f64, 0.01_f64, 10.0_f64);
     for (e, play) in [(0.7_f64, 2.0_f64), (0.5, 3.0), (0.3, 2.0)] {
         let d = play * amplitude;
         let share = (1.0 - e) / (1.0 + e);
-        // Newton's method from the side of the phases that attract.
+        // Newton's method, started on the side of the stable phases.
         let mut phase = -1.2_f64;
         for _ in 0..50 {
             let k = 2.0 / PI * share;
@@ -278,7 +278,7 @@ fn an_impact_pair_keeps_its_period() {
             let loss = 0.5 * m * (1.0 - e * e) * closing * closing;
             close(number(&impact["loss"]), loss, 1e-11 * loss);
         }
-        // What impacts take is the work of the carriage.
+        // The impacts dissipate the work of the carriage.
         close(number(&run["work"]), number(&run["impact_loss"]), 1e-12);
     }
 }

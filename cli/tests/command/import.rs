@@ -1,4 +1,4 @@
-//! `lagrangian import` against Pinocchio and MuJoCo, whose numbers are stored, and against a recursive Newton–Euler typed from a book.
+//! `lagrangian import` against stored results of Pinocchio and MuJoCo, and against a recursive Newton–Euler algorithm typed from a book.
 
 use std::collections::hash_map::RandomState;
 use std::f64::consts::PI;
@@ -10,7 +10,7 @@ use crate::support::{Scratch, lagrangian, root};
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3, Vector6};
 use serde_json::{Value, json};
 
-/// What the two may differ by, as a share of the largest number of a kind: some thousand roundings.
+/// Tolerance relative to the largest number of a kind: about a thousand roundings.
 const CLOSE: f64 = 1e-11;
 
 const ROBOTS: [&str; 7] = [
@@ -27,7 +27,7 @@ fn robot(name: &str) -> String {
     format!("cli/tests/command/import/{name}.urdf")
 }
 
-/// A spec from a file.
+/// Imports a file; returns the spec.
 fn imported(path: &str, options: &[&str]) -> Scratch {
     let machine = Scratch::new("robot.machine", "");
     let output = lagrangian(&[&["import", path, "--out", machine.path()], options].concat());
@@ -36,7 +36,7 @@ fn imported(path: &str, options: &[&str]) -> Scratch {
     machine
 }
 
-/// A spec from a text.
+/// Imports a text; returns the spec.
 fn imported_text(text: &str, options: &[&str]) -> Scratch {
     imported(Scratch::new("robot.urdf", text).path(), options)
 }
@@ -50,7 +50,7 @@ fn evaluated(machine: &Scratch, points: &Value) -> Vec<Value> {
     serde_json::from_slice(&output.stdout).expect("JSON")
 }
 
-/// What a spec that an import wrote declares in a section.
+/// The names that an imported spec declares in a section.
 fn names_under(section: &str, spec: &str) -> Vec<String> {
     let start = format!("    {section} {{\n");
     let inside = spec.split_once(&start).map_or("", |(_, rest)| rest);
@@ -89,7 +89,7 @@ fn largest(numbers: &[f64]) -> f64 {
     numbers.iter().fold(0.0, |m, x| m.max(x.abs()))
 }
 
-/// `import/by_pinocchio.py` says how the numbers were made, by Pinocchio 4.1.0.
+/// The numbers were computed with Pinocchio 4.1.0; see `import/by_pinocchio.py`.
 #[test]
 fn robots_move_as_pinocchio_moves_them() {
     let path = root().join("cli/tests/command/import/pinocchio.json");
@@ -114,7 +114,7 @@ fn robots_move_as_pinocchio_moves_them() {
     }
 }
 
-/// The files of `import/real`, whose origins and licences its `README.md` states: whether the base floats, what else an import needs,
+/// The files of `import/real`, whose origins and licences are listed in its `README.md`: whether the base floats, further options for the import,
 /// and the number of coordinates.
 const REAL: [(&str, bool, &[&str], usize); 7] = [
     (
@@ -136,12 +136,12 @@ const REAL: [(&str, bool, &[&str], usize); 7] = [
     ),
 ];
 
-/// What Pinocchio and we may differ by, as a share of the largest acceleration. A rounding of every entry of a mass matrix changes them by its
-/// condition, 1.8e3 at most there, times 1.1e-16, which is 2e-13; as much from the forces on either side makes five. Pinocchio's own two
-/// algorithms differ by up to 2.6e-14.
+/// Tolerance for the difference from Pinocchio, relative to the largest acceleration. A rounding of 1.1e-16 in every entry of a mass matrix
+/// changes the accelerations by its condition number, at most 1.8e3 there, which gives 2e-13; with as much again from the forces on either side it
+/// is five times that. Pinocchio's own two algorithms differ by up to 2.6e-14.
 const CLOSE_TO_PINOCCHIO: f64 = 1e-12;
 
-/// `import/real/by_pinocchio.py` says how the numbers were made, by Pinocchio 4.1.0.
+/// The numbers were computed with Pinocchio 4.1.0; see `import/real/by_pinocchio.py`.
 #[test]
 fn real_robots_move_as_pinocchio_moves_them() {
     let folder = "cli/tests/command/import/real";
@@ -157,7 +157,7 @@ fn real_robots_move_as_pinocchio_moves_them() {
         let text = std::fs::read_to_string(&machine.0).expect("a file");
         let coordinates = names_under("coordinates", &text);
         assert_eq!(coordinates.len(), count, "{name}");
-        // Joints stand in another order there, that of their names.
+        // Pinocchio orders joints by name.
         let theirs = stored[name]["coordinates"].as_array().expect("names");
         assert_eq!(theirs.len(), count, "{name}");
         let place = |of: &String| {
@@ -193,7 +193,8 @@ fn real_robots_move_as_pinocchio_moves_them() {
     }
 }
 
-/// The base's four numbers and their rates for yaw, pitch and roll and theirs, and the angular acceleration along its axes of these accelerations.
+/// Converts yaw, pitch and roll of the base and their rates to a quaternion and its rates; also returns the angular acceleration in body axes that
+/// follows from these accelerations of the angles.
 fn base_by_quaternion(
     angles: &[f64],
     rates: &[f64],
@@ -201,7 +202,7 @@ fn base_by_quaternion(
 ) -> ([f64; 4], [f64; 4], [f64; 3]) {
     let half = |k: usize| (angles[k] / 2.0).sin_cos();
     let ((sy, cy), (sp, cp), (sr, cr)) = (half(0), half(1), half(2));
-    // The product of the turns about z, y and x.
+    // The product of the rotations about z, y and x.
     let e = [
         cy * cp * cr + sy * sp * sr,
         cy * cp * sr - sy * sp * cr,
@@ -226,8 +227,8 @@ fn base_by_quaternion(
     (e, rate, faster)
 }
 
-/// With a base that is turned by four numbers the same robots accelerate in the same way: their joints, the place of the base, and its turn,
-/// whose angular acceleration is twice the vector of `ē∘ë` where the length is 1 and stays so.
+/// With a base rotated by a quaternion the same robots have the same accelerations: those of the joints, of the base's position, and of its
+/// rotation. The angular acceleration of the base is twice the vector part of `ē∘ë` if the norm is constantly 1.
 #[test]
 fn real_robots_on_quaternions_move_as_pinocchio_moves_them() {
     let folder = "cli/tests/command/import/real";
@@ -313,10 +314,10 @@ fn real_robots_on_quaternions_move_as_pinocchio_moves_them() {
     }
 }
 
-/// What MuJoCo and we may differ by, as a share of the largest acceleration: it finds principal axes to 1e-12 (`mju_eig3`).
+/// Tolerance for the difference from MuJoCo, relative to the largest acceleration: MuJoCo computes principal axes to 1e-12 (`mju_eig3`).
 const CLOSE_TO_MUJOCO: f64 = 1e-12;
 
-/// The models of `import/mujoco`, with the number of coordinates that each has.
+/// The models of `import/mujoco`, and the number of coordinates of each.
 const MODELS: [(&str, usize); 6] = [
     ("ant", 14),
     ("crane", 8),
@@ -326,7 +327,7 @@ const MODELS: [(&str, usize); 6] = [
     ("walker2d", 9),
 ];
 
-/// `import/mujoco/by_mujoco.py` says how the numbers were made, by MuJoCo 4.0.0.
+/// The numbers were computed with MuJoCo 4.0.0; see `import/mujoco/by_mujoco.py`.
 #[test]
 fn models_move_as_mujoco_moves_them() {
     let folder = "cli/tests/command/import/mujoco";
@@ -367,9 +368,9 @@ fn models_move_as_mujoco_moves_them() {
     }
 }
 
-/// Loops that `connect` and `weld` close, with an offset and an angle between the bodies; and the state called `home` is the start.
-/// `import/mujoco/loops/by_mujoco.py` says how the numbers were made: to some 1e-10 of the largest, of which derivatives of the gradients by
-/// differences are the worst.
+/// Loops closed by `connect` and `weld`, with an offset and an angle between the bodies; the keyframe `home` is the start. The numbers
+/// were computed as `import/mujoco/loops/by_mujoco.py` describes, to about 1e-10 of the largest; finite differences of the gradients have
+/// the largest error.
 #[test]
 fn loops_move_as_mujoco_says() {
     let folder = "cli/tests/command/import/mujoco/loops";
@@ -407,13 +408,13 @@ fn loops_move_as_mujoco_says() {
     ] {
         assert!(text.contains(line), "{line}: {text}");
     }
-    // Without it the machine starts where the joints move nothing.
+    // Without the keyframe the machine starts with all joints at zero.
     let machine = imported(&format!("{folder}/arms.xml"), &["--ignore", "keyframe"]);
     let text = std::fs::read_to_string(&machine.0).expect("a file");
     assert!(text.contains("qa3: rad = 0.15,") && text.contains("1 element `keyframe`"));
 }
 
-/// A free body starts where `home` has it, turned by any of the angles or by four numbers.
+/// A free body starts at the pose of `home`, whether it is rotated by some choice of angles or by a quaternion.
 #[test]
 fn a_free_body_starts_where_home_says() {
     let text = "<mujoco><worldbody><body name=\"brick\" pos=\"0 0 3\"><freejoint/>\
@@ -452,7 +453,7 @@ fn specs_are_whole_and_always_the_same() {
     }
 }
 
-/// Splitmix64.
+/// The random number generator Splitmix64.
 struct Draw(u64);
 
 impl Draw {
@@ -468,7 +469,7 @@ impl Draw {
         (self.bits() % bound as u64) as usize
     }
 
-    /// Between two numbers, in as many decimals as a file gives.
+    /// A random number between two numbers, rounded to the decimals that files contain.
     fn between(&mut self, low: f64, high: f64) -> f64 {
         let unit = (self.bits() >> 11) as f64 / (1_u64 << 53) as f64;
         let text = format!("{:.3}", low + unit * (high - low));
@@ -481,7 +482,7 @@ impl Draw {
 }
 
 fn about(u: &Vector3<f64>, angle: f64) -> Matrix3<f64> {
-    // Rodrigues.
+    // Rodrigues' formula.
     let k = u.cross_matrix();
     Matrix3::identity() + k * angle.sin() + k * k * (1.0 - angle.cos())
 }
@@ -491,7 +492,7 @@ fn of_rpy(rpy: &Vector3<f64>) -> Matrix3<f64> {
     about(2) * about(1) * about(0)
 }
 
-/// A link on a joint with one coordinate at most, and where the joint's frame is in that of the parent.
+/// A link on a joint with at most one coordinate, and the pose of the joint's frame relative to the parent.
 struct Link {
     parent: Option<usize>,
     turned: Matrix3<f64>,
@@ -510,7 +511,7 @@ enum Motion {
 }
 
 impl Link {
-    /// Featherstone, *Rigid Body Dynamics Algorithms* (2008), eq. 2.24: what takes motions from the parent's axes to the link's.
+    /// Featherstone, *Rigid Body Dynamics Algorithms* (2008), eq. 2.24: the transform of motion vectors from the parent's axes to the link's.
     fn transform(&self, q: f64) -> Matrix6<f64> {
         let (turn, slide) = match self.motion {
             Motion::None => (Matrix3::identity(), Vector3::zeros()),
@@ -522,7 +523,7 @@ impl Link {
         blocks(e, Matrix3::zeros(), -e * at.cross_matrix(), e)
     }
 
-    /// The motion that the coordinate's rate makes.
+    /// The joint's motion subspace: the spatial velocity per unit rate of the coordinate.
     fn subspace(&self) -> Vector6<f64> {
         match self.motion {
             Motion::None => Vector6::zeros(),
@@ -537,7 +538,7 @@ fn blocks(a: Matrix3<f64>, b: Matrix3<f64>, c: Matrix3<f64>, d: Matrix3<f64>) ->
     Matrix6::from_fn(|i, j| parts[i / 3][j / 3][(i % 3, j % 3)])
 }
 
-/// Featherstone, eq. 2.63: mass, mass centre, and the tensor about it.
+/// Featherstone, eq. 2.63, from mass, mass centre, and the tensor about it.
 fn spatial_inertia(mass: f64, centre: &Vector3<f64>, tensor: &Matrix3<f64>) -> Matrix6<f64> {
     let c = centre.cross_matrix();
     blocks(
@@ -548,7 +549,7 @@ fn spatial_inertia(mass: f64, centre: &Vector3<f64>, tensor: &Matrix3<f64>) -> M
     )
 }
 
-/// Featherstone, eq. 2.31: v ×; v ×* is minus its transpose.
+/// Featherstone, eq. 2.31: the matrix v ×; that of v ×* is the negative of its transpose.
 fn cross(v: &Vector6<f64>) -> Matrix6<f64> {
     let (angular, linear) = (
         Vector3::new(v[0], v[1], v[2]),
@@ -558,7 +559,7 @@ fn cross(v: &Vector6<f64>) -> Matrix6<f64> {
     blocks(w, Matrix3::zeros(), l, w)
 }
 
-/// Featherstone, table 5.1: the forces along the coordinates that give these accelerations under gravity `g`. A number for each link.
+/// Featherstone, table 5.1: the forces along the coordinates that produce these accelerations under gravity `g`, one number per link.
 fn newton_euler(links: &[Link], q: &[f64], v: &[f64], a: &[f64], g: f64) -> Vec<f64> {
     let ground = Vector6::new(0.0, 0.0, 0.0, 0.0, 0.0, g);
     let mut velocity: Vec<Vector6<f64>> = Vec::new();
@@ -591,10 +592,10 @@ fn spoken(v: &Vector3<f64>) -> String {
     format!("{} {} {}", v[0], v[1], v[2])
 }
 
-/// A robot as a file, and what it means.
+/// A random robot as a file, and its links.
 fn tree(draw: &mut Draw) -> (String, Vec<Link>) {
     let mut text = "<robot name=\"tree\"><link name=\"ground\"/>\n".to_owned();
-    // The last link of each joint of the file, and its name.
+    // For each joint of the file, its last link and its name.
     let mut ends: Vec<(Option<usize>, String)> = vec![(None, "ground".to_owned())];
     let mut links = Vec::new();
     for number in 0..2 + draw.below(3) {
@@ -607,7 +608,7 @@ fn tree(draw: &mut Draw) -> (String, Vec<Link>) {
             _ => "spherical",
         };
         let axis = match draw.below(3) {
-            // One of the frame's own, or in one of its planes.
+            // An axis of the frame, or one in a coordinate plane.
             0 => Vector3::ith(draw.below(3), if draw.below(2) == 0 { 2.0 } else { -1.0 }),
             1 => {
                 let mut axis = draw.vector(1.0);
@@ -623,7 +624,7 @@ fn tree(draw: &mut Draw) -> (String, Vec<Link>) {
         };
         let (at, rpy) = (draw.vector(0.5), draw.vector(3.0));
         let (mass, centre, turned) = (draw.between(0.2, 3.0), draw.vector(0.2), draw.vector(2.0));
-        // Any tensor is one of second moments: trace 1 - S, with S from three points.
+        // Every physical tensor comes from second moments: trace 1 - S, with S from three points.
         let spread = draw.vector(0.3);
         let cross_spread = draw.vector(0.1);
         let s = Matrix3::from_diagonal(&spread.map(|x| x * x + 0.01))
@@ -708,7 +709,7 @@ fn tree(draw: &mut Draw) -> (String, Vec<Link>) {
     (text, links)
 }
 
-/// The coordinates in the order of the spec: depth first, in the order of the file.
+/// The coordinates in the order of the spec: depth first, and siblings in the order of the file.
 fn in_order(links: &[Link], parent: Option<usize>, order: &mut Vec<usize>) {
     for (index, link) in links
         .iter()
@@ -778,7 +779,7 @@ fn random_trees_move_as_newton_and_euler_say() {
             forces,
             &what("applied"),
         );
-        // Not solved for, so that no condition number enters.
+        // Compares forces instead of solving the equations, so that no condition number enters.
         let a = numbers(&found["accelerations"]);
         let needed = DMatrix::from_vec(n, n, columns.clone()) * DVector::from_vec(a.clone());
         let given: Vec<f64> = applied.iter().zip(&bias).map(|(f, h)| f - h).collect();
@@ -787,7 +788,7 @@ fn random_trees_move_as_newton_and_euler_say() {
     }
 }
 
-/// A pendulum of mass 2 at 0.5 below its joint, with what stands in its joint besides.
+/// A pendulum of mass 2 at 0.5 below its joint, with additional contents of the joint element.
 fn pendulum(kind: &str, inner: &str) -> String {
     format!(
         "<robot name=\"pendulum\">\n<link name=\"base\"/>\n<link name=\"bob\"><inertial><origin xyz=\"0 0 -0.5\"/><mass \
@@ -796,7 +797,7 @@ fn pendulum(kind: &str, inner: &str) -> String {
     )
 }
 
-/// What is said of a text that is refused; no file is written.
+/// The message with which a text is refused; no file may be written.
 fn refused(text: &str, options: &[&str]) -> String {
     let file = Scratch::new("robot.urdf", text);
     let machine = file.0.with_file_name("robot.machine");
@@ -868,7 +869,7 @@ fn limits_are_comments_facts_or_stops() {
         result.to_string().contains("pivot >= pivot_lower"),
         "{result}"
     );
-    // What it had of energy is lost at the stop, against which its weight holds it.
+    // The stop dissipates its energy, and its weight holds it against the stop.
     let (result, _) = run(&["--limits", "stop"], &start);
     let pivot = result["q"]["pivot"].as_f64().expect("a number");
     assert!((pivot - 0.5).abs() <= 1e-9, "{result}");
@@ -893,7 +894,7 @@ fn what_moves_no_mass_is_refused_or_dropped() {
     );
 }
 
-/// A root that floats is a root on a joint that does.
+/// A floating root is equivalent to a root on a floating joint.
 #[test]
 fn a_base_may_float() {
     let body = "<link name=\"box\"><inertial><origin xyz=\"0.1 0 0\"/><mass value=\"2\"/><inertia ixx=\"0.1\" iyy=\"0.2\" izz=\"0.25\" \
@@ -910,7 +911,7 @@ fn a_base_may_float() {
     for ball in ["xyz", "zyx", "zxz"] {
         let found = energy(&alone, &["--base", "floating", "--ball", ball]);
         assert_eq!(found, energy(&joined, &["--ball", ball]));
-        // The centre falls as everything does, however the body turns.
+        // The centre is in free fall, however the body rotates.
         let mass = numbers(&found["mass_matrix"]);
         let weight = numbers(&found["applied"]);
         assert_close(
@@ -969,7 +970,7 @@ fn what_is_wrong_is_told_with_its_place() {
         assert!(said.contains(words), "{words:?} is not in {said:?}");
     }
     let spring = with("0 1 0\"/>", "0 1 0\"/><spring k=\"1\"/>");
-    // A joint that mimics one that is left out, and has mass.
+    // A joint that mimics one that is omitted, with a massive link.
     let hanging = |name: &str, parent: &str, inner: &str| {
         format!(
             "<link name=\"{name}\"/><joint name=\"{name}\" type=\"continuous\"><parent link=\"{parent}\"/><child \
@@ -1023,12 +1024,12 @@ fn what_is_wrong_is_told_with_its_place() {
     );
 }
 
-/// What a model of MuJoCo may have, below its body.
+/// A MuJoCo model with this content within its body, and after it.
 fn model(body: &str, rest: &str) -> String {
     format!("<mujoco>\n<worldbody><body name=\"bob\">{body}</body></worldbody>\n{rest}</mujoco>\n")
 }
 
-/// A machine from a model of MuJoCo, with files beside it.
+/// Imports a MuJoCo model, with files beside it.
 fn imported_model(text: &str, files: &[(&str, &[u8])], options: &[&str]) -> Scratch {
     let model = Scratch::new("model.xml", text);
     for (name, content) in files {
@@ -1191,7 +1192,7 @@ fn what_is_wrong_with_a_model_is_told_with_its_place() {
     );
 }
 
-/// A swinging box of 0.2 by 0.4 by 0.6, as a box, as an OBJ in another unit and place, and from a file that is included.
+/// A swinging box of 0.2 by 0.4 by 0.6: as a box, as an OBJ mesh in another unit and position, and from an included file.
 #[test]
 fn a_mesh_weighs_what_its_shape_does() {
     let mut obj = String::new();
@@ -1221,7 +1222,7 @@ fn a_mesh_weighs_what_its_shape_does() {
         ("assets.xml", assets.as_bytes()),
     ];
     let points = json!([{ "q": [0.7] }]);
-    // I = m (0.2² + 0.6²)/12 + m, and the weight acts at 1 m.
+    // I = m (0.2² + 0.6²)/12 + m; the weight acts at a distance of 1 m.
     let inertia = 48.0 * (0.4 / 12.0 + 1.0);
     let truth = [inertia, -48.0 * 9.81 * 0.7_f64.sin() / inertia];
     for text in [exact, meshed, included] {
@@ -1234,8 +1235,8 @@ fn a_mesh_weighs_what_its_shape_does() {
     }
 }
 
-/// An L, which is seen from its middle in part from outside, scaled, shifted and turned, as MuJoCo 4.0.0 compiles it: mass, mass centre
-/// and tensor (`body_mass`, `body_ipos`, and `body_inertia` turned by `body_iquat`, printed).
+/// An L-shaped mesh, parts of whose surface face its centre, scaled, shifted and rotated. The truth is printed by MuJoCo 4.0.0: mass, mass centre
+/// and tensor (`body_mass`, `body_ipos`, and `body_inertia` rotated by `body_iquat`).
 #[test]
 fn meshes_weigh_what_mujoco_says() {
     let mesh = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 3 0\nv 0 3 0\nv 0 0 1\nv 2 0 1\nv 2 1 1\nv 1 1 1\nv 1 3 1\nv 0 3 1\n\
@@ -1297,14 +1298,14 @@ fn meshes_weigh_what_mujoco_says() {
         // Printed with 15 decimals.
         assert_close(&found, &weight, 40.0, "weight");
         let found = ["Ixx", "Iyy", "Izz", "Ixy", "Ixz", "Iyz"].map(value);
-        // MuJoCo keeps the principal moments and their axes, and these of a mesh to some 1e-7.
+        // MuJoCo stores principal moments and their axes, for a mesh to about 1e-7.
         for (found, truth) in found.iter().zip(tensor) {
             assert!((found - truth).abs() <= 1e-6, "{found}, not {truth}");
         }
     }
 }
 
-/// A motor behind a gear of URDF: its torque counts n times, its rotor n² times.
+/// A motor behind a URDF transmission: its torque is multiplied by n, the inertia of its rotor by n².
 #[test]
 fn transmissions_are_motors() {
     let motor = "<transmission name=\"t\"><type>SimpleTransmission</type><joint name=\"pivot\"/><actuator \
@@ -1366,7 +1367,7 @@ fn calls_are_told_what_they_lack() {
     }
 }
 
-/// Names of links and joints that mean something else in a spec, or nothing.
+/// Names of links and joints that are reserved or invalid in a spec.
 #[test]
 fn any_name_becomes_one() {
     let words = [

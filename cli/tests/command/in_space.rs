@@ -1,4 +1,4 @@
-//! Contacts in space, where friction has two directions: against closed forms, and against the same machines written otherwise.
+//! Contacts in space, where friction has two directions, against closed forms and against equivalent machines.
 
 use serde_json::Value;
 
@@ -20,8 +20,8 @@ fn run(spec: &str, until: f64, pairs: &[(&str, f64)]) -> Value {
     simulate(spec, until, &settings)
 }
 
-/// A ball slips at u = v − r ω × n, which keeps its direction and falls by 7/2 μ g a second: after 2|u|/(7 μ g) it rolls, at v − 2/7 u,
-/// and until then its path is a parabola (G.-G. Coriolis, 1835). The spin about the vertical is left alone.
+/// A ball slips at u = v − r ω × n. The slip keeps its direction and decreases by 7/2 μ g per second: after 2|u|/(7 μ g) the ball rolls,
+/// at v − 2/7 u, and until then its path is a parabola (G.-G. Coriolis, 1835). The spin about the vertical is constant.
 #[test]
 fn a_cue_ball_slips_along_a_parabola_until_it_rolls() {
     let spec = "machines/contacts/cue_ball.machine";
@@ -29,7 +29,7 @@ fn a_cue_ball_slips_along_a_parabola_until_it_rolls() {
     for (v, w) in [
         ([2.0, 0.0], [40.0, -30.0, 60.0]),
         ([1.0, 0.5], [0.0; 3]),
-        // So much back spin that it comes back.
+        // With so much back spin that it returns.
         ([0.4, 0.3], [35.0, -50.0, 0.0]),
     ] {
         let pairs = [
@@ -61,13 +61,13 @@ fn a_cue_ball_slips_along_a_parabola_until_it_rolls() {
                 1e-12,
             );
         }
-        // What friction has taken: half the mass that slips, 2/7 m, times the square of the slip.
+        // The energy dissipated by friction: half the effective mass of slip, 2/7 m, times the square of the slip.
         close(number(&run["dissipated"]), speed * speed * m / 7.0, 1e-11);
         close(number(&run["energy_residual"]), 0.0, 1e-11);
     }
 }
 
-/// In time stepping too, up to the error of its steps, which is at least of the first order: half of it at half their length.
+/// The same by time stepping, up to the error of its steps, which is of at least first order: halved if the step is halved.
 #[test]
 fn by_time_stepping_a_cue_ball_rolls_at_the_same_rates() {
     let (r, v, w) = (0.03075, [2.0, 0.0], [40.0, -30.0]);
@@ -93,12 +93,12 @@ fn by_time_stepping_a_cue_ball_rolls_at_the_same_rates() {
         missed(0, "x").max(missed(1, "y"))
     };
     let [whole, half] = ["5e-4", "2.5e-4"].map(error);
-    // It turns by 0.04 in a step, and the angles that say so by more: some squares of that, of 2 m/s.
+    // It rotates by 0.04 in a step, and its angles by more: the error is some squares of that, times 2 m/s.
     assert!(whole < 0.03, "{whole:e}");
     assert!(half < 0.6 * whole, "{half:e} of {whole:e}");
 }
 
-/// Straight along an axis of the plane, a ball in space is the disc of the plane with the inertia of a ball.
+/// Straight along an axis of the plane, a ball in space moves as a disc in the plane with the inertia of a ball.
 #[test]
 fn a_ball_that_moves_in_a_plane_has_the_numbers_of_the_plane() {
     let pairs = [("m", 7.0), ("r", 0.108), ("mu", 0.1)];
@@ -139,7 +139,7 @@ fn a_ball_that_moves_in_a_plane_has_the_numbers_of_the_plane() {
     }
 }
 
-/// A ball of rubber that falls with spin: with the law of Moreau, Λₙ = (1 + e) m v and Λₜ = (1 + eₜ) 2/7 m u, or μ Λₙ if that is less.
+/// A rubber ball that falls with spin, by Moreau's law: Λₙ = (1 + e) m v and Λₜ = (1 + eₜ) 2/7 m u, or μ Λₙ if that is less.
 #[test]
 fn a_ball_bounces_with_spin() {
     let (m, r, e, v) = (0.21, 0.03075, 0.5, [0.7, -0.4]);
@@ -191,8 +191,9 @@ fn a_ball_bounces_with_spin() {
     }
 }
 
-/// On a slope a puck is braked along its slip, which turns: with κ = μ/tan α, v (cos φ + κ) falls by g sin α (κ² − 1) a second, and
-/// where that is none left it rests. For κ = 1 it never does, and comes to half its first speed if it was thrown across.
+/// On a slope a puck is braked along its slip, whose direction φ changes: with κ = μ/tan α, v (cos φ + κ) decreases by g sin α (κ² − 1)
+/// per second, and the puck rests when it reaches zero. For κ = 1 it never rests, and approaches half its initial speed if it was thrown
+/// across the slope.
 #[test]
 fn a_puck_turns_into_the_fall_line() {
     let spec = "machines/contacts/puck_on_slope.machine";
@@ -215,12 +216,12 @@ fn a_puck_turns_into_the_fall_line() {
         let told = run["contact_events"].as_array().expect("events");
         assert_eq!(told.len(), 1, "{told:?}");
         assert_eq!(told[0]["kind"], "sticks");
-        // The last of its slip is braked by g cos α (μ − tan α): an error of 1e-12 of its speed.
+        // The last of its slip is braked by g cos α (μ − tan α), so an error of 1e-12 in its speed shifts the time.
         close(number(&told[0]["t"]), rests, 1e-9 * rests);
         for name in ["x", "y", "z"] {
             close(number(&run["v"][name]), 0.0, 1e-14);
         }
-        // Weight has done what friction has taken, and what it had.
+        // Friction has dissipated the work of the weight and the initial energy.
         let m = 0.16;
         let weight = m * G * alpha.sin() * number(&run["q"]["x"]);
         close(number(&run["dissipated"]), 0.5 * m * v * v + weight, 1e-10);
@@ -241,8 +242,8 @@ fn a_puck_turns_into_the_fall_line() {
     }
 }
 
-/// A block that is pulled by a growing force of a fixed direction breaks away where the force is μ₀ N, in that direction, and is
-/// then braked by μ N.
+/// A block that is pulled by a growing force of constant direction breaks away when the force reaches μ₀ N, in that direction, and is then
+/// braked by μ N.
 #[test]
 fn what_sticks_breaks_away_along_what_pulls() {
     let (mu, mu0, rate, m) = (0.25, 0.4, 3.0, 1.5);
@@ -266,7 +267,7 @@ fn what_sticks_breaks_away_along_what_pulls() {
     assert_eq!(told.len(), 1, "{told:?}");
     assert_eq!(told[0]["kind"], "slips");
     close(number(&told[0]["t"]), breaks, 1e-12 * breaks);
-    // v = ∫ (k t/m − μ g) dt from there.
+    // v = ∫ (k t/m − μ g) dt from that instant.
     let speed = rate / m * 0.5 * (until * until - breaks * breaks) - mu * G * (until - breaks);
     for (k, name) in ["x", "y"].into_iter().enumerate() {
         close(number(&told[0]["direction"][k]), pull[k], 1e-12);
@@ -274,7 +275,8 @@ fn what_sticks_breaks_away_along_what_pulls() {
     }
 }
 
-/// Two equal balls that meet: along the line of their centres by e, across it by 1/7 m of the slip, or μ times that impulse.
+/// Two equal balls that collide: along the line of centres with e, across it with 1/7 m of the slip as impulse, or μ times
+/// the normal impulse.
 #[test]
 fn balls_meet_with_friction() {
     let (m, r, e) = (0.2, 0.05, 0.8);
@@ -285,7 +287,7 @@ fn balls_meet_with_friction() {
         (0.2, -0.06),
         (1.0, 0.1),
     ] {
-        // The second flies past at a height of `below` less, and spins.
+        // The second ball flies past at a height that is lower by `below`, and spins.
         let spec = Scratch::new(
             "balls.machine",
             &format!(
@@ -317,8 +319,8 @@ fn balls_meet_with_friction() {
         let distance = line.iter().map(|c| c * c).sum::<f64>().sqrt();
         close(distance, 2.0 * r, 1e-15);
         let n = line.map(|c| c / distance);
-        // The second ball's point, less the first's; the second turns by its angles up to here about axes of its own, so its
-        // angular velocity is what it was.
+        // The velocity of the second ball's point minus the first's. The second has rotated about axes through its own centre, so its
+        // angular velocity is unchanged.
         let spin = [4.0, -20.0, 15.0];
         let turned = [
             spin[1] * n[2] - spin[2] * n[1],
@@ -330,7 +332,7 @@ fn balls_meet_with_friction() {
         let opens: f64 = (0..3).map(|k| relative[k] * n[k]).sum();
         let slip = [0, 1, 2].map(|k| relative[k] - opens * n[k]);
         let speed = slip.iter().map(|c| c * c).sum::<f64>().sqrt();
-        // Inertia: 1/m of both along the line, and 7/2 of that across it.
+        // Inverse inertia: 1/m of each along the line, and 7/2 of that across it.
         let normal = -(1.0 + e) * opens * m / 2.0;
         let tangential = (speed * m / 7.0).min(mu * normal);
         close(number(&impact["impulse"][0]), normal, 1e-13);
@@ -348,7 +350,7 @@ fn balls_meet_with_friction() {
     }
 }
 
-/// With friction enough a ball in a turning bowl rolls as the machine does that is made to roll.
+/// With sufficient friction a ball in a rotating bowl rolls as the machine with a rolling constraint does.
 #[test]
 fn a_ball_in_a_turning_bowl_rolls_as_by_its_constraints() {
     let rolls = run("machines/ball_in_bowl.machine", 1.0, &[]);
@@ -372,7 +374,7 @@ fn a_ball_in_a_turning_bowl_rolls_as_by_its_constraints() {
     }
 }
 
-/// So does a coin, whose point that touches is given by expressions.
+/// The same for a coin, whose point of contact is given by expressions.
 #[test]
 fn a_coin_that_does_not_slip_rolls_as_by_its_constraints() {
     let rolls = run("machines/rolling_coin.machine", 1.0, &[]);
@@ -391,7 +393,8 @@ fn a_coin_that_does_not_slip_rolls_as_by_its_constraints() {
     }
 }
 
-/// Not turned, a box falls as one in the plane does: its corners stand by twos behind each other, and share what presses.
+/// Without rotation out of the plane, a box falls as one in the plane does: its corners lie in pairs behind each other, and share
+/// the normal force.
 #[test]
 fn a_box_that_falls_in_a_plane_has_the_numbers_of_the_plane() {
     let plane = Scratch::new(
@@ -428,7 +431,7 @@ fn a_box_that_falls_in_a_plane_has_the_numbers_of_the_plane() {
     );
 }
 
-/// A box that is dropped comes to rest on the floor, and what it had is in the books.
+/// A dropped box comes to rest on the floor, and the energy balance contains its initial energy.
 #[test]
 fn a_dropped_box_comes_to_rest() {
     let spec = "machines/contacts/dropped_box.machine";
@@ -443,7 +446,7 @@ fn a_dropped_box_comes_to_rest() {
     assert!(number(&run["dissipated"]) > had);
 }
 
-/// What the laws of one direction do not know is refused where it stands.
+/// Features that only exist for a single direction of friction are refused at their position.
 #[test]
 fn what_is_not_known_in_space_is_refused() {
     for (added, message) in [
@@ -478,9 +481,9 @@ fn what_is_not_known_in_space_is_refused() {
     }
 }
 
-/// A bead that slides around a great circle inside a shell, far from all weights, is pressed with m v²/R, so that dv/dt = −μ v²/R: it goes
-/// at u/(1 + μ u t/R), and has come around by log(1 + μ u t/R)/μ. No field of tangents is steady on a sphere: where this one jumps, 5/16 R
-/// above the centre, the bead goes on as anywhere else.
+/// A bead that slides along a great circle inside a shell, without gravity, has the normal force m v²/R, so dv/dt = −μ v²/R: its speed is
+/// u/(1 + μ u t/R), and its angle is log(1 + μ u t/R)/μ. No field of tangents is continuous on a sphere: where the one used jumps, 5/16 R
+/// above the centre, the bead must move as anywhere else.
 #[test]
 fn a_bead_passes_the_place_where_tangents_of_a_sphere_jump() {
     let spec = Scratch::new(
@@ -516,7 +519,7 @@ fn a_bead_passes_the_place_where_tangents_of_a_sphere_jump() {
             close(number(&run["v"][name]), rate * v, 1e-10);
         }
     };
-    // In the plane of the equator nothing jumps; along a meridian, up and down, and along circles that come to the place twice.
+    // There is no jump in the plane of the equator; the others are meridians, up and down, and circles that pass the jump twice.
     for angle in [0.0, 90.0, -90.0, 89.9, 70.0, 45.0, 30.0, 20.0, 18.3, -45.0] {
         slides(f64::to_radians(angle));
     }

@@ -1,4 +1,4 @@
-//! `lagrangian library`: what a program in C gets from it is what `lagrangian evaluate` prints, alone and in lanes.
+//! `lagrangian library`: a C program gets from the library what `lagrangian evaluate` prints, both for one state and in lanes.
 
 use std::fs;
 use std::io::Write as _;
@@ -7,10 +7,10 @@ use std::process::{Command, Stdio};
 
 use serde_json::{Value, json};
 
-/// Reads parameters and inputs, then a state, an angle among its coordinates, and one that makes it singular where it is 0, if
-/// there is one; prints the accelerations alone, and as one of four and of eight states, whose neighbours are undefined. Then
-/// every lane of states that differ is held against the state alone: all being well, and one being singular, far away, or
-/// undefined, or all before parameters are set.
+/// Reads parameters and inputs, then a state, the index of an angle among its coordinates, and the index of a coordinate that makes the
+/// mass matrix singular at 0, if there is one. It prints the accelerations of the state alone, and of the state as one of four and of
+/// eight lanes whose neighbours are NaN. Then it compares every lane of different states with the same state alone: with all states
+/// regular, with one singular, far away, or NaN, and before parameters are set.
 const PROGRAM: &str = r#"
 #include "libmachine.h"
 #include <math.h>
@@ -87,7 +87,7 @@ int main(void) {
 }
 "#;
 
-/// A folder that goes when the test is done.
+/// A folder that is removed when the test ends.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -100,7 +100,7 @@ impl Folder {
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0); // a folder that stays does no harm
+        let _ = fs::remove_dir_all(&self.0); // a remaining folder does no harm
     }
 }
 
@@ -114,7 +114,7 @@ fn lagrangian(arguments: &[&str], folder: &Folder) -> Command {
     command
 }
 
-/// What a command prints when it is given a text.
+/// The output of a command with a text as its input.
 fn answer(mut command: Command, text: &str) -> String {
     let pipes = command.stdin(Stdio::piped()).stdout(Stdio::piped());
     let mut child = pipes.spawn().expect("the command runs");
@@ -126,14 +126,14 @@ fn answer(mut command: Command, text: &str) -> String {
     String::from_utf8(output.stdout).expect("text")
 }
 
-/// Calls the library of a machine, its parameters a little off their defaults, and holds it against the interpreter.
+/// Calls the library of a machine with parameters slightly off their defaults, and compares it with the interpreter.
 ///
-/// `angle` is the number of a coordinate whose sine is taken, `distance` of one whose vanishing makes the mass matrix singular.
+/// `angle` is the index of a coordinate whose sine is computed, `distance` that of one whose zero makes the mass matrix singular.
 fn check(name: &str, constants: &[&str], angle: usize, distance: Option<usize>) {
     let folder = Folder::new(name);
     let near_one = |k: usize| 1.0 + number(k);
     let places = [Some(angle), distance];
-    // Written with loops, it is the same operations in the same arithmetic.
+    // Code with loops has the same operations in the same arithmetic.
     let is_exact = !constants.is_empty();
     check_of(
         &folder,
@@ -145,12 +145,12 @@ fn check(name: &str, constants: &[&str], angle: usize, distance: Option<usize>) 
     );
 }
 
-/// In no pattern, in [0, 1).
+/// A pseudo-random number in [0, 1).
 fn number(k: usize) -> f64 {
     ((k * 37 + 11) % 101) as f64 / 101.0
 }
 
-/// The same of any spec, whose parameters and inputs are said by their places.
+/// The same for any spec; parameters and inputs are identified by their index.
 fn check_of(
     folder: &Folder,
     spec: &Path,
@@ -257,8 +257,8 @@ fn check_of(
     assert_eq!(printed.len(), 3 * n);
     let greatest = expected.iter().fold(0.0, |most, a: &f64| a.abs().max(most));
     for (i, (ours, expected)) in printed[..n].iter().zip(&expected).enumerate() {
-        // Both are stable; they differ by the rounding of at most 2000 operations in which the condition of these mass
-        // matrices, below 1e3, may show.
+        // Both are stable; they differ by the rounding of at most 2000 operations, amplified by the condition number of these mass
+        // matrices, which is below 1e3.
         let limit = if is_exact {
             0.0
         } else {
@@ -278,13 +278,13 @@ fn a_driven_machine_is_what_the_interpreter_says() {
     check("crusher9", &[], 4, Some(3));
 }
 
-/// So long that the repeated links are loops.
+/// The chain is so long that its repeated links are compiled to loops.
 #[test]
 fn a_chain_of_128_links_has_the_bits_of_the_straight_program() {
     check("chain", &["--const", "N=128"], 0, None);
 }
 
-/// Left and right limbs are evaluated two at a time.
+/// Left and right limbs are evaluated in pairs.
 #[test]
 fn a_humanoid_whose_limbs_are_in_pairs_has_the_bits_of_the_program() {
     use lagrangian::interpreted::InterpretedMachine;
@@ -336,8 +336,8 @@ fn machines_that_constraints_close_accelerate_as_these_allow() {
     check("rolling_coin", &[], 1, None);
 }
 
-/// Reads a state and a time, and prints all that a library has of contacts; before that it looks whether places may be null, and whether
-/// nothing is known before parameters are.
+/// Reads a state and a time, and prints everything that a library computes about contacts. Before that it checks that pointers may be
+/// null, and that no results are available before parameters are set.
 const OF_CONTACTS: &str = r#"
 #include "libmachine.h"
 #include <math.h>
@@ -368,7 +368,7 @@ int main(void) {
 }
 "#;
 
-/// What a library says of contacts is what the machine says.
+/// Compares the contact functions of a library with the machine.
 #[track_caller]
 fn check_contacts(name: &str, spec: &Path, names: &[&str]) {
     use lagrangian::interpreted::InterpretedMachine;
@@ -404,7 +404,7 @@ fn check_contacts(name: &str, spec: &Path, names: &[&str]) {
         system.unilateral_contacts().len(),
         system.constraints().len(),
     );
-    let number = |k: usize| ((k * 37 + 11) % 101) as f64 / 101.0; // in no pattern, in [0, 1)
+    let number = |k: usize| ((k * 37 + 11) % 101) as f64 / 101.0; // pseudo-random, in [0, 1)
     let y: Vec<f64> = (0..2 * n).map(|k| 0.2 + number(k)).collect();
     let (q, v) = (y[..n].to_vec(), y[n..].to_vec());
     let t = 0.75;
@@ -437,7 +437,7 @@ fn check_contacts(name: &str, spec: &Path, names: &[&str]) {
     assert_eq!(contacts, names, "{name}");
     for (i, (line, expected)) in numbers.iter().zip(&expected).enumerate() {
         let found: f64 = line.parse().expect("a number");
-        // Some hundred operations on numbers of this size, and accelerations of a matrix of a condition below 1e3.
+        // About a hundred operations on numbers of this size, and accelerations from a matrix with a condition number below 1e3.
         let limit = 100.0 * 1e3 * f64::EPSILON * (1.0 + expected.abs());
         assert!(
             (found - expected).abs() <= limit,
@@ -463,7 +463,7 @@ fn contacts_of_a_library_are_those_of_the_machine() {
     let clearances = clearances.map(|name| format!("{name} newton 0"));
     let clearances = clearances.each_ref().map(String::as_str);
     check_contacts("clearance", &clearance, &clearances);
-    // One that yields, is without friction, and stands beside a constraint.
+    // A compliant contact, a frictionless one, and one beside a constraint.
     let text = "machine Yields in plane {
         parameters { k: N/m = 200, d: N*s/m = 3, w: rad/s = 3, L: m = 1 }
         coordinates { x: m = 1, y: m = 1 }

@@ -1,11 +1,12 @@
-//! `lagrangian linearize` against textbooks: matrices typed by hand, poles and zeros in closed form, files byte by byte.
+//! `lagrangian linearize` against textbooks: matrices typed by hand, poles and zeros in closed form, and files compared
+//! byte by byte.
 
 use std::f64::consts::TAU;
 
 use crate::support::{Scratch, lagrangian, root};
 use serde_json::Value;
 
-/// Derivatives are exact, and the equilibrium is known in 20 digits: errors are some roundings of the numbers typed here.
+/// Derivatives are exact, and the equilibrium is known to 20 digits, so errors are some roundings of the numbers typed here.
 const CLOSE: f64 = 1e-14;
 
 fn linearize(arguments: &[&str]) -> Value {
@@ -16,7 +17,7 @@ fn linearize(arguments: &[&str]) -> Value {
     serde_json::from_str(&text).expect("JSON")
 }
 
-/// What is said of a call that fails, and its exit status.
+/// The message of a call that fails, and its exit status.
 fn refused(arguments: &[&str]) -> (i32, String) {
     let output = lagrangian(&[&["linearize"], arguments].concat());
     let said = String::from_utf8(output.stderr).expect("text");
@@ -90,12 +91,12 @@ fn an_oscillator_has_the_matrices_of_the_textbook() {
     assert_eq!(found["drift"], serde_json::json!([0.0, 0.0]));
     let im = (2.0_f64 - 0.0625).sqrt();
     assert_values(&found["eigenvalues"], &[(-0.25, im), (-0.25, -im)]);
-    // A constant push shifts the equilibrium, and nothing else.
+    // A constant push only shifts the equilibrium.
     let pushed = linearize(&[spec.path(), "--set", "push=3"]);
     assert!((number(&pushed["at"]["q"]["x"]) - 0.75).abs() <= CLOSE);
     assert_eq!(number(&pushed["at"]["u"]["push"]), 3.0);
     assert_matrix(&pushed["A"], &[&[0.0, 1.0], &[-2.0, -0.5]]);
-    // The start as it is: what it does beside x = 0, v = 0.
+    // About the start as given, with its constant rates besides x = 0, v = 0.
     let here = linearize(&[spec.path(), "--here", "--rate", "x=2", "--set", "push=3"]);
     assert_matrix(&here["A"], &[&[0.0, 1.0], &[-2.0, -0.5]]);
     let drift = here["drift"].as_array().expect("a list");
@@ -126,7 +127,7 @@ fn a_cart_with_a_pole_has_the_matrices_of_the_textbook() {
         ],
     );
     assert_matrix(&found["B"], &[&[0.0], &[0.0], &[push[0]], &[push[1]]]);
-    // The outputs of the spec: the tip's height does not change at first order, the hinge takes −m (ẍ + l θ̈).
+    // The outputs of the spec: the tip's height is constant to first order, the hinge force is −m (ẍ + l θ̈).
     assert_eq!(names(&found["outputs"]), ["tip", "hinge_force"]);
     let hinge: Vec<f64> = (0..4).map(|k| -m * (row(0)[k] + l * row(1)[k])).collect();
     let c_found = rows(&found["C"]);
@@ -140,7 +141,7 @@ fn a_cart_with_a_pole_has_the_matrices_of_the_textbook() {
         d[0] == [0.0] && (d[1][0] - exact).abs() <= 1e-13 * exact.abs(),
         "{d:?}"
     );
-    // From the push to the place of the cart: (J + m l²) s² + b s − m g l = 0.
+    // From the push to the position of the cart: (J + m l²) s² + b s − m g l = 0.
     let found = linearize(&["machines/cart_pole.machine", "--outputs", "x"]);
     let root = (b * b + 4.0 * about * m * g * l).sqrt();
     let zeros = [(-b - root) / (2.0 * about), (-b + root) / (2.0 * about)];
@@ -157,7 +158,8 @@ fn a_cart_with_a_pole_has_the_matrices_of_the_textbook() {
     }
 }
 
-/// Collocated in a chain of two masses: the zeros are the poles of what is behind the place that is held.
+/// Collocated input and output in a chain of two masses: the zeros are the poles of the part beyond the point, with
+/// the point held.
 #[test]
 fn zeros_of_a_chain_are_the_poles_of_what_stays_free() {
     let spec = Scratch::new(
@@ -177,7 +179,7 @@ fn zeros_of_a_chain_are_the_poles_of_what_stays_free() {
         &found["eigenvalues"],
         &[(0.0, 0.0), (0.0, 0.0), (0.0, 4.0), (0.0, -4.0)],
     );
-    // Through the spring there are none.
+    // Through the spring there are no zeros.
     let found = linearize(&[spec.path(), "--outputs", "y"]);
     assert_values(&found["zeros"], &[]);
 }
@@ -208,7 +210,7 @@ fn constraints_leave_the_independent_directions() {
     // 0 = −m g + lift + λ ∂(x² + y² − l²)/∂y.
     assert_matrix(&found["D"], &[&[0.0, 0.0], &[0.0, 0.25]]);
     assert!((number(&found["at"]["y"]["multiplier(rod)"]) + 7.5).abs() <= CLOSE);
-    // In motion through the bottom.
+    // In motion through the lowest point.
     let here = linearize(&[
         spec.path(),
         "--here",
@@ -245,8 +247,8 @@ const CONE: &str = "machine Cone in space {
     outputs { height: m = -l*cos(theta), along: m = l*sin(theta)*cos(phi) }
 }";
 
-/// A pendulum that goes round in a cone, cos θ = g/(l ω²) = 1/2: θ'' = −ω² sin²θ δθ + 2 ω sin θ cos θ δφ',
-/// φ'' = −2 ω cot θ δθ' + torque/(m l² sin²θ); together ω_n² = ω² (1 + 3 cos²θ), as of Watt's governor with arms without hub.
+/// A conical pendulum, cos θ = g/(l ω²) = 1/2: θ'' = −ω² sin²θ δθ + 2 ω sin θ cos θ δφ', φ'' = −2 ω cot θ δθ' + torque/(m l²
+/// sin²θ); together ω_n² = ω² (1 + 3 cos²θ), as for Watt's governor with arms without a hub.
 #[test]
 fn a_steady_motion_has_the_model_of_what_turns_with_it() {
     let spec = Scratch::new("cone.machine", CONE);
@@ -283,7 +285,7 @@ fn a_steady_motion_has_the_model_of_what_turns_with_it() {
         &found["eigenvalues"],
         &[(0.0, 0.0), (0.0, 0.0), (0.0, omega), (0.0, -omega)],
     );
-    // What turns along has no constant part in the model.
+    // An input or output with a fixed direction in space rotates relative to the motion, so its matrix would not be constant.
     for (option, name) in [("--inputs", "aside"), ("--outputs", "along")] {
         let other = if option == "--inputs" {
             "--outputs"
@@ -305,7 +307,7 @@ fn a_steady_motion_has_the_model_of_what_turns_with_it() {
 }
 
 /// A coin that rolls upright and straight; ω² of its wobble is 12/5 Ω² − 4 g/(5 r) for a thin disc (E. J. Routh, *Advanced Rigid
-/// Dynamics*, 1884). One that goes round records where it has come: its place is no state, and no output.
+/// Dynamics*, 1884). For a coin that rolls in a circle the position only records its path: it is neither a state nor an output.
 #[test]
 fn what_only_records_is_no_state() {
     let coin = "machines/rolling_coin.machine";
@@ -323,7 +325,7 @@ fn what_only_records_is_no_state() {
         "der(roll)",
     ];
     assert_eq!(names(&found["states"]), all);
-    // y follows the heading at the speed of the coin, and x the roll.
+    // y follows from the heading at the speed of the coin, and x from the roll.
     let a = rows(&found["A"]);
     let exact = [0.0, 0.0, 0.9, 0.0, 0.0, 0.0, 0.0, 0.0];
     assert!(
@@ -378,16 +380,16 @@ fn what_has_no_linearization_is_refused_with_the_reason() {
             status == 1 && said.contains("corner or a jump in `der(x)`"),
             "{force}: {said}"
         );
-        // It has no modes there either.
+        // There are no modes at this point either.
         let modes = lagrangian(&["modes", spec.path()]);
         assert_eq!(modes.status.code(), Some(1), "{force}");
         let said = String::from_utf8_lossy(&modes.stderr).into_owned();
         assert!(said.contains("corner or a jump in `der(x)`"), "{said}");
-        // Beside the corner all is well.
+        // Away from the corner the derivatives exist.
         let found = linearize(&[spec.path(), "--here", "--rate", "x=0.5"]);
         assert_eq!(rows(&found["A"])[1][0], -4.0);
     }
-    // In polar coordinates the angle has no inertia at the origin, whichever coordinate is written first.
+    // In polar coordinates the angle has no inertia at the origin; the order of the coordinates must not matter.
     for coordinates in ["r: m, phi: rad", "phi: rad, r: m"] {
         let polar = Scratch::new(
             "polar.machine",
@@ -402,7 +404,7 @@ fn what_has_no_linearization_is_refused_with_the_reason() {
         assert_eq!(status, 1);
         assert!(said.contains("singular in `phi`"), "{coordinates}: {said}");
     }
-    // The square is smooth enough: v |v| has the slope 0 there. And so is a steep bend.
+    // The square is smooth enough: v |v| has the slope 0 there. A steep but smooth bend is accepted as well.
     let smooth = linearize(&[block("-mu*abs(der(x))*der(x)/eps^2").path()]);
     assert_matrix(&smooth["A"], &[&[0.0, 1.0], &[-4.0, 0.0]]);
     let bent = linearize(&[block("-mu*tanh(der(x)/eps)").path()]);
@@ -438,7 +440,7 @@ fn what_has_no_linearization_is_refused_with_the_reason() {
     }
 }
 
-/// The text of a file beside another one.
+/// The contents of a file beside another one.
 fn beside(file: &Scratch, name: &str) -> Vec<u8> {
     std::fs::read(file.0.with_file_name(name)).expect("a file")
 }
@@ -483,7 +485,7 @@ fn every_ending_holds_the_same_model() {
         let read = std::fs::read(read).expect("a file");
         assert!(beside(&spec, name) == read, "{name}");
     }
-    // One of the files that would be written is read.
+    // One of the output files would overwrite an input.
     let taken = Scratch::new("model.A.csv", OSCILLATOR);
     let out = taken.0.with_file_name("model.csv");
     let (status, said) = refused(&[taken.path(), "--out", out.to_str().expect("text")]);
@@ -528,7 +530,7 @@ fn columns(text: &str) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// A disc that spins on a shaft which yields: A w² ∓ C Ω w − k = 0 of the whirl forward and backward.
+/// A disc that spins on a flexible shaft: A w² ∓ C Ω w − k = 0 for forward and backward whirl.
 #[test]
 fn whirls_keep_their_numbers_along_the_speed() {
     let spec = Scratch::new(
@@ -572,7 +574,7 @@ fn whirls_keep_their_numbers_along_the_speed() {
     }
 }
 
-/// Two oscillators that have nothing to do with each other: where their frequencies cross, each keeps its number.
+/// Two uncoupled oscillators: where their frequencies cross, each keeps its number.
 #[test]
 fn modes_that_cross_keep_their_numbers() {
     let spec = Scratch::new(

@@ -32,14 +32,15 @@ fn two_parameters_make_cells_of_colours() {
     let (status, svg, error) = map(&table(), &["--of", "product"]);
     assert_eq!(status, 0, "{error}");
     let filled = |colour: &str| svg.matches(&format!("fill=\"#{colour}\"")).count();
-    // The least, 10, the greatest, 120, and the one that failed; the scale begins and ends within a step of its ends.
+    // The least value, 10, the greatest, 120, and the failed run; the first and last steps of the scale
+    // contain its ends.
     assert_eq!(filled("440154"), 1, "{svg}");
     assert_eq!(filled("FDE725"), 1);
     assert_eq!(filled("BEBEBE"), 1);
     for label in ["product", ">a<", ">b<", ">10<", ">120<"] {
         assert!(svg.contains(label.trim_matches(['>', '<'])), "{label}");
     }
-    // Twelve cells, sixty-four steps of the scale, and the sheet.
+    // Twelve cells, sixty-four steps of the scale, and the background.
     assert_eq!(svg.matches("<rect").count(), 12 + 64 + 1);
 }
 
@@ -105,12 +106,12 @@ fn many_cells_are_one_image() {
     assert_eq!(status, 0, "{error}");
     assert_eq!(svg.matches("<image ").count(), 1);
     assert!(svg.contains("href=\"data:image/png;base64,iVBOR"));
-    // The scale, and the sheet.
+    // The scale and the background.
     assert_eq!(svg.matches("<rect").count(), 64 + 1);
     assert!(svg.trim_end().ends_with("</svg>"));
 }
 
-/// A mass on a spring of 4 N/m that a force F cos(w t) drives.
+/// A mass on a spring of 4 N/m, driven by a force F cos(w t).
 const DRIVEN: &str = "machine Driven in plane {
     parameters { F: N = 1, w: rad/s = 3 }
     coordinates { x: m = 1 }
@@ -161,17 +162,17 @@ fn samples_at_periods_make_a_diagram() {
     for (cells, (run, w, t)) in found.iter().zip(expected) {
         let number = |k: usize| cells[k].parse::<f64>().expect("a number");
         assert_eq!((cells[0], cells[4]), (run.to_string().as_str(), "period"));
-        // x = (1 - c) cos 2t + c cos wt with c = 1/(4 - w²), and where w is 4 too.
+        // x = (1 - c) cos 2t + c cos wt with c = 1/(4 - w²).
         let c = 1.0 / (4.0 - w * w);
         let x = (1.0 - c) * (2.0 * t).cos() + c * (w * t).cos();
-        // Some hundred steps, each to 1e-11.
+        // Some hundred steps, each with an error of 1e-11.
         assert!(
             (number(1) - t).abs() < 1e-9 && (number(2) - x).abs() < 1e-8,
             "{cells:?}"
         );
     }
 
-    // A dot for each of them, at the frequency of its run; a page with the same.
+    // One dot for each of them, at the frequency of its run; the page contains the same.
     let drawing = spec.0.with_file_name("map.svg");
     let page = spec.0.with_file_name("map.html");
     let output = lagrangian(&[
@@ -228,7 +229,7 @@ fn a_page_holds_the_values_of_the_table() {
     assert!(html.contains("\"kind\":\"heat\"") && html.contains("\"names\":[\"a\",\"b\"]"));
     // 10, the first cell, as eight bytes in little-endian order.
     assert!(html.contains("\"cells\":\"AAAAAAAAJEA"), "{html}");
-    // A table that is read is not written, and one of the two is to be said.
+    // An input table is not overwritten, and one of the two outputs must be requested.
     let output = lagrangian(&["map", table.path(), "--of", "product"]);
     assert_eq!(output.status.code(), Some(2));
     let samples = lagrangian(&[

@@ -6,7 +6,7 @@ use crate::support::{Scratch, lagrangian};
 use serde_json::Value;
 
 /// Newton's method ends within 1e-10 of the equilibrium and takes one more step; frequencies of well-conditioned machines then
-/// carry some hundred roundings.
+/// have an error of about a hundred roundings.
 const CLOSE: f64 = 1e-12;
 
 fn modes(arguments: &[&str]) -> Value {
@@ -117,7 +117,7 @@ fn a_train_has_the_waves_of_its_closed_form_and_rides_freely() {
     assert_eigenvalues(&found, &exact);
     assert_eq!(found["modes"][0]["kind"], "free");
     assert_eq!(number(&found["equilibrium"]["free"]), 1.0);
-    // The ride: all cars alike. Mode j: cos(π j (i − 1/2)/N).
+    // The free motion: all cars move alike. Mode j: cos(π j (i − 1/2)/N).
     for i in 1..=6 {
         close(shape(&found, 0, &format!("u[{i}]")), 1.0);
         let wave = |i: i32| (PI * 2.0 * (f64::from(i) - 0.5) / 6.0).cos();
@@ -125,7 +125,7 @@ fn a_train_has_the_waves_of_its_closed_form_and_rides_freely() {
     }
 }
 
-/// An oscillator with m = 2, and a spring and a damper to choose.
+/// An oscillator with m = 2, whose spring and damper are parameters.
 const OSCILLATOR: &str = "machine Oscillator in plane {
     parameters { m: kg = 2, k: N/m = 50, b: N*s/m = 4, g: m/s^2 = 9.81 }
     coordinates { x: m = 0.3 }
@@ -139,7 +139,7 @@ const OSCILLATOR: &str = "machine Oscillator in plane {
 fn damping_is_a_share_of_the_critical_one() {
     let spec = Scratch::new("oscillator.machine", OSCILLATOR);
     let found = modes(&[spec.path()]);
-    // It hangs m g/k deep.
+    // The mass hangs m g/k below the free end of the spring.
     close(number(&found["equilibrium"]["q"]["x"]), 2.0 * 9.81 / 50.0);
     let (omega, ratio) = (5.0_f64, 4.0 / (2.0 * (2.0_f64 * 50.0).sqrt()));
     assert_eigenvalues(
@@ -147,14 +147,14 @@ fn damping_is_a_share_of_the_critical_one() {
         &[(-ratio * omega, omega * (1.0 - ratio * ratio).sqrt())],
     );
     close(number(&found["modes"][0]["damping"]), ratio);
-    // Three times overdamped: two decays, −ω (r ± √(r² − 1)).
+    // With three times the critical damping there are two decays, −ω (r ± √(r² − 1)).
     let found = modes(&[spec.path(), "--set", "b=60"]);
     let root = 8.0_f64.sqrt();
     assert_eigenvalues(
         &found,
         &[(-omega * (3.0 - root), 0.0), (-omega * (3.0 + root), 0.0)],
     );
-    // No spring: it falls, and nothing holds it.
+    // Without a spring the mass falls; there is no equilibrium.
     let (fine, _, error) = said(&[spec.path(), "--set", "k=0"]);
     assert!(
         !fine && error.contains("nothing takes the acceleration 9.810e0 of `x` away"),
@@ -179,11 +179,11 @@ fn a_cart_pole_falls_at_its_closed_form_and_rolls_freely() {
         (shape(&found, 0, "x"), shape(&found, 0, "theta")),
         (1.0, 0.0)
     );
-    // The masses' common centre stays where it is: (M + m) x + m l θ = 0.
+    // The common centre of mass stays in place: (M + m) x + m l θ = 0.
     close(shape(&found, 2, "x"), -0.1 * 0.5 / 1.1);
 }
 
-/// It runs in a circle at `cos θ = g/(l w²)` and nods with `w √(1 + 3 cos² θ)`: C. Huygens; in the header of the spec.
+/// The bob moves in a circle at `cos θ = g/(l w²)` and nods with `w √(1 + 3 cos² θ)`: C. Huygens; see the header of the spec.
 #[test]
 fn a_conical_pendulum_nods_as_huygens_knew() {
     let w = 4.6_f64;
@@ -204,8 +204,8 @@ fn a_conical_pendulum_nods_as_huygens_knew() {
     );
 }
 
-/// About a steady precession w at θ, with the momentum p about the axis: from V″ of the effective potential,
-/// `ω² = (p/I − 2 w cos θ)² + w² sin² θ`, and `p w = m g l + I w² cos θ`.
+/// Steady precession with the rate w at the angle θ and the momentum p about the axis: from V″ of the effective potential, `ω² =
+/// (p/I − 2 w cos θ)² + w² sin² θ`, with `p w = m g l + I w² cos θ`.
 #[test]
 fn a_top_in_steady_precession_nods_as_its_effective_potential_says() {
     let (m, l, g, across, about) = (15.0, 1.0, 9.81, 0.234_375, 0.468_75);
@@ -228,8 +228,8 @@ fn a_top_in_steady_precession_nods_as_its_effective_potential_says() {
     assert_eigenvalues(&found, &[(0.0, 0.0), (0.0, 0.0), (0.0, omega)]);
 }
 
-/// A mass on springs in a table that turns with w: seen from the table it moves with |ω ± w|, above the critical speed too.
-/// A damper that turns along makes the fast table unstable, which the undamped one is not (A. L. Kimball, 1924).
+/// A mass on springs on a table that rotates with w: relative to the table it moves with |ω ± w|, also above the critical speed.
+/// A damper that rotates with the table makes the fast table unstable, which the undamped one is not (A. L. Kimball, 1924).
 const WHIRL: &str = "machine Whirl in plane {
     parameters { m: kg = 2, k: N/m = 50, b: N*s/m = 0, w: rad/s = 8 }
     coordinates { x: m = 0.1, y: m = 0.2 }
@@ -244,7 +244,7 @@ fn a_whirling_mass_has_sum_and_difference_of_two_frequencies() {
     let spec = Scratch::new("whirl.machine", WHIRL);
     let found = modes(&[spec.path()]);
     assert_eigenvalues(&found, &[(0.0, 3.0), (0.0, 13.0)]);
-    // Turned by a quarter: y is 90° off.
+    // A quarter turn in phase: y is 90° off.
     let entry = &found["modes"][0]["shape"]["y"];
     assert_eq!(number(&entry[0]), 0.0);
     close(number(&entry[1]).abs(), 1.0);
@@ -263,12 +263,12 @@ fn a_whirling_mass_has_sum_and_difference_of_two_frequencies() {
         real.hypot(imaginary)
     });
     assert!(residual[0].min(residual[1]) <= 1e-12 * 64.0, "{residual:?}");
-    // Below the critical speed, 5 rad/s, nothing grows.
+    // Below the critical speed, 5 rad/s, no mode grows.
     let found = modes(&[spec.path(), "--set", "b=0.4", "--set", "w=4"]);
     assert!(eigenvalues(&found).iter().all(|(re, _)| *re < 0.0));
 }
 
-/// The crusher of the benchmarks without its drive, by mass, damping and stiffness matrices that are typed in here.
+/// The crusher of the benchmarks without its drive, against mass, damping and stiffness matrices that are typed in here.
 #[test]
 fn a_crusher_at_rest_stays_where_nothing_holds_it_and_swings_where_springs_do() {
     const NAMES: [&str; 9] = [
@@ -279,21 +279,21 @@ fn a_crusher_at_rest_stays_where_nothing_holds_it_and_swings_where_springs_do() 
         let found = modes(&[spec, "--set", stop]);
         let q = NAMES.map(|name| number(&found["equilibrium"]["q"][name]));
         let [x, y, theta, s1, phi1, theta1, s2, phi2, theta2] = q;
-        // Free angles do not move at all.
+        // Angles without stiffness stay exactly where they are.
         assert_eq!([phi1, theta1, phi2, theta2], [0.4, 0.0, 1.3, 0.0]);
         close(s1, 0.15);
         close(s2, 0.10);
         assert!((x + 0.05 * theta).abs() <= 1e-15 && (y + 0.35 * theta).abs() <= 1e-15);
         assert_eq!(number(&found["equilibrium"]["free"]), 5.0);
 
-        // How each point moves with each coordinate.
+        // The derivative of each point's position by each coordinate.
         let turned = |x: f64, y: f64| {
             let (sin, cos) = theta.sin_cos();
             [-(sin * x + cos * y), cos * x - sin * y]
         };
         let along = |phi: f64| [phi.cos(), phi.sin()];
         let across = |s: f64, phi: f64| [-s * phi.sin(), s * phi.cos()];
-        // The debalance hangs at (x0 + e, y0), whatever stops it; polar(e, 0) keeps its direction in space.
+        // The debalance is at (x0 + e, y0), whichever parameter disables the drive; polar(e, 0) keeps its direction in space.
         let points: [(f64, [[f64; 2]; 9]); 4] = {
             let none = [0.0; 2];
             let (e1, e2) = ([1.0, 0.0], [0.0, 1.0]);
@@ -390,7 +390,7 @@ fn a_crusher_at_rest_stays_where_nothing_holds_it_and_swings_where_springs_do() 
                         + stiffness[i][j].abs();
                     size += terms * a.hypot(b);
                 }
-                // Amplitudes are settled to 1e-12 of the largest; their rows may be small.
+                // Amplitudes converge to 1e-12 of the largest, while the entries of their rows may be small.
                 let row: f64 = stiffness[i].iter().chain(&mass[i]).map(|x| x.abs()).sum();
                 let limit = 1e-12 * (size + row * (1.0 + re * re + im * im));
                 assert!(
@@ -402,14 +402,14 @@ fn a_crusher_at_rest_stays_where_nothing_holds_it_and_swings_where_springs_do() 
     }
 }
 
-/// The roots of λ² + c λ + k, none by a difference.
+/// The roots of λ² + c λ + k, without cancellation.
 fn roots(c: f64, k: f64) -> [f64; 2] {
     let fast = -0.5 * (c + (c * c - 4.0 * k).sqrt());
     [k / fast, fast]
 }
 
-/// Both decays of heavily overdamped oscillators, each to its own digits; and so in two masses between three spring-damper
-/// pairs, which move together, λ² + b λ + k, or against one another, λ² + 3 b λ + 3 k.
+/// Both decays of heavily overdamped oscillators, each with full relative accuracy; likewise for two masses between three
+/// spring-damper pairs, which move together, λ² + b λ + k, or against one another, λ² + 3 b λ + 3 k.
 #[test]
 fn a_slow_decay_is_as_exact_as_a_fast_one() {
     const TWO: &str = "machine Two in plane {
@@ -460,9 +460,9 @@ fn a_slow_decay_is_as_exact_as_a_fast_one() {
     }
 }
 
-/// A soft spring beside a stiff one: exact where they have nothing to do with each other; where they share a mass, right within
-/// the bound that is said, up to where the soft one has left the digits of their sum. There the motion is called free, with a
-/// bound above its true frequency.
+/// A soft spring beside a stiff one. If they act on different masses, both frequencies are exact. If they share a mass, the soft
+/// one is accurate within the stated bound, until it falls below the round-off of the sum of both stiffnesses; beyond that the
+/// motion is reported as free, with a bound above its true frequency.
 #[test]
 fn a_soft_spring_beside_a_stiff_one_is_resolved_or_it_is_said() {
     const APART: &str = "machine Apart in plane {
@@ -513,7 +513,7 @@ fn a_soft_spring_beside_a_stiff_one_is_resolved_or_it_is_said() {
                     re.abs() <= error && (im - exact).abs() <= error,
                     "{stiff}: {mode}"
                 );
-                // 32 roundings of the entries, 2 k in each row with ω² beside them, over 2 ω; vectors are shared out
+                // 32 roundings of the entries (each row has 2 k, and ω² beside it), divided by 2 ω; eigenvectors distribute them
                 // equally within a factor of 2.
                 let limit = 16.0 * f64::EPSILON * (2.0 * stiff + exact * exact) / exact;
                 assert!(error <= 2.0 * limit, "{stiff}: {mode}");
@@ -530,7 +530,8 @@ fn a_soft_spring_beside_a_stiff_one_is_resolved_or_it_is_said() {
     );
 }
 
-/// Two masses on a spring, in the plane: its length is off, and so the direction across is stiff until it is not.
+/// Two masses joined by a spring in the plane, which starts at a wrong length: the direction across the spring is stiff there,
+/// but free at the equilibrium.
 #[test]
 fn newtons_method_ends_where_equilibria_are_not_alone() {
     const PAIR: &str = "machine Pair in plane {
@@ -543,7 +544,7 @@ fn newtons_method_ends_where_equilibria_are_not_alone() {
     let found = modes(&[spec.path()]);
     let q = |name| number(&found["equilibrium"]["q"][name]);
     close((q("x2") - q("x1")).hypot(q("y2") - q("y1")), 0.5);
-    // It has only shortened: the direction is the same.
+    // The spring has only shortened: its direction is unchanged.
     assert!((0.3 * (q("x2") - q("x1")) - 0.6 * (q("y2") - q("y1"))).abs() <= 1e-14);
     assert_eq!(number(&found["equilibrium"]["free"]), 3.0);
     assert_eigenvalues(&found, &[(0.0, 0.0), (0.0, 0.0), (0.0, 0.0), (0.0, 10.0)]);
@@ -644,13 +645,13 @@ fn a_pendulum_on_a_rod_swings_as_its_angle_does() {
 fn a_cylinder_rocks_in_another_as_published() {
     let result = modes(&["machines/rolling_cylinder.machine"]);
     assert_eigenvalues(&result, &[(0.0, 16.416_622_506_030_116)]);
-    // It might as well touch with another side.
+    // Every other angle of the cylinder is an equilibrium as well.
     assert_eq!(result["equilibrium"]["free"], 1);
     assert!(number(&result["equilibrium"]["q"]["phi"]).abs() < 1e-12);
     close(number(&result["modes"][0]["shape"]["theta"][0]), -0.08);
 }
 
-/// N windows are one pendulum, `((N + 1)/3 + N) l ψ″ = −((N + 1)/2 + N) g sin ψ`.
+/// N windows move as a single pendulum, `((N + 1)/3 + N) l ψ″ = −((N + 1)/2 + N) g sin ψ`.
 #[test]
 fn windows_swing_as_one_pendulum() {
     let start = ["crank[0]", "crank[1]", "crank[2]"].map(|crank| format!("{crank}=-1.2"));
@@ -663,7 +664,7 @@ fn windows_swing_as_one_pendulum() {
     assert_eigenvalues(&result, &[(0.0, (9.81 * 3.5_f64 / 3.0).sqrt())]);
 }
 
-/// `(m + J/r²) ẍ + b ẋ + k x = 0`; what rolls may stand on any side.
+/// `(m + J/r²) ẍ + b ẋ + k x = 0`; a rolling wheel is in equilibrium at any angle.
 #[test]
 fn a_wheel_on_a_spring_has_the_inertia_of_its_turning_too() {
     let spec = Scratch::new(
@@ -695,8 +696,8 @@ fn mode_number(result: &Value, mode: usize, key: &str) -> f64 {
     number(&result["modes"][mode][key])
 }
 
-/// `cos α = g (m + M)/(m l Ω²)`, and about it, by the second derivative of the effective potential `p²/(2 I(α)) + V(α)`, where
-/// `I = J + 2 m l² sin² α` and `μ = 2 m l² + 4 M l² sin² α` goes with α̇:
+/// The steady motion has `cos α = g (m + M)/(m l Ω²)`. Its oscillations follow from the second derivative of the effective potential
+/// `p²/(2 I(α)) + V(α)`, where `I = J + 2 m l² sin² α`, and `μ = 2 m l² + 4 M l² sin² α` is the inertia of α̇:
 /// `μ ω² = Ω² (I'²/I − I''/2) + 2 (m + M) g l cos α`.
 #[test]
 fn a_governor_stands_and_nods_as_its_effective_potential_says() {
@@ -734,7 +735,7 @@ fn a_governor_stands_and_nods_as_its_effective_potential_says() {
     for speed in ["--steady", "phi=18", "--steady", "phi=25"].chunks(2) {
         check(&modes(&[spec, speed[0], speed[1]]));
     }
-    // The speed at which the arms stand where they are said to.
+    // The speed at which the arms stand at the given angle.
     let sleeve_at = format!("s={:?}", 0.4 * 0.9_f64.cos());
     let found = modes(&[
         spec,
@@ -749,10 +750,10 @@ fn a_governor_stands_and_nods_as_its_effective_potential_says() {
     check(&found);
 }
 
-/// Inertia about the axis and across it over m r²: a uniform disc, and a hoop.
+/// Moments of inertia about the axis and across it, divided by m r²: a uniform disc, and a hoop.
 const WHEELS: [(f64, f64); 2] = [(0.5, 0.25), (1.0, 0.5)];
 
-/// Upright: `(A + m r²) λ² = m g r − C (C + m r²) Ω²/A`, so that a disc stands above `Ω² = g/(3 r)`, and a hoop above `g/(4 r)`.
+/// Upright: `(A + m r²) λ² = m g r − C (C + m r²) Ω²/A`, so a disc is stable above `Ω² = g/(3 r)`, and a hoop above `g/(4 r)`.
 #[test]
 fn a_wheel_stays_upright_above_its_critical_speed() {
     let (m, r, g) = (1.0_f64, 0.1, 9.81);
@@ -783,7 +784,7 @@ fn a_wheel_stays_upright_above_its_critical_speed() {
             ]);
             assert_eq!(number(&found["equilibrium"]["steps"]), 0.0);
             assert_eq!(number(&found["equilibrium"]["q"]["lean"]), 0.0);
-            // It rolls along.
+            // The wheel rolls straight ahead.
             close(number(&found["equilibrium"]["v"]["x"]), r * speed);
             let square = (m * g * r - unit * about * (about + 1.0) * speed * speed / across)
                 / (unit * (across + 1.0));
@@ -793,13 +794,13 @@ fn a_wheel_stays_upright_above_its_critical_speed() {
             } else {
                 assert_eigenvalues(&found, &[free, free, (0.0, rate)])
             }
-            // On any place of the table, in any direction, on any side.
+            // The motion is the same at any place of the table, in any direction, and at any angle of the wheel.
             assert_eq!(found["equilibrium"]["free"], 4);
         }
     }
 }
 
-/// Balance of a coin on its circle, at the angle θ of its axis from the vertical, with ψ̇ about that and n about its axis:
+/// Balance of a coin that rolls in a circle, at the angle θ of its axis from the vertical, with ψ̇ about the vertical and n about its axis:
 /// `A ψ̇² sin θ cos θ − (C + m r²) n ψ̇ sin θ − m g r cos θ = 0` (J. I. Neimark and N. A. Fufaev, *Dynamics of Nonholonomic
 /// Systems*, 1972, chapter 2, section 5).
 fn off_balance([about, across]: [f64; 2], theta: f64, turn: f64, spin: f64) -> f64 {
@@ -808,8 +809,8 @@ fn off_balance([about, across]: [f64; 2], theta: f64, turn: f64, spin: f64) -> f
     across * turn * turn * sin * cos - (about + m * r * r) * spin * turn * sin - m * g * r * cos
 }
 
-/// The frequency at which such a coin wobbles. With `A sin θ δψ̇ = (C n − 2 A ψ̇ cos θ) δθ` and
-/// `(C + m r²) δn = m r² ψ̇ sin θ δθ`, the integrals of the other two equations, `(A + m r²) δθ̈` is the change of the balance.
+/// The frequency at which such a coin wobbles. The other two equations have the integrals `A sin θ δψ̇ = (C n − 2 A ψ̇ cos θ)
+/// δθ` and `(C + m r²) δn = m r² ψ̇ sin θ δθ`; with these, `(A + m r²) δθ̈` is the change of the balance.
 fn wobble([about, across]: [f64; 2], theta: f64, turn: f64, spin: f64) -> f64 {
     let (m, r, g) = (1.0, 0.1, 9.81);
     let (sin, cos) = theta.sin_cos();
@@ -827,7 +828,7 @@ fn wobble([about, across]: [f64; 2], theta: f64, turn: f64, spin: f64) -> f64 {
 fn a_coin_goes_round_and_wobbles_as_its_equations_say() {
     let spec = "machines/rolling_coin.machine";
     let inertia = [0.005, 0.0025];
-    // Given: lean and roll, and so the turn; then turn and roll, and so the lean.
+    // First lean and roll are given, and the turn follows; then turn and roll are given, and the lean follows.
     for (lean, roll) in [(-0.2, "8.437"), (-0.7, "13"), (0.4, "7"), (-1.2, "26")] {
         let lean_is = format!("lean={lean}");
         let start = if lean > 0.0 {
@@ -860,7 +861,7 @@ fn a_coin_goes_round_and_wobbles_as_its_equations_say() {
         assert_eigenvalues(&found, &[(0.0, 0.0), (0.0, 0.0), (0.0, exact)]);
         assert_eq!(at["free"], 4);
         assert_eq!(at["drifts"], 2);
-        // Where it is on the table is no part of a shape: that direction turns.
+        // The place on the table is not part of the shape, because the direction of rolling turns.
         assert!(found["modes"][2]["shape"].get("x").is_none());
 
         let [turn_is, roll_is] = [format!("heading={turn:?}"), format!("roll={roll}")];
@@ -873,8 +874,8 @@ fn a_coin_goes_round_and_wobbles_as_its_equations_say() {
     }
 }
 
-/// A second algorithm: the run of the machine itself. From ε times a mode beside the steady motion, one period later what is off
-/// has grown by e^{λT}, up to ε².
+/// An independent algorithm: a run of the machine itself. A deviation from the steady motion by ε times a mode has grown by
+/// e^{λT} after one period, up to ε².
 #[test]
 fn a_run_beside_a_steady_motion_grows_as_its_mode() {
     const OFF: f64 = 1e-5;
@@ -897,7 +898,7 @@ fn a_run_beside_a_steady_motion_grows_as_its_mode() {
         let entry = &found["modes"][2]["shape"][name];
         (OFF * number(&entry[0]), OFF * number(&entry[1]))
     };
-    // Re and Re of iω times it.
+    // The real part of the component, and that of iω times it, its rate.
     let [heading, lean, turning] = ["heading", "lean", "roll"].map(part);
     let rate = |(_, im): (f64, f64)| -omega * im;
     let q = [heading.0, -0.5 + lean.0, turning.0];
@@ -946,8 +947,8 @@ fn a_run_beside_a_steady_motion_grows_as_its_mode() {
     assert!(lean.0.hypot(lean.1) > 0.1 * OFF);
 }
 
-/// A ball at the bottom of a bowl that turns: `z = x + i y` obeys `z̈ − i k Ω R/(R − r) ż + g (1 − k)/(R − r) z = 0` with
-/// `k = J/(J + m r²)`: on a turning table a ball goes round with kΩ (S. Earnshaw, *Dynamics*, 1844).
+/// A ball at the bottom of a rotating bowl: `z = x + i y` obeys `z̈ − i k Ω R/(R − r) ż + g (1 − k)/(R − r) z = 0` with `k =
+/// J/(J + m r²)`; on a rotating table a ball goes round with kΩ (S. Earnshaw, *Dynamics*, 1844).
 #[test]
 fn a_ball_in_a_turning_bowl_has_two_frequencies() {
     let found = modes(&["machines/ball_in_bowl.machine"]);
@@ -961,7 +962,8 @@ fn a_ball_in_a_turning_bowl_has_two_frequencies() {
         .filter(|im| *im > 0.0)
         .collect();
     assert_eq!(listed.len(), 2);
-    // Near the bottom the two constraints are along and across a meridian of no length: digits go with its share.
+    // The two rolling constraints act along and across the meridian, whose length vanishes at the bottom; accuracy is
+    // lost in proportion.
     for (found, exact) in listed.iter().zip([root - half, root + half]) {
         assert!(
             (found - exact).abs() <= 1e-6 * exact,
@@ -970,7 +972,7 @@ fn a_ball_in_a_turning_bowl_has_two_frequencies() {
     }
 }
 
-/// It goes straight on with its mass centre in front: `φ̈ = −m a u/(J + m a²) φ̇`; backward it turns round.
+/// The sleigh goes straight with its mass centre in front: `φ̈ = −m a u/(J + m a²) φ̇`; backward it turns round.
 #[test]
 fn a_sleigh_goes_straight_with_its_mass_centre_in_front() {
     let spec = "machines/chaplygin_sleigh.machine";
@@ -978,7 +980,7 @@ fn a_sleigh_goes_straight_with_its_mass_centre_in_front() {
     for (speed, exact) in [("x=2", -2.0 * rate), ("x=-2", 2.0 * rate)] {
         let found = modes(&[spec, "--steady", speed]);
         assert_eigenvalues(&found, &[(0.0, 0.0), (0.0, 0.0), (exact, 0.0)]);
-        // Each heading is as good as the other, and so is each speed.
+        // All headings are equivalent, and so are all speeds.
         assert_eq!(found["equilibrium"]["free"], 3);
         assert_eq!(found["equilibrium"]["drifts"], 1);
     }
@@ -1009,14 +1011,14 @@ fn what_cannot_be_steady_is_told_at_the_word() {
         "or `solve`, to find the rate",
     );
     refused(&[governor, "--steady", "=3"], "expected a name before `=`");
-    // Slower than the balls need to rise at all they hang: there is a steady motion, at alpha = 0.
+    // Below the speed at which the balls begin to rise they hang: there is a steady motion, at alpha = 0.
     let found = modes(&[governor, "--steady", "phi=5"]);
     assert!(number(&found["equilibrium"]["q"]["alpha"]).abs() < 1e-12);
 }
 
-// Machines that may stand anywhere.
+// Machines with equilibria at any position.
 
-/// Weights that balance each other at every angle, but for the rounding of their moments.
+/// Weights that balance each other at every angle, up to the rounding of their moments.
 #[test]
 fn a_balanced_beam_stays_at_the_angle_at_which_it_is_left() {
     for (m, l, long) in [
@@ -1026,7 +1028,7 @@ fn a_balanced_beam_stays_at_the_angle_at_which_it_is_left() {
         (0.7, 0.3, 2.1),
     ] {
         let other = m * l / long;
-        // Written in decimals, the two moments are equal but for rounding.
+        // The decimals make both moments equal up to rounding.
         let spec = Scratch::new(
             "beam.machine",
             &format!(
@@ -1056,7 +1058,7 @@ fn a_balanced_beam_stays_at_the_angle_at_which_it_is_left() {
     }
 }
 
-/// The seed of this run: another one each time, or `SEED`.
+/// The seed of this run: different each time, or `SEED`.
 fn seed() -> u64 {
     let clock = std::time::SystemTime::now()
         .duration_since(std::time::UNIX_EPOCH)
@@ -1069,8 +1071,8 @@ fn seed() -> u64 {
     seed
 }
 
-/// Points anywhere in the plane, joined by springs at their natural lengths or by rods, and nothing that holds them: an exact
-/// equilibrium, which stays where it is, with the three motions of a rigid body.
+/// Points anywhere in the plane, joined by springs at their natural lengths or by rods but not to the ground: this is an exact
+/// equilibrium, which must not move, with the three free motions of a rigid body.
 #[test]
 fn what_floats_stays_where_it_is_and_is_told_as_free() {
     let seed = seed();
@@ -1084,7 +1086,7 @@ fn what_floats_stays_where_it_is_and_is_told_as_free() {
     for case in 0..12 {
         let count = 3 + (next() * 3.0) as usize;
         let size = 10.0_f64.powf(4.0 * next() - 2.0);
-        // Far from the origin too, but not so near each other that nothing keeps its shape.
+        // Centred away from the origin too, with points far enough apart that the springs and rods determine the shape.
         let points: Vec<[f64; 2]> = (0..count)
             .map(|i| {
                 let angle = (i as f64 + 0.6 * next()) * TAU / count as f64;
@@ -1104,7 +1106,7 @@ fn what_floats_stays_where_it_is_and_is_told_as_free() {
             for (j, [u, v]) in points.iter().enumerate().take(i) {
                 let length = (x - u).hypot(y - v);
                 let stiffness = 10.0_f64.powf(4.0 * next());
-                // A rod or two; more would leave none to swing.
+                // At most two rods; more would leave no oscillations.
                 if case % 2 == 1 && j + 1 == i && i < 3 {
                     rods += &format!("r{i}: norm(p{i}.at - p{j}.at) = {length:?}, ");
                 } else {
@@ -1129,7 +1131,8 @@ fn what_floats_stays_where_it_is_and_is_told_as_free() {
         let found = modes(&[spec.path()]);
         let at = &found["equilibrium"];
         let context = format!("seed {seed}, case {case}: {found:#}");
-        // What is read of a decimal number is what was written; rods are met by the least that rounding needs.
+        // Printed decimals read back as the numbers that were written; rods are satisfied after the smallest change
+        // that rounding needs.
         for (i, point) in points.iter().enumerate() {
             for (name, x) in ["x", "y"].into_iter().zip(point) {
                 let off = number(&at["q"][&format!("{name}{i}")]) - x;
@@ -1157,13 +1160,13 @@ fn what_floats_stays_where_it_is_and_is_told_as_free() {
     }
 }
 
-// Motions along a range of values.
+// Motions along a range of a parameter.
 
 fn varied(arguments: &[&str]) -> Value {
     modes(arguments)
 }
 
-/// Its critical values, each with how many motions grow and oscillate before and after it.
+/// Critical values, each with the numbers of growing and oscillating motions before and after it.
 fn critical(result: &Value) -> Vec<(f64, Value, Value)> {
     let listed = result["critical"].as_array().expect("a list");
     let entry = |c: &Value| {
@@ -1176,7 +1179,8 @@ fn critical(result: &Value) -> Vec<(f64, Value, Value)> {
     listed.iter().map(entry).collect()
 }
 
-/// Bisection ends where rounding decides: λ² passes through 0 with a slope, known to some roundings of its terms.
+/// The accuracy of bisection is limited by round-off: λ² passes through 0 with a nonzero slope, and is known to some roundings
+/// of its terms.
 const LOCATED: f64 = 1e-12;
 
 fn located(found: f64, exact: f64) {
@@ -1211,7 +1215,7 @@ fn a_wheel_has_the_critical_speed_of_its_closed_form() {
         located(critical[0].0, exact);
         assert_eq!(critical[0].1, serde_json::json!([1, 0]));
         assert_eq!(critical[0].2, serde_json::json!([0, 1]));
-        // Every motion on the way is what it is by itself.
+        // Every motion of the branch equals the motion computed separately.
         for motion in found["motions"].as_array().expect("a list") {
             let speed = number(&motion["value"]);
             assert_eq!(number(&motion["equilibrium"]["v"]["roll"]), speed);
@@ -1225,7 +1229,8 @@ fn a_wheel_has_the_critical_speed_of_its_closed_form() {
     }
 }
 
-/// Hanging balls: `λ² = Ω² − g (m + M)/(m l)`, and the branch of raised arms is followed down to the same speed, but not beyond.
+/// With hanging balls, `λ² = Ω² − g (m + M)/(m l)`. The branch of raised arms is followed down to the same speed, but
+/// not beyond it.
 #[test]
 fn a_governor_is_followed_along_its_branch() {
     let spec = "machines/flyball_governor.machine";
@@ -1251,8 +1256,9 @@ fn a_governor_is_followed_along_its_branch() {
     assert!(critical(&found).is_empty());
 }
 
-/// A rotor on a soft shaft whose own damping turns along: it whirls above `w = √(k/m) (1 + c_s/c_r)`, where c_s brakes outside
-/// (A. L. Kimball, 1924), at the frequency √(k/m), which is √(k/m) − w seen from the table that turns.
+/// A rotor on a soft shaft with internal damping, which rotates with the rotor: it whirls above `w = √(k/m) (1 +
+/// c_s/c_r)`, where c_s is the external damping (A. L. Kimball, 1924), at the frequency √(k/m), which is √(k/m) − w
+/// relative to the rotating table.
 #[test]
 fn a_rotor_with_inner_damping_whirls_above_its_limit() {
     let spec = Scratch::new(
@@ -1270,7 +1276,7 @@ fn a_rotor_with_inner_damping_whirls_above_its_limit() {
             forces { brake { at: mass.at, force: (0, 0) } }
         }",
     );
-    // Brakes outside, as a force against the velocity in space, that has no part in the turning table's angle.
+    // External damping, as a force against the velocity in space, which does not act on the angle of the rotating table.
     let text = std::fs::read_to_string(spec.path()).expect("the spec");
     let text = text
         .replace(
@@ -1293,7 +1299,7 @@ fn a_rotor_with_inner_damping_whirls_above_its_limit() {
     located(growing[0].0, exact);
 }
 
-/// Damping from nothing to far beyond what is critical, `b = 2 √(k m)`: there the oscillation ends.
+/// Damping from zero to far beyond the critical `b = 2 √(k m)`, at which the oscillation ends.
 #[test]
 fn critical_damping_is_where_an_oscillation_ends() {
     let spec = Scratch::new("oscillator.machine", OSCILLATOR);
@@ -1319,7 +1325,7 @@ fn critical_damping_is_where_an_oscillation_ends() {
         (&critical[0].1, &critical[0].2),
         (&serde_json::json!([0, 0]), &serde_json::json!([1, 0]))
     );
-    // λ = −b/(2 m) where both meet; each is known to a root of the rounding.
+    // λ = −b/(2 m) at the double root; each root is known to the square root of the rounding.
     assert!((number(&found["critical"][0]["re"]) + 5.0).abs() < 1e-6);
 
     let rows = std::fs::read_to_string(table).expect("a table");
@@ -1334,7 +1340,7 @@ fn critical_damping_is_where_an_oscillation_ends() {
             .map(|x| x.parse().expect("a number"))
             .collect();
         let (b, re, im) = (numbers[0], numbers[2], numbers[3]);
-        // m λ² + b λ + k = 0, real and imaginary part.
+        // The real and imaginary parts of m λ² + b λ + k = 0.
         let real = 2.0 * (re * re - im * im) + b * re + 50.0;
         assert!(
             real.abs() < 1e-9 && (4.0 * re * im + b * im).abs() < 1e-9,
@@ -1343,7 +1349,7 @@ fn critical_damping_is_where_an_oscillation_ends() {
         close(numbers[6], 2.0 * 9.81 / 50.0);
     }
     let drawing = std::fs::read_to_string(drawing).expect("a drawing");
-    // A point for each mode in two panels, and one for each oscillation in the other.
+    // Two panels have a point for each mode, the third has one for each oscillation.
     let motions = found["motions"].as_array().expect("a list");
     let lambdas: Vec<(f64, f64)> = motions.iter().flat_map(eigenvalues).collect();
     let oscillations = lambdas.iter().filter(|(_, im)| *im > 0.0).count();
@@ -1410,7 +1416,8 @@ fn what_cannot_be_varied_is_told_at_the_word() {
     refused(&[coin, "--vary", "m=1..2:5", "--out", "a.txt"], "`.csv`");
 }
 
-/// A bob on a ring, which a spring pulls to the top or the bottom, from a start beside the ring.
+/// A bob on a ring, which a spring pulls to the top or the bottom, from a start beside the ring. The kept coordinates determine
+/// where the search begins.
 #[test]
 fn what_is_kept_of_the_start_says_from_where_to_look() {
     let spec = |keep: &str| {
@@ -1426,7 +1433,7 @@ fn what_is_kept_of_the_start_says_from_where_to_look() {
         let found = modes(&[&[free.path()], arguments].concat());
         close(number(&found["equilibrium"]["q"]["y"]), 1.0);
     }
-    // No point of the ring is at y = 3: the nearest is at x = 0.
+    // No point of the ring has y = 3: the nearest is at x = 0.
     let off = "with `y` kept, `ring` is 8.0000e0 m^2 off";
     let kept = spec("keep { y }");
     for call in [&[free.path(), "--keep", "y"][..], &[kept.path()]] {
@@ -1442,9 +1449,9 @@ fn what_is_kept_of_the_start_says_from_where_to_look() {
     );
 }
 
-/// Five bars in a row between two pins, from wherever they hang: at its ends each bar has the same horizontal force H, and
-/// vertical forces that grow by a weight from bar to bar, so that moments about the middle of bar i ask for
-/// `(V + (i − 1) m g) cos qᵢ = H sin qᵢ`, with the same V and H for all; beside that the row is closed.
+/// Five bars in a row between two pins, from any initial hang. At its ends each bar has the same horizontal force H, and
+/// vertical forces that grow by one weight from bar to bar, so the moments about the middle of bar i require `(V + (i − 1) m g)
+/// cos qᵢ = H sin qᵢ`, with the same V and H for all; in addition the chain must be closed.
 #[test]
 fn a_row_of_bars_finds_an_equilibrium_from_everywhere() {
     let (weight, count) = (9.81, 5);
@@ -1479,7 +1486,8 @@ fn a_row_of_bars_finds_an_equilibrium_from_everywhere() {
         q
     };
     let spec = "machines/closed_pendulum.machine";
-    // From its own start it comes to hang: in the middle a level bar, and slopes that grow by as much from bar to bar.
+    // From the start of the spec it reaches the hanging equilibrium: the middle bar is level, and slopes grow by equal amounts
+    // from bar to bar.
     let q = balanced(&modes(&[spec]));
     assert!(q[2].abs() < 1e-12 && q[4] > q[3] && q[3] > 0.0, "{q:?}");
     close(q[4].tan(), 2.0 * q[3].tan());
@@ -1498,7 +1506,7 @@ fn a_row_of_bars_finds_an_equilibrium_from_everywhere() {
         let starts = starts.iter().flat_map(|start| ["--start", start]);
         balanced(&modes(&[&[spec], &starts.collect::<Vec<_>>()[..]].concat()));
     }
-    // A start from which undamped steps onto the constraints lead away: bars that point away from the further end.
+    // A start from which undamped steps onto the constraints diverge: the bars point away from the further end.
     let starts = [
         -2.3002486615949675,
         -2.7192228265533185,

@@ -1,5 +1,5 @@
-//! `lagrangian orbit` against periods and multipliers in closed form and to 30 digits; `orbit/by_mpmath.py` and `orbit/woodpecker.py` make the
-//! latter.
+//! `lagrangian orbit` against periods and multipliers in closed form and to 30 digits; the latter come from
+//! `orbit/by_mpmath.py` and `orbit/woodpecker.py`.
 
 use std::f64::consts::{PI, TAU};
 
@@ -14,7 +14,7 @@ fn orbit(arguments: &[&str]) -> Value {
     serde_json::from_str(&text).expect("JSON")
 }
 
-/// What is said of a call that fails, and its exit status.
+/// The message of a call that fails, and its exit status.
 fn refused(arguments: &[&str]) -> (i32, String) {
     let output = lagrangian(&[&["orbit"], arguments].concat());
     let said = String::from_utf8(output.stderr).expect("text");
@@ -42,8 +42,8 @@ fn multipliers(found: &Value) -> Vec<(f64, f64, f64, bool)> {
     .collect()
 }
 
-/// The tolerance of steps is 1e-11. A period takes some hundred steps, each of which may err by that, and multipliers of size μ grow
-/// with errors as the motion does: 1e-8 of the largest is ten times what that makes.
+/// The tolerance of steps is 1e-11. A period takes about a hundred steps, each of which may err by that much, and a multiplier of size μ
+/// amplifies errors as the motion does: 1e-8 of the largest is ten times the resulting error.
 const CLOSE: f64 = 1e-8;
 
 fn assert_multipliers(found: &Value, exact: &[(f64, f64)]) {
@@ -58,14 +58,14 @@ fn assert_multipliers(found: &Value, exact: &[(f64, f64)]) {
             off <= CLOSE * largest,
             "{re} + {im}i, not {exact_re} + {exact_im}i: {off:e}"
         );
-        // What the command says of its own error holds.
+        // The error that the command reports is a bound.
         assert!(off <= error + 1e-14, "{off:e}, said to be below {error:e}");
     }
 }
 
 #[test]
 fn kapitzas_pendulum_upright_has_the_multipliers_of_mathieus_equation() {
-    // Shaken with twice what holds it up, with too little, and with so much that it swings with half the frequency.
+    // Shaken with twice the amplitude that stabilizes it, with too little, and with so much that it swings at half the frequency.
     for (a, omega, exact, stability) in [
         (
             "0.1",
@@ -111,7 +111,7 @@ fn kapitzas_pendulum_upright_has_the_multipliers_of_mathieus_equation() {
         assert_eq!(found["stability"], stability);
         assert_eq!(found["autonomous"], false);
         assert_eq!(number(&found["at"]["q"]["theta"]), 0.0);
-        // The machine keeps phase volume: the product of all multipliers is 1.
+        // The flow preserves phase volume: the product of all multipliers is 1.
         let m: Vec<f64> = (found["monodromy"].as_array().unwrap().iter())
             .flat_map(|row| row.as_array().unwrap().iter().map(number))
             .collect();
@@ -119,7 +119,7 @@ fn kapitzas_pendulum_upright_has_the_multipliers_of_mathieus_equation() {
     }
 }
 
-/// Kapitza's pendulum in the coordinates of its bob, on a rod from the pivot that is shaken: a constraint that moves.
+/// Kapitza's pendulum in the coordinates of its bob, on a rod from the shaken pivot: a rheonomic constraint.
 #[test]
 fn on_a_shaken_rod_the_multipliers_are_those_of_the_angle() {
     let spec = Scratch::new(
@@ -172,7 +172,7 @@ fn on_a_shaken_rod_the_multipliers_are_those_of_the_angle() {
 /// u̇ = g cos φ,   x(T) = x₀ + ∫ u cos φ dt,   y(T) = y₀ + ∫ u sin φ dt
 /// ```
 ///
-/// differentiated by the start where u(0) = 0 and ωT = 2π: ∂y/∂ω = −2πg/ω³, ∂φ/∂ω = T, ∂u/∂ω = gT/ω; all else as it was.
+/// The derivatives by the start at u(0) = 0 and ωT = 2π are ∂y/∂ω = −2πg/ω³, ∂φ/∂ω = T, ∂u/∂ω = gT/ω; all others are those of the identity.
 #[test]
 fn a_skate_on_a_slope_has_its_monodromy_in_closed_form() {
     let spec = Scratch::new(
@@ -219,8 +219,7 @@ fn a_skate_on_a_slope_has_its_monodromy_in_closed_form() {
     assert_eq!(found["multipliers"].as_array().unwrap().len(), 5);
 }
 
-/// The period of a free pendulum is an elliptic integral, also where its bob has two coordinates, and the start is projected onto the
-/// rod.
+/// The period of a free pendulum is an elliptic integral, also when its bob has two coordinates and the start is projected onto the rod.
 #[test]
 fn a_pendulum_on_a_rod_has_the_period_of_its_angle() {
     let spec = Scratch::new(
@@ -278,11 +277,12 @@ fn upright_doubles_its_period_where_mathieus_equation_does() {
     let changes = found["changes"].as_array().expect("a list");
     assert_eq!(changes.len(), 1, "{changes:?}");
     assert_eq!(changes[0]["change"], "period doubling");
-    // b₁(2a/l) = −4g/(l ω²) there.
+    // b₁(2a/l) = −4g/(l ω²) at the change of stability.
     let exact = 0.456_149_688_466_770_1;
     let between = changes[0]["between"].as_array().expect("a list");
     let (low, high) = (number(&between[0]), number(&between[1]));
-    // 20 halvings of 0.02; and a multiplier is outside as soon as it is so by its error, which goes with the root of the distance.
+    // The bracket has 20 bisections of 0.02. A multiplier counts as outside the unit circle once its distance exceeds its error, and the
+    // distance grows as the square root of the parameter's.
     assert!(low - 1e-6 <= exact && exact <= high + 1e-6, "{low} {high}");
 }
 
@@ -307,11 +307,11 @@ fn a_pendulums_period_is_an_elliptic_integral() {
         );
         assert_eq!(found["family"], 1);
         assert_eq!(found["stability"], "undecided");
-        // Both multipliers are 1, since energy is conserved; that across the motion is known as well as M.
+        // Both multipliers are 1, since energy is conserved; the multiplier across the motion is as accurate as M.
         assert_multipliers(&found, &[(1.0, 0.0), (1.0, 0.0)]);
         assert_eq!(multipliers(&found).iter().filter(|one| one.3).count(), 1);
     }
-    // The other way about: the amplitude that has a period.
+    // The inverse problem: the amplitude that has a given period.
     let found = orbit(&[
         spec.path(),
         "--start",
@@ -321,7 +321,7 @@ fn a_pendulums_period_is_an_elliptic_integral() {
     ]);
     let q = number(&found["at"]["q"]["theta"]);
     let v = number(&found["at"]["v"]["theta"]);
-    // ½ v² − g cos q is −g cos 2.
+    // The energy ½ v² − g cos q equals −g cos 2.
     let energy = 0.5 * v * v - 9.81 * q.cos();
     assert!((energy + 9.81 * 2.0_f64.cos()).abs() < 1e-6, "{found:#}");
 }
@@ -349,7 +349,8 @@ fn units_and_coordinates_do_not_matter() {
         "2.6",
     ]);
     let two = orbit(&[other.path(), "--rate", "half=0.15", "--period", "2.6"]);
-    // A family of orbits: which of them is taken, and where it starts, is measured by inertia.
+    // The orbit that is selected from the family, and its starting point, are the nearest in the metric of inertia, so they do not depend
+    // on the coordinates.
     for part in ["q", "v"] {
         let (one, two) = (
             number(&one["at"][part]["theta"]),
@@ -359,7 +360,7 @@ fn units_and_coordinates_do_not_matter() {
     }
 }
 
-/// A limit cycle in closed form: x = cos t, on which the energy neither grows nor dies.
+/// A limit cycle in closed form: x = cos t, on which the energy is constant.
 const CIRCLE: &str = "machine Circle in plane {
     parameters { d: N*s/m = 1, size: m = 1, speed: m/s = 1 }
     coordinates { x: m = 1.5 }
@@ -371,7 +372,7 @@ const CIRCLE: &str = "machine Circle in plane {
 #[test]
 fn a_limit_cycle_in_closed_form() {
     let spec = Scratch::new("circle.machine", CIRCLE);
-    // The divergence 1 − x² − 3 v² is −2 sin² t on it, with the integral −2π over a period.
+    // On the cycle the divergence 1 − x² − 3 v² is −2 sin² t, whose integral over a period is −2π.
     for more in [&["--near", "6"][..], &[], &["--settle", "20"]] {
         let found = orbit(&[&[spec.path()], more].concat());
         assert!(
@@ -407,7 +408,7 @@ fn van_der_pols_cycle_has_its_period_to_ten_digits() {
         "{found:#}"
     );
     assert_multipliers(&found, &[(1.0, 0.0), (8.596_950_636_038_052e-4, 0.0)]);
-    // The orbit is that of the greatest x, 2.0086198608748431, where it is at rest there.
+    // With der(x) = 0 at the start, the orbit begins at its greatest x, 2.0086198608748431.
     let kept = orbit(&[spec.path(), "--keep", "der(x)"]);
     assert!(
         (number(&kept["at"]["q"]["x"]) - 2.008_619_860_874_843).abs() < CLOSE,
@@ -416,7 +417,7 @@ fn van_der_pols_cycle_has_its_period_to_ten_digits() {
     assert_eq!(number(&kept["at"]["v"]["x"]), 0.0);
 }
 
-/// λ² + 3λ + 1 = 0.
+/// The roots of λ² + 3λ + 1 = 0.
 const AT_REST: [f64; 2] = [-0.381_966_011_250_105, -2.618_033_988_749_895];
 
 #[test]
@@ -455,7 +456,7 @@ fn van_der_pols_cycle_is_the_same_with_states_of_first_order() {
         "{kept:#}"
     );
     assert_eq!(number(&kept["at"]["states"]["y"]), 0.0);
-    // As text the states stand under their names, and nothing is said of their integrals.
+    // The text output lists the states by name and does not mention their integrals.
     let said = lagrangian(&["orbit", spec.path(), "--keep", "y"]);
     let said = String::from_utf8(said.stdout).expect("text");
     assert!(
@@ -471,7 +472,7 @@ fn van_der_pols_cycle_is_the_same_with_states_of_first_order() {
 
 #[test]
 fn a_circuit_on_a_sine_has_its_phase_and_forgets_by_its_time_constant() {
-    // τ u′ = U sin Ωt − u: u = U (sin Ωt − Ωτ cos Ωt)/(1 + Ω²τ²), and what is beside it goes with e^{−t/τ}.
+    // τ u′ = U sin Ωt − u: u = U (sin Ωt − Ωτ cos Ωt)/(1 + Ω²τ²), and a deviation from it decays as e^{−t/τ}.
     let spec = Scratch::new(
         "filter.machine",
         "machine Filter in plane {
@@ -495,7 +496,7 @@ fn a_circuit_on_a_sine_has_its_phase_and_forgets_by_its_time_constant() {
     };
     assert_multipliers(&found, &with(1e-3));
     assert_eq!(found["stability"], "stable");
-    // The state settles before, or is followed along a resistance.
+    // The search starts from the settled state, or follows the orbit as a resistance varies.
     let settled = orbit(&[spec.path(), "--period", "2*pi/Omega", "--settle", "0.02"]);
     assert!((number(&settled["at"]["states"]["u"]) - start).abs() < CLOSE);
     let along = orbit(&[
@@ -509,7 +510,7 @@ fn a_circuit_on_a_sine_has_its_phase_and_forgets_by_its_time_constant() {
     for (point, tau) in points.iter().zip([1e-3, 1.5e-3, 2e-3]) {
         assert_multipliers(point, &with(tau));
     }
-    // A period that is none is said of the state.
+    // A time that is not a period is reported with the state that does not come back.
     let (_, said) = refused(&[spec.path(), "--period", "3/Omega"]);
     assert!(said.contains("the rate of `u` is another one"), "{said}");
 }
@@ -546,13 +547,13 @@ fn a_driven_oscillator_answers_as_its_frequency_response_says() {
     let (re, im) = (modulus * angle.cos(), modulus * angle.sin());
     assert_multipliers(&found, &[(re, im), (re, -im)]);
     assert_eq!(found["stability"], "stable");
-    // A linear machine: one round, and what it takes to see that there is nothing left.
+    // A linear machine needs one iteration, and one more to detect convergence.
     assert!(found["rounds"].as_u64().expect("a count") <= 2);
 }
 
 #[test]
 fn a_wheel_that_turns_has_an_orbit_up_to_whole_turns() {
-    // An unbalanced wheel turns by itself: φ goes on by 2π, with ½ J φ′² + m g e sin φ constant.
+    // An unbalanced wheel that turns freely: φ advances by 2π, with ½ J φ′² + m g e sin φ constant.
     let spec = Scratch::new(
         "wheel.machine",
         "machine Wheel in plane {
@@ -571,7 +572,7 @@ fn a_wheel_that_turns_has_an_orbit_up_to_whole_turns() {
         "0.3",
     ];
     let found = orbit(&[&[spec.path(), "--advance", "phi=2*pi"], &keep[..]].concat());
-    // T = ∫ dφ/√(ω² − 2 (g/e) sin φ), a smooth periodic integrand: the trapezoidal rule has all digits with 64 places.
+    // T = ∫ dφ/√(ω² − 2 (g/e) sin φ) has a smooth periodic integrand: the trapezoidal rule with 64 points is exact to rounding.
     let places = 64;
     let sum: f64 = (0..places)
         .map(|k| TAU * f64::from(k) / f64::from(places))
@@ -660,7 +661,7 @@ fn what_cannot_be_is_said_with_what_helps() {
 
 #[test]
 fn a_force_that_jumps_is_refused() {
-    // With sign(v) in the force, runs differ by more than the variational equations know.
+    // With sign(v) in the force, the variational equations do not describe the difference of runs.
     let spec = Scratch::new(
         "bang.machine",
         "machine Bang in plane {
@@ -690,8 +691,8 @@ fn a_force_that_jumps_is_refused() {
 
 const WOODPECKER: &str = "machines/contacts/woodpecker.machine";
 
-/// The woodpecker's cycle for a restitution of its beak, by `orbit/woodpecker.py`: where the bird turns while the sleeve is jammed, `turn`,
-/// `period`, `way`, and the `multiplier` that is neither 1 nor 0.
+/// The woodpecker's cycle for a restitution of its beak, by `orbit/woodpecker.py`: the angle `turn` at which the bird turns while the sleeve is
+/// jammed, `period`, `way`, and the `multiplier` that is neither 1 nor 0.
 fn by_hand(restitution: &str, what: &str) -> f64 {
     let path = root().join("cli/tests/command/orbit/woodpecker.json");
     let text = std::fs::read_to_string(path).expect("the cycles");
@@ -700,13 +701,13 @@ fn by_hand(restitution: &str, what: &str) -> f64 {
     digits.parse().expect("a number")
 }
 
-/// The woodpecker comes back to where it was but for its height, which falls: four impacts of its sleeve, a peck, slip, stick,
-/// and free flight. While the sleeve is jammed one number tells all, so of five multipliers three are 0. The toy starts with its sleeve on the
-/// pole; the period begins where nothing touches.
+/// The woodpecker returns to its state except for its height, which decreases: four impacts of its sleeve, a peck, slip, stick, and free flight.
+/// While the sleeve is jammed one number determines the state, so three of five multipliers are 0. The toy starts with its sleeve touching the
+/// pole; the period begins in free flight.
 ///
-/// R. I. Leine, Ch. Glocker and D. H. van Campen (*Nonlinear Dynamics of the Woodpecker Toy*, DETC2001/VIB-21608) print 0.1452 s for the
-/// period, which these equations of theirs have only to 0.6 %: it is that of a beat that begins at −0.532 rad, and −0.839 is slow to settle.
-/// Where the bird turns they print −0.53 rad.
+/// R. I. Leine, Ch. Glocker and D. H. van Campen (*Nonlinear Dynamics of the Woodpecker Toy*, DETC2001/VIB-21608) print a period of 0.1452 s,
+/// which these equations of theirs reproduce only to 0.6 %: it is that of a beat that begins at −0.532 rad, and −0.839 is slow to settle. They
+/// print −0.53 rad for the angle at which the bird turns.
 #[test]
 fn the_woodpecker_has_the_cycle_of_its_equations_by_hand() {
     for more in [
@@ -738,7 +739,7 @@ fn the_woodpecker_has_the_cycle_of_its_equations_by_hand() {
         said.contains("nothing depends on y, which goes on by -0.0194454 m in a period"),
         "{said}"
     );
-    // What is to come back, or to stay at a start that touches, is refused by name.
+    // Requiring y to come back, or keeping a coordinate of a start in contact, is refused by name.
     let (status, said) = refused(&[WOODPECKER, "--advance", "y=0"]);
     assert_eq!(status, 1, "{said}");
     assert!(
@@ -750,8 +751,8 @@ fn the_woodpecker_has_the_cycle_of_its_equations_by_hand() {
     assert!(said.contains("the contact `lower` is closed"), "{said}");
 }
 
-/// Where the bird turns next if it turns at `s` while the sleeve is jammed, by a run that ends before it has slipped again. Until then the bird
-/// is an oscillator alone, `(J + m l²) φ″ = −c (φ − φ_M) − m g l`, of which place and rate give the turn.
+/// The next angle at which the bird turns after it has turned at `s` while the sleeve is jammed, by a run that ends before the sleeve slips
+/// again. Until then only the bird oscillates, `(J + m l²) φ″ = −c (φ − φ_M) − m g l`, and its angle and rate determine the turn.
 fn next_turn(s: f64) -> f64 {
     let start = format!("phiS={s:?}");
     let output = lagrangian(&[
@@ -771,7 +772,7 @@ fn next_turn(s: f64) -> f64 {
     ]);
     let run: Value = serde_json::from_slice(&output.stdout).expect("JSON");
     let [q, v] = ["q", "v"].map(|of| number(&run[of]["phiS"]));
-    // It is jammed, but for rounding.
+    // The sleeve is jammed, so its rate is zero up to rounding.
     assert!(number(&run["v"]["y"]).abs() < 1e-14, "{run:#}");
     let (mass, arm, spring) = (4.5e-3, 0.015, 0.0056);
     let rest = -0.0006 / 0.0058 - mass * 9.81 * arm / spring;
@@ -779,25 +780,25 @@ fn next_turn(s: f64) -> f64 {
     rest - (q - rest).hypot(v / omega)
 }
 
-/// The other way: differences of runs from beat to beat, which know of no derivative.
+/// An independent algorithm: differences of runs from beat to beat, without derivatives.
 #[test]
 fn from_beat_to_beat_the_woodpecker_changes_by_its_multiplier() {
-    // Errors of some thousand steps of 1e-12, an event in ten of them.
+    // The error of about a thousand steps with tolerance 1e-12; one in ten has an event.
     let exact = 1e-9;
     let turn = by_hand("0.5", "turn");
     let next = next_turn(turn);
     assert!((next - turn).abs() < exact, "{next}");
     let slope = |h: f64| (next_turn(turn + h) - next_turn(turn - h)) / (2.0 * h);
     let (coarse, fine) = (slope(2e-4), slope(1e-4));
-    // The error of the finer difference is a third of what both differ by.
+    // The error of the finer difference is a third of the difference between both.
     let known = (coarse - fine).abs() + exact / 1e-4;
     assert!(known < 1e-3, "{known}");
     let off = fine - by_hand("0.5", "multiplier");
     assert!(off.abs() < known, "{fine}, known up to {known}");
 }
 
-/// With a harder peck the beats begin to alternate: the multiplier passes −1 between e = 0.64854 and 0.64856, steeply, by
-/// `orbit/woodpecker.py`; and the unstable cycle beyond is followed.
+/// With a harder peck the beats begin to alternate: the multiplier passes −1 steeply between e = 0.64854 and 0.64856, by `orbit/woodpecker.py`;
+/// and the unstable cycle beyond is followed.
 #[test]
 fn the_woodpecker_doubles_its_beat_where_its_map_does() {
     let found = orbit(&[WOODPECKER, "--near", "0.146", "--along", "e=0.5..0.66:3"]);
@@ -816,7 +817,8 @@ fn the_woodpecker_doubles_its_beat_where_its_map_does() {
     }
 }
 
-/// Two masses on a spring go on together: the mass in front as far as momentum says in the time `2π √(mn/((m+n) k))` in which they swing.
+/// Two masses joined by a spring move on together. In the period of their oscillation, `2π √(mn/((m+n) k))`, the mass in front advances as far
+/// as the momentum determines.
 #[test]
 fn what_nothing_depends_on_goes_on_by_its_momentum() {
     let spec = Scratch::new(
@@ -843,9 +845,9 @@ fn what_nothing_depends_on_goes_on_by_its_momentum() {
         serde_json::json!(["s", "der(x)", "der(s)"])
     );
     assert_multipliers(&found, &[(1.0, 0.0), (1.0, 0.0), (1.0, 0.0)]);
-    // Of each energy and each momentum.
+    // The family has two parameters, energy and momentum.
     assert_eq!(found["family"], 2);
-    // M is 1 but for its error, whatever the start: of those that are next to each other to the last digit, and of others.
+    // Whatever the start, M is 1 within its error: at starts that differ by one rounding, and at others.
     for k in 0..40 {
         let start = match k % 2 {
             0 => f64::from_bits(0.1_f64.to_bits() + k / 2),
@@ -854,7 +856,7 @@ fn what_nothing_depends_on_goes_on_by_its_momentum() {
         let found = orbit(&[spec.path(), "--start", &format!("s={start:?}")]);
         assert_eq!(found["family"], 2, "{start:?}: {found:#}");
     }
-    // What is to come back has no momentum.
+    // If x must come back, the momentum is zero.
     let back = orbit(&[spec.path(), "--advance", "x=0", "--near", "2"]);
     assert_eq!(back["advance"], serde_json::json!({}));
     let momentum = 3.0 * number(&back["at"]["v"]["x"]) + number(&back["at"]["v"]["s"]);
@@ -903,16 +905,16 @@ fn files_hold_what_is_printed() {
         .skip(1)
         .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
         .collect();
-    // One period: it ends where it began.
+    // One period: it ends at its start.
     let (first, last) = (&rows[0], &rows[rows.len() - 1]);
     assert!((last[0] - number(&printed["period"])).abs() < 1e-9);
     assert!((first[1] - last[1]).abs() < CLOSE && (first[2] - last[2]).abs() < CLOSE);
     assert!(std::fs::read_to_string(&plot).unwrap().contains("</svg>"));
 }
 
-/// A body that hangs from a fixed point and turns about the vertical once in each period: its four numbers come back with the other sign. Its
-/// tilts in the ground's axes, as one complex number η, obey A η'' − i C ω η' + m g l η = 0, so multipliers are e^{i s T} with
-/// A s² − C ω s − m g l = 0, and twice 1, for the turn and the rate of the turn; as complex pairs.
+/// A body that hangs from a fixed point and turns about the vertical once in each period: its four numbers (a quaternion) come back with the
+/// opposite sign. Its tilts in the ground's axes, as one complex number η, obey A η'' − i C ω η' + m g l η = 0, so the multipliers are e^{i s T}
+/// with A s² − C ω s − m g l = 0, as complex pairs, and twice 1, for the turn and its rate.
 #[test]
 fn a_top_that_turns_round_comes_back_with_the_other_sign() {
     let spec = "machine Hanging in space {
@@ -943,14 +945,14 @@ fn a_top_that_turns_round_comes_back_with_the_other_sign() {
     for (re, im) in known {
         let near = all.iter().map(|(x, y, ..)| (x - re).hypot(y - im));
         let least = near.fold(f64::INFINITY, f64::min);
-        // 1 is there twice, and where the second is no trivial one an error of 1e-9 in the matrix moves both by its root.
+        // The multiplier 1 is double, and if the second is not trivial, an error of 1e-9 in the matrix moves both by its square root.
         let bound = if im == 0.0 { 1e-4 } else { CLOSE };
         assert!(least <= bound, "{re} + {im}i: {least:e}\n{found:#}");
     }
 }
 
-/// The same motion by four numbers and by three angles has the same period and multipliers: a body with three moments of inertia that swings far
-/// about one of its axes.
+/// The same motion in four numbers (a quaternion) and in three angles has the same period and multipliers: a body with three different moments
+/// of inertia that swings far about one of its axes.
 #[test]
 fn a_body_swings_by_four_numbers_as_by_angles() {
     let machine = |coordinates: &str, turns: &str| {
@@ -985,7 +987,7 @@ fn a_body_swings_by_four_numbers_as_by_angles() {
     for (re, im, _, trivial) in &known {
         let near = found.iter().map(|(x, y, ..)| (x - re).hypot(y - im));
         let least = near.fold(f64::INFINITY, f64::min);
-        // Near 1, where it is there twice, the root of an error of 1e-9.
+        // Near 1, which is a double multiplier, the square root of an error of 1e-9.
         let is_double = *trivial || (re - 1.0).hypot(*im) < 1e-3;
         let bound = if is_double { 1e-4 } else { CLOSE * largest };
         assert!(least <= bound, "{re} + {im}i: {least:e}\n{four:#}{three:#}");

@@ -1,15 +1,15 @@
-//! Parts that machines are made of, and the machines of the library that show them, run from end to end, against closed forms.
+//! The parts of machines, and the library machines that demonstrate them, run end to end, against closed forms.
 
 use serde_json::Value;
 
 use super::collisions::{close, is_good, number, simulate};
 use crate::support::Scratch;
 
-/// A run at a tolerance of 1e-13, whose state is good to a thousand times that where the motion is not
-/// sensitive: errors of some hundred steps add up.
+/// A run with a tolerance of 1e-13 has an error of at most a thousand times that if the motion is not sensitive, because the
+/// errors of some hundred steps accumulate.
 const WITHIN: f64 = 1e-10;
 
-/// A run with rates at its start.
+/// A run with given initial rates.
 fn pushed(spec: &str, until: f64, rates: &[&str]) -> Value {
     let until = format!("{until:?}");
     let mut arguments = vec![
@@ -34,7 +34,7 @@ fn run(name: &str, text: &str, until: f64) -> Value {
     simulate(spec.path(), until, &[])
 }
 
-/// y = −(v²/g) ln cosh(g t/v), with v² = 2 m g/(ρ c A); in a wind from below the ball falls as much slower.
+/// y = −(v²/g) ln cosh(g t/v), with v² = 2 m g/(ρ c A); in an upward wind the ball falls slower by the velocity of the wind.
 #[test]
 fn a_ball_falls_no_faster_than_its_drag_lets_it() {
     let spec = "machine Ball in plane {
@@ -56,11 +56,11 @@ fn a_ball_falls_no_faster_than_its_drag_lets_it() {
     close(number(&run["q"]["y"]), -fallen, WITHIN);
     close(number(&run["v"]["y"]), -speed, WITHIN);
     close(number(&run["q"]["z"]), -fallen + 3.0 * t, WITHIN);
-    // What the drag takes stands in the books as work of a force.
+    // The energy balance counts the dissipation of the drag as work of a force.
     close(number(&run["energy_residual"]), 0.0, WITHIN);
 }
 
-/// The sun of a planetary gear: its torque turns I₁ + I_c/i² + …, with the ring held and i = 1 + z₃/z₁.
+/// The sun of a planetary gear: its torque accelerates I₁ + I_c/i² + …, with the ring held and i = 1 + z₃/z₁.
 #[test]
 fn a_planetary_gear_turns_as_its_reduced_inertia_says() {
     let spec = "machine Planetary in plane {
@@ -88,8 +88,8 @@ fn a_planetary_gear_turns_as_its_reduced_inertia_says() {
     close(number(&run["q"]["arm"]), turned * arm, WITHIN * turned);
 }
 
-/// Atwood's machine, with a block: the heavier load in the bight of the rope falls with
-/// a = g (M/2 − m)/(M/2 + 2 m), the other rises twice as fast.
+/// Atwood's machine with a movable pulley: the load on the movable pulley falls with a = g (M/2 − m)/(M/2 + 2 m), the other rises
+/// twice as fast.
 #[test]
 fn a_rope_over_pulleys_holds_its_loads_as_atwoods_machine() {
     let spec = "machine Atwood in plane {
@@ -107,7 +107,7 @@ fn a_rope_over_pulleys_holds_its_loads_as_atwoods_machine() {
     close(number(&run["q"]["z"]), 0.5 + 2.0 * fallen, WITHIN);
 }
 
-/// The centre of a ball on a turntable goes round on a circle at 2/7 of its rate (J. A. Burns, *Ball rolling on a
+/// The centre of a ball on a turntable moves on a circle, with 2/7 of the rate of the turntable (J. A. Burns, *Ball rolling on a
 /// turntable: analog for charged particle dynamics*, Am. J. Phys. 49 (1981) 56–58).
 #[test]
 fn a_ball_on_a_turntable_goes_round_twice_in_seven_turns() {
@@ -133,7 +133,7 @@ fn a_ball_on_a_turntable_goes_round_twice_in_seven_turns() {
     // v̇ = 2/7 Ω e_z × v: from rest it stays at rest.
     close(number(&still["q"]["x"]), 0.2, WITHIN);
     close(number(&still["q"]["y"]), 0.0, WITHIN);
-    // Pushed at 0.5 m/s along x, it is on a circle of radius v/(2/7 Ω).
+    // Pushed at 0.5 m/s along x, it moves on a circle of radius v/(2/7 Ω).
     // ω_y = −ċ sin b = ẋ/r.
     let turning = -0.5 / 0.03 / f64::sin(1.0);
     let push = format!("der(x): m/s = 0.5, der(c): rad/s = {turning:?},");
@@ -145,8 +145,7 @@ fn a_ball_on_a_turntable_goes_round_twice_in_seven_turns() {
     close(number(&run["q"]["y"]), 0.5 / rate * (1.0 - cos), WITHIN);
 }
 
-/// A mass meets a stop without damping at the speed v: it is stopped at the depth v √(m/k), and back
-/// after π √(m/k).
+/// A mass meets an undamped elastic stop at the speed v: it stops at the depth v √(m/k), and leaves after π √(m/k).
 #[test]
 fn a_stop_is_half_a_swing_of_its_spring() {
     let spec = "machine Buffer in plane {
@@ -156,14 +155,15 @@ fn a_stop_is_half_a_swing_of_its_spring() {
         stops { end { on: x, above: l, stiffness: k } }
     }";
     let swing = std::f64::consts::PI * f64::sqrt(2.0 / 5000.0);
-    // There and back at 2 m/s, and half a swing.
+    // There and back at 2 m/s, and half a period in the stop.
     let run = run("buffer", spec, 0.4 + swing);
     is_good(&run);
     close(number(&run["q"]["x"]), 0.1, 1e-8);
     close(number(&run["v"]["x"]), -2.0, 1e-8);
 }
 
-/// The library's gear, with three planets: the sun has to turn what all wheels and the carrier have as it sees them.
+/// The planetary gear of the library, with three planets: the torque on the sun accelerates the inertia of all wheels and of the
+/// carrier, reduced to the sun.
 #[test]
 fn the_planetary_gear_of_the_library_obeys_willis() {
     let run = simulate("machines/parts/planetary_gear.machine", 0.5, &[]);
@@ -174,7 +174,7 @@ fn the_planetary_gear_of_the_library_obeys_willis() {
         0.3 * f64::powi(m * z1, 2) / 8.0,
         0.5 * f64::powi(m * z2, 2) / 8.0,
     );
-    // Of the carrier, and of a planet in the room.
+    // The rates of the carrier, and of a planet in the fixed frame.
     let (arm, planet) = (1.0 / 5.0, (1.0 - z3 / z2) / 5.0);
     let reduced =
         of_sun + (4e-4 + 3.0 * 0.5 * r * r) * arm * arm + 3.0 * of_planet * planet * planet;
@@ -186,13 +186,13 @@ fn the_planetary_gear_of_the_library_obeys_willis() {
         WITHIN * turned.abs(),
     );
     for i in 1..=3 {
-        // As the carrier sees it.
+        // The rate of the planet relative to the carrier.
         let own = number(&run["q"][format!("planet[{i}]")]);
         close(own, turned * (planet - arm), WITHIN * turned.abs());
     }
 }
 
-/// To a stop, half a swing in it, and back to the other.
+/// The door swings to one stop, half a period in it, and back to the other.
 #[test]
 fn the_door_of_the_library_goes_to_and_fro() {
     let (inertia, a, rate) = (25.0 * 0.81 / 3.0, 80_f64.to_radians(), 1.2);
@@ -200,7 +200,7 @@ fn the_door_of_the_library_goes_to_and_fro() {
     for (part, sign) in [(0.5, -1.0), (1.0, 1.0)] {
         let run = simulate("machines/parts/stopped_door.machine", part * period, &[]);
         is_good(&run);
-        // Steps that go over the edge of a stop keep the tolerance by their error estimate alone.
+        // Across the edge of a stop, where the force is not smooth, only the error estimate keeps steps within the tolerance.
         close(number(&run["q"]["phi"]), 0.0, 1e-8);
         close(number(&run["v"]["phi"]), sign * rate, 1e-8);
     }
@@ -214,7 +214,7 @@ fn the_parachutist_of_the_library_falls_as_the_hyperbolic_cosine() {
     let fallen = terminal * terminal / 9.81 * f64::ln(f64::cosh(9.81 * 3.0 / terminal));
     close(number(&run["q"]["y"]), 800.0 - fallen, WITHIN * 800.0);
     close(number(&run["q"]["x"]), 0.0, WITHIN);
-    // In a wind the canopy, slow against the air, drifts as if the air stood still, seen from it.
+    // In a wind, the motion relative to the air is that in still air with the opposite initial velocity.
     let windy = simulate("machines/parts/parachutist.machine", 3.0, &["w=4"]);
     let carried = pushed("machines/parts/parachutist.machine", 3.0, &["x=-4"]);
     close(
@@ -234,18 +234,19 @@ fn the_parachutist_of_the_library_falls_as_the_hyperbolic_cosine() {
 fn the_hoist_of_the_library_lifts_by_its_reduced_mass() {
     let run = simulate("machines/parts/hoist.machine", 1.5, &[]);
     is_good(&run);
-    // Of discs J/R² is half their mass.
+    // For discs J/R² is half their mass.
     let rises = (700.0 / 0.3 - 200.0 * 9.81) / (200.0 + 40.0 + 10.0);
     let lifted = 0.5 * rises * 1.5 * 1.5;
     close(number(&run["q"]["y"]), 1.0 + lifted, WITHIN);
     close(number(&run["q"]["x"]), 1.7, WITHIN);
     close(number(&run["q"]["drum"]), -lifted / 0.3, WITHIN);
-    // The rope crosses over to the other side of the sheave, which turns to the left.
+    // The rope passes to the other side of the sheave, which turns to the left.
     close(number(&run["q"]["sheave"]), lifted / 0.2, WITHIN);
 }
 
-/// Swinging, the rope rolls off the sheave and onto it. With ψ the direction of the hanging part and ℓ its length, the load is at
-/// `c + r n + ℓ e`, and `ℓ = ℓ₀ + r (ψ − ψ₀) + R φ` with φ the turn of the drum: a machine of two coordinates that no rope ties.
+/// When the load swings, the rope rolls off the sheave and onto it. With ψ the direction of the hanging part and ℓ its length,
+/// the load is at `c + r n + ℓ e`, and `ℓ = ℓ₀ + r (ψ − ψ₀) + R φ` with φ the angle of the drum: a machine with two coordinates
+/// and no constraint by a rope.
 #[test]
 fn a_load_swings_on_the_involute_of_its_sheave() {
     let free = "machine Involute in plane {
@@ -269,7 +270,7 @@ fn a_load_swings_on_the_involute_of_its_sheave() {
     }";
     let free = run("involute", free, 2.0);
     is_good(&free);
-    // The load begins at 5 m · 0.3 rad/s along x; a pendulum of that length swings by a third of a radian.
+    // The load starts at 5 m · 0.3 rad/s along x; a pendulum of that length swings by a third of a radian.
     let tied = pushed("machines/parts/hoist.machine", 2.0, &["x=1.5"]);
     is_good(&tied);
     let (psi, turned) = (number(&free["q"]["psi"]), number(&free["q"]["drum"]));
@@ -278,7 +279,7 @@ fn a_load_swings_on_the_involute_of_its_sheave() {
         (psi + std::f64::consts::FRAC_PI_2).abs() > 0.05,
         "it swings: {psi}"
     );
-    // The rope is held as a rate, so its length errs as places do: some hundred steps of 1e-13.
+    // The rope constrains rates, so its length has the same error as positions: some hundred steps of 1e-13.
     let x = 1.5 - 0.2 * psi.sin() + length * psi.cos();
     let y = 6.0 + 0.2 * psi.cos() + length * psi.sin();
     close(number(&tied["q"]["x"]), x, WITHIN);
@@ -287,7 +288,7 @@ fn a_load_swings_on_the_involute_of_its_sheave() {
     close(number(&tied["q"]["sheave"]), -1.5 * turned, WITHIN);
 }
 
-/// A rope from a hook down under a loose pulley, up over a fixed one and down to a counterweight.
+/// A rope from a hook down under a movable pulley, up over a fixed one and down to a counterweight.
 const TACKLE: &str = "machine Tackle in plane {
     parameters { M: kg = 3, m: kg = 1, p: m = 0.3, q: m = 0.1, g: m/s^2 = 9.81, L: m = 2 + 1.5 + 0.4*pi }
     coordinates { x: m, y: m = -1, X: m = p + 2*q, Y: m = -1.5 }
@@ -296,7 +297,7 @@ const TACKLE: &str = "machine Tackle in plane {
     ropes { rope { path: ((-p, 0), block.at, (p + q, 0), counterweight.at), radii: (0, p, -q, 0), length: L } }
 }";
 
-/// Where all parts hang the arcs stay, and the pulleys move as Atwood's.
+/// With all parts hanging vertically the wrapped arcs are constant, and the pulleys move as Atwood's.
 #[test]
 fn a_tackle_of_pulleys_with_radii_that_hangs_is_atwoods_machine() {
     let run = run("tackle", TACKLE, 0.5);
@@ -309,7 +310,8 @@ fn a_tackle_of_pulleys_with_radii_that_hangs_is_atwoods_machine() {
     close(number(&run["q"]["X"]), 0.5, WITHIN);
 }
 
-/// The length of a rope by the angles of its tangents, as drawn with compasses: a part is at asin(h/d) from the line of centres.
+/// The length of a rope from the angles of its tangents, as constructed with compasses: a straight part is inclined at asin(h/d)
+/// to the line of centres.
 fn drawn(path: &[([f64; 2], f64)]) -> f64 {
     let parts: Vec<(f64, f64)> = path
         .windows(2)
@@ -327,7 +329,7 @@ fn drawn(path: &[([f64; 2], f64)]) -> f64 {
     straight + arcs.sum::<f64>()
 }
 
-/// Swinging wildly, the rope is as long as its drawing throughout, and takes no energy.
+/// During large swings the rope keeps the length of the construction, and does no work.
 #[test]
 fn a_tackle_that_swings_keeps_the_length_of_its_rope() {
     let spec = Scratch::new("swinging.machine", TACKLE);
@@ -343,13 +345,13 @@ fn a_tackle_that_swings_keeps_the_length_of_its_rope() {
             ([at("X"), at("Y")], 0.0),
         ];
         let length = 3.5 + 0.4 * std::f64::consts::PI;
-        // Constraints are kept to 1e-13 of their terms.
+        // Constraints are satisfied to 1e-13 of their terms.
         close(drawn(&path), length, 1e-11);
         close(number(&run["energy_residual"]), 0.0, WITHIN);
     }
 }
 
-/// On a heavy pulley that it does not slip on, the rope pulls harder before it by what turns it.
+/// On a heavy pulley without slip, the tensions on both sides differ by what accelerates the pulley.
 #[test]
 fn a_pulley_with_inertia_takes_its_share_of_the_pull() {
     let spec = "machine Atwood in plane {
@@ -369,7 +371,7 @@ fn a_pulley_with_inertia_takes_its_share_of_the_pull() {
     let a = 9.81 * (3.0 - 1.0) / (3.0 + 1.0 + 2.0);
     close(number(&end["q"]["y"]), -1.0 - 0.5 * a * 0.16, WITHIN);
     close(number(&end["q"]["z"]), -2.0 + 0.5 * a * 0.16, WITHIN);
-    // Over the heavy end's fall the wheel turns to the left.
+    // The heavy end's fall turns the wheel to the left.
     close(number(&end["q"]["turn"]), 0.5 * a * 0.16 / 0.25, WITHIN);
     let spec = Scratch::new("pulley.machine", spec);
     let output = crate::support::lagrangian(&["evaluate", spec.path()]);
@@ -390,7 +392,7 @@ fn a_pulley_with_inertia_takes_its_share_of_the_pull() {
     );
 }
 
-/// A rope that is lifted off its pulley would push on it from the other side: no run goes on there.
+/// A rope that lifts off its pulley would need a pushing force: the run ends there.
 #[test]
 fn a_rope_that_leaves_its_pulley_ends_the_run() {
     let end = |spec: &str, until: &str, rate: &str| {
@@ -414,7 +416,7 @@ fn a_rope_that_leaves_its_pulley_ends_the_run() {
         gravity (0, -g);
         ropes { rope { ROPE } }
     }";
-    // Off a drum, and of a length of its own.
+    // A rope from a drum, and with a length of its own.
     let wound = "path: (drum.at, (0, 0), load.at), radii: (R, -r, 0), turns: (drum, 0, 0)";
     let length = drawn(&[([-1.0, -0.2], 0.0), ([0.0, 0.0], -0.1), ([1.0, -0.3], 0.0)]);
     let tied =
@@ -427,7 +429,7 @@ fn a_rope_that_leaves_its_pulley_ends_the_run() {
         let thrown = end(&spec, "0.3", "y=5");
         let why = thrown["error"].as_str().unwrap_or_default();
         assert!(why.contains(ending), "{thrown:#}");
-        // Let go, it hangs on.
+        // Released from rest, the rope keeps touching.
         let dropped = end(&spec, "0.05", "y=0");
         assert_eq!(dropped["error"], Value::Null, "{dropped:#}");
     }

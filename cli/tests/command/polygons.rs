@@ -1,5 +1,5 @@
-//! Convex polygons against convex polygons, against closed forms, what is written corner by corner, and a test of overlap that
-//! shares nothing with the compiler.
+//! Contacts of convex polygons, against closed forms, against the same contacts written corner by corner, and against a test of
+//! overlap that shares nothing with the compiler.
 
 use serde_json::Value;
 
@@ -9,7 +9,7 @@ use crate::support::{Scratch, lagrangian};
 const BOXES: &str = "machines/contacts/box_on_box.machine";
 const G: f64 = 9.81;
 
-/// A run, and the table that it writes: its columns and its rows.
+/// A run and the table that it writes: its columns and its rows.
 struct Table {
     run: Value,
     names: Vec<String>,
@@ -38,7 +38,7 @@ fn table(spec: &str, until: &str, every: &str, settings: &[&str]) -> Table {
     let text = std::fs::read_to_string(table.path()).expect("a table");
     let mut lines = text.lines().filter(|line| !line.starts_with('#'));
     let names = lines.next().expect("names").split(',');
-    // Without their units.
+    // Strips the units.
     let names = names.map(|name| name.split(" [").next().unwrap_or_default().to_owned());
     let names = names.collect();
     let numbers = |line: &str| {
@@ -50,7 +50,7 @@ fn table(spec: &str, until: &str, every: &str, settings: &[&str]) -> Table {
     Table { run, names, rows }
 }
 
-/// A box on a slope of a polygon stays where it is up to tan α = μ, and beyond slides down with g (sin α − μ cos α).
+/// A box on the slope of a polygon stays in place up to tan α = μ, and beyond that slides down with g (sin α − μ cos α).
 #[test]
 fn a_box_slides_down_a_polygon_beyond_its_angle_of_friction() {
     let spec = Scratch::new(
@@ -94,8 +94,8 @@ fn a_box_slides_down_a_polygon_beyond_its_angle_of_friction() {
     }
 }
 
-/// On a lower box that slides freely friction brings both to one velocity after v/(μ g (1 + m/M)), and takes what they lose by
-/// that.
+/// On a lower box that slides freely, friction brings both boxes to the same velocity after v/(μ g (1 + m/M)), and dissipates the
+/// energy that they lose.
 #[test]
 fn a_box_is_braked_on_another() {
     let (m, mu) = (1.0, 0.3);
@@ -105,7 +105,7 @@ fn a_box_is_braked_on_another() {
         is_good(&run);
         let brakes = mu * G * (1.0 + share);
         let sticks = events(&run, "sticks");
-        // Both corners of what touches come to rest at once.
+        // Both corners in contact begin to stick at once.
         let mut of_stack = sticks.iter().filter(|event| {
             let contact = event["contact"].as_str();
             contact.is_some_and(|contact| contact.starts_with("stack"))
@@ -126,8 +126,8 @@ fn a_box_is_braked_on_another() {
     }
 }
 
-/// On a rough floor everything is at rest after v/(μ g), though four corners share what holds it in more than one way; as polygons
-/// and as corners along a line of the lower box.
+/// On a rough floor everything is at rest after v/(μ g), although the load is shared by four corners in an undetermined way; both as
+/// polygons and as corners along a line of the lower box.
 #[test]
 fn boxes_that_share_a_load_come_to_rest() {
     let text = std::fs::read_to_string("../machines/contacts/box_on_box.machine").expect("a spec");
@@ -151,8 +151,8 @@ fn boxes_that_share_a_load_come_to_rest() {
     }
 }
 
-/// A box lies across the end of another on its own corner and on that of the other, each of which carries its share by the law of the
-/// lever; aligned boxes share a load as they like, and stay where they are.
+/// A box that overhangs the end of another rests on one corner of its own and on one of the other, which share the load by the law of
+/// the lever; for aligned boxes the distribution is undetermined, and they stay in place.
 #[test]
 fn a_box_lies_on_the_ends_of_what_both_have_in_common() {
     for start in [0.32_f64, 0.36, -0.36] {
@@ -166,7 +166,7 @@ fn a_box_lies_on_the_ends_of_what_both_have_in_common() {
         let last = told.rows.last().expect("rows");
         let of = |name: &str| last[told.column(name)];
         let normal = |k: usize| of(&format!("normal(stack[{k}])"));
-        // Corners 1 and 4 of the upper box are below, 6 and 7 of the lower one above: right and left.
+        // The upper box has the corners 1 and 4 at its bottom, the lower one 6 and 7 at its top: right and left.
         let (own, end) = if start > 0.0 { (4, 6) } else { (1, 7) };
         let lever = (0.4 - start.abs()) / (0.5 - start.abs());
         close(normal(own), G * lever, 1e-11);
@@ -184,8 +184,8 @@ fn a_box_lies_on_the_ends_of_what_both_have_in_common() {
     close(number(&run["q"]["theta"]), 0.0, 1e-13);
 }
 
-/// A box that slides over the end of another hands over from its corner to that of the other, without an impact: x = v t − ½ μ g t²
-/// until its centre, less what friction shifts the load by, is over the end; then it tips about that.
+/// When a box slides over the end of another, contact passes from its corner to that of the other box without an impact. x = v t − ½
+/// μ g t² until its centre, corrected by the shift of the load due to friction, is over the end; then it tips about that.
 #[test]
 fn a_box_slides_over_the_end_of_another_without_an_impact() {
     let (mu, v) = (0.1, 3.0_f64);
@@ -197,18 +197,18 @@ fn a_box_slides_over_the_end_of_another_without_an_impact() {
         let own = own.filter(|event| event["contact"] == contact);
         own.map(|event| number(&event["t"])).collect()
     };
-    // Its corner in front leaves the face where that of the other comes under it.
+    // Its front corner leaves the face when that of the other box comes under it.
     let passes = time_at(0.3);
     close(of("lifts", "stack[1]")[0], passes, 1e-11);
     close(of("closes", "stack[6]")[0], passes, 1e-11);
-    // The load is ahead of the centre by μ h.
+    // Friction shifts the load ahead of the centre by μ h.
     let tips = time_at(0.4 - mu * 0.05);
     close(of("lifts", "stack[4]")[0], tips, 1e-10);
     let first = events(&run, "impact")
         .first()
         .map_or(f64::INFINITY, |event| number(&event["t"]));
     assert!(first > tips + 1e-3, "{first}");
-    // And it goes down beside the other box, turned to the right.
+    // It falls beside the other box, turning to the right.
     assert!(
         number(&run["q"]["theta"]) < -0.1
             && number(&run["q"]["x"]) > 0.5
@@ -217,7 +217,7 @@ fn a_box_slides_over_the_end_of_another_without_an_impact() {
     );
 }
 
-/// A box that falls flat touches with two corners at once, and bounces as a ball does: it lies still after √(2 d/g) (1 + e)/(1 − e).
+/// A box that falls flat touches with two corners at once, and bounces as a ball does: it is at rest after √(2 d/g) (1 + e)/(1 − e).
 #[test]
 fn a_box_lands_flat_on_another_with_two_corners_at_once() {
     for (drop, e) in [(0.2_f64, 0.5_f64), (0.05, 0.0), (0.3, 0.7)] {
@@ -241,7 +241,7 @@ fn a_box_lands_flat_on_another_with_two_corners_at_once() {
             assert_eq!(impact["contact"], format!("stack[{k}]"));
             close(number(&impact["t"]), falls, 1e-14);
             close(number(&impact["gap_rate"][1]), e * G * falls, 1e-12);
-            // Each carries half of it.
+            // Each corner carries half of it.
             close(
                 number(&impact["impulse"][0]),
                 0.5 * (1.0 + e) * G * falls,
@@ -261,8 +261,8 @@ fn a_box_lands_flat_on_another_with_two_corners_at_once() {
     }
 }
 
-/// What is written as corners along a line, or as edges of a stair with what touches them, moves as polygons do: a box that
-/// falls on a floor, and one that tumbles down a step.
+/// Contacts written as corners along a line, or as edges of a stair, move as polygons do: a box that falls on a floor, and one that
+/// tumbles down a step.
 #[test]
 fn polygons_move_as_what_is_written_corner_by_corner() {
     let stair =
@@ -293,7 +293,7 @@ fn polygons_move_as_what_is_written_corner_by_corner() {
         let [found, expected] = [polygons.path(), lines.path()].map(|spec| by(spec, settings));
         is_good(&found);
         for name in ["x", "y", "theta"] {
-            // Impacts follow each other, and each makes of an error some ten times as much.
+            // A sequence of impacts, each of which multiplies errors by about ten.
             close(
                 number(&found["q"][name]),
                 number(&expected["q"][name]),
@@ -335,7 +335,7 @@ fn polygons_move_as_what_is_written_corner_by_corner() {
     }
 }
 
-/// Corners of a convex polygon: on an ellipse, turned left.
+/// Corners of a convex polygon: on an ellipse, counterclockwise.
 fn polygon(random: &mut impl FnMut() -> f64) -> Vec<[f64; 2]> {
     let count = 3 + (random() * 3.0) as usize;
     // Some are as thin as needles.
@@ -358,7 +358,8 @@ fn polygon(random: &mut impl FnMut() -> f64) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// How deep polygons overlap: the least way along the normal of any edge that takes them apart; negative where they do not.
+/// The penetration depth of polygons: the smallest displacement along the normal of any edge that separates them; negative if they
+/// do not overlap.
 fn overlap(polygons: [&[[f64; 2]]; 2]) -> f64 {
     let mut least = f64::INFINITY;
     for polygon in polygons {
@@ -379,8 +380,8 @@ fn overlap(polygons: [&[[f64; 2]]; 2]) -> f64 {
     least
 }
 
-/// Random polygons, needles among them, that a spring pulls against each other again and again: they never overlap, elastic ones keep
-/// their energy, and momenta stay as they were, whatever touches what.
+/// Random polygons, some as thin as needles, that a spring pulls against each other again and again: they never overlap, elastic ones
+/// conserve their energy, and momenta are conserved in all contacts.
 #[test]
 fn polygons_never_overlap_and_keep_their_momenta() {
     let seed: u64 = std::env::var("SEED")
@@ -469,7 +470,7 @@ fn polygons_never_overlap_and_keep_their_momenta() {
                 placed(&shapes[1], [xx, yy, aa]),
             ];
             let deep = overlap([&one, &two]);
-            // The tolerance of the run, and what dense output adds to it.
+            // The tolerance of the run, and the error of dense output.
             assert!(deep < 1e-9, "round {round}: {deep:e} at {row:?}");
             for (now, then) in momenta(row).iter().zip(begins) {
                 close(*now, then, 1e-8);
@@ -479,7 +480,8 @@ fn polygons_never_overlap_and_keep_their_momenta() {
     assert!(impacts > 30, "{impacts}");
 }
 
-/// A corner that turns by more than a radian in a step comes and goes between few looks: the same impacts as in short steps.
+/// A corner that turns by more than a radian in a step may come and go between few samples: the impacts must be the same as
+/// in short steps.
 #[test]
 fn corners_of_what_turns_fast_are_seen() {
     let spec = Scratch::new(
@@ -529,7 +531,7 @@ fn corners_of_what_turns_fast_are_seen() {
     }
 }
 
-/// By time stepping a box stops where it should, to the first order in the step, and is not pressed into the other.
+/// With time stepping a box stops at the right place to first order in the step, and does not penetrate the other.
 #[test]
 fn boxes_are_stepped_too() {
     for h in [1e-3, 2.5e-4] {
@@ -553,7 +555,7 @@ fn boxes_are_stepped_too() {
     }
 }
 
-/// Where a corner comes to the end of a face the motion has no derivative that is known: so that is refused by name.
+/// At the transition of a corner over the end of a face the derivative of the motion is not known, so it is refused by name.
 #[test]
 fn derivatives_across_polygons_are_refused() {
     let call = [

@@ -1,19 +1,19 @@
-//! `simulate --precision dd`, `--validated` and `--global-error`, against ends in more digits: by extrapolation in binary128 (two resolutions agree
-//! to 4e-21 for the double pendulum and 8e-26 for the crusher), and closed forms.
+//! `simulate --precision dd`, `--validated` and `--global-error`, against end states with more digits: from extrapolation in binary128 (two
+//! resolutions agree to 4e-21 for the double pendulum and 8e-26 for the crusher), and from closed forms.
 
 use serde_json::Value;
 
 use crate::support::{Scratch, lagrangian};
 
-/// An end: what is asked of the command, and names with their numbers.
+/// A known end state: the call of the command, and the names with their numbers.
 struct Known {
     call: &'static [&'static str],
     /// Coordinates, then rates.
     names: &'static [&'static str],
     end: &'static [&'static str],
-    /// How exact that is.
+    /// The error of these numbers.
     error: f64,
-    /// What an error of a number is measured by, besides its size.
+    /// The scale of the error of each number, in addition to its size.
     scales: &'static [f64],
 }
 
@@ -39,7 +39,7 @@ const REGULAR: Known = Known {
     scales: &[1.0; 4],
 };
 
-/// The same 10 s after rest at (2, 2.5) rad, where it multiplies every error by 10⁹.
+/// The same pendulum 10 s after rest at (2, 2.5) rad, where it multiplies every error by 10⁹.
 const CHAOTIC: Known = Known {
     call: &[
         "machines/double_pendulum.machine",
@@ -126,7 +126,7 @@ fn refused(arguments: &[&str]) -> (i32, String) {
     (output.status.code().expect("no signal"), said)
 }
 
-/// A decimal number in units of 1e-32.
+/// A decimal number as an integer in units of 1e-32.
 fn units(decimal: &str) -> i128 {
     let (text, sign) = match decimal.strip_prefix('-') {
         Some(text) => (text, -1),
@@ -150,7 +150,7 @@ fn units(decimal: &str) -> i128 {
 }
 
 impl Known {
-    /// Every number of an answer with what it should be, and the scale of its error.
+    /// Every number of an answer with its known value and the scale of its error.
     fn each<'a>(&'a self, answer: &'a Value) -> impl Iterator<Item = (&'a Value, &'a str, f64)> {
         let n = self.names.len();
         let numbers = (0..2 * n).map(move |i| {
@@ -163,14 +163,14 @@ impl Known {
             .map(|(found, (exact, scale))| (found, *exact, *scale))
     }
 
-    /// The greatest true error of an end in `f64`.
+    /// The largest true error of an end state in `f64`.
     fn error_of(&self, answer: &Value) -> f64 {
         let error = |(found, exact, _): (&Value, &str, f64)| {
             let found = found.as_f64().expect("a number");
-            // The nearest f64 is near enough: errors of rounding are not asked for.
+            // The nearest f64 is accurate enough; rounding errors are not tested.
             let exact: f64 = exact.parse().expect("a number");
-            // Relative to the end of the run, as the command says it: where the error is as large as the numbers, that is not the same as to
-            // the known one.
+            // The scale is the end that was found, as in the command's definition. If the error is as large as the numbers, this differs from
+            // the known end.
             (found - exact).abs() / (1.0 + found.abs())
         };
         self.each(answer).map(error).fold(0.0, f64::max)
@@ -286,8 +286,7 @@ fn what_has_no_run_in_double_double_is_refused_with_the_reason() {
 
 #[test]
 fn enclosures_contain_the_ends_that_are_known() {
-    // The whole run of 100 s takes minutes in a development build: its first second, held against a run in double-double, is proved the
-    // same way.
+    // The whole run of 100 s takes minutes in a development build. Its first second, compared with a run in double-double, proves the same.
     for (spec, until, widest) in [
         ("machines/double_pendulum.machine", "1", 1e-10),
         ("machines/crusher9.machine", "0.05", 1e-9),
@@ -301,7 +300,7 @@ fn enclosures_contain_the_ends_that_are_known() {
             for (name, bounds) in found[level].as_object().expect("numbers") {
                 let [lo, hi] = [0, 1].map(|i| bounds[i].as_f64().expect("a number"));
                 let text = exact[level][name].as_str().expect("a decimal");
-                // Decimals of 30 digits between the bounds: as f64 they may be the bounds themselves.
+                // The bounds enclose decimals of 30 digits, whose nearest f64 may equal a bound.
                 let number: f64 = text.parse().expect("a number");
                 assert!(
                     lo <= number && number <= hi,
@@ -334,14 +333,14 @@ fn an_enclosure_of_a_closed_form_contains_it_and_a_damaged_one_does_not() {
     let exact = 0.408_082_061_813_391_98;
     let [lo, hi] = bounds("k=1");
     assert!(lo < exact && exact < hi && hi - lo < 1e-13, "[{lo}, {hi}]");
-    // A stiffness off by 1e-12 moves the end by 9e-12: the bounds know.
+    // A stiffness with an error of 1e-12 moves the end by 9e-12, which the bounds resolve.
     let [lo, hi] = bounds("k=1.000000000001");
     assert!(!(lo <= exact && exact <= hi), "[{lo}, {hi}]");
 }
 
 #[test]
 fn an_enclosure_that_ends_says_where_and_the_bounds_there_hold() {
-    // Chaos widens bounds by a factor e at each Lyapunov time: they end sometime, and not with a wrong one.
+    // In chaotic motion the bounds grow by a factor e in each Lyapunov time. A run ends when they become too wide, instead of giving wrong bounds.
     let call = [
         "simulate",
         "machines/double_pendulum.machine",
@@ -416,7 +415,7 @@ fn the_global_error_is_estimated_to_a_tenth_where_the_machine_runs_in_double_dou
                 "{} {tolerance}: estimate {estimate:.2e}, true {truth:.2e}, factor {factor:.4}",
                 known.call[0]
             );
-            // Beside the estimate stand the roundings of the known end, some 1e-16.
+            // In addition to the estimate, the roundings of the known end, about 1e-16.
             assert!(
                 (estimate - truth).abs() < 0.1 * truth + 1e-15,
                 "{estimate} and {truth}"
@@ -427,7 +426,7 @@ fn the_global_error_is_estimated_to_a_tenth_where_the_machine_runs_in_double_dou
 
 #[test]
 fn the_global_error_of_a_machine_with_constraints_is_estimated_by_a_finer_run() {
-    // The known end is good to 1e-13.
+    // The known end is accurate to 1e-13.
     let known = [
         ("q", "crank", 127.706_727_238_734_03),
         ("v", "crank", 8.956_708_571_057_673),

@@ -1,4 +1,5 @@
-//! Frames that are turned by four numbers: against the same machines by angles, closed forms, and what must not be done with them.
+//! Frames that are rotated by four numbers (quaternions), against the same machines with angles, against closed forms, and with uses that
+//! must be refused.
 
 use std::collections::HashMap;
 
@@ -6,11 +7,11 @@ use serde_json::Value;
 
 use crate::support::{Scratch, lagrangian, root};
 
-/// A body with three moments of inertia, spun about the middle one: the machine `asymmetric_top` by four numbers, with the same start
-/// and the same outputs. At the start yaw and pitch are 0, and the four numbers have the length `long`.
+/// A body with three different moments of inertia, spinning about the middle axis: the machine `asymmetric_top` with a quaternion, with the
+/// same start and outputs. At the start yaw and pitch are 0, and the quaternion has the norm `long`.
 fn free_top(long: f64) -> String {
     let (sin, cos) = 0.005_f64.sin_cos();
-    // It turns about the vertical: half the product of the four numbers with the angular velocity along the body's axes.
+    // The initial rates: half the product of the quaternion with the angular velocity along the body's axes.
     let [y, z] = [10.0 * 0.01_f64.sin(), 10.0 * 0.01_f64.cos()];
     let rates = [cos * y - sin * z, cos * z + sin * y].map(|rate| rate * long / 2.0);
     format!(
@@ -79,7 +80,7 @@ fn close(found: f64, exact: f64, most: f64) {
     assert!(off <= most, "{found} and not {exact}: {off:e}");
 }
 
-/// Two ways to write a machine, one motion. The angles' is held against Jacobi's functions elsewhere. A wobble grows by exp(5 t) or so
+/// Two descriptions of the same motion. The one by angles is compared with Jacobi's functions elsewhere. A wobble grows by about exp(5 t)
 /// until the top stands on its head, at 1.3 s: the error of a step of 1e-13 is below 1e-9 then.
 #[test]
 fn a_free_top_tumbles_as_by_angles() {
@@ -97,8 +98,8 @@ fn a_free_top_tumbles_as_by_angles() {
     }
 }
 
-/// How long the four numbers are comes back to 1 from wherever it starts, and stays there through a million radians, by steps whose
-/// errors are a thousandth of the square at most; the motion goes on as it was.
+/// The norm of the quaternion returns to 1 from any start, and stays there over a million radians, in steps whose error is at most a
+/// thousandth of its square; the motion is not affected.
 #[test]
 fn the_length_of_four_numbers_stays_what_it_is() {
     for tolerance in ["1e-6", "1e-9"] {
@@ -116,9 +117,9 @@ fn the_length_of_four_numbers_stays_what_it_is() {
     close(rows.last().expect("rows")["square"], 1.0, 1e-6);
 }
 
-/// With the momentum about its own axis and about the vertical both `p = C w`, energy gives where a top that starts upright turns back:
-/// at the u = cos θ below 1 of `p²/(2 A) (1 − u)/(1 + u) = A push²/2 + m g l (1 − u)`, A about the fixed point. (F. Klein,
-/// A. Sommerfeld, *Über die Theorie des Kreisels*, 1897, chapter IV.)
+/// The angular momenta about the top's own axis and about the vertical are both `p = C w`, so the energy determines where a top that starts
+/// upright turns back: at the u = cos θ below 1 with `p²/(2 A) (1 − u)/(1 + u) = A push²/2 + m g l (1 − u)`, A about the fixed point. (F.
+/// Klein, A. Sommerfeld, *Über die Theorie des Kreisels*, 1897, chapter IV.)
 #[test]
 fn a_top_passes_through_the_upright_again_and_again() {
     let (m, l, g, c) = (0.2, 0.05, 9.81, 2e-4);
@@ -143,7 +144,8 @@ fn a_top_passes_through_the_upright_again_and_again() {
         let lean = half + (half * half + 2.0 * e / w).sqrt();
         let lowest = rows.iter().map(|row| row["upright"]).fold(1.0, f64::min);
         let turned = spin == 0.0;
-        // Between two rows it may lean further by less than half its greatest acceleration times the square of half a row, 1e-3·200.
+        // Between two rows it may lean further by less than half its greatest acceleration times the square of half a
+        // row's interval, 1e-3·200.
         close(lowest, if turned { -1.0 } else { 1.0 - lean }, 1e-4);
         let passes = rows.windows(3).filter(|three| {
             let [before, here, after] = [0, 1, 2].map(|k| three[k]["upright"]);
@@ -153,7 +155,7 @@ fn a_top_passes_through_the_upright_again_and_again() {
     }
 }
 
-/// The text of a machine of the library with other words in it, each of which has to be there.
+/// A library machine with some words replaced, each of which must occur.
 fn rewritten(machine: &str, words: &[(&str, &str)]) -> Scratch {
     let path = root().join("machines").join(machine);
     let mut text = std::fs::read_to_string(&path).expect("a machine");
@@ -164,8 +166,8 @@ fn rewritten(machine: &str, words: &[(&str, &str)]) -> Scratch {
     Scratch::new("rewritten.machine", &text)
 }
 
-/// Friction slips against the velocity of what touches, which the turn has a part in: a struck ball by four numbers sticks when it does by
-/// three angles, where it does, and has the same velocity then.
+/// Friction acts against the velocity of the point of contact, which depends on the rotation: a struck ball described by a quaternion
+/// sticks at the same time and place as one by three angles, with the same velocity.
 #[test]
 fn a_cue_ball_slips_and_rolls_as_by_angles() {
     let spec = rewritten(
@@ -207,8 +209,8 @@ fn a_cue_ball_slips_and_rolls_as_by_angles() {
     );
 }
 
-/// The centre of a ball that rolls on a turntable goes round at 2/7 of its rate, whatever the ball's own turn (E. J. Routh, *Advanced Rigid
-/// Dynamics*, 1905, ch. V): by constraints on the velocity of the point that touches.
+/// The centre of a ball that rolls on a turntable moves on a circle at 2/7 of its rate, whatever the ball's own rotation (E. J. Routh,
+/// *Advanced Rigid Dynamics*, 1905, ch. V): with constraints on the velocity of the point of contact.
 #[test]
 fn a_ball_rolls_round_on_a_turntable() {
     let spec = Scratch::new(
@@ -238,7 +240,8 @@ fn a_ball_rolls_round_on_a_turntable() {
     }
 }
 
-/// A top that hangs still swings at √(m g l/A) both ways and turns freely about its axis; how long the four numbers are is none of it.
+/// A top that hangs at rest swings at √(m g l/A) in both directions and rotates freely about its axis; the norm of the quaternion is not
+/// among its modes.
 #[test]
 fn a_hanging_top_has_the_frequencies_of_a_spherical_pendulum() {
     let spec = rewritten(
@@ -264,7 +267,7 @@ fn a_hanging_top_has_the_frequencies_of_a_spherical_pendulum() {
     for mode in modes {
         close(number(&mode["re"]), 0.0, 1e-11);
     }
-    // Three freedoms, so six states.
+    // Three degrees of freedom have six states.
     let output = lagrangian(&[&["linearize", spec.path(), "--json"], &still[..]].concat());
     let errors = String::from_utf8_lossy(&output.stderr);
     let model: Value =
@@ -276,7 +279,8 @@ fn a_hanging_top_has_the_frequencies_of_a_spherical_pendulum() {
     );
 }
 
-/// What moves, acts or constrains by the length of the four numbers is refused where the spec says it; and whatever else cannot be.
+/// A geometry, load or constraint that depends on the norm of the quaternion is refused at its place in the spec, and so are
+/// other invalid uses.
 #[test]
 fn what_depends_on_the_length_is_refused() {
     let machine = |more: &str| {
@@ -361,7 +365,7 @@ fn what_depends_on_the_length_is_refused() {
         let place: String = line.chars().skip(column).collect();
         assert!(place.starts_with(at), "{more}: {place}");
     }
-    // The same said by the frame goes, and so does what is the same for every length.
+    // The same quantities expressed by the frame are accepted, and so are those that do not depend on the norm.
     for more in [
         "potentials { a: k*dot(body.vector(0, 0, 1), (0, 0, 1)) }",
         "torsion_springs { a { stiffness: k, twist: 2*atan2(e[1], e[0]) } }",

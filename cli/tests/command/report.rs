@@ -1,9 +1,9 @@
-//! The page of a run: what it holds, what it does not, and which parts of a machine are found to be joined.
+//! The page of a run: its contents, the things that it must not contain, and which parts of a machine are drawn as joined.
 
 use crate::support::{Page, Scratch, lagrangian};
 use serde_json::Value;
 
-/// The page of a machine of the library.
+/// The page of a library machine.
 fn library(machine: &str, options: &[&str]) -> Page {
     let spec = format!("machines/{machine}.machine");
     Page::of(&spec, &with_end(options))
@@ -15,7 +15,7 @@ fn spec(text: &str, options: &[&str]) -> Page {
     Page::of(file.path(), &with_end(options))
 }
 
-/// One second, unless the options say how long.
+/// The options with an end after one second, unless they contain one.
 fn with_end<'a>(options: &[&'a str]) -> Vec<&'a str> {
     let mut options = options.to_vec();
     if !options.contains(&"--until") {
@@ -38,7 +38,7 @@ fn number(value: &Value) -> f64 {
 
 #[track_caller]
 fn assert_near(value: &Value, truth: f64) {
-    // Some operations on numbers near 1, each rounded.
+    // Some operations on numbers near 1, each with a rounding.
     assert!(
         (number(value) - truth).abs() < 1e-14,
         "{value}, not {truth}"
@@ -49,7 +49,7 @@ fn assert_near(value: &Value, truth: f64) {
 fn a_page_needs_nothing_but_itself() {
     for machine in ["double_pendulum", "cushioned_crusher", "six_joint_arm"] {
         let html = library(machine, &[]).html;
-        // Namespaces are names, not addresses.
+        // XML namespaces are names, not addresses.
         let rest = html.replace("http://www.w3.org/", "");
         for outside in [
             "http://",
@@ -180,8 +180,7 @@ fn a_run_backward_in_time_goes_backward() {
     assert!(number(&page.data["interval"]) < 0.0);
 }
 
-/// Every stored state is a line of the table of the same run, rounded to 32 bits, and the table is the same with a page and
-/// without one.
+/// Every stored state is a row of the table of the same run, rounded to 32 bits, and the table does not depend on the page.
 #[test]
 fn the_states_on_the_page_are_those_of_the_table() {
     for machine in ["cart_pole", "cushioned_crusher"] {
@@ -219,7 +218,7 @@ fn the_states_on_the_page_are_those_of_the_table() {
             let rounded: Vec<f32> = row[1..=width].iter().map(|x| *x as f32).collect();
             assert_eq!(*state, rounded, "{machine} at t = {t}");
         }
-        // Both were taken at powers of two of one interval: the coarser lies in the finer.
+        // Both are sampled at an interval divided by powers of two, so the finer samples include the coarser.
         assert!(
             compared >= states.len().min(rows.len()) / 2,
             "{machine}: {compared}"
@@ -258,7 +257,7 @@ fn curves_keep_the_extremes_of_the_run() {
             let least = rows.iter().fold(f64::MAX, |m, row| m.min(row[column])) as f32;
             let values = crate::support::floats(values);
             assert!(values.len() <= 1602, "{name}");
-            // The page was recorded more closely: it sees at least as much.
+            // The page has at least as many samples, so its extremes are at least as large.
             assert!(values.iter().any(|x| *x >= greatest), "{name}");
             assert!(values.iter().any(|x| *x <= least), "{name}");
             seen += 1;
@@ -277,7 +276,7 @@ fn a_double_pendulum_hangs_on_two_rods() {
     assert_eq!(picture["dimension"], 2);
 }
 
-/// The inertia m (2l)²/12 about the middle is that of a uniform pole of length 2l, which the hinge is an end of.
+/// The inertia m (2l)²/12 about the middle is that of a uniform pole of length 2l, with the hinge at one end.
 #[test]
 fn a_pole_is_a_bar_on_its_cart_and_the_cart_is_damped_from_the_ground() {
     let page = library("cart_pole", &[]);
@@ -326,7 +325,7 @@ fn a_crusher_has_its_axle_its_cushions_and_its_stands() {
     let picture = page.picture();
     let bodies = picture["bodies"].as_array().expect("bodies");
     let at = |index: usize| &bodies[index]["at"];
-    // Platform, debalance, mortar, pestle: the axle of the debalance is no body's centre and not the ground.
+    // Platform, debalance, mortar, pestle: the axle of the debalance is neither a body's centre nor on the ground.
     let axle = place(&bodies[1]["rod"]);
     assert!(bodies.iter().all(|body| place(&body["at"]) != axle));
     assert_ne!(axle, place(&picture["ground"]));
@@ -337,7 +336,7 @@ fn a_crusher_has_its_axle_its_cushions_and_its_stands() {
             "{index} is held by springs only"
         );
     }
-    // The circles are the outlines of what has some; the debalance is a disc with m R²/2 = J.
+    // Bodies with circles are drawn by their outlines; the debalance is a disc with m R²/2 = J.
     for index in [0, 2, 3] {
         assert_eq!(bodies[index]["solid"], Value::Null);
     }
@@ -357,7 +356,7 @@ fn a_crusher_has_its_axle_its_cushions_and_its_stands() {
         assert_eq!(mortar["ends"], serde_json::json!([at(0), at(2)]));
         let pestle = element("pestle_cushion", damper);
         assert_eq!(pestle["ends"], serde_json::json!([at(2), at(3)]));
-        // x − yc θ is how far the point at y = yc moves along x; y − xc θ that at x = −xc along y.
+        // x − yc θ is the displacement along x of the point at y = yc; y − xc θ is that along y of the point at x = −xc.
         for (name, foot, along) in [
             ("x_left", [0.0, 0.3], [1.0, 0.0]),
             ("x_right", [0.0, -0.3], [1.0, 0.0]),
@@ -379,7 +378,7 @@ fn a_crusher_has_its_axle_its_cushions_and_its_stands() {
     assert_eq!(picture["omitted"], serde_json::json!([]));
 }
 
-/// Polygons, where the spec gives their corners: in the axes of the frame, or from the mass centre along the body's own.
+/// Polygons are drawn at the corners that the spec gives: in the axes of the frame, or relative to the mass centre in the body's own axes.
 #[test]
 fn outlines_are_drawn_where_their_corners_are() {
     let text = "machine Plates in plane {
@@ -413,7 +412,7 @@ fn outlines_are_drawn_where_their_corners_are() {
             assert!(page.html.contains(&set), "{set}");
         }
     }
-    // The corner of a body that moves, at the origin of its frame, is that point.
+    // The corner of a moving body at the origin of its frame is that point.
     assert_eq!(corners(2)[0], place(&picture["frames"][1]["origin"]));
     assert_eq!(corners(1)[0], place(&picture["bodies"][1]["at"]));
 }
@@ -432,7 +431,7 @@ fn bodies_without_outlines_are_discs_of_their_inertia() {
     }
 }
 
-/// Two discs on two bobs, a rope of constant length between the bobs said by its length, by its square, and doubled.
+/// Two discs on two bobs, with a rope of constant length between the bobs that is given by its length, by its square, or doubled.
 #[test]
 fn what_keeps_its_distance_by_a_constraint_is_joined_by_a_rope() {
     let rope = |said: &str| {
@@ -463,7 +462,7 @@ fn an_arm_is_links_between_its_joints() {
     let page = library("six_joint_arm", &[]);
     let picture = page.picture();
     let links = picture["links"].as_array().expect("links");
-    // Column, upper arm, forearm, hand: each starts where the one before it ends.
+    // Column, upper arm, forearm, hand: each starts at the end of the previous one.
     assert_eq!(links.len(), 4);
     assert_eq!(links[0]["ends"][0], picture["ground"]);
     for pair in links.windows(2) {
@@ -474,7 +473,7 @@ fn an_arm_is_links_between_its_joints() {
     assert_eq!(picture["bodies"][2]["solid"]["form"], "box");
 }
 
-/// A disc of 15 kg with C = 2A = 0.46875 kg m²: m R²/2 = C gives R = 1/4, and a thin one has A = m R²/4.
+/// A disc of 15 kg with C = 2A = 0.46875 kg m²: m R²/2 = C gives R = 1/4, and a thin disc has A = m R²/4.
 #[test]
 fn a_top_is_a_disc_on_an_axle() {
     let page = library("heavy_top", &["--until", "0.1"]);
@@ -497,7 +496,7 @@ fn a_pendulum_is_joined_to_the_pivot_that_drives_it() {
     let picture = page.picture();
     let rod = place(&picture["bodies"][0]["rod"]);
     assert_ne!(rod, place(&picture["ground"]));
-    // The pivot's height is a cos ω t, and nothing else.
+    // The pivot moves vertically by a cos ω t, and not horizontally.
     let script = &page.html;
     assert!(script.contains(&format!("x[{rod}] = 0.0;")));
 }
@@ -544,17 +543,17 @@ fn circles_are_drawn_on_what_they_are_fixed_to() {
     assert_eq!(circles[0]["center"], picture["bodies"][0]["at"]);
     let owners: Vec<&Value> = circles.iter().map(|circle| &circle["body"]).collect();
     assert_eq!(owners, [&Value::from(0), &Value::from(0), &Value::Null]);
-    // Its circles show the body; a disc of the same inertia beside them would be one outline too many.
+    // Its circles are the outline of the body; a disc of the same inertia would be a second outline.
     assert_eq!(picture["bodies"][0]["solid"], Value::Null);
 }
 
-/// Base 64 of 32-bit numbers.
+/// Decodes base64 of 32-bit numbers.
 fn stored(value: &Value) -> Vec<f32> {
     crate::support::floats(value.as_str().expect("text"))
 }
 
-/// A ball that falls from a height h hits the floor at √(2h/g), then after flights that shrink by e; its impulses are (1 + e) m v, v being
-/// √(2gh) and shrinking as well. Each has its mark, which leads to its instant, and its arrow.
+/// A ball that falls from a height h hits the floor at √(2h/g), and later after flights that shrink by e; its impulses are (1 + e) m v,
+/// where v is √(2gh) and also shrinks. Each impact has a mark that leads to its instant, and an arrow.
 #[test]
 fn impacts_of_a_ball_are_marked_where_they_are() {
     let page = library("contacts/bouncing_ball", &["--until", "2"]);
@@ -577,7 +576,7 @@ fn impacts_of_a_ball_are_marked_where_they_are() {
         })
         .collect();
     assert_eq!(times.len(), expected.len());
-    // The tolerance of a step, 1e-9, for some twenty steps.
+    // The tolerance of a step, 1e-9, over about twenty steps.
     for (seen, truth) in times.iter().zip(&expected) {
         assert!((seen - truth).abs() < 1e-8, "{seen}, not {truth}");
     }
@@ -598,7 +597,7 @@ fn impacts_of_a_ball_are_marked_where_they_are() {
     let contact = &page.picture()["contacts"][0];
     assert_eq!(contact["forces"], serde_json::json!(["normal(floor)"]));
     assert_eq!(contact["placed"], "point");
-    // Upward, at the lowest point of the ball.
+    // The force points upward, at the lowest point of the ball.
     let up = place(&contact["directions"][0]);
     for (k, value) in [(0, "0.0"), (1, "1.0")] {
         assert!(page.html.contains(&format!("x[{}] = {value};", up + k)));
@@ -638,7 +637,7 @@ fn every_force_of_contact_has_its_curves() {
     }
 }
 
-/// Gaps that are given by expressions have a line of action where one body is enough for it: the walls of a box press along x.
+/// A gap that is given by an expression has a line of action if it involves only one body: the walls of a box press along x.
 #[test]
 fn forces_of_gaps_by_expressions_are_drawn_on_their_lines() {
     let page = library("contacts/shaken_box", &[]);
@@ -652,7 +651,7 @@ fn forces_of_gaps_by_expressions_are_drawn_on_their_lines() {
         assert_near(&contact["force"][0], direction);
         assert_near(&contact["force"][1], 0.0);
     }
-    // Between two balls nothing says where they touch.
+    // Between two balls an expression does not determine the point of contact.
     let page = library("contacts/newtons_cradle", &[]);
     assert_eq!(page.picture()["contacts"], serde_json::json!([]));
     assert!(

@@ -9,8 +9,8 @@ const SPEC: &str = "machines/contacts/rolling_out.machine";
 
 const G: f64 = 9.81;
 
-/// With I = m r²/2 the torque ρ m g at a disc that rolls makes ẍ = −2 ρ g/(3 r), until it rests after 3 v² r/(4 ρ g); all that it
-/// had, ¾ m v², is lost by then.
+/// With I = m r²/2 the torque ρ m g on a rolling disc gives ẍ = −2 ρ g/(3 r), until it rests after 3 v² r/(4 ρ g); its entire
+/// energy, ¾ m v², is dissipated by then.
 #[test]
 fn a_disc_rolls_out() {
     let (m, r) = (2.0, 0.1);
@@ -24,7 +24,7 @@ fn a_disc_rolls_out() {
         let way = 0.75 * speed * speed * r / (rho * G) * speed.signum();
         close(number(&run["q"]["x"]), way, 1e-11 * way.abs());
         close(number(&run["q"]["theta"]), -way / r, 1e-11 * way.abs() / r);
-        // What sticks is held to rounding of the rates that it had.
+        // A sticking contact is held up to the rounding of its former rates.
         close(number(&run["v"]["x"]), 0.0, 1e-14 * speed.abs());
         close(number(&run["v"]["theta"]), 0.0, 1e-14 * speed.abs() / r);
         let rests = events(&run, "sticks");
@@ -33,7 +33,7 @@ fn a_disc_rolls_out() {
         close(number(&rests[0]["t"]), stops, 1e-12 * (1.0 + stops));
         let had = 0.75 * m * speed * speed;
         close(number(&run["dissipated"]), had, 1e-11 * had);
-        // The rolling has no impacts and neither closes nor lifts: that is said of the contact alone.
+        // The rolling direction has no impacts and neither closes nor lifts: these events belong to the contact.
         for kind in ["impact", "closes", "lifts"] {
             let own = events(&run, kind).into_iter();
             assert_eq!(
@@ -45,8 +45,8 @@ fn a_disc_rolls_out() {
     }
 }
 
-/// Where it slips at first, friction and resistance brake by themselves: v = v₀ − μ g t and r ω = 2 (μ − ρ/r) g t, so it rolls from
-/// t₁ = v₀/(g (3 μ − 2 ρ/r)) on.
+/// While the disc slips, friction and resistance act separately: v = v₀ − μ g t and r ω = 2 (μ − ρ/r) g t, so it rolls from t₁ =
+/// v₀/(g (3 μ − 2 ρ/r)) on.
 #[test]
 fn a_disc_that_slips_is_turned_by_both() {
     let (r, mu, rho, speed) = (0.1, 0.3, 0.01, 3.0_f64);
@@ -71,7 +71,7 @@ fn a_disc_that_slips_is_turned_by_both() {
     let run: Value = serde_json::from_slice(&output.stdout).expect("JSON");
     is_good(&run);
     let sticks = events(&run, "sticks");
-    // From rest it begins to turn at once, since friction exceeds what resists: so nothing but the contact sticks.
+    // From rest it begins to turn at once, because friction exceeds the resistance, so the only stick event is that of the contact.
     assert_eq!(sticks.len(), 1, "{run:#}");
     assert_eq!(sticks[0]["contact"], "floor");
     close(number(&sticks[0]["t"]), rolls, 1e-12);
@@ -81,7 +81,7 @@ fn a_disc_that_slips_is_turned_by_both() {
     close(number(&run["v"]["theta"]), -after / r, 1e-11);
 }
 
-/// On a slope it stays where it is as long as tan α < ρ/r, and rolls with 2/3 (sin α − ρ/r cos α) g beyond that.
+/// On a slope a disc stays in place for tan α < ρ/r, and rolls with 2/3 (sin α − ρ/r cos α) g beyond that.
 #[test]
 fn a_slope_holds_a_disc_up_to_its_resistance() {
     let (r, rho) = (0.1, 0.004);
@@ -100,7 +100,7 @@ fn a_slope_holds_a_disc_up_to_its_resistance() {
     }
 }
 
-/// An impact gives a torque of at most ρ Λₙ in all: without friction, ω falls by 2 ρ (1 + e) v/r², and not below 0.
+/// An impact has an angular impulse of at most ρ Λₙ in total: without friction, ω falls by 2 ρ (1 + e) v/r², and not below 0.
 #[test]
 fn an_impact_slows_a_spin() {
     let (r, rho, e, m) = (0.1, 0.004, 0.5, 2.0);
@@ -151,7 +151,8 @@ fn an_impact_slows_a_spin() {
     }
 }
 
-/// In time stepping the law is that of each step: while the disc rolls its rate is exact, and only its rest is off by a step.
+/// With time stepping the law holds in each step: while the disc rolls its rate is exact, and only the time of rest has an error
+/// of one step.
 #[test]
 fn time_stepping_knows_it() {
     let (r, rho, speed, h) = (0.1, 0.004, 1.0, 1e-3);

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use crate::support::{Scratch, lagrangian};
 use serde_json::Value;
 
-/// Runs a command that must succeed, for its JSON.
+/// Runs a command that must succeed; returns its JSON.
 fn answer(arguments: &[&str]) -> Value {
     let output = lagrangian(&[arguments, &["--json"]].concat());
     let text = String::from_utf8(output.stdout).expect("text");
@@ -15,7 +15,7 @@ fn answer(arguments: &[&str]) -> Value {
     serde_json::from_str(&text).expect("JSON")
 }
 
-/// What is said of a call that fails, and its exit status.
+/// The message of a call that fails, and its exit status.
 fn refused(arguments: &[&str]) -> (i32, String) {
     let output = lagrangian(arguments);
     let said = String::from_utf8(output.stderr).expect("text");
@@ -75,7 +75,7 @@ fn table(name: &str, header: &str, rows: impl Iterator<Item = Vec<f64>>) -> Scra
 #[test]
 fn a_spec_is_as_far_from_a_table_as_the_closed_form_says() {
     let spec = Scratch::new("oscillator.machine", OSCILLATOR);
-    // In other units, and not evenly spaced.
+    // In other units, and at uneven intervals.
     let rows = (0..=400).map(|k| {
         let t = 5.0 * (f64::from(k) / 400.0).powf(1.3);
         vec![1e3 * t, 1e3 * (oscillation(t, 0.2, STIFFNESS) + 1e-3 * t)]
@@ -83,11 +83,11 @@ fn a_spec_is_as_far_from_a_table_as_the_closed_form_says() {
     let data = table("data.csv", "t [ms],x [mm]", rows);
     let found = answer(&["compare", data.path(), spec.path(), "--tolerance", "1e-11"]);
     let x = quantity(&found, "x");
-    // The spec is looked at at the rows of the table, so that nothing stands between rows. The tolerance is 1e-11 a step.
+    // The spec is evaluated at the times of the rows, so there is no interpolation. The tolerance is 1e-11 per step.
     assert_eq!(x["unit"], "mm");
     assert!((number(&x["largest"]) - 5.0).abs() < 1e-6, "{x:#}");
     assert!((number(&x["at"]) - 5.0).abs() < 1e-12);
-    // ∫ (1e-3 t)² dt over 5 s is 25e-6/3 · 5: the root of its mean 5e-3/√3; the trapezoidal rule errs by h²/6 of it.
+    // ∫ (1e-3 t)² dt over 5 s is 25e-6/3 · 5, so the root mean square is 5e-3/√3; the error of the trapezoidal rule is h²/6 of it.
     assert!(
         (number(&x["rms"]) - 5.0 / 3.0_f64.sqrt()).abs() < 1e-4,
         "{x:#}"
@@ -105,7 +105,7 @@ fn a_spec_is_as_far_from_a_table_as_the_closed_form_says() {
         ])
         .0
     };
-    // The range of x is 1.79 or so.
+    // The range of x is about 1.79.
     let share = number(&x["relative"]);
     assert_eq!(status(&format!("{}", 1.01 * share)), 0);
     assert_eq!(status(&format!("{}", 0.99 * share)), 1);
@@ -127,7 +127,7 @@ fn tables_at_other_instants_are_compared_by_cubics_with_rates() {
     let two = table("two.csv", "t [s],x [m],der(x) [m/s]", rows(170, 1e-3));
     let found = answer(&["compare", one.path(), two.path(), "--of", "x"]);
     let x = quantity(&found, "x");
-    // h⁴/384 times the fourth derivative, which is 1 + 81e-3 here.
+    // The interpolation error: h⁴/384 times the fourth derivative, which is 1 + 81e-3 here.
     let between = (TAU / 170.0).powi(4) / 384.0 * 1.1;
     let step = TAU / 200.0;
     assert!(
@@ -142,7 +142,7 @@ fn tables_at_other_instants_are_compared_by_cubics_with_rates() {
         );
         assert_eq!(x["between_rows"][k]["interpolation"], "cubic with rates");
     }
-    // A run does not differ from itself, in whichever order.
+    // A run does not differ from itself, in either order.
     let same = answer(&["compare", one.path(), one.path(), "--within", "1e-15"]);
     assert_eq!(number(&quantity(&same, "x")["largest"]), 0.0);
     assert_eq!(same["beyond"].as_array().map(Vec::len), Some(0));
@@ -199,7 +199,7 @@ fn spectra_have_the_frequencies_and_amplitudes_of_sines() {
     let found = answer(&["spectrum", even.path()]);
     let lines = quantity(&found, "x")["lines"].as_array().unwrap().clone();
     assert_eq!(lines.len(), 2, "{found:#}");
-    // Two lines 46 frequencies apart: what one window makes of the other falls off with the cube of that.
+    // Two lines 46 frequency bins apart: the leakage of a window falls off with the cube of that distance.
     for (line, (frequency, amplitude)) in lines.iter().zip([(3.21, 2.0), (7.8, 0.01)]) {
         assert!(
             (number(&line["frequency"]) - frequency).abs() < 1e-6,
@@ -211,7 +211,7 @@ fn spectra_have_the_frequencies_and_amplitudes_of_sines() {
         );
     }
     assert_eq!(found["resampled"], false);
-    // Not evenly spaced, cubics stand between rows.
+    // Uneven rows are interpolated by cubics.
     let rows = (0..4000).map(|k| {
         let k = f64::from(k);
         let t = 0.0025 * (k + 0.3 * (0.1 * k).sin());
@@ -247,7 +247,7 @@ fn a_damped_oscillation_has_its_period_and_decrement() {
     ]);
     let x = quantity(&found, "x");
     let (delta, period) = (0.1, TAU / (STIFFNESS - 0.01_f64).sqrt());
-    // Extremes are those of cubics between rows: h³/100 or so for their times, and h⁴/384 ω⁴ for their values.
+    // Extremes are those of cubics between rows: their times have an error of about h³/100, and their values of h⁴/384 ω⁴.
     assert!((number(&x["period"]) - period).abs() < 1e-7, "{x:#}");
     assert!((number(&x["decrement"]) - delta * period).abs() < 1e-7);
     let damping = delta / STIFFNESS.sqrt();
@@ -260,7 +260,7 @@ fn a_damped_oscillation_has_its_period_and_decrement() {
     }
 }
 
-/// Where the quantity of this name has its maxima and minima, by `peaks`.
+/// The maxima and minima of the quantity with this name, by `peaks`.
 fn turns(spec: &Scratch, name: &str, more: &[&str]) -> Vec<f64> {
     let found = answer(&[&["peaks", spec.path(), "--of", name], more].concat());
     let quantity = quantity(&found, name);
@@ -271,8 +271,7 @@ fn turns(spec: &Scratch, name: &str, more: &[&str]) -> Vec<f64> {
 
 #[test]
 fn what_a_run_is_not_exact_enough_for_is_no_extreme() {
-    // By the theorem of addition the first is 0, of which only the rounding of its terms is left. The second is as small as that and
-    // no rounding.
+    // By the addition theorem the first output is 0, and only the round-off of its terms is left. The second is as small, but is not round-off.
     let spec = OSCILLATOR.replace(
         "outputs {",
         "outputs {
@@ -289,7 +288,7 @@ fn what_a_run_is_not_exact_enough_for_is_no_extreme() {
     for (k, t) in tiny.iter().enumerate() {
         assert!((t - half * (k + 1) as f64).abs() < 1e-4, "{t}");
     }
-    // With so much damping the oscillator creeps back, and x falls all the time: at the end by less than steps are exact to.
+    // With so much damping the oscillator is overdamped and x decreases all the time; at the end by less than the error of steps.
     for until in ["20", "40", "60"] {
         let creeping = ["--set", "d=20", "--until", until];
         assert!(turns(&spec, "x", &creeping).is_empty());
@@ -300,8 +299,8 @@ fn what_a_run_is_not_exact_enough_for_is_no_extreme() {
     assert!(text.contains(" ripples of no more than "), "{text}");
 }
 
-/// A wheel that turns uniformly needs no short steps, and is upright many times in one: also where its coordinate is a pure number, or the way that
-/// it rolls.
+/// A wheel that rotates uniformly allows long steps, and is upright many times in one: also if its coordinate is a pure number, or
+/// the distance rolled.
 #[test]
 fn what_turns_many_times_in_a_step_is_found_each_time() {
     let wheels = [
@@ -332,7 +331,7 @@ fn what_turns_many_times_in_a_step_is_found_each_time() {
                 assert_eq!(times.len(), count, "{coordinate} {method} {until}");
                 for (k, t) in times.iter().enumerate() {
                     let exact = ((k as f64 + 0.5) * PI - 0.3) / 10.0;
-                    // Rounding of an angle that went so far.
+                    // The rounding of a large angle.
                     assert!(
                         (t - exact).abs() < 64.0 * f64::EPSILON * (1.0 + until),
                         "{t} {exact}"
@@ -348,7 +347,7 @@ fn sections_are_where_the_closed_form_has_them() {
     let spec = Scratch::new("oscillator.machine", OSCILLATOR);
     let run = ["--until", "5", "--tolerance", "1e-12"];
     let omega = (STIFFNESS - 0.01_f64).sqrt();
-    // x = 0 where tan ωt = −ω/δ; downwards first.
+    // x = 0 where tan ωt = −ω/δ; the first crossing is downward.
     let first = (PI - (omega / 0.1).atan()) / omega;
     let found = answer(
         &[
@@ -369,7 +368,7 @@ fn sections_are_where_the_closed_form_has_them() {
     for (k, t) in times.iter().enumerate() {
         assert!((t - first - k as f64 * TAU / omega).abs() < 1e-9, "{t}");
     }
-    // The same of a table, as exact as cubics are, and with a value.
+    // The same from a table, with the accuracy of cubics, and at a nonzero value.
     let rows = (0..=2500)
         .map(|k| 0.002 * f64::from(k))
         .map(|t| vec![t, oscillation(t, 0.2, STIFFNESS)]);
@@ -385,7 +384,7 @@ fn sections_are_where_the_closed_form_has_them() {
     for (one, other) in list(&found["t"]).iter().zip(&times) {
         assert!((one - other).abs() < 1e-7, "{one} {other}");
     }
-    // Once a period of what drives: x at multiples of the period.
+    // Once per period of the drive: x at multiples of the period.
     let period = answer(
         &[
             &[
@@ -438,10 +437,10 @@ fn sensitivities_are_the_derivatives_of_the_closed_form() {
             (oscillation(t, 0.2, STIFFNESS + h) - oscillation(t, 0.2, STIFFNESS - h)) / (2.0 * h);
         assert!((column("x by d")[k] - by_d).abs() < 1e-9, "{t}");
         assert!((column("x by k")[k] - by_k).abs() < 1e-9, "{t}");
-        // The machine is linear: by its start it is the motion from 1 m.
+        // The machine is linear, so the derivative by its start is the motion from 1 m.
         let x = oscillation(t, 0.2, STIFFNESS);
         assert!((column("x by start(x)")[k] - x).abs() < 1e-9);
-        // The output k x depends on k itself, too.
+        // The output k x also depends on k directly.
         assert!(
             (column("force by k")[k] - (x + STIFFNESS * by_k)).abs() < 1e-7,
             "{t}"
@@ -461,7 +460,7 @@ fn sensitivities_are_the_derivatives_of_the_closed_form() {
 
 #[test]
 fn a_start_that_follows_a_parameter_is_differentiated_too() {
-    // x = A cos ωt with A the parameter: ∂x/∂A = cos ωt; a start that the call sets does not follow it.
+    // x = A cos ωt with the parameter A: ∂x/∂A = cos ωt; a start that is set by the call does not follow the parameter.
     let spec = Scratch::new(
         "start.machine",
         "machine Follows in plane {
@@ -490,7 +489,7 @@ fn a_start_that_follows_a_parameter_is_differentiated_too() {
     assert_eq!(end(&["--start", "x=0.5"]), 0.0);
 }
 
-/// A pendulum in the coordinates of its bob, on a rod, beside the same pendulum by its angle, which has no constraints.
+/// A pendulum in the coordinates of its bob, on a rod, compared with the same pendulum by its angle, which has no constraints.
 #[test]
 fn on_a_constraint_sensitivities_are_those_of_independent_coordinates() {
     let held = Scratch::new(
@@ -523,7 +522,7 @@ fn on_a_constraint_sensitivities_are_those_of_independent_coordinates() {
         let all: Vec<Vec<f64>> = all.iter().map(|one| list(&one["values"])).collect();
         all
     };
-    // A start of the bob further to the side is one of a greater angle, with the rod as long as it was: y follows.
+    // A start of the bob further to the side corresponds to a larger angle at constant length of the rod: y follows.
     let by = "--by";
     let on_rod = of(&[
         held.path(),
@@ -538,11 +537,11 @@ fn on_a_constraint_sensitivities_are_those_of_independent_coordinates() {
     for (own, other) in on_rod.iter().zip(&by_angle) {
         assert_eq!(own.len(), 5);
         for (own, other) in own.iter().zip(other) {
-            // Some hundred steps at 1e-12, whose errors grow with time on the rod; a start that is known to 1e-10.
+            // Some hundred steps at 1e-12, whose errors grow with time on the rod; the start is known to 1e-10.
             assert!((own - other).abs() < 1e-8, "{on_rod:?} {by_angle:?}");
         }
     }
-    // Where the spec's start follows a parameter and no number is kept: the least move changes nothing to first order.
+    // The spec's start follows a parameter and no coordinate is kept: the smallest projection has no first-order effect.
     let on_rod = of(&[held.path(), by, "l", "--of", "height"]);
     for (own, other) in on_rod[0].iter().zip(&by_angle[0]) {
         assert!((own - other).abs() < 1e-8);

@@ -1,11 +1,11 @@
-//! The scripts of `examples/maps/`, at small sizes, against what is known of their subjects.
+//! The scripts of `examples/maps/` at small sizes, against known results for their subjects.
 
 use std::collections::HashMap;
 use std::process::Command;
 
 use crate::support::{Scratch, lagrangian, root};
 
-/// The rows of a table that a script has made: numbers and texts by the names of columns.
+/// The rows of a table written by a script: numbers and texts by the names of columns.
 struct Table(Vec<HashMap<String, String>>);
 
 impl Table {
@@ -31,7 +31,7 @@ impl Table {
     }
 }
 
-/// Runs a script; the folder that it writes to.
+/// Runs a script; returns the folder that it writes to.
 fn run(script: &str, size: &[&str], drawing: &str) -> Scratch {
     let folder = Scratch::new("started", "");
     let out = folder.0.parent().expect("a folder");
@@ -64,7 +64,7 @@ fn a_pendulum_stands_upside_down_where_kapitza_says() {
     );
     let mut both = [0; 2];
     for k in 0..tilt.len() {
-        // a² ω² > 2 g l, to the next order in a/l, which is at most 0.2 here: 7/16·(2 a/l)²·… < 5 %.
+        // a² ω² > 2 g l; the next order in a/l, which is at most 0.2 here, is 7/16·(2 a/l)²·… < 5 %.
         let share = a[k] * omega[k] / (2.0_f64 * 9.81).sqrt();
         match share {
             s if s > 1.1 => {
@@ -84,7 +84,7 @@ fn a_pendulum_stands_upside_down_where_kapitza_says() {
 #[test]
 fn a_double_pendulum_flips_only_where_it_has_the_energy() {
     let folder = run("flip_time", &["13", "4"], "flips");
-    // Parquet is told as text by the map's own reader; the flips are drawn from it, and its rows are those of a table of text.
+    // The map command reads the Parquet table itself; the flips are drawn from it, and its rows are those of a text table.
     let csv = folder.0.with_file_name("flips.csv");
     let output = lagrangian(&[
         "sweep",
@@ -109,13 +109,13 @@ fn a_double_pendulum_flips_only_where_it_has_the_energy() {
     let (mut flips, mut rests) = (0, 0);
     for (k, row) in table.0.iter().enumerate() {
         let (one, two) = (starts[0][k], starts[1][k]);
-        // Of equal bobs on equal rods V = −m g l (2 cos θ1 + cos θ2), and the least of what flips over is −1 m g l, at θ1 = 0, θ2 = π.
+        // For equal bobs on equal rods V = −m g l (2 cos θ1 + cos θ2), and a flip needs at least −1 m g l, at θ1 = 0, θ2 = π.
         let can = -(2.0 * one.cos() + two.cos()) >= -1.0;
         let has = row["status"] == "event flip";
         assert!(can || !has, "({one}, {two}) flips at {} s", t[k]);
         flips += usize::from(has);
         rests += usize::from(!can);
-        // The other way round is the same motion in a mirror, as long as chaos leaves it one.
+        // The opposite start has the mirrored motion, until chaos amplifies round-off.
         let mirror = t.len() - 1 - k;
         if t[k] < 2.0 {
             assert!(
@@ -140,17 +140,17 @@ fn a_block_sticks_again_where_its_swing_brings_it_back_to_the_belts_speed() {
     );
     let mut both = [0; 2];
     for k in 0..share.len() {
-        // m = k = g = 1. It is torn off at x = μ0 − d v, and swings about μ: z'' + d z' + z = 0.
+        // m = k = g = 1. The block breaks away at x = μ0 − d v, and swings about μ: z'' + d z' + z = 0.
         let (v, d) = (belt[k], damping[k]);
         let (z, rate) = (0.5 - d * v, v);
         let omega = (1.0 - d * d / 4.0).sqrt();
         let b = (rate + d / 2.0 * z) / omega;
-        // The rate of z = e^{−dt/2} (z cos ωt + b sin ωt), from a moment after the tear on.
+        // The rate of z = e^{−dt/2} (z cos ωt + b sin ωt), shortly after the break-away.
         let rate = |t: f64| {
             let (s, c) = (omega * t).sin_cos();
             (-d * t / 2.0).exp() * ((b * omega - d / 2.0 * z) * c - (z * omega + d / 2.0 * b) * s)
         };
-        // After the first turn, within one more.
+        // After the first turning point, within one more half period.
         let turn = std::f64::consts::PI / omega;
         let back = (0..2000).map(|i| rate(turn * (1.0 + f64::from(i) / 2000.0 * 1.2)));
         let reached = back.fold(f64::NEG_INFINITY, f64::max) / v;
@@ -241,7 +241,7 @@ fn the_crusher_over_speed_is_the_crusher_at_each_speed() {
             .collect()
     });
     let rows: Vec<Vec<f64>> = rows.filter(|row: &Vec<f64>| row[0] >= 2.0).collect();
-    // By the trapezoidal rule and by the largest of 10 000 samples, 500 in each turn: to 1e-4 of the values.
+    // With the trapezoidal rule and the largest of 10 000 samples, 500 per revolution: to 1e-4 of the values.
     let of = |row: &Vec<f64>, name: &str| row[place(name)];
     let power = |row: &Vec<f64>| {
         let slip = of(row, "s2") * of(row, "der(phi2)") + 0.17 * of(row, "der(theta2)")
@@ -266,7 +266,8 @@ fn the_crusher_over_speed_is_the_crusher_at_each_speed() {
     }
 }
 
-/// How often parts collide and what crushing takes are those of one run: of its events, and of what its contacts took until each time.
+/// The numbers of collisions and the work of crushing are those of single runs: from their events, and from the dissipation of their
+/// contacts up to each time.
 #[test]
 fn the_layered_crusher_over_speed_is_the_crusher_at_each_speed() {
     let size = ["2", "0.4"];

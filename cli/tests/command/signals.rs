@@ -38,13 +38,13 @@ fn summary(spec: &str, arguments: &[&str]) -> Value {
     serde_json::from_str(&said.out).expect("JSON")
 }
 
-/// Place and rate at the end.
+/// Position and rate at the end.
 fn end(document: &Value) -> [f64; 2] {
     let of = |what: &str| document[what]["x"].as_f64().expect("a number");
     [of("q"), of("v")]
 }
 
-/// x″ + 9 x = u, with u constant: from a state, after a time.
+/// The state of x″ + 9 x = u with constant u, after a time from an initial state.
 fn swung([x, v]: [f64; 2], u: f64, t: f64) -> [f64; 2] {
     let (sin, cos) = (3.0 * t).sin_cos();
     let (middle, c) = (u / 9.0, x - u / 9.0);
@@ -60,7 +60,7 @@ fn near(found: [f64; 2], known: [f64; 2], within: f64) {
 #[test]
 fn a_formula_drives_an_input() {
     let spec = Scratch::new("driven.machine", DRIVEN);
-    // x″ + 9 x = 5 sin 2t: 5/(9 − 4) sin 2t and what is free.
+    // x″ + 9 x = 5 sin 2t: 5/(9 − 4) sin 2t and the free oscillation.
     let force = "push=5*N*sin(2*rad/s*t)";
     let formula = summary(
         spec.path(),
@@ -74,7 +74,7 @@ fn a_formula_drives_an_input() {
     near(end(&formula), known, 1e-10);
     assert_eq!(formula["inputs"]["push"], "5*N*sin(2*rad/s*t)");
     assert!(formula["energy_residual"].as_f64().unwrap().abs() < 1e-9);
-    // One input is made of another, in whatever order they are said; an output that reads neither may be in it.
+    // One input depends on another, in either order; it may also contain an output that depends on neither.
     let call = [
         "--until",
         "4",
@@ -90,7 +90,7 @@ fn a_formula_drives_an_input() {
     let (w, c) = (18.0_f64.sqrt(), 6.25 / 14.0);
     let known = 0.25 * (w * t).cos() + c * (2.0 * t).sin() - 2.0 * c / w * (w * t).sin();
     assert!((x - known).abs() < 1e-10, "{x} {known}");
-    // A family is driven under its name.
+    // A family is driven by its name.
     let family = summary(
         spec.path(),
         &["--until", "0.7", "--tolerance", "1e-12", "--input", "w=2"],
@@ -98,8 +98,8 @@ fn a_formula_drives_an_input() {
     near(end(&family), swung([0.25, 0.0], 2.0, 0.7), 1e-11);
 }
 
-/// A table with other units and semicolons, the same as Parquet, and the motion that follows from both; the summary and the page
-/// say what drives what, and the table of the run has the input as it is.
+/// A table with other units and semicolons, the same table as Parquet, and the motion under both. The summary and the page
+/// report the source of each input, and the table of the run contains the input.
 #[test]
 fn tables_drive_inputs() {
     let spec = Scratch::new("driven.machine", DRIVEN);
@@ -163,7 +163,7 @@ fn tables_drive_inputs() {
         assert_eq!((cells[push], cells[load]), (known, known), "{t}");
         assert!((cells[x] - held(t)[0]).abs() < 1e-10, "{t}");
     }
-    // The run's own table drives the next one: as comma-separated text and as Parquet to the same bits.
+    // The table of a run drives the next one: as comma-separated text and as Parquet with the same bits.
     let parquet = at("run.parquet");
     let parquet = parquet.to_str().expect("text");
     let said = simulate(spec.path(), &[&call[..], &["--out", parquet]].concat());
@@ -176,7 +176,7 @@ fn tables_drive_inputs() {
         found
     };
     assert_eq!(again(out), again(parquet));
-    // A sweep makes the same run.
+    // A sweep gives the same run.
     let rows = at("rows.csv");
     let output = lagrangian(&[
         "sweep",
@@ -211,7 +211,7 @@ fn tables_drive_inputs() {
     assert!(page.html.contains("push.csv:force,hold"));
 }
 
-/// A controller at 20 Hz whose output acts 12 ms later, beside a table: a recursion of constant forces.
+/// A controller at 20 Hz whose output acts 12 ms later, together with a table: a recursion of constant forces.
 #[test]
 fn a_sampled_formula_holds_until_the_next() {
     let spec = Scratch::new("driven.machine", DRIVEN);
@@ -358,7 +358,7 @@ fn what_cannot_drive_an_input_is_refused() {
         std::fs::read_to_string(&good).expect("the table"),
         "t,push\n0,1\n1,2\n"
     );
-    // What has no series says so, and is run otherwise.
+    // An input without a power series is reported, and the run uses another method.
     let call = [
         "--until",
         "0.5",
@@ -377,8 +377,8 @@ fn what_cannot_drive_an_input_is_refused() {
     );
 }
 
-/// The force on what rolls follows the input, and not its default: |T|/N of a disc that is pulled at its centre with F has
-/// T = F/3.
+/// The required friction of a rolling contact follows the input, not its default: |T|/N of a disc that is pulled at its centre
+/// with F has T = F/3.
 #[test]
 fn friction_that_rolling_needs_follows_the_inputs() {
     let text = "machine Disc in plane {

@@ -1,9 +1,9 @@
-//! States of first order: motors, filters, controllers and heat, against closed forms and other spellings.
+//! First-order states: motors, filters, controllers and heat, against closed forms and equivalent specs.
 
 use crate::support::{Scratch, lagrangian};
 use serde_json::Value;
 
-/// What `lagrangian` prints as JSON.
+/// The JSON that `lagrangian` prints.
 fn json(arguments: &[&str]) -> Value {
     let output = lagrangian(arguments);
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
@@ -18,7 +18,7 @@ fn number(value: &Value) -> f64 {
         .unwrap_or_else(|| panic!("{value} is a number"))
 }
 
-/// A run at a tolerance of 1e-11.
+/// A run with a tolerance of 1e-11.
 fn run(spec: &str, until: &str, more: &[&str]) -> Value {
     let own = [
         "simulate",
@@ -40,7 +40,7 @@ fn close(found: f64, expected: f64, by: f64, what: &str) {
     );
 }
 
-/// `e^{A t} x`, by Taylor's series in steps so short that 30 terms are all that doubles hold.
+/// `e^{A t} x`, by Taylor's series in steps that are short enough for 30 terms to be exact in f64.
 fn exponential<const N: usize>(a: [[f64; N]; N], t: f64, mut x: [f64; N]) -> [f64; N] {
     let largest: f64 = a.iter().flatten().map(|x| x.abs()).sum();
     let steps = (largest * t).ceil().max(1.0);
@@ -62,7 +62,7 @@ fn exponential<const N: usize>(a: [[f64; N]; N], t: f64, mut x: [f64; N]) -> [f6
 
 const MOTOR_SPEC: &str = "machines/dc_motor.machine";
 
-// What it says.
+// The parameters of the spec.
 const J: f64 = 2e-4;
 const B: f64 = 1e-4;
 const L: f64 = 2e-3;
@@ -70,7 +70,7 @@ const R: f64 = 0.5;
 const K: f64 = 0.05;
 const U: f64 = 12.0;
 
-/// φ, ω, i, the charge ∫ i dt, and 1, and how they change.
+/// The matrix of the rates of φ, ω, i, the charge ∫ i dt, and 1.
 const MOTOR: [[f64; 5]; 5] = [
     [0.0, 1.0, 0.0, 0.0, 0.0],
     [0.0, -B / J, K / J, 0.0, 0.0],
@@ -90,7 +90,7 @@ fn a_motor_runs_up_as_the_exponential_of_its_matrix_says() {
         close(number(&found["v"]["phi"]), omega, by, method);
         close(number(&found["states"]["i"]), i, by, method);
         assert!(found["q"].get("integral(i)").is_none(), "{found}");
-        // The sum of J ω², L i² and what was supplied is some 30 J.
+        // The sum of J ω², L i² and the supplied energy is about 30 J.
         assert!(number(&found["energy_residual"]).abs() < 1e-7, "{found}");
     }
 }
@@ -158,7 +158,7 @@ fn the_linear_model_of_a_motor_has_its_states() {
 fn a_servo_stands_where_its_controller_wants_it() {
     let spec = "machines/position_servo.machine";
     let found = json(&["modes", spec, "--json"]);
-    // There m g a cos θ = n k i, and the integrator holds the voltage R i.
+    // At the equilibrium m g a cos θ = n k i, and the integrator supplies the voltage R i.
     let (weight, wanted) = (1.2 * 9.81 * 0.25, 0.0_f64);
     let i = weight * wanted.cos() / (40.0 * 0.05);
     let at = &found["equilibrium"];
@@ -172,13 +172,13 @@ fn a_servo_stands_where_its_controller_wants_it() {
         "error",
     );
     assert_eq!((&at["free"], &at["drifts"]), (&0.into(), &0.into()), "{at}");
-    // And there it comes.
+    // The run reaches that equilibrium.
     let run = run(spec, "20", &[]);
     assert!(number(&run["q"]["theta"]).abs() < 1e-6, "{run}");
     close(number(&run["states"]["i"]), i, 1e-5, "i");
 }
 
-/// A brake whose friction heats a disc of which air takes the heat away.
+/// A brake whose friction heats a disc that is cooled by air.
 const BRAKE: &str = "
 machine Brake in plane {
     parameters { J: kg*m^2 = 0.4, b: N*m*s = 0.1, C: J/K = 4.5, h: W/K = 2, T0: K = 293 }
@@ -210,11 +210,11 @@ fn what_a_brake_takes_is_in_the_disc_or_in_the_air() {
         1e-9,
         "temperature",
     );
-    // Of 2000 J.
+    // Relative to 2000 J.
     assert!(number(&found["energy_residual"]).abs() < 1e-6, "{found}");
 }
 
-/// Heat that goes through three plates beside a flywheel that nothing brakes.
+/// Heat conduction through three plates, with a flywheel without brake.
 const FAMILY: &str = "
 machine Plates in plane {
     constants { N = 3 }
@@ -278,7 +278,7 @@ fn a_family_of_states_is_the_states_one_by_one() {
     }
 }
 
-/// A bob on a rod that a filtered force pushes, with the rod as a constraint or as the radius of an angle.
+/// A bob on a rod with a filtered force, where the rod is a constraint or the radius of an angle.
 fn pendulum(is_closed: bool) -> String {
     let (coordinates, body, rod, force) = if is_closed {
         (
@@ -440,7 +440,8 @@ fn what_a_state_cannot_do_is_said_at_the_word() {
     }
 }
 
-/// A loudspeaker on a sine: a membrane of 20 g, and a coil of which it is half, tied to it or one with it.
+/// A loudspeaker driven by a sine: a membrane of 20 g, half of which is the coil, which is either tied to
+/// it by a constraint or part of it.
 fn loudspeaker(is_tied: bool) -> String {
     let (coordinates, parts, tie) = if is_tied {
         (
@@ -469,7 +470,7 @@ fn loudspeaker(is_tied: bool) -> String {
 #[test]
 fn a_period_of_a_machine_with_a_state_is_the_exponential_of_its_matrix() {
     let (m, k, b, bl, r, l, u, omega) = (0.02, 2e3, 1.0, 5.0, 6.0, 2e-3, 4.0, 400.0);
-    // x, v, i, and the sine and cosine that drive them.
+    // x, v, i, and the sine and cosine of the drive.
     let matrix = [
         [0.0, 1.0, 0.0, 0.0, 0.0],
         [-k / m, -b / m, bl / m, 0.0, 0.0],
@@ -487,7 +488,7 @@ fn a_period_of_a_machine_with_a_state_is_the_exponential_of_its_matrix() {
             .iter()
             .filter_map(Value::as_str)
             .collect();
-        // Tied, either of the two coordinates tells where both are.
+        // With the constraint, the result may contain either of the two coordinates.
         let is_of = |name: &str, of: &str| name.replace('z', "x") == of;
         assert!(
             states.len() == 3
@@ -496,7 +497,8 @@ fn a_period_of_a_machine_with_a_state_is_the_exponential_of_its_matrix() {
                 && states[2] == "i",
             "{states:?}"
         );
-        // Steps err by 1e-11 of the largest number, of rates some 200 times places; a hundred steps.
+        // Steps have an error of 1e-11 of the largest number, and rates are about 200 times as large as
+        // positions; there are a hundred steps.
         for column in 0..3 {
             let mut unit = [0.0; 5];
             unit[column] = 1.0;
@@ -511,7 +513,7 @@ fn a_period_of_a_machine_with_a_state_is_the_exponential_of_its_matrix() {
                 );
             }
         }
-        // The start comes back.
+        // The orbit returns to its start.
         let at = &found["at"];
         let start = [
             number(&at["q"]["x"]),
@@ -528,7 +530,7 @@ fn a_period_of_a_machine_with_a_state_is_the_exponential_of_its_matrix() {
     }
 }
 
-/// A current that dies away through a resistance, i = i₀ e^{−Rt/L}, beside a block that is of no matter.
+/// A current that decays through a resistance, i = i₀ e^{−Rt/L}, and a block without influence.
 const WINDING: &str = "machine Winding in plane {
     parameters { R: ohm = 2, L: H = 0.5, first: A = 3 }
     coordinates { x: m }
@@ -555,7 +557,7 @@ fn the_start_of_a_state_is_varied_and_fitted_under_its_name() {
         "--json",
     ]);
     let left = f64::exp(-2.0);
-    // By the start, by R: −(t/L) i, and by the parameter that the start follows.
+    // The derivatives by the start, by R, −(t/L) i, and by the parameter that determines the start.
     for (k, known) in [left, -3.0 * left, left].into_iter().enumerate() {
         let values = found["derivatives"][k]["values"]
             .as_array()
@@ -571,7 +573,7 @@ fn the_start_of_a_state_is_varied_and_fitted_under_its_name() {
     assert_eq!([named(0), named(1)], ["i by start(i)", "i by R"]);
     assert_eq!(found["derivatives"][0]["unit"], "A/A");
 
-    // Measured in closed form with 4 A and 3 ohm.
+    // Measurements in closed form with 4 A and 3 ohm.
     let mut rows = String::from("t,i [A]\n");
     for k in 0..=20 {
         let t = f64::from(k) / 40.0;
@@ -593,7 +595,7 @@ fn the_start_of_a_state_is_varied_and_fitted_under_its_name() {
     close(number(&found["fitted"][1]["value"]), 3.0, 1e-6, "R");
     assert_eq!(found["fitted"][0]["name"], "start(i)");
     assert_eq!(found["fitted"][0]["unit"], "A");
-    // The variant starts there.
+    // The variant starts at the fitted value.
     let found = run(out, "0.5", &[]);
     close(
         number(&found["states"]["i"]),

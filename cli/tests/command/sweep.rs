@@ -1,4 +1,5 @@
-//! `lagrangian sweep`: many runs as a user sees them, against closed forms, against `simulate`, and against being killed.
+//! `lagrangian sweep`: many runs as a user sees them, against closed forms and `simulate`, and with the process killed
+//! on the way.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -8,7 +9,7 @@ use std::time::{Duration, Instant};
 use crate::support::{Scratch, lagrangian, root};
 use serde_json::Value;
 
-/// A mass of 1 kg on a spring, pushed by an input.
+/// A mass of 1 kg on a spring, with a force as input.
 const OSCILLATOR: &str = "machine Oscillator in plane {
     parameters { m: kg = 1, k: N/m = 4 }
     coordinates { x: m = 0.1 }
@@ -20,7 +21,7 @@ const OSCILLATOR: &str = "machine Oscillator in plane {
 }
 ";
 
-/// What a call says and returns.
+/// The output of a call, and its exit status.
 struct Said {
     status: i32,
     out: String,
@@ -41,7 +42,7 @@ fn sweep(spec: &str, out: &Path, arguments: &[&str]) -> Said {
 /// The columns of a table, as texts.
 fn read(path: &Path) -> BTreeMap<String, Vec<String>> {
     let text = std::fs::read_to_string(path).expect("a table");
-    // A comma between quotes is part of a message.
+    // A comma within quotes is part of a message.
     let cells = |line: &str| {
         let mut is_quoted = false;
         let cells = line.split(move |c: char| {
@@ -142,7 +143,7 @@ fn reductions_are_those_of_a_cosine() {
         let (from, to) = (1.0, 10.0);
         let x = |t: f64| start * (omega * t).cos();
         let v = |t: f64| -start * omega * (omega * t).sin();
-        // A step of tolerance 1e-12 errs by that relative to 1 m; some hundred steps add up.
+        // A step with tolerance 1e-12 has that error relative to 1 m; the errors of some hundred steps accumulate.
         let near = |name: &str, known: f64, tolerance: f64| {
             let found = column(name)[run];
             assert!(
@@ -159,7 +160,7 @@ fn reductions_are_those_of_a_cosine() {
         near("x@10", column("x")[run], 0.0);
         near("first", x(from), close);
         near("last", k * x(to), 9.0 * close);
-        // More than a whole period lies between 1 s and 10 s.
+        // The interval from 1 s to 10 s contains more than a whole period.
         near("peak", start.abs(), close);
         near("highest", start.abs(), close);
         near("lowest", -start.abs(), close);
@@ -172,8 +173,8 @@ fn reductions_are_those_of_a_cosine() {
         let square = |t: f64| 0.5 * t + (2.0 * omega * t).sin() / (4.0 * omega);
         let rms = (start * start * (square(to) - square(from)) / (to - from)).sqrt();
         near("rms", rms, close);
-        // The greatest is at a whole multiple of half a period, of which one of two is; near it x is flat, so t is known to the
-        // root of the error only, 1e-5.
+        // The maximum is at every second multiple of half a period. Near it x is flat, so t is only known to the square root of
+        // the error, 1e-5.
         let phase = omega * column("when")[run] / std::f64::consts::PI;
         let is_even = (phase.round() as i64) % 2 == 0;
         assert!(
@@ -192,7 +193,7 @@ fn reductions_are_those_of_a_cosine() {
     }
 }
 
-/// Row i is what `simulate` gives with the same numbers, bit for bit, and no thread, chunk, engine or format changes it.
+/// Row i equals the result of `simulate` with the same numbers bit for bit, whatever the thread, chunk, engine or format.
 #[test]
 fn rows_are_those_of_simulate_in_every_bit() {
     let spec = "machines/double_pendulum.machine";
@@ -213,7 +214,7 @@ fn rows_are_those_of_simulate_in_every_bit() {
         ("one.csv", &["--threads", "1"][..]),
         ("many.csv", &["--threads", "3"]),
         ("interpreted.csv", &["--engine", "interpreter"]),
-        // In lanes from the first run on.
+        // In lanes from the first run.
         ("compiled.csv", &["--engine", "jit"]),
     ] {
         let said = sweep(spec, &at(name), &[&design, further].concat());
@@ -246,7 +247,7 @@ fn rows_are_those_of_simulate_in_every_bit() {
     }
 }
 
-/// Friction, constraints and collisions go through the same door.
+/// Machines with friction, constraints and collisions use the same code path.
 #[test]
 fn every_kind_of_machine_is_swept_as_it_is_simulated() {
     for (spec, vary, name) in [
@@ -285,7 +286,8 @@ fn every_kind_of_machine_is_swept_as_it_is_simulated() {
     }
 }
 
-/// Killed at any instant and started again until it is done, a sweep gives the file of one that was left alone, byte for byte.
+/// A sweep that is killed at any instant and resumed until it is done writes the same file, byte for byte, as one that
+/// is not interrupted.
 #[test]
 fn what_is_killed_goes_on_to_the_same_bytes() {
     let spec = "machines/double_pendulum.machine";
@@ -309,7 +311,7 @@ fn what_is_killed_goes_on_to_the_same_bytes() {
         let said = sweep(spec, &alone, &design);
         assert_eq!(said.status, 0, "{}", said.error);
         let whole = began.elapsed();
-        // Of a generator of random numbers no more is asked than that the instants differ from run to run.
+        // The random number generator only has to make the instants differ from run to run.
         let mut state = u64::from(std::process::id()) ^ began.elapsed().as_nanos() as u64 | 1;
         println!("seed {state}");
         let part = killed.with_file_name(format!("killed.{ending}.part"));
@@ -331,7 +333,7 @@ fn what_is_killed_goes_on_to_the_same_bytes() {
             while Instant::now() < until && child.try_wait().expect("a status").is_none() {
                 std::thread::sleep(Duration::from_millis(2));
             }
-            child.kill().expect("it may be killed"); // SIGKILL; nothing where it is gone
+            child.kill().expect("it may be killed"); // SIGKILL; nothing happens if the process has ended
             child.wait().expect("a status");
             println!(
                 "kill {kill} after {after:?}, {} of it there",
@@ -355,7 +357,7 @@ fn what_is_killed_goes_on_to_the_same_bytes() {
     }
 }
 
-/// What cannot be written is said, and what is there stays: a limit on the size of files stands for a full disk.
+/// A failure to write is reported, and existing results stay: a limit on the size of files simulates a full disk.
 #[cfg(unix)]
 #[test]
 fn a_full_disk_ends_a_sweep_that_goes_on_later() {
@@ -370,7 +372,7 @@ fn a_full_disk_ends_a_sweep_that_goes_on_later() {
         "--threads",
         "1",
     ];
-    // Blocks of 512 or 1024 bytes: the table has some 200 kB, and a chunk a part of it.
+    // Blocks of 512 or 1024 bytes: the table has about 200 kB, and a chunk is a part of it.
     let script = "trap '' XFSZ; ulimit -f 100; exec \"$@\"";
     let output = Command::new("sh")
         .current_dir(root())
@@ -426,7 +428,7 @@ fn a_run_that_fails_is_a_row() {
     assert_eq!(rows["peak"][1], "");
     assert_eq!(rows["x"][1], "0.1");
     assert_eq!(rows["peak"][0], "0.1");
-    // Too few steps are a failure on the way: as far as it came.
+    // Too few steps are a failure during the run: the results up to that point are kept.
     let strict = [
         "--until",
         "9",
@@ -449,7 +451,7 @@ fn a_run_that_fails_is_a_row() {
     assert!(t > 0.0 && t < 9.0 && rows["steps"][0] == "5");
 }
 
-/// A free fall of 1 m takes √(2h/g), whatever pushes sideways; an input that is a formula or a table does what it says.
+/// A free fall of 1 m takes √(2h/g), whatever force acts sideways; inputs may be formulas or tables.
 #[test]
 fn events_end_runs_and_inputs_follow_formulas_and_tables() {
     let spec = Scratch::new("oscillator.machine", OSCILLATOR);
@@ -480,13 +482,13 @@ fn events_end_runs_and_inputs_follow_formulas_and_tables() {
         let rows = read(&out);
         assert_eq!(rows["status"], ["event far", "event far"]);
         for (t, known) in numbers(&rows, "t").into_iter().zip([2.0, 9.0_f64.cbrt()]) {
-            // A relative tolerance of 1e-9 in a hundred steps at most, of 8 m at a rate of 12 m/s.
+            // A relative tolerance of 1e-9 in at most a hundred steps, relative to 8 m at a rate of 12 m/s.
             assert!((t - known).abs() < 1e-7, "{t} {known}");
         }
     }
 }
 
-/// A plan run in parts, by as many calls, is the sweep.
+/// A plan that is run in parts by several calls gives the same table as one sweep.
 #[test]
 fn chunks_of_a_plan_make_the_same_table() {
     let spec = Scratch::new("oscillator.machine", OSCILLATOR);
@@ -650,7 +652,7 @@ fn what_makes_no_sense_is_refused_before_the_first_run() {
         assert!(said.error.contains(words), "{arguments:?}: {}", said.error);
         assert!(!out.exists());
     }
-    // Another plan in the place of one that was begun.
+    // Another plan instead of one that was begun.
     let begun = ["--until", "1", "--vary", "k=1..2:100", "--limit", "1"];
     let said = sweep(spec.path(), &out, &begun);
     assert_eq!(said.status, 0, "{}", said.error);
@@ -678,7 +680,7 @@ fn what_makes_no_sense_is_refused_before_the_first_run() {
     }
 }
 
-/// Nothing that a sweep is made from is overwritten, by whatever name, and no file has an ending that says something else.
+/// No input of a sweep is overwritten under any name, and no file gets an extension that contradicts its format.
 #[test]
 fn what_a_sweep_reads_it_does_not_write() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -738,7 +740,7 @@ fn what_a_sweep_reads_it_does_not_write() {
         );
     }
     assert!(!at("rows.json").exists() && !at("rows.csv.gz").exists());
-    // The case of an ending says nothing, and a slash makes a folder of any name.
+    // The case of an extension is ignored, and a trailing slash makes any name a folder.
     let vary = ["--until", "1", "--vary", "k=1,2"];
     for (out, made) in [("ROWS.CSV", "ROWS.CSV"), ("a.b/", "a.b/plan.json")] {
         let said = sweep(&path("top.machine"), Path::new(&path(out)), &vary);

@@ -1,9 +1,10 @@
-//! Tables in formulas of a spec: a motor whose torque is measured over its speed, against closed forms.
+//! Tables in formulas of a spec: a motor whose torque is measured as a function of its speed,
+//! against closed forms.
 
 use crate::support::{Scratch, lagrangian};
 use serde_json::Value;
 
-/// A rotor that is driven by a torque from a table over its speed, and by a constant one.
+/// A rotor driven by a torque from a table over its speed, and by a constant one.
 const ROTOR: &str = "machine Rotor in plane {
     parameters { J: kg*m^2 = 2e-3, push: N*m = 0 }
     coordinates { phi: rad }
@@ -19,13 +20,13 @@ const ROTOR: &str = "machine Rotor in plane {
 /// A straight line from 0.6 N m at rest to nothing at 2000 rpm.
 const LINE: &str = "speed [rpm]; torque [N*m]; loss [W]\n0; 0.6; 1\n500; 0.45; 2\n2000; 0; 9\n";
 
-/// The speed at which the motor pulls no more, in rad/s.
+/// The speed at which the motor torque is zero, in rad/s.
 const IDLE: f64 = 2000.0 * std::f64::consts::TAU / 60.0;
 
-/// The time in which the speed comes nearer to that by a factor of e: J ω / M, in s.
+/// The time constant with which the speed approaches that: J ω / M, in s.
 const TAU: f64 = 2e-3 * IDLE / 0.6;
 
-/// The spec and its table, side by side.
+/// Writes the spec with its table beside it.
 fn rotor(table: &str, text: &str) -> Scratch {
     let spec = Scratch::new("rotor.machine", &ROTOR.replace("TABLE", table));
     std::fs::write(spec.0.with_file_name("motor.csv"), text).expect("a file");
@@ -42,7 +43,7 @@ fn said(arguments: &[&str]) -> (Option<i32>, String, String) {
     )
 }
 
-/// Angle and speed after a time.
+/// Angle and speed after this time.
 fn end(spec: &Scratch, until: f64, more: &[&str]) -> [f64; 2] {
     let until = until.to_string();
     let run = ["simulate", spec.path(), "--until", &until];
@@ -53,7 +54,7 @@ fn end(spec: &Scratch, until: f64, more: &[&str]) -> [f64; 2] {
     ["q", "v"].map(|of| found[of]["phi"].as_f64().expect("a number"))
 }
 
-/// A tolerance of 1e-11 in each of some twenty steps, of speeds of some 200 rad/s.
+/// A tolerance of 1e-11 in each of about twenty steps, for speeds of about 200 rad/s.
 const CLOSE: f64 = 1e-7;
 
 #[test]
@@ -69,7 +70,8 @@ fn a_motor_with_a_torque_from_a_table_runs_up_exponentially() {
 
 #[test]
 fn a_run_ends_where_its_table_does_unless_that_is_held() {
-    // With half of the torque more, the speed tends to 3/2 of the last one of the table and is there at τ ln 3.
+    // With half of the torque added, the speed tends to 3/2 of the last speed of the table, and reaches the
+    // latter at τ ln 3.
     let push = ["--set", "push=0.3"];
     let last = TAU * 3.0_f64.ln();
     let spec = rotor("motor.csv:torque", LINE);
@@ -85,7 +87,8 @@ fn a_run_ends_where_its_table_does_unless_that_is_held() {
         .and_then(|rest| rest.split(' ').next());
     let time: f64 = time.expect("a time").parse().expect("a number");
     assert!((time - last).abs() < 1e-6, "{time} {last}");
-    // Held, the last torque is 0: from there on the speed grows by what pushes.
+    // With constant extrapolation the last torque, 0, holds beyond the table: there only the
+    // constant torque accelerates.
     let text = ROTOR.replace(
         "table(\"TABLE\", der(phi))",
         "table(\"motor.csv:torque\", der(phi), hold)",
@@ -94,7 +97,7 @@ fn a_run_ends_where_its_table_does_unless_that_is_held() {
     std::fs::write(spec.0.with_file_name("motor.csv"), LINE).expect("a file");
     let [_, omega] = end(&spec, 2.0, &push);
     let known = IDLE + 0.3 / 2e-3 * (2.0 - last);
-    // The step over the corner in the slope of the torque errs by more than a smooth one.
+    // The step across the kink of the torque has a larger error than a smooth one.
     assert!((omega - known).abs() < 1e-5, "{omega} {known}");
 }
 

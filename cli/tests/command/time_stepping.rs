@@ -1,4 +1,4 @@
-//! Moreau's time stepping against closed forms and against runs that find every impact.
+//! Moreau's time stepping against closed forms, and against runs that find every impact.
 
 use serde_json::Value;
 
@@ -18,8 +18,8 @@ fn step(spec: &str, until: f64, h: f64, more: &[&str]) -> Value {
     run
 }
 
-/// A ball falls exactly, since gravity is constant; its impact is at most one step late, and its rate before that is by g h greater at
-/// most. So after the first bounce its place is off by (1 + e) v h and what the rate makes of it, and not by more.
+/// A ball falls exactly, since gravity is constant; its impact is at most one step late, and its rate at impact at most g h too large. So after
+/// the first bounce the error of its position is at most (1 + e) v h, plus the effect of the rate.
 #[test]
 fn a_ball_bounces_at_most_a_step_late() {
     let (e, g) = (0.8, 9.81_f64);
@@ -42,7 +42,7 @@ fn a_ball_bounces_at_most_a_step_late() {
     }
 }
 
-/// Where nothing touches the error falls with the square of the length of steps.
+/// Without contacts the error decreases with the square of the step length.
 #[test]
 fn between_contacts_its_order_is_2() {
     let spec = Scratch::new(
@@ -70,7 +70,7 @@ fn between_contacts_its_order_is_2() {
         number(&run["q"]["phi"]) - number(&exact["q"]["phi"])
     };
     let errors = [4e-3, 2e-3, 1e-3].map(error);
-    // c h² + d h³ + …: the quotients go to 4, the second one being half as far from it as the first.
+    // c h² + d h³ + …: the quotients approach 4, and the second is half as far from it as the first.
     let [first, second] = [errors[0] / errors[1], errors[1] / errors[2]];
     assert!(
         (second - 4.0).abs() < 0.04 && (first - 4.0).abs() < 0.08,
@@ -78,8 +78,8 @@ fn between_contacts_its_order_is_2() {
     );
 }
 
-/// Without friction and with e = 1 an impact changes no energy, whatever meets whatever: 0 ≤ Λ ⊥ γ⁺ + γ⁻ ≥ 0 makes
-/// Λ·(γ⁺ + γ⁻) = 0. Without gravity the energy stays to rounding, however long steps are.
+/// Without friction and with e = 1, no impact changes the energy, however many bodies collide: 0 ≤ Λ ⊥ γ⁺ + γ⁻ ≥ 0 implies Λ·(γ⁺ + γ⁻) = 0.
+/// Without gravity the energy is constant up to round-off for any step length.
 #[test]
 fn elastic_discs_keep_their_energy_to_rounding() {
     let run = step(
@@ -120,8 +120,8 @@ fn elastic_discs_keep_their_energy_to_rounding() {
     );
 }
 
-/// Discs that fall into a bowl come to rest, none in another, and with all their energy in the books. What sticks does so
-/// exactly: in the end the rates are rounding.
+/// Discs that fall into a bowl come to rest without penetrating each other, and the energy balance contains all their energy. Sticking is
+/// exact: at the end the rates are round-off.
 #[test]
 fn a_pile_comes_to_rest() {
     let table = Scratch::new("pile.csv", "");
@@ -149,15 +149,15 @@ fn a_pile_comes_to_rest() {
             .map(|x| x.parse().expect("number"))
             .collect();
         for &k in &gaps {
-            // Rounding of a gap of some 1e-12 of its terms, of at most 1 m.
+            // The gap is accurate to about 1e-12 of its terms, which are at most 1 m.
             assert!(row[k] > -4e-12, "{} = {} at {}", names[k], row[k], row[0]);
         }
         let normal = (0..names.len()).filter(|k| names[*k].contains("normal("));
         pressed = pressed.max(normal.map(|k| row[k]).fold(0.0, f64::max));
     }
     assert!(pressed > 8.0 * 0.05 * 9.81, "{pressed}");
-    // Gravity and masses are constant, so the steps change no energy but by impulses: the books close to rounding, some of
-    // the energies at each step.
+    // Gravity and masses are constant, so steps change the energy only by impulses, and the balance closes up to some roundings of the
+    // energies per step.
     let lost = number(&run["impact_loss"]);
     let (residual, steps) = (number(&run["energy_residual"]), number(&run["steps"]));
     assert!(
@@ -166,8 +166,8 @@ fn a_pile_comes_to_rest() {
     );
 }
 
-/// A disc with friction slips, and then rolls at two thirds of its first rate; the law of friction is exact where it
-/// slips and where it sticks, and only the instant between them is off by a step.
+/// A disc with friction slips, and then rolls at two thirds of its initial rate. The law of friction is exact during slipping and sticking;
+/// only the transition has an error of one step.
 #[test]
 fn a_disc_slides_until_it_rolls() {
     let spec = Scratch::new(
@@ -181,12 +181,12 @@ fn a_disc_slides_until_it_rolls() {
             contacts { floor { circle: rim, along: ground, restitution: 0, friction: mu } }
         }",
     );
-    // While it slips v = v₀ − μ g t and r ω = 2 μ g t, so it rolls from t₁ = v₀/(3 μ g) on, at 2 v₀/3.
+    // While it slips, v = v₀ − μ g t and r ω = 2 μ g t, so it rolls from t₁ = v₀/(3 μ g) on, at 2 v₀/3.
     let (v0, mu, g, r) = (1.5, 0.2, 9.81, 0.1);
     let h = 1e-3;
     let run = step(spec.path(), 1.0, h, &["--rate", "x=1.5"]);
     let rolls = 2.0 / 3.0 * v0;
-    // The momentum about a point of the floor stays: so the rate is exact to rounding, however long steps are.
+    // The angular momentum about a point of the floor is conserved, so the rate is exact up to round-off for any step length.
     close(number(&run["v"]["x"]), rolls, 1e-12);
     close(number(&run["v"]["theta"]), -rolls / r, 1e-11);
     let slips = v0 / (3.0 * mu * g);
@@ -251,9 +251,9 @@ fn auto(spec: &str, until: &str, more: &[&str]) -> Value {
     run
 }
 
-/// The woodpecker changes its contacts ten times in a beat for as long as it goes, at some instants with its spring at rest: that is not often,
-/// whatever the run's length, and after 60 beats it is on its cycle, whose period `orbit/woodpecker.py` has. Deviations of its start, of 2 ‰ of
-/// a period, are multiplied by 0.839 in each beat, to below 1e-7 of it.
+/// The woodpecker changes its contacts ten times per beat indefinitely, at some instants with its spring at rest: that is not often, whatever
+/// the run's length, so the run continues by events. After 60 beats it is on its cycle, whose period is from `orbit/woodpecker.py`. Deviations
+/// of its start, 2 ‰ of a period, are multiplied by 0.839 in each beat, to below 1e-7 of it.
 #[test]
 fn a_run_that_goes_on_for_long_goes_on_by_events() {
     for until in ["9", "40"] {
@@ -267,8 +267,8 @@ fn a_run_that_goes_on_for_long_goes_on_by_events() {
     }
 }
 
-/// Without any option discs fall into a bowl and come to rest: where they touch too often the run goes on by time stepping, and says
-/// when, in which steps, and that nothing bounds their error. The books close as those of time stepping do.
+/// Without any option discs fall into a bowl and come to rest. Where contacts become too frequent, the run continues by time stepping, and
+/// reports when, with which step, and that the error is not bounded. The energy balance closes as for time stepping.
 #[test]
 fn a_run_hands_over_where_discs_pile_up() {
     let run = auto("machines/contacts/pile.machine", "6", &["--const", "N=8"]);
@@ -276,7 +276,8 @@ fn a_run_hands_over_where_discs_pile_up() {
     let handovers = run["handovers"].as_array().expect("handovers");
     assert_eq!(handovers[0]["to"], "moreau", "{handovers:#?}");
     let (t, step) = (number(&handovers[0]["t"]), number(&handovers[0]["step"]));
-    // A disc falls to the bottom within √(2·0.45/g) ≈ 0.30 s, at 3 m/s, which gravity stops in as long: and a step is a 256th of it.
+    // A disc falls to the bottom within √(2·0.45/g) ≈ 0.30 s, at 3 m/s, and gravity takes the same time to stop such a speed; the step is a
+    // 256th of it.
     assert!(
         t > 0.1 && t < 1.5 && step > 1e-4 && step < 2e-3,
         "{t} {step}"
@@ -294,12 +295,12 @@ fn a_run_hands_over_where_discs_pile_up() {
         assert!(number(rate).abs() <= 1e-9, "der({name}) = {rate}");
     }
     let lost = number(&run["impact_loss"]);
-    // Until it hands over the books close to the tolerance of 1e-9, after it to rounding.
+    // Before the change the energy balance closes to the tolerance of 1e-9, after it to round-off.
     assert!(
         lost > 0.0 && number(&run["energy_residual"]).abs() < 1e-7 * lost,
         "{run:#}"
     );
-    // At rest steps become longer: as many as 6 s of the first ones would be 10 times what it takes.
+    // At rest steps become longer: 6 s in steps of the initial length would be 10 times as many.
     assert!(number(&run["steps"]) < 6.0 / step, "{}", run["steps"]);
 }
 
@@ -329,14 +330,14 @@ fn a_run_that_finds_every_event_stays_as_it_is() {
         assert_eq!(one["handovers"], Value::Null);
         for run in [&mut one, &mut other] {
             run["seconds"] = Value::Null;
-            // Only a run that is free to choose says what it chose.
+            // Only a run that may choose its method reports its choice.
             run["methods"] = Value::Null;
         }
         assert_eq!(one, other);
     }
 }
 
-/// Contacts whose law time stepping does not know are followed as they are, whatever is asked.
+/// Contacts whose law time stepping does not support are followed by events, whatever the options.
 #[test]
 fn a_law_that_time_stepping_does_not_know_is_not_handed_over() {
     let run = auto(

@@ -1,7 +1,7 @@
-//! Constraints that depend on each other and hold what has no inertia: the angle of a pendulum that is given as a particle.
+//! Dependent constraints with coordinates without inertia: the angle of a pendulum that is given as a particle.
 //!
-//! In whatever order they are written and wherever it starts, the particle moves as the pendulum in one coordinate does, and
-//! is pushed as Newton says.
+//! Whatever the order of the constraints and the start, the particle moves as the pendulum in one coordinate does, with the
+//! constraint forces of Newton's equations.
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -13,7 +13,7 @@ const LENGTH: f64 = 0.8;
 const MASS: f64 = 2.0;
 const UNTIL: f64 = 2.0;
 
-/// SplitMix64.
+/// The random number generator SplitMix64.
 struct Random(u64);
 
 impl Random {
@@ -41,13 +41,13 @@ fn number(value: &Value) -> f64 {
     value.as_f64().expect("a number")
 }
 
-/// The starts of a sweep, one beside the other.
+/// Starts for a sweep, as a list.
 fn listed(name: &str, values: impl Iterator<Item = f64>) -> String {
     let values: Vec<String> = values.map(|value| format!("{value:?}")).collect();
     format!("{name}={}", values.join(","))
 }
 
-/// The angles at the end, from each of some starts.
+/// The angles at the end of runs from these starts.
 fn angles(spec: &Scratch, starts: &[(f64, f64)], tolerance: &str, what: &str) -> Vec<f64> {
     let rows = spec.0.with_file_name("rows.csv");
     let until = UNTIL.to_string();
@@ -99,7 +99,7 @@ fn rows_that_depend_on_each_other_hold_what_has_no_inertia() {
     let seed: u64 = seed.unwrap_or(clock);
     println!("SEED={seed}");
     let mut random = Random(seed);
-    // Hanging, level and upright, where some of the rows are one row or none, are starts like others.
+    // Includes hanging, horizontal and upright poses, where some rows coincide or vanish.
     let poses = [0.0, std::f64::consts::FRAC_PI_2, std::f64::consts::PI];
     let poses = poses
         .into_iter()
@@ -167,7 +167,8 @@ fn rows_that_depend_on_each_other_hold_what_has_no_inertia() {
         let points = Scratch::new("points.json", &points.to_string());
         let there = json(&["evaluate", spec.path(), "--at", points.path()], &what);
         for (k, (angle, rate)) in starts.iter().enumerate() {
-            // a'' = -(g/l) sin a; what the rows push with is m times acceleration, less weight, and nothing at the angle.
+            // a'' = -(g/l) sin a; the total constraint force is m times the acceleration minus the weight, and zero
+            // on the angle.
             let (sin, cos) = angle.sin_cos();
             let turn = -G / LENGTH * sin;
             let accelerations = [
@@ -176,8 +177,8 @@ fn rows_that_depend_on_each_other_hold_what_has_no_inertia() {
                 turn,
             ];
             let pushes = [MASS * accelerations[0], MASS * (accelerations[1] + G), 0.0];
-            // Their terms are up to 20 m/s² and 60 N, times the greatest factor, in rounding 1e-13; in a basis of rows
-            // that are a tenth apart ten times that, and the reactions the square.
+            // Their terms are up to 20 m/s² and 60 N, times the largest factor, with a rounding of 1e-13; in a basis of rows
+            // that differ by a tenth the error is ten times that, and for the reactions the square.
             for (name, known, bound) in [
                 ("accelerations", accelerations, 1e-12),
                 ("reactions", pushes, 1e-11),
@@ -194,7 +195,8 @@ fn rows_that_depend_on_each_other_hold_what_has_no_inertia() {
         for tolerance in [1e-5, 1e-13] {
             let found = angles(&spec, &starts, &format!("{tolerance:e}"), &what);
             for (found, known) in found.iter().zip(&known) {
-                // Some twenty steps with an error of the tolerance each, and neighbours part by exp(t √(g/l)) at most.
+                // About twenty steps, each with an error of the tolerance; neighbouring motions separate by at
+                // most exp(t √(g/l)).
                 let bound = 20.0 * (UNTIL * (G / LENGTH).sqrt()).exp() * tolerance + 1e-10;
                 let error = (found - known).abs();
                 assert!(error <= bound, "{what}, {tolerance:e}: {error:e}");

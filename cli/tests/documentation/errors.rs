@@ -1,4 +1,4 @@
-//! The errors that the reference gives for a section are errors that the section raises: one spec for each pair.
+//! Each error that the reference lists for a section is raised by that section: there is one spec for each pair.
 
 use std::collections::BTreeSet;
 
@@ -9,7 +9,7 @@ use lagrangian_spec::syntax::SectionKind;
 
 use crate::page::Page;
 
-/// A section, an error, and a variant of `tests/ui/cart.machine` that raises the one in the other: what stands between its
+/// A section, an error, and a variant of `tests/ui/cart.machine` that raises the error in the section: the contents of its
 /// braces, or a whole machine.
 fn mistakes() -> impl Iterator<Item = (&'static str, &'static str, &'static str)> {
     let lines = include_str!("mistakes.txt").lines();
@@ -20,11 +20,11 @@ fn mistakes() -> impl Iterator<Item = (&'static str, &'static str, &'static str)
     })
 }
 
-/// Two circles, for what is about circles.
+/// Two circles, for errors about circles.
 const CIRCLES: &str = "circles { tyre { on: beam, center: (0, 0), radius: l }, \
                        ring { on: ground, center: (0, 0), radius: l } }";
 
-/// Everything that is said of a spec.
+/// All messages for a spec.
 fn said(text: &str) -> (BTreeSet<&'static str>, String) {
     let cart = Page::open("tests/ui/cart.machine").text;
     let mut files = InMemory::new().with("cart.machine", &cart);

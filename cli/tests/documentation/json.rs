@@ -1,4 +1,4 @@
-//! The JSON on the page of the command line is what the command reads and writes.
+//! The JSON on the page of the command line matches what the command reads and writes.
 
 use std::process::{Command, Stdio};
 
@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::page::{Page, root};
 
-/// The blocks of JSON of the page, where `…` stands for anything.
+/// The JSON blocks of the page, where `…` stands for anything.
 fn blocks() -> Vec<Value> {
     let page = Page::open("docs/command-line.md");
     let blocks = page.blocks().into_iter();
@@ -16,7 +16,7 @@ fn blocks() -> Vec<Value> {
         .collect()
 }
 
-/// What the command prints.
+/// The output of the command.
 fn printed(arguments: &[&str]) -> Value {
     let mut command = Command::new(env!("CARGO_BIN_EXE_lagrangian"));
     let command = command.current_dir(root()).args(arguments);
@@ -50,7 +50,7 @@ fn results_have_the_keys_that_the_page_prints() {
     let path = std::env::temp_dir().join(name);
     std::fs::write(&path, format!("[{point}]")).expect("a temporary file");
     let results = printed(&["evaluate", spec, "--at", &path.to_string_lossy()]);
-    let _ = std::fs::remove_file(&path); // a file that stays does no harm
+    let _ = std::fs::remove_file(&path); // a remaining file does no harm
     assert_eq!(keys(&results[0]), keys(evaluated));
     assert!(results[0]["accelerations"][1].is_f64());
 

@@ -1,4 +1,4 @@
-//! Links between pages lead to files, and to headings in them.
+//! Links between pages lead to existing files, and to existing headings in them.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -21,9 +21,9 @@ fn pages() -> Vec<String> {
     pages
 }
 
-/// What stands in the brackets of `[…](…)`, of pictures too, outside of code.
+/// The targets of links `[…](…)` and of pictures, outside code.
 fn targets(line: &str) -> Vec<&str> {
-    // Every other piece between backquotes is code; a link around code keeps its brackets outside of it.
+    // Every second part between backquotes is code; a link around code has its brackets outside.
     let mut found = Vec::new();
     let mut rest = line;
     while let Some(at) = rest.find("](") {
@@ -35,7 +35,7 @@ fn targets(line: &str) -> Vec<&str> {
     found
 }
 
-/// The anchor of a heading, as the places that show Markdown make it.
+/// The anchor of a heading, as Markdown renderers generate it.
 fn anchor(heading: &str) -> String {
     let kept = heading
         .chars()

@@ -1,18 +1,18 @@
-//! The docs, held to what they say: every spec in them is checked, every command is run and prints what stands beneath it,
-//! every link leads somewhere, and the reference has an entry for every section and every error.
+//! Tests of the docs: every spec in them is checked, every command is run and must print the text below it, every link must have a
+//! target, and the reference must have an entry for every section and every error.
 //!
-//! A block's language says what happens to it.
+//! The language of a block determines how it is tested.
 //!
 //! | language | |
 //! | --- | --- |
-//! | `machine` | a whole spec: saved under the name in its first line, `// NAME.machine`, or else under the name of its machine in snake case; it can be derived, unless the next block shows what is wrong with it, or the words after it say that it is `not-supported` |
-//! | `console` | commands after `$ `, and beneath each everything that it prints; `…` stands for what changes from run to run, and alone on a line for any number of lines |
+//! | `machine` | a whole spec: saved under the name in its first line, `// NAME.machine`, or else under the name of its machine in snake case; it can be derived, unless the next block shows its errors, or the text after it says that it is `not-supported` |
+//! | `console` | commands after `$ `, each followed by its complete output; `…` stands for text that changes from run to run, and alone on a line for any number of lines |
 //! | `c`, `python`, `csv`, `xml` | a program, a table or a robot, saved under the name in its first line |
-//! | `sh` | commands that must succeed, whatever they print |
+//! | `sh` | commands that must succeed, whatever their output |
 //! | `rust` | compiled and run as documentation tests of the library, see the end of `src/lib.rs` |
-//! | `text`, `json`, `toml` | forms and excerpts: nothing is done with them |
+//! | `text`, `json`, `toml` | forms and excerpts, which are not tested |
 //!
-//! The pages share nothing: each is a reader who begins with an empty folder and the library of machines.
+//! Pages are independent: each starts with an empty folder and the library of machines.
 
 mod errors;
 mod json;
@@ -38,14 +38,14 @@ const PAGES: [&str; 7] = [
     "docs/sweeps.md",
 ];
 
-/// Whether the words say so; a list of errors that links to this one does not.
+/// Whether the text after a spec says so; a list of errors that links to this one does not.
 fn is_said_to_be_unsupported(words: &str) -> bool {
     words
         .replace("[`not-supported`]", "")
         .contains("`not-supported`")
 }
 
-/// Reads a page from top to bottom and does what it says.
+/// Reads a page from top to bottom and executes its blocks.
 fn follow(path: &str) {
     let page = Page::open(path);
     let reader = Reader::new(path);
@@ -129,7 +129,7 @@ fn every_rust_block_is_a_documentation_test() {
     }
 }
 
-/// Commands and options as the command itself lists them.
+/// Commands and options, as listed by the command's own help.
 #[test]
 fn every_option_is_in_the_docs() {
     let help = |arguments: &[&str]| {

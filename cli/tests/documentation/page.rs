@@ -1,4 +1,4 @@
-//! A page of Markdown: its code blocks, its headings, its prose.
+//! A page of Markdown: its code blocks, headings and prose.
 
 use std::path::{Path, PathBuf};
 
@@ -9,19 +9,19 @@ pub fn root() -> PathBuf {
 
 /// A file of the repository, as text.
 pub struct Page {
-    /// What it says, lines ended by `\n`.
+    /// Its contents, with lines ended by `\n`.
     pub text: String,
 }
 
 /// A code block.
 pub struct Block {
-    /// What stands behind the opening fence.
+    /// The text after the opening fence.
     pub language: String,
     /// The lines between the fences.
     pub text: String,
     /// The line of the opening fence, from 1.
     pub line: usize,
-    /// What stands between it and the next block or heading.
+    /// The text between it and the next block or heading.
     pub after: String,
 }
 
@@ -69,7 +69,7 @@ impl Page {
         blocks
     }
 
-    /// The lines outside of code blocks, each with its number, from 1.
+    /// The lines outside code blocks, each with its number, from 1.
     pub fn prose(&self) -> Vec<(usize, &str)> {
         let mut inside = false;
         let mut lines = Vec::new();
@@ -94,7 +94,7 @@ impl Page {
         heading.collect()
     }
 
-    /// What stands beneath a heading, to the next one of its depth or less.
+    /// The text below a heading, up to the next one of the same or a higher level.
     pub fn entry(&self, heading: &str) -> Option<&str> {
         let depth = heading.chars().take_while(|&c| c == '#').count();
         let start = self.text.find(&format!("\n{heading}\n"))? + heading.len() + 2;

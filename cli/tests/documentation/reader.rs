@@ -1,4 +1,4 @@
-//! Somebody who reads a page from top to bottom, saves its specs and types its commands.
+//! A simulated reader, who reads a page from top to bottom, saves its specs and types its commands.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -9,7 +9,7 @@ use lagrangian_spec::source::{Disk, Sources};
 
 use crate::page::{Block, root};
 
-/// What a page says to type that is left to its readers: it builds, installs or tests.
+/// Commands that the test does not run because they build, install or test.
 const LEFT_TO_READERS: [&str; 4] = [
     "cargo test --workspace",
     "cargo install --path cli",
@@ -17,30 +17,30 @@ const LEFT_TO_READERS: [&str; 4] = [
     "cargo new",
 ];
 
-/// What comes of a spec.
+/// The expected result of a spec.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// It can be derived.
     Sound,
-    /// It is understood and cannot be derived yet.
+    /// It is valid, but cannot be derived yet.
     NotSupported,
-    /// It has mistakes.
+    /// It has errors.
     Wrong,
 }
 
-/// A reader with a folder of their own, which goes when they are done.
+/// A reader with a temporary folder.
 pub struct Reader {
     folder: PathBuf,
 }
 
 impl Drop for Reader {
     fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.folder); // a folder that stays does no harm
+        let _ = std::fs::remove_dir_all(&self.folder); // a remaining folder does no harm
     }
 }
 
 impl Reader {
-    /// A reader of a page, with the library of machines beside them.
+    /// A reader of a page; the folder contains the library of machines.
     pub fn new(page: &str) -> Reader {
         let name = page.replace(['/', '.'], "-");
         let name = format!("lagrangian-{}-{name}", std::process::id());
@@ -50,7 +50,7 @@ impl Reader {
         Reader { folder }
     }
 
-    /// Saves a spec, of which `expected` comes.
+    /// Saves a spec, and checks that it has the `expected` result.
     pub fn save(&self, block: &Block, expected: Verdict, at: &str) {
         let path = self.folder.join(name_of(&block.text, at));
         std::fs::write(&path, &block.text).expect("a temporary file");
@@ -78,7 +78,7 @@ impl Reader {
         std::fs::write(self.folder.join(name), &block.text).expect("a temporary file");
     }
 
-    /// Types the commands of a `console` block and compares what they print with what is shown.
+    /// Runs the commands of a `console` block and compares their output with the lines below them.
     pub fn compare(&self, block: &Block, at: &str) {
         let mut commands: Vec<(&str, Vec<&str>)> = Vec::new();
         for line in block.text.lines() {
@@ -89,7 +89,7 @@ impl Reader {
             }
         }
         for (command, shown) in commands {
-            // Nobody needs Python to work here; who has it sees that the docs are right.
+            // Python is optional; with it the pages are checked completely.
             if command.starts_with("python3 ") && Command::new("python3").output().is_err() {
                 continue;
             }
@@ -109,7 +109,7 @@ impl Reader {
         }
     }
 
-    /// Types the commands of an `sh` block, which must succeed.
+    /// Runs the commands of an `sh` block, which must succeed.
     pub fn run(&self, block: &Block, at: &str) {
         for command in block.text.lines() {
             let left = LEFT_TO_READERS
@@ -122,7 +122,7 @@ impl Reader {
         }
     }
 
-    /// What a command prints, mistakes first, and whether it succeeds.
+    /// The output of a command, errors first, and whether it succeeds.
     fn type_in(&self, command: &str, at: &str) -> (String, bool) {
         let words = words(command);
         let words: Vec<&str> = words.iter().map(String::as_str).collect();
@@ -133,7 +133,7 @@ impl Reader {
                     .args(arguments)
                     .current_dir(&self.folder))
             }
-            // A C compiler links for rustc, so it is there; and what comes out of it.
+            // rustc links with a C compiler, so there is one; its results are run as well.
             [program, ref arguments @ ..]
                 if program == "cc" || program == "python3" || program.starts_with("./") =>
             {
@@ -165,7 +165,7 @@ impl Reader {
     }
 }
 
-/// The name of the file that a spec is saved as: what its first line says, `// NAME.machine`, or else the name of its
+/// The file name under which a spec is saved: the name in its first line, `// NAME.machine`, or else the name of its
 /// machine in snake case.
 fn name_of(spec: &str, at: &str) -> String {
     let first = spec.lines().next().unwrap_or_default();
@@ -191,7 +191,7 @@ fn name_of(spec: &str, at: &str) -> String {
     snake + ".machine"
 }
 
-/// The words of a command: those in quotes are one.
+/// The words of a command; quoted text is one word.
 fn words(command: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut quote = None;
@@ -207,7 +207,7 @@ fn words(command: &str) -> Vec<String> {
     words
 }
 
-/// Whether lines are those that are shown, where a line `…` stands for any number of them.
+/// Whether lines match those shown, where a line `…` stands for any number of lines.
 fn lines_match(shown: &[&str], lines: &[&str]) -> bool {
     match (shown, lines) {
         ([], []) => true,
@@ -221,7 +221,7 @@ fn lines_match(shown: &[&str], lines: &[&str]) -> bool {
     }
 }
 
-/// Whether a line is the one that is shown, where `…` stands for any text.
+/// Whether a line matches the one shown, where `…` stands for any text.
 fn line_matches(shown: &str, line: &str) -> bool {
     let Some((before, after)) = shown.split_once('…') else {
         return shown == line;
@@ -243,7 +243,7 @@ fn an_ellipsis_stands_for_what_changes() {
     assert!(!lines_match(&["a"], &["a", "b"]));
 }
 
-/// What a command prints, mistakes first, and whether it succeeds.
+/// The output of a command, errors first, and whether it succeeds.
 fn run(command: &mut Command) -> (String, bool) {
     let output = command.stdin(Stdio::null()).output();
     let output = output.expect("the command runs");
@@ -252,7 +252,7 @@ fn run(command: &mut Command) -> (String, bool) {
     (printed, output.status.success())
 }
 
-/// Whether a line tells how far a command is: on a busy machine any command may take long enough for some.
+/// Whether a line is a progress message, which any command may print on a busy machine.
 fn is_progress(line: &str) -> bool {
     let seconds = line
         .strip_suffix(" s")

@@ -1,4 +1,5 @@
-//! The reference is complete: an entry for every section of the language, a row for every error.
+//! The reference is complete: it has an entry for every section of the language and a row
+//! for every error.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +10,7 @@ use crate::page::Page;
 
 const REFERENCE: &str = "docs/reference.md";
 
-/// What an entry of a section tells, in this order.
+/// The parts of a section's entry, in this order.
 const PARTS: [&str; 5] = [
     "**Form.**",
     "**Meaning.**",
@@ -55,10 +56,10 @@ fn every_section_has_an_entry_with_an_example() {
     assert_eq!(sections.count(), 0, "an entry for what is no section");
 }
 
-/// The spec that makes a mistake, as the page links it.
+/// The file that demonstrates an error, as linked from the page.
 fn shown_at(code: &str) -> String {
     match code {
-        // Four megabytes would be a burden to the repository.
+        // A file of four megabytes would be too large for the repository.
         "source-too-large" => "../crates/mechanics/tests/mechanics/ui.rs".to_owned(),
         "internal-error" => "../crates/mechanics/tests/program/proved.rs".to_owned(),
         code => format!("../tests/ui/{code}.machine"),
@@ -90,10 +91,10 @@ fn every_error_has_a_row_and_every_row_is_an_error() {
     codes.sort_unstable();
     assert_eq!(found, codes);
     for (code, [_, help]) in &index {
-        // What helps is what the linked spec is told.
+        // The help text is the one that the linked spec gets.
         if help != "–" && !["source-too-large", "internal-error"].contains(&code.as_str()) {
             let told = Page::open(&format!("tests/ui/{code}.txt")).text;
-            // What holds backslashes is set as code.
+            // Help texts with backslashes are formatted as code.
             let code_only =
                 |help: &str| Some(help.strip_prefix("`` ")?.strip_suffix(" ``")?.to_owned());
             let help = code_only(help).unwrap_or_else(|| help.clone());
@@ -116,7 +117,7 @@ fn every_error_is_in_the_entry_of_a_section_or_of_the_rules() {
         let named = entries.contains(&format!("[`{code}`]({})", shown_at(code.as_str())));
         assert!(named, "no entry tells when {code} is raised");
     }
-    // And nothing is called an error that is none: `[`code`](` is how the page writes one.
+    // Only existing errors are named as errors: the page writes one as `[`code`](`.
     let words = entries
         .match_indices("`](../tests/ui/")
         .map(|(at, _)| entries[..at].rsplit('`').next().unwrap_or_default());

@@ -1,4 +1,4 @@
-//! What the command prints and makes: `evaluate`, `modes`, C and shared libraries.
+//! Tests of what the command prints and generates: `evaluate`, `modes`, C and shared libraries.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -23,7 +23,7 @@ use super::text;
 use super::truth::{State, Variable, World, on_constraints};
 use super::{Tally, seed};
 
-/// A folder that goes when the test is done.
+/// A folder that is removed when the test ends.
 pub struct Folder(PathBuf);
 
 impl Folder {
@@ -37,7 +37,7 @@ impl Folder {
         fs::write(self.0.join(name), text).expect("the folder can be written");
     }
 
-    /// Runs a program in it; what it prints, or what it says is wrong.
+    /// Runs a program in the folder; returns its output, or its error message.
     fn run(&self, program: &str, arguments: &[&str]) -> Result<String, String> {
         let output = Command::new(program)
             .args(arguments)
@@ -60,11 +60,11 @@ impl Folder {
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0); // a folder that stays does no harm
+        let _ = fs::remove_dir_all(&self.0); // a remaining folder does no harm
     }
 }
 
-/// A machine that can stand still: time stands, and every coordinate has a spring.
+/// A machine that can be at rest: time is constant, and every coordinate has a spring.
 fn still(random: &mut Random, kind: Kind) -> Option<Case> {
     let mut machine = Case::random(random, kind)?.machine;
     machine.replace(&mut |e| {
@@ -72,7 +72,7 @@ fn still(random: &mut Random, kind: Kind) -> Option<Case> {
             *e = num(0.5);
         }
     });
-    // Powers of speeds that are no squares have no derivative at rest.
+    // Powers of speeds that are not squares have no derivative at rest.
     machine
         .dissipations
         .retain(|e| !e.any(|e| matches!(e, Expr::Power(_, halves) if halves % 2 != 0)));
@@ -104,7 +104,7 @@ fn still(random: &mut Random, kind: Kind) -> Option<Case> {
     Case::at(machine, state)
 }
 
-/// The eigenvalues that `modes` prints, those of a conjugate pair both.
+/// The eigenvalues that `modes` prints, both of each conjugate pair.
 fn eigenvalues(result: &Value) -> Vec<Complex<f64>> {
     let modes = result["modes"].as_array().into_iter().flatten();
     let mut list = Vec::new();
@@ -119,7 +119,7 @@ fn eigenvalues(result: &Value) -> Vec<Complex<f64>> {
     list
 }
 
-/// How far two sets are apart: each number of one is matched with the nearest that is left of the other.
+/// The distance of two sets: each number of one is matched with the nearest unmatched number of the other.
 fn distance(a: &[Complex<f64>], b: &[Complex<f64>]) -> f64 {
     if a.len() != b.len() {
         return f64::INFINITY;
@@ -137,7 +137,7 @@ fn distance(a: &[Complex<f64>], b: &[Complex<f64>]) -> f64 {
     worst
 }
 
-/// The eigenvalues of ÿ = A y + B ẏ, with A and B by the evaluator.
+/// The eigenvalues of ÿ = A y + B ẏ, with A and B from the evaluator.
 fn true_eigenvalues(machine: &Machine, equilibrium: &[f64]) -> Option<Vec<Complex<f64>>> {
     let n = equilibrium.len();
     let state = State {
@@ -170,7 +170,7 @@ fn places(result: &Value, machine: &Machine) -> Vec<f64> {
     places.collect()
 }
 
-/// `modes` and `evaluate` of a machine and of the same machine said otherwise.
+/// Compares `modes` and `evaluate` of a machine and of its rewritten form.
 pub fn modes(mut random: Random, number: usize, tally: &mut Tally) {
     let kinds = [Kind::Formulas, Kind::Tree, Kind::Closed, Kind::Guided];
     let kind = kinds[number % kinds.len()];
@@ -181,12 +181,12 @@ pub fn modes(mut random: Random, number: usize, tally: &mut Tally) {
     let Some(case) = still(&mut random, kind) else {
         return;
     };
-    // What is held by its rate stands anywhere: of many places each finds its own.
+    // With a nonholonomic constraint equilibria form a continuum, and each search finds a different one.
     if case.machine.constraints.iter().any(|one| !one.holonomic) {
         return;
     }
     let (rewritten, single) = rewrite(&case, &mut random);
-    // What is held by its rate alone may stand anywhere, and what moves stands nowhere.
+    // A constraint that only fixes a rate allows equilibria anywhere, and relative to moving ground nothing is at rest.
     let other_modes = ["constraint by its rate", "ground moving"];
     if rewritten.names.is_empty()
         || rewritten
@@ -216,11 +216,11 @@ pub fn modes(mut random: Random, number: usize, tally: &mut Tally) {
         (Ok(first), Ok(second)) => {
             let (one, other) = (eigenvalues(&first), eigenvalues(&second));
             let largest = one.iter().map(|x| x.norm()).fold(1.0, f64::max);
-            // Where two eigenvalues are one, they go with the root of what rounding makes of the matrix.
+            // A double eigenvalue changes by the square root of the matrix's round-off.
             let bound = f64::EPSILON.sqrt() * 64.0 * largest / case.truth.pivot.sqrt();
             let apart = distance(&one, &other);
-            // Of several equilibria each may have found another one. The search stops where forces are rounding, so two
-            // places that differ in the first half of their digits are two.
+            // If there are several equilibria, each search may have found a different one. A search stops once forces are
+            // round-off, so two positions are different only if the first half of their digits differs.
             let (here, there) = (
                 places(&first, &case.machine),
                 places(&second, &rewritten.machine),
@@ -233,7 +233,7 @@ pub fn modes(mut random: Random, number: usize, tally: &mut Tally) {
             let world = World::<f64>::new(&case.machine, &state);
             let [wanted, ..] = world.motion(&rewritten.coordinates, &state.v);
             let is_same = wanted.iter().zip(&there).all(|(a, b)| {
-                // An angle that was asked of a place is known up to whole turns.
+                // An angle of a point, such as a polar angle, is only known up to whole turns.
                 let turns = ((a - b) / TAU).round() * TAU;
                 let apart = (a - b).abs().min((a - b - turns).abs());
                 apart <= bound * (1.0 + a.abs())
@@ -264,8 +264,8 @@ pub fn modes(mut random: Random, number: usize, tally: &mut Tally) {
                 "another equilibrium"
             });
         }
-        // What one spelling finds after a long search only, another need not find. Nor need a search in coordinates that are
-        // singular somewhere: it may end there, and says so.
+        // An equilibrium that one form finds only after a long search need not be found in the other. A search in coordinates with
+        // singularities may also end at one and report that.
         (Ok(first), Err(_))
             if steps(&first) >= 8.0 || rewritten.names.contains(&"polar coordinates") =>
         {
@@ -279,8 +279,8 @@ pub fn modes(mut random: Random, number: usize, tally: &mut Tally) {
     evaluate(&folder, &expected, tally, &names, &written.text);
 }
 
-/// A machine with guides, said otherwise: `evaluate` gives its accelerations and what its contacts do, and `modes` and `library`,
-/// which know no state that sticks, say so and make nothing.
+/// A machine with guides and its rewritten form: `evaluate` must give the accelerations and the contact forces. `modes` and
+/// `library` do not support sticking, so they must report that and write nothing.
 fn guided(random: &mut Random, number: usize, tally: &mut Tally) {
     let Some(case) = Case::random(random, Kind::Guided) else {
         return;
@@ -290,7 +290,7 @@ fn guided(random: &mut Random, number: usize, tally: &mut Tally) {
         return;
     };
     let written = write(&rewritten.machine, "Rewritten", random);
-    // What a guide carries may not follow from what is said; that is the business of another test.
+    // The forces that a guide carries may not follow from this form; another test covers that.
     if compile(&written.text, &written.files).is_err() {
         return;
     }
@@ -321,7 +321,7 @@ fn guided(random: &mut Random, number: usize, tally: &mut Tally) {
     tally.count("guided");
 }
 
-/// `evaluate` at the state.
+/// Compares `evaluate` at the state with what is expected.
 fn evaluate(folder: &Folder, expected: &Expected, tally: &mut Tally, names: &str, text: &str) {
     let State { t, q, v } = &expected.state;
     let plain = |list: &[DoubleDouble]| list.iter().map(|x| x.hi()).collect::<Vec<f64>>();
@@ -368,7 +368,7 @@ fn evaluate(folder: &Folder, expected: &Expected, tally: &mut Tally, names: &str
     tally.count("evaluate");
 }
 
-/// A machine of one of these kinds, and the same said otherwise, with what is to be found of each.
+/// A machine of one of these kinds and its rewritten form, each with what is expected of it.
 fn pair(random: &mut Random, kind: Kind) -> Option<[(Machine, Expected); 2]> {
     let case = Case::random(random, kind)?;
     let (rewritten, single) = rewrite(&case, random);
@@ -384,7 +384,8 @@ fn pair(random: &mut Random, kind: Kind) -> Option<[(Machine, Expected); 2]> {
 /// All kinds but machines with guides.
 const WITHOUT_GUIDES: [Kind; 4] = [Kind::Formulas, Kind::Tree, Kind::Closed, Kind::Rolling];
 
-/// Machines of these kinds in turn and their programs, until there are enough; each has this name and a number.
+/// Generates machines of these kinds in turn, with their programs, until there are enough; each is named by this name
+/// and a number.
 fn several(name: &str, count: usize, tag: u64, kinds: &[Kind]) -> Vec<(Machine, Proved, Expected)> {
     let mut list = Vec::new();
     let mut random = Random(seed() ^ tag);
@@ -408,8 +409,8 @@ fn numbers(values: &[DoubleDouble]) -> String {
     values.join(", ")
 }
 
-/// Holds what was printed, machine after machine, one number a line: the accelerations, or of machines with guides what depends on
-/// friction.
+/// Checks the printed results, machine after machine, one number per line: the accelerations, or for machines with guides the
+/// quantities that depend on friction.
 fn hold_printed(printed: &str, list: &[(Machine, Proved, Expected)], what: &str) {
     let mut lines = printed
         .lines()
@@ -436,7 +437,7 @@ fn hold_printed(printed: &str, list: &[(Machine, Proved, Expected)], what: &str)
     }
 }
 
-/// How what depends on friction is arranged, where there is any.
+/// The layout of the quantities that depend on friction, if there are any.
 fn friction_layout(program: &Proved) -> Option<FrictionLayout> {
     let layout = FrictionLayout {
         coordinates: program.dimension(),
@@ -447,8 +448,8 @@ fn friction_layout(program: &Proved) -> Option<FrictionLayout> {
     (layout.contacts > 0).then_some(layout)
 }
 
-/// What is wrong with numbers that depend on friction: with the true friction forces they give the true accelerations,
-/// multipliers and normal reactions, and the friction of what slides is μ times the normal reaction.
+/// Checks the quantities that depend on friction: with the true friction forces they must give the true accelerations, multipliers
+/// and normal reactions, and the friction of a sliding contact must be μ times the normal reaction.
 fn friction_failures(
     program: &Proved,
     layout: FrictionLayout,
@@ -490,7 +491,7 @@ fn friction_failures(
         let terms = contacts.iter().enumerate();
         let terms = terms.map(|(k, [.., friction])| friction * parts[(1 + k) * part + place]);
         let terms: Vec<f64> = [parts[place]].into_iter().chain(terms).collect();
-        // What is added may be larger than what comes of it.
+        // Terms may be larger than their sum, so they determine the round-off.
         let size = terms
             .iter()
             .fold(expected.size, |size, term| size.max(term.abs()));
@@ -505,7 +506,8 @@ fn friction_failures(
     }
     let coefficients = &parts[(1 + layout.contacts) * part..];
     for (k, [slip, normal, friction]) in contacts.iter().enumerate() {
-        // What rests within rounding rests, and its friction is what holds it, by μ₀ at most.
+        // A slip within round-off counts as rest; static friction is the force that maintains it, at most μ₀ times
+        // the normal reaction.
         let slides = slip.abs() >= 1e-12;
         let most = normal.abs() * coefficients[if slides { k } else { layout.contacts + k }];
         let bound = f64::EPSILON * 4096.0 * expected.size * expected.size / expected.pivot;
@@ -524,7 +526,7 @@ fn friction_failures(
     failures
 }
 
-/// C for many machines at once, by one call of the compiler.
+/// Compiles C for many machines with one call of the compiler.
 pub fn as_c() {
     let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
     let folder = Folder::new("metamorphic-c");
@@ -621,7 +623,7 @@ fn c_call(k: usize, program: &Proved, expected: &Expected) -> String {
     )
 }
 
-/// Shared libraries of a few machines, called from one program in C.
+/// Builds shared libraries of a few machines and calls them from one C program.
 pub fn as_libraries() {
     let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
     let folder = Folder::new("metamorphic-libraries");

@@ -1,4 +1,4 @@
-//! Accelerations, reactions, energies and what is derived beside them, at random states.
+//! Tests of accelerations, reactions, energies and their derivatives at random states.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -25,17 +25,16 @@ use super::truth::{State, Truth, Variable, World, on_constraints};
 
 type Wide = DoubleDouble;
 
-/// A smaller pivot than this, relative to the largest, and the state is left out: it is next to a singular one.
+/// States with a smaller ratio of the smallest pivot to the largest are skipped, because they are nearly singular.
 const LEAST_PIVOT: f64 = 1e-6;
 
-/// By how many roundings a result may be off: the programs have some hundreds to thousands of operations.
+/// The error bound of a result in roundings: programs have hundreds to thousands of operations.
 const ROUNDINGS: f64 = 4096.0;
 
-/// Sections in which no random machine has anything: the first needs a language for impacts, and only it asks for `spheres`;
-/// `methods` asks for what not every machine has and leaves the equations as they are, and the next two are about other commands,
-/// which have tests of their own.
-/// The others write energies, forces and constraints as random machines have them; `crates/mechanics/tests/mechanics/parts.rs` holds
-/// each against its formulas.
+/// Sections that no random machine contains. The first needs a language for impacts, and only it uses `spheres`; `methods` has
+/// requirements that not every machine meets and does not change the equations; the next two belong to other commands, which have
+/// their own tests. The others describe energies, forces and constraints that random machines write out;
+/// `crates/mechanics/tests/mechanics/parts.rs` tests each of them against its formulas.
 const LEFT_OUT: [&str; 14] = [
     "contacts",
     "spheres",
@@ -53,7 +52,7 @@ const LEFT_OUT: [&str; 14] = [
     "losses",
 ];
 
-/// What has to take part in a full run.
+/// The features that must occur in a full run.
 pub fn parts() -> Vec<String> {
     let sections = SectionKind::ALL.iter().map(|kind| kind.as_str());
     let sections = sections.filter(|name| !LEFT_OUT.contains(name));
@@ -66,16 +65,16 @@ pub fn parts() -> Vec<String> {
     sections.chain(rewritings).chain(spaces).collect()
 }
 
-/// Rewritings of the text alone.
+/// Rewritings that only change the text.
 const LAYOUTS: [&str; 2] = ["order of sections", "variant flattened"];
 
-/// The rewriting of a chain by families, of which every so many machines is one.
+/// The rewriting of a chain into families, which is tested by one machine in every `EVERY`.
 const UNROLLED: &str = "family unrolled";
 const EVERY: usize = 20;
 
 const PANICS: &str = "the compiler panics";
 
-/// Compiles a spec, as the command line does.
+/// Compiles a spec in the same way as the command line.
 pub fn compile(text: &str, files: &[(String, String)]) -> Result<Proved, String> {
     let compiled = catch_unwind(AssertUnwindSafe(|| compile_or_panic(text, files)));
     compiled.unwrap_or_else(|panic| {
@@ -119,7 +118,7 @@ fn largest(values: &[Wide]) -> f64 {
     values.iter().map(|x| x.abs().to_f64()).fold(0.0, f64::max)
 }
 
-/// A machine with a state on its constraints, and what is true there.
+/// A machine with a state on its constraints, and the true results there.
 pub struct Case {
     pub machine: Machine,
     pub state: State<Wide>,
@@ -174,7 +173,7 @@ impl Case {
     }
 }
 
-/// What is to be found.
+/// The expected results.
 pub struct Expected {
     pub state: State<Wide>,
     pub accelerations: Vec<Wide>,
@@ -184,15 +183,15 @@ pub struct Expected {
     pub contacts: Vec<(String, [Wide; 3])>,
     pub energies: [Option<Wide>; 3],
     pub outputs: Vec<Wide>,
-    /// The smallest pivot relative to the largest, and the largest number.
+    /// The ratio of the smallest pivot to the largest, and the largest number.
     pub pivot: f64,
     pub size: f64,
-    /// Whether a constraint is said twice.
+    /// Whether a constraint occurs twice.
     pub doubled: bool,
 }
 
 impl Expected {
-    /// What is to be found of a machine as it is.
+    /// The expected results of a machine in its original form.
     pub fn of(case: &Case) -> Expected {
         let truth = &case.truth;
         let rewritten = Rewritten::new(&case.machine);
@@ -209,7 +208,7 @@ impl Expected {
         }
     }
 
-    /// What is to be found of a machine said otherwise. `None` where it is next to singular as it is said.
+    /// The expected results of a rewritten machine, or `None` if its new form is nearly singular.
     pub fn of_rewritten(
         case: &Case,
         rewritten: &Rewritten,
@@ -220,7 +219,8 @@ impl Expected {
         let [q, v, a] = world.motion(&rewritten.coordinates, &truth.accelerations);
         let t = case.state.t;
         if rewritten.by_formulas {
-            // The evaluator cannot tell from the spec what a guide carries any more; if it is not refused, it has to be this.
+            // From formulas the evaluator cannot determine the forces that a guide carries. If the spec is accepted, they must be
+            // those of the original form.
             return Ok(Some(Expected {
                 state: State { t, q, v },
                 accelerations: a,
@@ -233,7 +233,7 @@ impl Expected {
                 doubled: false,
             }));
         }
-        // The numbers by the evaluator, in f64: its conditioning, and whether the rewriting is one.
+        // Evaluates the rewritten machine in f64, for its conditioning and to check that the rewriting is correct.
         let state = State {
             t: t.to_f64(),
             q: plain(&q),
@@ -277,7 +277,7 @@ fn multipliers(case: &Case, rewritten: &Rewritten) -> Vec<(String, Wide)> {
     let mut list = Vec::new();
     for (constraint, stands_for) in machine.constraints.iter().zip(&rewritten.constraints) {
         if let Some((base, factor)) = stands_for {
-            // What is said several times is held in equal parts.
+            // The reaction of a repeated constraint is divided equally among its copies.
             let same = rewritten.constraints.iter().flatten();
             let count = same.filter(|(other, _)| other == base).count();
             let share = Wide::from_f64(factor * count as f64);
@@ -310,16 +310,16 @@ fn contacts(case: &Case, rewritten: &Rewritten) -> Vec<(String, [Wide; 3])> {
         .collect()
 }
 
-/// Holds numbers against what they have to be.
+/// Compares numbers with the expected ones.
 struct Held<'f> {
     failures: &'f mut Vec<String>,
-    /// In units of the rounding of wide numbers, and of plain ones.
+    /// In units of the rounding of double-doubles, and of f64.
     bound: f64,
 }
 
 impl Held<'_> {
     fn wide(&mut self, what: &str, found: &[Wide], expected: &[Wide]) {
-        // Double-doubles are exact to 2⁻¹⁰⁰.
+        // Double-doubles are accurate to 2⁻¹⁰⁰.
         let bound = self.bound * 2f64.powi(-100);
         for (i, (found, expected)) in found.iter().zip(expected).enumerate() {
             let error = (*found - *expected).abs().to_f64();
@@ -348,11 +348,11 @@ impl Held<'_> {
     }
 }
 
-/// Holds a program against what is expected of it.
+/// Compares the results of a program with the expected ones.
 pub fn hold(program: &Proved, expected: &Expected) -> Vec<String> {
     let mut failures = Vec::new();
-    // A result is off by the roundings of its terms, which are not larger than the largest squared, and solving makes that
-    // larger by the condition of what is solved.
+    // The error of a result comes from the roundings of its terms, which are at most the square of the largest number; the solution
+    // multiplies it by the condition number.
     let bound = ROUNDINGS * expected.size * expected.size / expected.pivot;
     let mut held = Held {
         failures: &mut failures,
@@ -414,7 +414,7 @@ pub fn hold(program: &Proved, expected: &Expected) -> Vec<String> {
     failures
 }
 
-/// The accelerations, stage by stage.
+/// The accelerations, evaluated stage by stage.
 fn in_stages(
     program: &Proved,
     interpreter: &mut Interpreter<Wide>,
@@ -452,7 +452,7 @@ impl Held<'_> {
         }
     }
 
-    /// The numbers as a run sees them, in f64.
+    /// Checks the numbers that a run uses, in f64.
     fn as_run(&mut self, program: &Proved, expected: &Expected) {
         let machine = InterpretedMachine::new(program.clone());
         let system = machine.prepare();
@@ -512,7 +512,7 @@ impl Held<'_> {
     }
 }
 
-/// Matrix, forces and derivatives of a machine as it is.
+/// Checks the matrix, forces and derivatives of a machine in its original form.
 fn hold_equations(program: &Proved, case: &Case, random: &mut Random) -> Vec<String> {
     let mut failures = Vec::new();
     let truth = &case.truth;
@@ -536,7 +536,7 @@ fn hold_equations(program: &Proved, case: &Case, random: &mut Random) -> Vec<Str
     };
     let mut call = |role: Role, length: usize| {
         let mut results = vec![Wide::ZERO; length];
-        // Singular machines are left out.
+        // Singular machines are skipped.
         let _ = interpreter.call(role, arguments, &mut results);
         results
     };
@@ -571,13 +571,13 @@ fn hold_equations(program: &Proved, case: &Case, random: &mut Random) -> Vec<Str
     failures
 }
 
-/// Applies up to four rewritings, and in the end one that doubles a constraint.
+/// Applies up to four rewritings; the last may double a constraint.
 pub fn rewrite(case: &Case, random: &mut Random) -> (Rewritten, Rewritten) {
     let mut rewritten = Rewritten::new(&case.machine);
     let mut order = shuffled(REWRITINGS.len(), random);
     let is = |index: usize, name: &str| REWRITINGS[index].0 == name;
-    // What builds the frames anew comes first, what says something twice last. What needs a constraint that nothing has changed
-    // yet would be rare.
+    // The rewriting that rebuilds the frames comes first, the one that doubles a constraint last. The one that needs an unchanged
+    // constraint often comes before the others, because it would otherwise rarely apply.
     let first = random.chance(50);
     order.sort_by_key(|index| {
         (
@@ -638,14 +638,14 @@ pub struct Written {
     pub layout: Option<&'static str>,
 }
 
-/// The machine as text: in the usual order, in another one, or as a variant of another machine.
+/// The machine as text: with sections in the usual order, in another order, or as a variant of another machine.
 pub fn write(machine: &Machine, name: &str, random: &mut Random) -> Written {
     let mut items = text::items(machine);
     let (mut layout, mut files) = (None, Vec::new());
     let mut head = text::head(machine, name);
     match random.below(3) {
         0 => {
-            // Sections may stand in any order and repeat; of each the items stay in theirs.
+            // Sections may come in any order and repeat; the items of each section keep their order.
             let mut sections: Vec<&str> = items.iter().map(|item| item.section).collect();
             sections.dedup();
             let order = shuffled(sections.len(), random);
@@ -655,7 +655,7 @@ pub fn write(machine: &Machine, name: &str, random: &mut Random) -> Written {
         }
         1 => {
             let (base, variant) = variant(&items, random);
-            // A variant that changes nothing is refused.
+            // A variant without changes is refused.
             if variant.is_empty() {
                 let text = text::assemble(&head, &items);
                 return Written {
@@ -681,7 +681,7 @@ pub fn write(machine: &Machine, name: &str, random: &mut Random) -> Written {
     }
 }
 
-/// The items of a base, and of a variant that makes the machine of it.
+/// The items of a base, and those of a variant that turns it into the machine.
 fn variant(items: &[Item], random: &mut Random) -> (Vec<Item>, Vec<Item>) {
     let (mut base, mut own) = (Vec::new(), Vec::new());
     for item in items {
@@ -697,7 +697,7 @@ fn variant(items: &[Item], random: &mut Random) -> (Vec<Item>, Vec<Item>) {
                 | "constraints"
         ) && !item.name.is_empty();
         if replaceable && random.chance(40) {
-            // Another value stands in the base.
+            // The base has another value.
             let mut other = item.clone();
             other.text = match item.section {
                 "parameters" => format!("{}: 1 = 4.5", item.name),
@@ -723,7 +723,7 @@ fn variant(items: &[Item], random: &mut Random) -> (Vec<Item>, Vec<Item>) {
         }
         base.push(item.clone());
     }
-    // One spring too many, and another gravity.
+    // The base has an additional spring, and another gravity.
     let extra = |section, name: &str, text: &str| Item {
         section,
         name: name.into(),
@@ -765,13 +765,13 @@ fn count_sections(machine: &Machine, tally: &mut Tally) {
     });
 }
 
-/// Errors that a random machine may be refused with: it was no machine.
+/// Errors with which a random machine may be refused because it is not a valid machine.
 const REFUSALS: [&str; 3] = ["[no-inertia]", "[no-expansion]", "[undefined]"];
 
-/// What a guided machine may be refused with: what a guide carries does not follow from what is said.
+/// The error of a guided machine if the forces that a guide carries do not follow from the spec.
 const UNTIED: &str = "[untied]";
 
-/// A chain, its members one by one and as families.
+/// Compares a chain with its members written one by one and as families.
 fn families(random: &mut Random, tally: &mut Tally) {
     let (machine, text) = generate::chain(random);
     let of = |f: fn(&super::machine::Coordinate) -> f64| {
@@ -803,10 +803,10 @@ fn families(random: &mut Random, tally: &mut Tally) {
     tally.count(format!("rewriting: {UNROLLED}"));
 }
 
-/// Of how many machines one is compiled to machine code; no multiple of the number of kinds.
+/// One machine in this many is compiled to machine code; coprime to the number of kinds, so that all kinds occur.
 const COMPILED: usize = 9;
 
-/// Machine code of all functions, held against the interpreter.
+/// Compares the machine code of all functions with the interpreter.
 fn hold_machine_code(program: &Proved, random: &mut Random, tally: &mut Tally) -> Option<String> {
     lagrangian_jit::Level::here()?;
     let program = Arc::new(Program::clone(program));
@@ -822,7 +822,7 @@ fn hold_machine_code(program: &Proved, random: &mut Random, tally: &mut Tally) -
     found.err().map(|error| format!("machine code: {error}"))
 }
 
-/// One machine, and two ways to say it otherwise.
+/// Tests one machine and two rewritten forms of it.
 pub fn task(mut random: Random, number: usize, tally: &mut Tally) {
     if number % EVERY == EVERY - 1 {
         families(&mut random, tally);

@@ -1,4 +1,4 @@
-//! Random machines.
+//! Generates random machines.
 
 use super::machine::{
     Approximation, Body, Bushing, Circle, Constraint, Coordinate, Elastic, Expr, Force, Frame,
@@ -8,16 +8,16 @@ use super::machine::{
 use super::random::Random;
 use super::truth::{State, World};
 
-/// What a random machine is built as.
+/// The kind of a random machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
-    /// Bodies placed by formulas in the coordinates, which several may share.
+    /// Bodies placed by formulas in the coordinates, which several bodies may share.
     Formulas,
     /// Bodies on a tree of frames.
     Tree,
-    /// Links that close.
+    /// Closed loops of links.
     Closed,
-    /// Discs that roll.
+    /// Rolling discs.
     Rolling,
     /// Bodies in guides with friction.
     Guided,
@@ -83,7 +83,7 @@ impl Builder<'_> {
         k
     }
 
-    /// A positive number: itself, a parameter, or a constant.
+    /// A positive number: a literal, a parameter, or a constant.
     fn positive(&mut self) -> Expr {
         match self.random.below(4) {
             0 => num(self.random.number(0.5, 2.0)),
@@ -110,7 +110,7 @@ impl Builder<'_> {
         mul(num(amplitude), sin(mul(num(frequency), Expr::Time)))
     }
 
-    /// A component of a place.
+    /// A component of a position.
     fn component(&mut self) -> Expr {
         let (i, j) = (self.any_coordinate(), self.any_coordinate());
         match self.random.below(11) {
@@ -137,7 +137,7 @@ impl Builder<'_> {
                 power(num(self.random.number(0.25, 1.0)), 4),
             )],
             (true, true) => {
-                // Those of masses at ±a, ±b, ±c along the axes: they can move so.
+                // Moments of masses at ±a, ±b, ±c along the axes, so they satisfy the triangle inequalities.
                 let [a, b, c] = [0, 1, 2].map(|_| num(self.random.number(0.5, 1.0)));
                 let third = |x: &Expr, y: &Expr| {
                     let squares = sum(vec![power(x.clone(), 4), power(y.clone(), 4)]);
@@ -145,7 +145,7 @@ impl Builder<'_> {
                 };
                 let mut entries = vec![third(&b, &c), third(&a, &c), third(&a, &b)];
                 if self.random.chance(40) {
-                    // Less than an eighth of the least moment.
+                    // Products of inertia are less than an eighth of the smallest moment.
                     let products = (0..3).map(|_| num(self.random.number(-0.0625, 0.0625)));
                     entries.extend(products.map(|x| mul(mass.clone(), x)));
                 }
@@ -267,7 +267,7 @@ impl Builder<'_> {
             .collect();
         for k in 0..links {
             self.coordinate();
-            // Away from where the links lie in one line.
+            // Away from configurations in which the links are collinear.
             self.machine.coordinates[k].start = [1.25, 0.5, -0.75, -1.75][k];
             self.body(None, None, None);
         }
@@ -414,14 +414,14 @@ impl Builder<'_> {
         let mut cart = 0;
         match self.random.below(4) {
             0 => {
-                // Along the ground.
+                // A cart along the ground.
                 cart = self.shift(cart, vec![q(x), num(0.0)]);
                 let body = self.body(Some(cart), None, None);
                 let normal = self.random.chance(30).then(|| free(num(0.0), num(-2.0)));
                 self.guide(body, 0, free(num(1.0), num(0.0)), normal);
             }
             1 => {
-                // A curve.
+                // A cart on a curve.
                 let k = num(self.random.number(-1.0, 1.0));
                 let height = mul(mul(num(0.5), k.clone()), power(q(x), 4));
                 cart = self.shift(cart, vec![q(x), height]);
@@ -434,7 +434,7 @@ impl Builder<'_> {
                 self.guide(body, 0, free(num(1.0), slope), normal);
             }
             2 => {
-                // A shaken rail.
+                // A cart on a shaken rail.
                 let drive = self.drive();
                 let rail = self.shift(0, vec![drive, num(0.0)]);
                 let drive = self.drive();
@@ -477,7 +477,7 @@ impl Builder<'_> {
             cart = if self.random.chance(50) { block } else { cart };
         }
         if cart > 0 && self.random.chance(50) {
-            // What hangs on it.
+            // A pendulum that hangs from the cart.
             let phi = self.coordinate();
             let rod = self.turn(cart, 2, q(phi));
             let at = Vector::Point(rod, vec![num(0.0), num(-self.random.number(0.5, 1.0))]);
@@ -485,7 +485,7 @@ impl Builder<'_> {
         }
         self.machine.gravity = Some(vec![num(0.0), num(-9.0)]);
         if self.random.chance(25) {
-            // All at rest on its guides, which may move.
+            // All coordinates are at rest relative to their guides, which may move.
             for coordinate in &mut self.machine.coordinates {
                 coordinate.rate = 0.0;
             }
@@ -523,7 +523,7 @@ impl Builder<'_> {
     }
 
     fn stretch(&mut self, kind: Kind) -> Stretch {
-        // How a stretch that is written by coordinates pulls across a guide is not determined, mostly: such
+        // A stretch in terms of coordinates usually leaves its force across a guide undetermined, and such
         // machines are refused.
         let (tries, percent) = match kind {
             Kind::Guided => (4, 95),
@@ -544,8 +544,8 @@ impl Builder<'_> {
         Stretch::Number(e)
     }
 
-    /// In the plane perhaps a bushing between two frames. Loops are cut elsewhere, which builds the frames
-    /// anew; so they have none.
+    /// In the plane, sometimes a bushing between two frames. Machines with loops have none, because cutting a loop elsewhere
+    /// rebuilds the frames.
     fn bushing(&mut self) {
         let count = self.machine.frames.len();
         let has_frames = count > 0 && !self.machine.spatial && self.machine.closed.is_none();
@@ -586,7 +586,7 @@ impl Builder<'_> {
         sum(parts)
     }
 
-    /// What acts on the machine, what holds it, and what is asked of it.
+    /// Adds loads, constraints and outputs.
     fn act(&mut self, kind: Kind) {
         let dimension = self.machine.dimension();
         if self.machine.gravity.is_none() && self.random.chance(75) {
@@ -652,7 +652,7 @@ impl Builder<'_> {
                 _ => {
                     let body = self.random.below(self.machine.bodies.len());
                     let rate = Vector::Der(Box::new(Vector::Centre(body)));
-                    // Its root has no derivative where a body rests.
+                    // The root in the norm has no derivative if a body is at rest.
                     let speed = self.value(&norm(rate.clone()));
                     if speed > 0.125 {
                         mul(num(0.125), power(dot(rate.clone(), rate), 3))
@@ -702,7 +702,7 @@ impl Builder<'_> {
         self.derive(kind);
     }
 
-    /// The size of a force or torque.
+    /// The magnitude of a force or torque.
     fn strength(&mut self) -> Expr {
         let rate = der(q(self.any_coordinate()));
         match self.random.below(4) {
@@ -723,7 +723,8 @@ impl Builder<'_> {
         let rounded = |x: f64| num((x * 64.0).round() / 64.0);
         let (left, right, holonomic) = match self.random.below(9) {
             7 | 8 if self.machine.frames.len() > 1 => {
-                // The distance from what a frame is built on: some coordinates drop out of it, behind sums of parameters.
+                // The distance from the parent of a frame: some coordinates drop out of it, but only after sums of
+                // parameters are expanded.
                 let frame = 1 + self.random.below(self.machine.frames.len());
                 let parent = self.machine.frames[frame - 1].parent;
                 let before = match parent {
@@ -745,7 +746,7 @@ impl Builder<'_> {
                 (dot(line.clone(), line), power(rounded(distance), 4), true)
             }
             0 | 1 if i != j => {
-                // A coordinate in terms of others.
+                // A coordinate as a function of others.
                 let right = match self.random.below(4) {
                     0 => sum(vec![mul(self.factor(), q(j)), self.positive()]),
                     1 => quotient(power(q(j), 4), num(2.0)),
@@ -822,10 +823,10 @@ impl Builder<'_> {
         }
     }
 
-    /// Definitions, assumptions, approximations, derivatives and stages.
+    /// Adds definitions, assumptions, approximations, derivatives and stages.
     fn derive(&mut self, kind: Kind) {
         if self.random.chance(25) {
-            // Its body is somewhere by name.
+            // The position of a body gets a name.
             let body = self.random.below(self.machine.bodies.len());
             if let Some(at) = self.machine.bodies[body].at.take() {
                 let k = self.machine.defines.len();
@@ -862,7 +863,7 @@ impl Builder<'_> {
                 Approximation::Small
             };
             if kind == Approximation::Small {
-                // Far from where it is expanded, the kinetic energy need not be positive.
+                // Far from the point of expansion the kinetic energy need not be positive.
                 let coordinate = &mut self.machine.coordinates[i];
                 coordinate.start /= 16.0;
             }
@@ -880,7 +881,7 @@ impl Builder<'_> {
     }
 }
 
-/// A chain whose links are families: the machine with its members one by one, and the text of the families.
+/// A chain whose links are families: the machine with its members one by one, and the text that uses families.
 pub fn chain(random: &mut Random) -> (Machine, String) {
     let n = 2 + random.below(3);
     let mut machine = Machine::default();
@@ -976,16 +977,16 @@ pub fn chain(random: &mut Random) -> (Machine, String) {
     (machine, text)
 }
 
-/// Builds the frames and constraints of links that close, cut behind link `cut`.
+/// Builds the frames and constraints of a closed loop of links, cut after link `cut`.
 ///
-/// Link k goes from its start to its end at the angle of coordinate k; those up to the cut are built from the ground on, those
-/// behind it from the anchor back. Its first frame has its origin at its start; the place of its body is given in it.
+/// Link k goes from its start to its end at the angle of coordinate k. The links up to the cut are built forward from the ground, those
+/// after it backward from the anchor. The first frame of a link has its origin at its start and contains the position of its body.
 pub fn close(machine: &mut Machine) {
     let closed = machine.closed.clone().expect("the links close");
     let links = closed.lengths.len();
     let first_time = machine.frames.is_empty();
     let mut frames = Vec::new();
-    // Frames 1 and 2 carry the two ends; two for each link, its axes and its other end.
+    // Frames 1 and 2 carry the two ends. Each link has two: one for its axes, and one for its other end.
     let mut add = |parent: usize, step: Step| {
         frames.push(Frame { parent, step });
         frames.len()
@@ -1019,7 +1020,7 @@ pub fn close(machine: &mut Machine) {
         .zip(of_link.iter().copied())
         .collect();
     machine.frames = frames;
-    // Whatever was said in the frame of a link is said in its new one.
+    // Everything that was written in the frame of a link moves to its new frame.
     if first_time {
         for (k, frame) in of_link.iter().enumerate() {
             let body = &mut machine.bodies[k];

@@ -1,7 +1,7 @@
-//! Numbers with infinitesimals: what the truth is differentiated by, without any algebra on expressions.
+//! Numbers with infinitesimals, which differentiate the truth without any algebra on expressions.
 //!
-//! A jet is a polynomial in ε₀, ε₁, … with εₖ² = 0, in any arithmetic: coefficient `c[m]` belongs to the product of those εₖ
-//! whose bit k is set in m. So f(x + ε₀ y + ε₁ z) has in its coefficient of ε₀ε₁ the second derivative of f along y and z (W.
+//! A jet is a polynomial in ε₀, ε₁, … with εₖ² = 0, over any arithmetic: coefficient `c[m]` belongs to the product of those εₖ
+//! whose bit k is set in m. Hence the coefficient of ε₀ε₁ in f(x + ε₀ y + ε₁ z) is the second derivative of f along y and z (W.
 //! K. Clifford 1873; J. A. Fike, J. J. Alonso, *The development of hyper-dual numbers*, AIAA 2011-886).
 
 use lagrangian_scalar::Scalar;
@@ -25,12 +25,12 @@ impl<S: Scalar> Jet<S> {
         Jet(parts)
     }
 
-    /// What does not depend on any infinitesimal.
+    /// The part that does not depend on any infinitesimal.
     pub fn value(&self) -> S {
         self.0[0]
     }
 
-    /// The factor of εₖ, of which there is none beyond k.
+    /// The coefficient of εₖ, which must be the last infinitesimal.
     pub fn part(&self, k: usize) -> Jet<S> {
         match self.0.get(1 << k..) {
             Some(part) if !part.is_empty() => Jet(part.to_vec()),
@@ -38,7 +38,7 @@ impl<S: Scalar> Jet<S> {
         }
     }
 
-    /// What is without εₖ, of which there is none beyond k.
+    /// The part without εₖ, which must be the last infinitesimal.
     pub fn without(&self, k: usize) -> Jet<S> {
         Jet(self.0[..self.0.len().min(1 << k)].to_vec())
     }
@@ -81,8 +81,8 @@ impl<S: Scalar> Jet<S> {
         Jet(self.0.iter().map(|x| *x * factor).collect())
     }
 
-    /// f(x) by Taylor's formula, which ends where the infinitesimals are used up: `derivative(j)` is the j-th derivative of f at
-    /// the value of x.
+    /// f(x) by Taylor's formula, which ends with the product of all infinitesimals: `derivative(j)` is the j-th derivative of f
+    /// at the value of x.
     fn compose(&self, derivative: impl Fn(usize) -> S) -> Jet<S> {
         let order = self.0.len().trailing_zeros() as usize;
         let mut small = self.clone();
@@ -132,12 +132,13 @@ impl<S: Scalar> Jet<S> {
         self.mul(&other.power(-2))
     }
 
-    /// The angle of the point (x, y): that of the values, and the rest from the point turned back by it.
+    /// The angle of the point (x, y): the angle of its value, plus the small angle that remains after the point is rotated
+    /// back by it.
     pub fn angle(y: &Jet<S>, x: &Jet<S>) -> Jet<S> {
         let (x0, y0) = (Jet::of(x.value()), Jet::of(y.value()));
         let along = x.mul(&x0).add(&y.mul(&y0));
         let across = y.mul(&x0).sub(&x.mul(&y0));
-        // atan w = w − w³/3 + w⁵/5, as w⁶ = 0 with up to five infinitesimals.
+        // atan w = w − w³/3 + w⁵/5, because w⁶ = 0 with up to five infinitesimals.
         let w = across.div(&along);
         let square = w.mul(&w);
         let third = Jet::of(S::from_ratio(1, 3));
@@ -151,8 +152,8 @@ impl<S: Scalar> Jet<S> {
     }
 }
 
-/// The solution of a system of linear equations by elimination with full pivoting, and the ratio of the smallest pivot to the
-/// largest; `None` where a pivot is 0.
+/// The solution of a linear system by elimination with full pivoting, and the ratio of the smallest pivot to the largest; `None`
+/// if a pivot is 0.
 pub fn solve<S: Scalar>(
     mut matrix: Vec<Vec<S>>,
     mut right: Vec<Vec<S>>,

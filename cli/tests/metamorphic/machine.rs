@@ -1,9 +1,9 @@
-//! A machine as a value: what its spec is printed from, and what the truth is computed from.
+//! A machine as a value, from which its spec is printed and the truth is computed.
 
-/// A number without a unit, in terms of what a machine has.
+/// A dimensionless scalar expression in the quantities of a machine.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Expr {
-    /// A multiple of 1/64: text, binary64 and double-double agree on it exactly.
+    /// A multiple of 1/64, which text, binary64 and double-double represent exactly.
     Number(f64),
     Parameter(usize),
     Constant(usize),
@@ -14,12 +14,12 @@ pub enum Expr {
     Sum(Vec<Expr>),
     Product(Vec<Expr>),
     Quotient(Box<Expr>, Box<Expr>),
-    /// The exponent counts halves.
+    /// The exponent is in units of one half.
     Power(Box<Expr>, i64),
     Sin(Box<Expr>),
     Cos(Box<Expr>),
     Exp(Box<Expr>),
-    /// The angle of (second, first).
+    /// The angle of the vector (second, first), `atan2(first, second)`.
     Angle(Box<Expr>, Box<Expr>),
     /// The total time derivative.
     Der(Box<Expr>),
@@ -35,7 +35,7 @@ pub enum Vector {
     Origin(usize),
     /// A point of a frame.
     Point(usize, Vec<Expr>),
-    /// Components along a frame's axes, without a unit.
+    /// Dimensionless components along a frame's axes.
     Along(usize, Vec<Expr>),
     Centre(usize),
     Define(usize),
@@ -61,7 +61,8 @@ pub struct Coordinate {
     pub name: String,
     pub start: f64,
     pub rate: f64,
-    /// Whether start and rate stay where the start is off the constraints. It is on them.
+    /// Whether start and rate are kept fixed if the start violates the constraints; here
+    /// it satisfies them.
     pub kept: [bool; 2],
 }
 
@@ -73,7 +74,7 @@ pub enum Meaning {
 
 #[derive(Clone, Debug)]
 pub struct Frame {
-    /// 0 is the ground; frame k is made from an earlier one.
+    /// 0 is the ground; otherwise an earlier frame, on which this one is built.
     pub parent: usize,
     pub step: Step,
 }
@@ -81,7 +82,7 @@ pub struct Frame {
 #[derive(Clone, Debug)]
 pub enum Step {
     Shift(Vec<Expr>),
-    /// About axis 0, 1 or 2; in the plane 2.
+    /// About axis 0, 1 or 2; in the plane always 2.
     Turn(usize, Expr),
 }
 
@@ -89,7 +90,7 @@ pub enum Step {
 pub struct Body {
     pub name: String,
     pub mass: Expr,
-    /// One moment in the plane; three or six entries in space.
+    /// One moment of inertia in the plane; three or six entries in space.
     pub inertia: Vec<Expr>,
     pub frame: Option<usize>,
     pub at: Option<Vector>,
@@ -99,7 +100,7 @@ pub struct Body {
 #[derive(Clone, Debug)]
 pub struct Elastic {
     pub name: String,
-    /// Stiffness or damping.
+    /// Stiffness or damping coefficient.
     pub factor: Expr,
     pub stretch: Stretch,
 }
@@ -123,7 +124,7 @@ pub struct Bushing {
 #[derive(Clone, Debug)]
 pub enum Force {
     At(Vector, Vector),
-    /// Of an actuator, which drives two points apart.
+    /// An actuator that pushes two points apart.
     Between(Vector, Vector, Expr),
     On(usize, Expr),
 }
@@ -176,7 +177,7 @@ pub enum Approximation {
     Small,
 }
 
-/// A polygon of links that closes: cut behind one of its links, and both ends built from the ground.
+/// A closed polygon of links, cut after one of its links; both chains are built from the ground.
 #[derive(Clone, Debug)]
 pub struct Loop {
     pub lengths: Vec<Expr>,
@@ -192,7 +193,7 @@ pub struct Machine {
     pub inputs: Vec<Value>,
     pub coordinates: Vec<Coordinate>,
     pub defines: Vec<Meaning>,
-    /// What is positive.
+    /// Expressions that are assumed positive.
     pub assumptions: Vec<Expr>,
     pub frames: Vec<Frame>,
     pub bodies: Vec<Body>,
@@ -211,7 +212,8 @@ pub struct Machine {
     pub sliding: Vec<Guide>,
     pub approximations: Vec<(usize, Approximation)>,
     pub outputs: Vec<Expr>,
-    /// Whether the accelerations are differentiated by coordinates, rates, inputs and parameters.
+    /// Whether the accelerations are differentiated with respect to coordinates, rates,
+    /// inputs and parameters.
     pub derivatives: [bool; 4],
     /// Whether time and coordinates are stages.
     pub stages: [bool; 2],
@@ -223,7 +225,7 @@ impl Machine {
         if self.spatial { 3 } else { 2 }
     }
 
-    /// Calls a function on every expression that stands in the machine, whole ones only.
+    /// Calls a function on every expression of the machine, but not on its subexpressions.
     pub fn expressions(&mut self, f: &mut dyn FnMut(&mut Expr)) {
         for define in &mut self.defines {
             match define {
@@ -290,7 +292,8 @@ impl Machine {
         self.vectors(&mut |v| v.expressions(f));
     }
 
-    /// Calls a function on every vector that stands outside of expressions, whole ones only.
+    /// Calls a function on every vector that is not within a scalar expression, but not
+    /// on its parts.
     pub fn vectors(&mut self, f: &mut dyn FnMut(&mut Vector)) {
         for body in &mut self.bodies {
             body.at.iter_mut().for_each(&mut *f);
@@ -313,7 +316,7 @@ impl Machine {
         }
     }
 
-    /// Calls a function on every vector, those inside of expressions and definitions included.
+    /// Calls a function on every vector, including those within expressions and definitions.
     pub fn all_vectors(&mut self, f: &mut dyn FnMut(&mut Vector)) {
         self.vectors(&mut |v| v.each(f));
         for define in &mut self.defines {
@@ -324,14 +327,14 @@ impl Machine {
         self.expressions(&mut |e| e.vectors(f));
     }
 
-    /// Replaces every innermost expression (and, from the inside outward, what is made of it).
+    /// Replaces all expressions from the inside outward.
     pub fn replace(&mut self, f: &mut dyn FnMut(&mut Expr)) {
         self.expressions(&mut |e| e.each(f));
     }
 }
 
 impl Expr {
-    /// Calls a function on all parts, from the inside outward, and on the whole.
+    /// Calls a function on all subexpressions from the inside outward, and on the expression itself.
     pub fn each(&mut self, f: &mut dyn FnMut(&mut Expr)) {
         match self {
             Expr::Sum(parts) | Expr::Product(parts) => {
@@ -354,7 +357,7 @@ impl Expr {
         f(self);
     }
 
-    /// Calls a function on every vector that stands in it.
+    /// Calls a function on every vector within the expression.
     pub fn vectors(&mut self, f: &mut dyn FnMut(&mut Vector)) {
         self.each(&mut |e| match e {
             Expr::Dot(u, v) => {
@@ -366,7 +369,7 @@ impl Expr {
         });
     }
 
-    /// Whether some part, the whole included, has a property.
+    /// Whether the expression or a subexpression has a property.
     pub fn any(&self, property: impl Fn(&Expr) -> bool) -> bool {
         let mut found = false;
         self.clone().each(&mut |e| found |= property(e));
@@ -375,7 +378,8 @@ impl Expr {
 }
 
 impl Vector {
-    /// The expressions that stand in it, whole ones only.
+    /// Calls a function on the scalar expressions within the vector, but not
+    /// on their subexpressions.
     pub fn expressions(&mut self, f: &mut dyn FnMut(&mut Expr)) {
         match self {
             Vector::Free(parts, _) | Vector::Point(_, parts) | Vector::Along(_, parts) => {
@@ -394,7 +398,8 @@ impl Vector {
         }
     }
 
-    /// Calls a function on all parts that are vectors, from the inside outward, and on the whole.
+    /// Calls a function on all parts that are vectors, from the inside outward, and on
+    /// the vector itself.
     pub fn each(&mut self, f: &mut dyn FnMut(&mut Vector)) {
         match self {
             Vector::Less(a, b) => {

@@ -1,8 +1,8 @@
-//! Random machines, each also said otherwise, against each other and against an evaluation in numbers that shares nothing with
-//! the compiler but its arithmetic.
+//! Compares random machines with equivalent descriptions of themselves, and with a numerical evaluation that shares nothing
+//! with the compiler but its arithmetic.
 //!
-//! Every run takes a seed of its own and prints it. `METAMORPHIC_SEED=… METAMORPHIC_MACHINE=…` does one machine of that seed
-//! again, `METAMORPHIC_COUNT` says how many machines there are.
+//! Every run takes a new seed and prints it. `METAMORPHIC_SEED=… METAMORPHIC_MACHINE=…` repeats one machine of that seed, and
+//! `METAMORPHIC_COUNT` sets the number of machines.
 #![allow(
     clippy::needless_range_loop,
     clippy::type_complexity,
@@ -32,15 +32,15 @@ use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use random::Random;
 
-/// How many random machines there are in a run.
+/// The number of random machines in a run.
 const MACHINES: usize = 800;
-/// How many of them are run, and how many have their modes looked for.
+/// The numbers of machines that are simulated, and whose modes are computed.
 const RUNS: usize = 200;
 const MODES: usize = 60;
-/// How many solids are turned in two ways, and how many surfaces are said in two frames.
+/// The number of solids with two descriptions of their rotation, and of surfaces in two frames.
 const TURNS: usize = 60;
 
-/// What one of many tasks found: how often things took part, and what is wrong.
+/// The result of one task: how many times each feature occurred, and the failures.
 #[derive(Default)]
 pub(crate) struct Tally {
     pub(crate) counts: BTreeMap<String, usize>,
@@ -74,7 +74,7 @@ fn seed() -> u64 {
     })
 }
 
-/// Does one task after the other, on as many threads as there are processors, and prints what they found.
+/// Runs the tasks on as many threads as there are processors, and prints their results.
 fn each(name: &str, count: usize, task: impl Fn(Random, usize, &mut Tally) + Sync) -> Tally {
     let (seed, only) = (seed(), variable("METAMORPHIC_MACHINE"));
     let count = variable("METAMORPHIC_COUNT").map_or(count, |count| count as usize);
@@ -130,7 +130,7 @@ fn each(name: &str, count: usize, task: impl Fn(Random, usize, &mut Tally) + Syn
     total
 }
 
-/// Whether all machines of a run were looked at, so that what never took part is a fault of the generator.
+/// Whether a run covers all machines, so that a feature that never occurs is an error of the generator.
 fn is_full() -> bool {
     variable("METAMORPHIC_MACHINE").is_none() && variable("METAMORPHIC_COUNT").is_none()
 }

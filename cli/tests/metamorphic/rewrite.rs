@@ -1,4 +1,4 @@
-//! Ways to say the same machine otherwise, and what must come of each.
+//! Rewritings of a machine into equivalent descriptions, and the results expected of each.
 
 use super::generate::close;
 use super::machine::{
@@ -7,28 +7,28 @@ use super::machine::{
 };
 use super::random::Random;
 
-/// A machine that is another one said otherwise.
+/// An equivalent description of a machine.
 #[derive(Clone)]
 pub struct Rewritten {
     pub machine: Machine,
-    /// Its coordinates, in those of the first machine.
+    /// Its coordinates, as functions of the original ones.
     pub coordinates: Vec<Expr>,
-    /// For each of its constraints which of the first machine's it states, and with which factor.
+    /// For each of its constraints, the original constraint and the factor between them.
     pub constraints: Vec<Option<(usize, f64)>>,
-    /// For each of its guides which of the first machine's it is, and the signs of its direction and of its normal.
+    /// For each of its guides, the original guide and the signs of its direction and of its normal.
     pub guides: Vec<(usize, f64, f64)>,
-    /// Whether T, V and D are the first machine's where that can be.
+    /// Whether T, V and D must equal the original ones; they need not after every rewriting.
     pub energies: [bool; 3],
-    /// Whether the spec may be refused: a guide's reaction may not follow from it any more.
+    /// Whether the spec may be refused because the reaction of a guide may no longer follow from it.
     pub refusable: bool,
-    /// Whether what a guide carries is written by formulas in coordinates, no more by frames.
+    /// Whether the bodies in guides are placed by formulas in coordinates and no longer by frames.
     pub by_formulas: bool,
     pub names: Vec<&'static str>,
 }
 
 type Rewriting = fn(&mut Rewritten, &mut Random) -> bool;
 
-/// All of them. The first stands first wherever it takes part: it builds the frames anew.
+/// All rewritings. The first is always applied before the others, because it rebuilds the frames.
 pub const REWRITINGS: [(&str, Rewriting); 26] = [
     ("loop cut elsewhere", cut_elsewhere),
     ("coordinates in place of frames", formulas_for_frames),
@@ -58,7 +58,7 @@ pub const REWRITINGS: [(&str, Rewriting); 26] = [
     ("polar coordinates", polar),
 ];
 
-/// What is done besides: parameters become constants, and what is derived beside the accelerations changes.
+/// Additional changes: parameters become constants, and other derivatives are requested.
 pub const BESIDES: [(&str, Rewriting); 2] = [
     ("parameters as constants", parameters_as_constants),
     ("derivatives and stages", derivatives_and_stages),
@@ -80,7 +80,7 @@ impl Rewritten {
         }
     }
 
-    /// Puts expressions in place of coordinates.
+    /// Substitutes expressions for coordinates.
     fn substitute(&mut self, f: &dyn Fn(usize) -> Option<Expr>) {
         self.machine.replace(&mut |e| {
             if let Expr::Coordinate(i) = e
@@ -136,7 +136,7 @@ fn formulas(machine: &Machine, frame: usize) -> Formulas {
     formulas
 }
 
-/// A product in which ones and zeros do not stand.
+/// A product without factors of one and zero.
 fn product(a: &Expr, b: &Expr) -> Expr {
     match (a, b) {
         (Expr::Number(0.0), _) | (_, Expr::Number(0.0)) => num(0.0),
@@ -168,7 +168,7 @@ impl Formulas {
     }
 }
 
-/// A vector as components along the ground's axes, where it is one of a frame.
+/// The components of a vector along the ground's axes, if it is given in a frame.
 fn in_ground(machine: &Machine, v: &Vector) -> Vector {
     match v {
         Vector::Origin(frame) => Vector::Free(formulas(machine, *frame).origin, METRE),
@@ -202,12 +202,12 @@ fn cut_elsewhere(r: &mut Rewritten, random: &mut Random) -> bool {
             *stands_for = None;
         }
     }
-    // Off the constraints, the energies are others; on them they are not.
+    // The energies differ off the constraints, but agree on them.
     true
 }
 
-/// Whether an energy is written by points of frames. In a machine with guides it acts where these are; by formulas in
-/// coordinates it acts along the guides, and is another one.
+/// Whether an energy depends on points of frames. In a machine with guides such an energy has forces at these points;
+/// the same energy as a formula in coordinates only has forces along the guides, so it is not equivalent.
 fn energies_need_frames(machine: &Machine) -> bool {
     let mut found = false;
     let energies = machine.potentials.iter().chain(&machine.dissipations);
@@ -247,7 +247,7 @@ fn formulas_for_frames(r: &mut Rewritten, _: &mut Random) -> bool {
     some
 }
 
-/// Numbers frames anew wherever they are named.
+/// Renumbers frames wherever they occur.
 fn rename_frames(machine: &mut Machine, new: &dyn Fn(usize) -> usize) {
     machine.all_vectors(&mut |v| {
         if let Vector::Point(frame, _) | Vector::Along(frame, _) | Vector::Origin(frame) = v {
@@ -328,7 +328,7 @@ fn relative_coordinates(r: &mut Rewritten, random: &mut Random) -> bool {
     let i = random.below(n);
     let j = (i + 1 + random.below(n - 1)) % n;
     let factor = [1.0, -1.0, 1.0, 0.5][random.below(4)];
-    // Every force on a coordinate is one on several of the others then.
+    // Then every force on one coordinate becomes a force on several of the others.
     r.refusable |= is_guided_at_all(&r.machine);
     r.substitute(&|k| (k == i).then(|| sum(vec![q(i), mul(num(factor), q(j))])));
     r.coordinates[i] = sum(vec![
@@ -351,7 +351,7 @@ fn order_of_coordinates(r: &mut Rewritten, random: &mut Random) -> bool {
     if n < 2 {
         return false;
     }
-    // Entry k is which coordinate comes to stand there.
+    // Entry k is the coordinate that moves to place k.
     let order = shuffled(n, random);
     let place = |i: usize| order.iter().position(|k| *k == i).unwrap_or(i);
     r.substitute(&|i| Some(q(place(i))));
@@ -419,7 +419,7 @@ fn order_of_items(r: &mut Rewritten, random: &mut Random) -> bool {
     let order = reorder(&mut machine.constraints, random);
     let before = r.constraints.clone();
     r.constraints = order.iter().map(|k| before[*k]).collect();
-    // Loops are built by the order of their links.
+    // Loops are built in the order of their links.
     machine.closed = None;
     true
 }
@@ -428,7 +428,7 @@ fn is_guided_at_all(machine: &Machine) -> bool {
     !machine.sliding.is_empty()
 }
 
-/// Whether a body is held in a guide.
+/// Whether a body is in a guide.
 fn is_guided(machine: &Machine, body: usize) -> bool {
     machine.sliding.iter().any(|guide| guide.body == body)
 }
@@ -464,7 +464,7 @@ fn particles(r: &mut Rewritten, random: &mut Random) -> bool {
     }
     let k = candidates[random.below(candidates.len())];
     let at = place_of(&r.machine, k);
-    // What is said of its centre is said of that point.
+    // References to its centre become references to that point.
     let centre = at.clone();
     r.machine.all_vectors(&mut |v| {
         if *v == Vector::Centre(k) {
@@ -477,7 +477,7 @@ fn particles(r: &mut Rewritten, random: &mut Random) -> bool {
         _ => (r.machine.bodies[k].frame.unwrap_or(0), vec![num(0.0); n]),
     };
     let Body { mass, inertia, .. } = r.machine.bodies[k].clone();
-    // m d² = J of two halves; m a²/3 = (B + C − A)/2 of six sixths.
+    // Two halves with m d² = J; in space six sixths with m a²/3 = (B + C − A)/2.
     let arms: Vec<Expr> = match &inertia[..] {
         [moment] => vec![power(quotient(moment.clone(), mass.clone()), 1)],
         moments => (0..3)
@@ -533,7 +533,7 @@ fn stretch_expr(stretch: &Stretch) -> Expr {
 }
 
 fn springs_as_potentials(r: &mut Rewritten, _: &mut Random) -> bool {
-    // An energy in coordinates acts along the guides, a spring between points does not.
+    // An energy in coordinates acts only along the guides; a spring between points does not.
     if r.by_formulas {
         return false;
     }
@@ -550,7 +550,7 @@ fn springs_as_potentials(r: &mut Rewritten, _: &mut Random) -> bool {
 }
 
 fn springs_as_forces(r: &mut Rewritten, _: &mut Random) -> bool {
-    // A small coordinate is small in energies, and not in forces.
+    // A coordinate that is approximated as small is expanded in energies, but not in forces.
     if has_approximations(&r.machine) {
         return false;
     }
@@ -571,7 +571,7 @@ fn springs_as_forces(r: &mut Rewritten, _: &mut Random) -> bool {
     !between.is_empty()
 }
 
-/// What pulls two points together, as a force on each.
+/// The forces on two points that pull them together.
 fn pulling([a, b]: [&Vector; 2], pull: Expr, n: usize) -> [Force; 2] {
     let line = b.clone().less(a.clone());
     let over = quotient(pull, norm(line.clone()));
@@ -610,7 +610,7 @@ fn torsions_otherwise(r: &mut Rewritten, random: &mut Random) -> bool {
             let energy = mul(mul(num(0.5), stiffness), power(twist, 4));
             r.machine.potentials.push(energy);
         } else {
-            // A stretch has a direction, and how it pulls across a guide is not said.
+            // A stretch only has a direction; its force across a guide is not determined.
             r.refusable |= is_guided_at_all(&r.machine);
             r.machine.springs.push(Elastic {
                 name: format!("t{k}"),
@@ -640,7 +640,7 @@ fn dampers_as_dissipations(r: &mut Rewritten, _: &mut Random) -> bool {
     some
 }
 
-/// A bushing by its energy and its dissipation function, in products of vectors.
+/// Replaces bushings by their energy and dissipation function, in products of vectors.
 fn bushings_as_energies(r: &mut Rewritten, _: &mut Random) -> bool {
     // As above.
     if r.by_formulas {
@@ -710,7 +710,7 @@ fn ground_turned(r: &mut Rewritten, random: &mut Random) -> bool {
 }
 
 fn ground_moving(r: &mut Rewritten, random: &mut Random) -> bool {
-    // What asks for the velocity of a point sees another one.
+    // Expressions with the velocity of a point would change.
     let asks = |e: &Expr| {
         e.any(|e| {
             let is_rate = |v: &Vector| matches!(v, Vector::Der(_));
@@ -733,7 +733,7 @@ fn ground_moving(r: &mut Rewritten, random: &mut Random) -> bool {
     true
 }
 
-/// Turns the ground about its last axis, and lets it move with a speed.
+/// Turns the ground about its last axis, and lets it move at a constant velocity.
 fn move_ground(r: &mut Rewritten, random: &mut Random, speeds: Option<Vec<f64>>) {
     let machine = &mut r.machine;
     let angle = num(random.number(0.25, 2.5));
@@ -748,7 +748,7 @@ fn move_ground(r: &mut Rewritten, random: &mut Random, speeds: Option<Vec<f64>>)
     }
     steps.push(Step::Turn(2, angle.clone()));
     let added = steps.len();
-    // All other frames come behind these.
+    // All other frames follow these.
     let new = |frame: usize| frame + added;
     rename_frames(machine, &new);
     let frames = std::mem::take(&mut machine.frames);
@@ -806,7 +806,7 @@ fn constraints_scaled(r: &mut Rewritten, random: &mut Random) -> bool {
         one.left = mul(num(factor), one.left.clone());
         one.right = mul(num(factor), one.right.clone());
     } else {
-        // The other way round, all on one side.
+        // Both sides exchanged, with all terms on one side.
 
         let left = std::mem::replace(&mut one.left, mul(num(factor), one.right.clone()));
         one.left = sum(vec![one.left.clone(), mul(num(-factor), left)]);
@@ -824,7 +824,7 @@ fn constraints_scaled(r: &mut Rewritten, random: &mut Random) -> bool {
 }
 
 fn constraint_doubled(r: &mut Rewritten, random: &mut Random) -> bool {
-    // What friction makes of reactions that are not determined is another question.
+    // Friction with undetermined reactions is tested elsewhere.
     if r.machine.constraints.is_empty() || !r.machine.sliding.is_empty() {
         return false;
     }
@@ -915,7 +915,7 @@ fn constraint_put_in(r: &mut Rewritten, _: &mut Random) -> bool {
 fn definitions_inlined(r: &mut Rewritten, _: &mut Random) -> bool {
     let some = !r.machine.defines.is_empty();
     let defines = r.machine.defines.clone();
-    // A definition may stand in another one.
+    // Definitions may be nested.
     for _ in 0..=defines.len() {
         r.machine.all_vectors(&mut |v| {
             if let Vector::Define(k) = v
@@ -1029,7 +1029,7 @@ fn polar(r: &mut Rewritten, random: &mut Random) -> bool {
 }
 
 fn parameters_as_constants(r: &mut Rewritten, random: &mut Random) -> bool {
-    // What is differentiated by a parameter is another function then.
+    // It would change the function that is differentiated by a parameter.
     if r.machine.derivatives[3] {
         return false;
     }
@@ -1043,7 +1043,7 @@ fn parameters_as_constants(r: &mut Rewritten, random: &mut Random) -> bool {
             *e = Expr::Constant(index);
         }
     });
-    // An assumption about numbers alone says nothing.
+    // An assumption that only contains numbers is trivial.
     r.machine
         .assumptions
         .retain(|e| *e != Expr::Constant(index));

@@ -1,4 +1,4 @@
-//! Short runs of a machine and of the same machine said otherwise.
+//! Short runs of a machine and of its rewritten form.
 
 use std::f64::consts::{PI, TAU};
 
@@ -13,13 +13,13 @@ use super::random::Random;
 use super::text;
 use super::truth::{State, World};
 
-/// How long a run is, in s.
+/// The duration of a run, in s.
 const LENGTH: f64 = 0.2;
 const TOLERANCE: f64 = 1e-10;
-/// How far beside the start the run begins by which it is measured how errors grow.
+/// The distance from the start at which a second run begins, to measure the growth of errors.
 const BESIDE: f64 = 1e-6;
 
-/// The end of a run, its steps, and the energy that is missing.
+/// The end of a run, the number of its steps, and its error in the energy balance.
 struct Run {
     end: State<f64>,
     steps: f64,
@@ -55,7 +55,7 @@ fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().map(f64::abs).fold(0.0, f64::max)
 }
 
-/// The greatest difference of two states; whole turns do not count where a coordinate is an angle that was asked of a place.
+/// The greatest difference between two states. Whole turns are ignored for a coordinate that is an angle of a position.
 fn apart(a: &State<f64>, b: &State<f64>, turns: bool) -> f64 {
     let places = a.q.iter().zip(&b.q).map(|(a, b)| match turns {
         true if (a - b).abs() > PI => (a - b).abs() - TAU,
@@ -72,7 +72,7 @@ fn beside(state: &State<f64>, random: &mut Random) -> State<f64> {
     state
 }
 
-/// One machine and one other way to say it.
+/// Tests one machine and one rewritten form.
 pub fn task(mut random: Random, number: usize, tally: &mut Tally) {
     let kind = Kind::ALL[number % Kind::ALL.len()];
     let Some(case) = Case::random(&mut random, kind) else {
@@ -91,7 +91,7 @@ pub fn task(mut random: Random, number: usize, tally: &mut Tally) {
         compile(&first_text, &[]),
         compile(&written.text, &written.files),
     );
-    // What is refused is the business of the other test.
+    // Another test covers refusals.
     let (Ok(first), Ok(second)) = programs else {
         return;
     };
@@ -109,7 +109,7 @@ pub fn task(mut random: Random, number: usize, tally: &mut Tally) {
         tally.count("a run ends early");
         return;
     };
-    // How the end depends on the start, in both.
+    // The sensitivity of the end to the start, in both forms.
     let (Ok(one_beside), Ok(other_beside)) = (
         run(&first, &beside(&start, &mut random)),
         run(&second, &beside(&other_start, &mut random)),
@@ -136,7 +136,7 @@ pub fn task(mut random: Random, number: usize, tally: &mut Tally) {
         State { t: state.t, q, v }
     };
     let wanted = mapped(&one.end);
-    // The shares of rounding and of the law of friction, which changes along a run, are in the growth too.
+    // The measured growth includes the effect of rounding and of changes between sticking and sliding along a run.
     let turns = rewritten.names.contains(&"polar coordinates");
     let growth = [
         apart(&wanted, &mapped(&one_beside.end), turns),
@@ -151,15 +151,15 @@ pub fn task(mut random: Random, number: usize, tally: &mut Tally) {
                 .flat_map(|state| state.q.iter().chain(&state.v).copied()),
         );
     let count = 2.0 * start.q.len() as f64;
-    // Each step is off by the tolerance of the size of the state, in each component, and what it is off by grows as the ends
-    // of the runs beside these do.
+    // Each step has an error of the tolerance times the size of the state in each component, which grows by the same factor
+    // as the distance between the neighbouring runs.
     let bound = (one.steps + other.steps) * TOLERANCE * size * growth.max(1.0) * count;
     let error = apart(&wanted, &other.end, turns);
     let mut failures = Vec::new();
     if error.is_nan() || error > bound {
         failures.push(format!("the ends are {error:e} apart, {bound:e} may be"));
     }
-    // Energy changes with a state by forces and momenta.
+    // The derivative of the energy by the state consists of forces and momenta.
     let slope = expected.size * size * count;
     for (which, run) in [("the first", &one), ("the other", &other)] {
         let bound = run.steps * TOLERANCE * size * slope * growth.max(1.0);

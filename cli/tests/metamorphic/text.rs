@@ -1,4 +1,4 @@
-//! A machine as the text of a spec.
+//! Prints a machine as the text of a spec.
 
 use super::machine::{
     Approximation, Coordinate, Elastic, Expr, Force, Machine, Meaning, NEWTON, PURE, Step, Stretch,
@@ -13,7 +13,7 @@ pub struct Item {
     pub text: String,
 }
 
-/// The unit constants of every machine.
+/// The constants of one unit each that every machine has.
 const UNITS: &str = "one_m: m = 1, one_s: s = 1, one_kg: kg = 1, one_N: N = 1";
 
 fn unit_text([m, s, n]: Unit) -> String {
@@ -44,7 +44,7 @@ impl Printer<'_> {
         parts.join(", ")
     }
 
-    /// An expression without a unit, in brackets where it needs them as a factor.
+    /// A dimensionless expression, in parentheses if it needs them as a factor.
     fn expr(&self, e: &Expr) -> String {
         match e {
             Expr::Number(x) if *x < 0.0 => format!("({x})"),
@@ -130,7 +130,7 @@ impl Printer<'_> {
     }
 }
 
-/// The items of all sections. A family is declared member by member.
+/// The items of all sections. Families are declared member by member.
 pub fn items(machine: &Machine) -> Vec<Item> {
     let p = Printer(machine);
     let mut items = Vec::new();
@@ -346,7 +346,7 @@ pub fn items(machine: &Machine) -> Vec<Item> {
     items
 }
 
-/// A whole text of items in the order in which they come: those of one section that follow each other share its brackets.
+/// The text of items in the given order; consecutive items of the same section share its braces.
 pub fn assemble(head: &str, items: &[Item]) -> String {
     let mut text = format!("{head} {{\n");
     for group in items.chunk_by(|a, b| a.section == b.section && a.section != "gravity") {

@@ -1,8 +1,8 @@
-//! What a machine does, worked out in numbers from the machine as a value.
+//! The motion of a machine, computed numerically from the machine as a value.
 //!
-//! Positions are evaluated, and differentiated by [`Jet`]s: velocities along the motion, Lagrange's equations from T, V and D
-//! as they are written, constraints by their rates, reactions of guides by letting go of these. Then one system of linear
-//! equations is solved. Nothing here is shared with the compiler but the arithmetic of double-doubles.
+//! Positions are evaluated and differentiated with [`Jet`]s: velocities along the motion, Lagrange's equations from T, V and D
+//! as written, constraints from their rates, and the reactions of guides from virtual displacements that release them. Then one
+//! linear system is solved. Nothing here is shared with the compiler but the arithmetic of double-doubles.
 
 use lagrangian_scalar::Scalar;
 
@@ -19,7 +19,7 @@ pub struct State<S> {
     pub v: Vec<S>,
 }
 
-/// By what the accelerations are differentiated.
+/// A variable with respect to which the accelerations are differentiated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Variable {
     Coordinate(usize),
@@ -33,38 +33,38 @@ struct Pose<S> {
     origin: Vec<Jet<S>>,
     /// Component i of axis k at `axes[i][k]`.
     axes: Vec<Vec<Jet<S>>>,
-    /// In the plane, how far it is turned.
+    /// In the plane, the angle of rotation.
     angle: Jet<S>,
 }
 
-/// Everything that expressions are evaluated in.
+/// Everything that the evaluation of expressions needs.
 #[derive(Clone)]
 pub struct World<'m, S> {
     machine: &'m Machine,
     t: Jet<S>,
-    /// Coordinates, and behind them two displacements for each guide, which are 0.
+    /// The coordinates, followed by two displacements for each guide, which are 0.
     q: Vec<Jet<S>>,
     v: Vec<Jet<S>>,
     a: Vec<Jet<S>>,
     inputs: Vec<Jet<S>>,
     parameters: Vec<Jet<S>>,
-    /// How many infinitesimals are in use.
+    /// The number of infinitesimals in use.
     bits: usize,
-    /// Whether approximated velocities are meant.
+    /// Whether velocities are approximated.
     frozen: bool,
-    /// What stands for the coordinates in sines and cosines.
+    /// The values of the coordinates within sines and cosines.
     in_angles: Option<Vec<Jet<S>>>,
     poses: Vec<Pose<S>>,
 }
 
-/// M, f and the rest at a state; everything may depend on the infinitesimal of a variable.
+/// M, f and the other terms at a state; everything may depend on the infinitesimal of a variable.
 pub struct Equations<S> {
     pub mass: Vec<Vec<Jet<S>>>,
     pub bias: Vec<Jet<S>>,
     pub applied: Vec<Jet<S>>,
     pub rows: Vec<Vec<Jet<S>>>,
     pub drift: Vec<Jet<S>>,
-    /// For each guide ∂w/∂v, and dw/dt without accelerations.
+    /// For each guide ∂w/∂v, and dw/dt at zero accelerations.
     slips: Vec<(Vec<Jet<S>>, Jet<S>)>,
 }
 
@@ -76,7 +76,7 @@ pub struct Contact<S> {
     pub friction: S,
 }
 
-/// What is compared.
+/// The results that are compared.
 pub struct Truth<S> {
     pub mass: Vec<Vec<S>>,
     pub bias: Vec<S>,
@@ -88,7 +88,7 @@ pub struct Truth<S> {
     pub potential: S,
     pub dissipation: S,
     pub outputs: Vec<S>,
-    /// How much of the largest pivot the smallest is, in the system that was solved.
+    /// The ratio of the smallest pivot to the largest, in the system that was solved.
     pub pivot: f64,
     /// The largest number in the system and its solution.
     pub size: f64,
@@ -133,7 +133,7 @@ impl<'m, S: Scalar> World<'m, S> {
         world
     }
 
-    /// Puts the frames where they are.
+    /// Evaluates the poses of the frames.
     fn place(&mut self) {
         let n = self.machine.dimension();
         let one = |i: usize, k: usize| Jet::of(if i == k { S::ONE } else { S::ZERO });
@@ -173,7 +173,7 @@ impl<'m, S: Scalar> World<'m, S> {
         &self.q[n + 2 * guide..][..2]
     }
 
-    /// This machine with something changed.
+    /// A copy of this world with a change.
     fn with(&self, change: impl FnOnce(&mut Self)) -> Self {
         let mut world = self.clone();
         change(&mut world);
@@ -181,7 +181,7 @@ impl<'m, S: Scalar> World<'m, S> {
         world
     }
 
-    /// The rates of numbers along the motion.
+    /// The time derivatives of numbers along the motion.
     fn rates(&self, f: impl Fn(&Self) -> Vec<Jet<S>>) -> Vec<Jet<S>> {
         let small = Jet::infinitesimal(self.bits);
         let moved = self.with(|world| {
@@ -206,7 +206,7 @@ impl<'m, S: Scalar> World<'m, S> {
         self.rates(|world| vec![f(world)]).remove(0)
     }
 
-    /// What stands in a sine or cosine.
+    /// The argument of a sine or cosine.
     fn angle(&self, e: &Expr) -> Jet<S> {
         match &self.in_angles {
             None => self.expr(e),
@@ -309,7 +309,7 @@ impl<'m, S: Scalar> World<'m, S> {
         }
     }
 
-    /// The axes of the rotation of a frame, of the rates of its axes along something.
+    /// The angular velocity of a frame, in its own axes, from its axes and their rates.
     fn spin(axes: &[Vec<Jet<S>>], rates: &[Jet<S>]) -> Vec<Jet<S>> {
         // (RᵀṘ)_ba is component c for (a, b, c) cyclic.
         let column = |k: usize| -> Vec<Jet<S>> { axes.iter().map(|row| row[k].clone()).collect() };
@@ -323,7 +323,7 @@ impl<'m, S: Scalar> World<'m, S> {
         self.poses[frame].axes.iter().flatten().cloned().collect()
     }
 
-    /// T of the velocities as they are.
+    /// T of the velocities without approximation.
     fn kinetic_exact(&self) -> Jet<S> {
         let machine = self.machine;
         let mut twice = Jet::of(S::ZERO);
@@ -371,8 +371,7 @@ impl<'m, S: Scalar> World<'m, S> {
         product(&line, &line).sqrt()
     }
 
-    /// How a bushing is deformed: where the origin of one frame is along the axes of the other, and how far
-    /// it is turned against it.
+    /// The deformation of a bushing: the position of one frame's origin along the axes of the other, and the relative rotation.
     fn deformation(&self, bushing: &Bushing) -> Vec<Jet<S>> {
         let [from, to] = [bushing.from, bushing.to].map(|frame| &self.poses[frame]);
         let line = minus(&to.origin, &from.origin);
@@ -434,7 +433,7 @@ impl<'m, S: Scalar> World<'m, S> {
         sum
     }
 
-    /// An energy with small coordinates to second order: f₀ + f₁ + ½ f₂ of f(η) with η = ε + ε'.
+    /// An energy expanded to second order in the small coordinates: f₀ + f₁ + ½ f₂ of f(η) with η = ε + ε'.
     fn expanded(&self, f: impl Fn(&Self) -> Jet<S>) -> Jet<S> {
         if small(self.machine).next().is_none() {
             return f(self);
@@ -471,7 +470,7 @@ impl<'m, S: Scalar> World<'m, S> {
         self.expanded(World::dissipation_exact)
     }
 
-    /// The derivative of numbers by a coordinate.
+    /// The derivative of numbers with respect to a coordinate.
     fn by_coordinate(&self, i: usize, f: impl Fn(&Self) -> Vec<Jet<S>>) -> Vec<Jet<S>> {
         let small = Jet::infinitesimal(self.bits);
         let moved = self.with(|world| {
@@ -488,7 +487,7 @@ impl<'m, S: Scalar> World<'m, S> {
         f(&moved).iter().map(|x| x.part(self.bits)).collect()
     }
 
-    /// What vanishes: of positions, and of rates.
+    /// The residuals of the constraints, each with a flag that says whether it is holonomic.
     pub fn constraints(&self) -> Vec<(Jet<S>, bool)> {
         let machine = self.machine;
         let mut list: Vec<(Jet<S>, bool)> = machine
@@ -531,15 +530,15 @@ impl<'m, S: Scalar> World<'m, S> {
         }
     }
 
-    /// How far a circle is from what it rolls on, and how fast its point that touches slips over that of the other: both points
-    /// are fixed to their bodies.
+    /// The distance between a circle and the surface on which it rolls, and the slip velocity: the difference of the velocities
+    /// of the two touching points, which are fixed to their bodies.
     fn touching(&self, circle: usize, surface: &Surface) -> (Jet<S>, Jet<S>) {
         let radius = self.expr(&self.machine.circles[circle].radius);
         let velocity = self.rates(|world| world.circle(circle));
         let left = |e: &[Jet<S>]| vec![e[1].neg(), e[0].clone()];
         let scaled =
             |e: &[Jet<S>], x: &Jet<S>| -> Vec<Jet<S>> { e.iter().map(|e| e.mul(x)).collect() };
-        // The velocity of the point at `from` from a centre that moves with `velocity`.
+        // The velocity of the point at `from` relative to a centre that moves with `velocity`.
         let point = |velocity: &[Jet<S>], omega: &Jet<S>, from: &[Jet<S>]| {
             plus(velocity, &scaled(&left(from), omega))
         };
@@ -580,7 +579,7 @@ impl<'m, S: Scalar> World<'m, S> {
         }
     }
 
-    /// The velocity of what a guide holds, seen from what it slides on, in ground axes.
+    /// The velocity of a body in a guide relative to the body on which it slides, in ground axes.
     fn relative(&self, guide: usize) -> Vec<Jet<S>> {
         let guide = &self.machine.sliding[guide];
         let seen = |world: &Self| -> Vec<Jet<S>> {
@@ -602,7 +601,7 @@ impl<'m, S: Scalar> World<'m, S> {
         axes.iter().map(|row| product(row, &rates)).collect()
     }
 
-    /// Unit vectors along a guide, and to the side to which a positive reaction presses.
+    /// Unit vectors along a guide, and in the direction of a positive normal reaction.
     fn directions(&self, guide: usize) -> [Vec<Jet<S>>; 2] {
         let guide = &self.machine.sliding[guide];
         let unit = |v: Vec<Jet<S>>| -> Vec<Jet<S>> {
@@ -678,7 +677,7 @@ impl<'m, S: Scalar> World<'m, S> {
         product(&self.directions(guide)[0], &self.relative(guide))
     }
 
-    /// The row of a constraint and its γ: by coordinates of what is to vanish, by rates of a rate.
+    /// The row of a constraint and its γ: the derivatives of a position by coordinates, or of a rate by rates.
     fn row(&self, holonomic: bool, f: impl Fn(&Self) -> Jet<S>) -> (Vec<Jet<S>>, Jet<S>) {
         let n = self.q.len();
         let f = |world: &Self| vec![f(world)];
@@ -734,7 +733,7 @@ impl<'m, S: Scalar> World<'m, S> {
         sum
     }
 
-    /// The truth at this state, or nothing where the machine is singular, or friction leaves no motion or several.
+    /// The truth at this state, or `None` if the machine is singular, or if friction allows no motion or several.
     pub fn truth(&self) -> Option<Truth<S>> {
         let machine = self.machine;
         let n = machine.coordinates.len();
@@ -743,12 +742,12 @@ impl<'m, S: Scalar> World<'m, S> {
         let m = equations.rows.len();
         let guides = machine.sliding.len();
         let slips: Vec<S> = (0..guides).map(|k| self.slip(k).value()).collect();
-        // What rests within rounding rests.
+        // A slip within round-off counts as rest.
         let rests: Vec<bool> = slips.iter().map(|w| w.abs().to_f64() < 1e-12).collect();
         let sliding: Vec<usize> = (0..guides).filter(|k| !rests[*k]).collect();
         let mut found = Vec::new();
         for signs in 0..1usize << sliding.len() {
-            // F = −s μ η N of what slides; of what sticks, F is what keeps it so.
+            // F = −s μ η N for sliding contacts; for sticking contacts F is the force that keeps them at rest.
             let side = |k: usize| {
                 let place = sliding.iter().position(|other| *other == k);
                 place.map(|place| if signs >> place & 1 == 0 { 1.0 } else { -1.0 })
@@ -783,7 +782,7 @@ impl<'m, S: Scalar> World<'m, S> {
                 let most = self.expr(sticking).value().to_f64();
                 match side(k) {
                     Some(side) => normal * side > 0.0,
-                    // Next to breaking away, rounding decides.
+                    // Close to the limit of sticking, round-off would decide.
                     None => friction.abs() < 0.9 * most * normal.abs(),
                 }
             };
@@ -830,8 +829,8 @@ impl<'m, S: Scalar> World<'m, S> {
         })
     }
 
-    /// The linear equations for accelerations, multipliers, normal reactions, and the frictions of what sticks. Of what slides
-    /// it is given how many times the normal reaction its friction is.
+    /// The linear equations for accelerations, multipliers, normal reactions, and the friction forces of sticking contacts. For
+    /// a sliding contact `friction` holds the ratio of friction to normal reaction.
     fn system(&self, e: &Equations<S>, friction: &[Option<S>]) -> (Vec<Vec<S>>, Vec<S>) {
         let machine = self.machine;
         let (n, m, guides) = (
@@ -870,7 +869,7 @@ impl<'m, S: Scalar> World<'m, S> {
                     *x = *x + along.value() * y;
                 }
                 known = known + along.value() * force;
-                // Every guide whose ends this displacement moves apart pushes back.
+                // Every guide whose bodies this displacement separates contributes its normal reaction.
                 for other in 0..guides {
                     let apart = self.by_rate(i, |world| world.relative(other));
                     let lever = product(&apart, &self.directions(other)[1]).value();
@@ -890,7 +889,7 @@ impl<'m, S: Scalar> World<'m, S> {
         (matrix, right)
     }
 
-    /// The derivatives of the accelerations by a variable, for a machine without guides.
+    /// The derivatives of the accelerations with respect to a variable, for a machine without guides.
     pub fn derivative(
         &self,
         variable: Variable,
@@ -965,7 +964,7 @@ fn of_kind(machine: &Machine, kind: Approximation) -> impl Iterator<Item = (usiz
     all.filter(move |(_, one)| *one == kind)
 }
 
-/// A state on the constraints beside a given one, by Newton's method with the shortest steps; nothing where there is none near.
+/// A state on the constraints near a given one, by Newton's method with minimum-norm steps; `None` if there is none nearby.
 pub fn on_constraints<S: Scalar>(machine: &Machine, state: &State<S>) -> Option<State<S>> {
     let mut state = state.clone();
     let n = state.q.len();
@@ -973,7 +972,7 @@ pub fn on_constraints<S: Scalar>(machine: &Machine, state: &State<S>) -> Option<
     if count == 0 {
         return Some(state);
     }
-    // The shortest x with A x = b.
+    // The minimum-norm x with A x = b.
     let shortest = |rows: &[Vec<S>], right: &[S]| -> Option<Vec<S>> {
         let inner = |a: &[S], b: &[S]| {
             let parts = a.iter().zip(b);

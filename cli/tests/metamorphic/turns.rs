@@ -1,5 +1,4 @@
-//! Bodies that are turned by three angles and by four numbers, and surfaces said in two frames: random machines in space, each
-//! written in both ways.
+//! Random machines in space, each written in two ways: bodies rotated by three angles or by a quaternion, and surfaces in two frames.
 
 use lagrangian::Simulation;
 use lagrangian::interpreted::InterpretedMachine;
@@ -9,7 +8,7 @@ use super::Tally;
 use super::evaluation::compile;
 use super::random::Random;
 
-/// A number that moves: its value, its rate and its acceleration.
+/// A varying number: its value, its rate and its acceleration.
 type Moving = [f64; 3];
 
 fn product(a: Moving, b: Moving) -> Moving {
@@ -20,7 +19,7 @@ fn product(a: Moving, b: Moving) -> Moving {
     ]
 }
 
-/// Hamilton's product.
+/// The quaternion (Hamilton) product.
 fn turned(p: [Moving; 4], q: [Moving; 4]) -> [Moving; 4] {
     let rows: [[(usize, usize, f64); 4]; 4] = [
         [(0, 0, 1.0), (1, 1, -1.0), (2, 2, -1.0), (3, 3, -1.0)],
@@ -36,7 +35,7 @@ fn turned(p: [Moving; 4], q: [Moving; 4]) -> [Moving; 4] {
     })
 }
 
-/// The four numbers of a turn about an axis of the frame: cosine and sine of half the angle.
+/// The quaternion of a rotation about an axis of the frame: cosine and sine of half the angle.
 fn about(axis: usize, [angle, rate, acceleration]: Moving) -> [Moving; 4] {
     let (sin, cos) = (angle / 2.0).sin_cos();
     let (w, b) = (rate / 2.0, acceleration / 2.0);
@@ -46,7 +45,7 @@ fn about(axis: usize, [angle, rate, acceleration]: Moving) -> [Moving; 4] {
     numbers
 }
 
-/// A solid that hangs on a spring and is driven by a torque, with `turn` for how it is turned.
+/// A solid that hangs on a spring and is driven by a torque, whose rotation is described by `turn`.
 fn solid(coordinates: &str, turn: &str, numbers: &[f64]) -> String {
     let [mass, a, b, c, off, px, py, pz, stiffness, damping, torque] = numbers else {
         unreachable!("eleven numbers")
@@ -73,7 +72,7 @@ fn solid(coordinates: &str, turn: &str, numbers: &[f64]) -> String {
     )
 }
 
-/// Accelerations and energies in the one state, in plain numbers.
+/// Accelerations and energies in a state, in f64.
 fn at(text: &str, q: &[f64], v: &[f64]) -> Result<(Vec<f64>, [f64; 2]), String> {
     let program = compile(text, &[])?;
     let mut interpreter: Interpreter<f64> = Interpreter::new(&program, &[]);
@@ -98,11 +97,13 @@ fn at(text: &str, q: &[f64], v: &[f64]) -> Result<(Vec<f64>, [f64; 2]), String> 
     Ok((accelerations, energies))
 }
 
-/// A solid by three angles about any axes, away from where they fail, and by the four numbers that these are.
+/// Compares a solid rotated by three angles about any axes, away from their singularity, with the same solid rotated by
+/// the equivalent quaternion.
 pub fn solids(mut random: Random, _: usize, tally: &mut Tally) {
     let first = random.below(3);
     let second = (first + 1 + random.below(2)) % 3;
-    // The third axis is the first again, or the one that is left; angles fail at a second turn by 0, or by a quarter.
+    // The third axis is either the first again, or the remaining one; the angles are singular at a second angle of 0, or of
+    // a quarter turn.
     let again = random.chance(50);
     let third = if again { first } else { 3 - first - second };
     let middle = if again { (0.5, 2.6) } else { (-1.0, 1.0) };
@@ -161,7 +162,7 @@ pub fn solids(mut random: Random, _: usize, tally: &mut Tally) {
     let wanted = [&accelerations[..3], &accelerations_of_e].concat();
     let all = wanted.iter().chain(&energies);
     let size = all.fold(1.0, |most: f64, x| most.max(x.abs()));
-    // Of some thousand operations each is off by a rounding; the sine of the middle angle, above 0.47, divides angles.
+    // One rounding for each of some thousand operations; angles are divided by the sine of the middle angle, which is above 0.47.
     let bound = 4096.0 * f64::EPSILON * size;
     let pairs = found.iter().zip(&wanted);
     for (k, (found, wanted)) in pairs
@@ -182,8 +183,8 @@ pub fn solids(mut random: Random, _: usize, tally: &mut Tally) {
     });
 }
 
-/// A puck between two planes: its normal by the ground's axes or by the slope's, of any length and to either side, and coordinates along
-/// the slope that are turned about its normal.
+/// A puck between two planes: its normal is given in the ground's axes or in the slope's, with any length and to either side, and its
+/// coordinates along the slope are rotated about the normal.
 pub fn surfaces(mut random: Random, _: usize, tally: &mut Tally) {
     let mut any = |low: f64, high: f64| random.number(low, high);
     let (slope, about, mu, scale) = (any(0.1, 1.0), any(-3.0, 3.0), any(0.05, 0.5), any(0.5, 3.0));
@@ -203,7 +204,7 @@ pub fn surfaces(mut random: Random, _: usize, tally: &mut Tally) {
         )
     };
     let one = puck("ground.turn(y, alpha)", "slope.vector(0, 0, 1)", [x, y]);
-    // Along the turned axes the velocity has other components.
+    // The velocity has other components along the rotated axes.
     let turned = [cos * x + sin * y, cos * y - sin * x];
     let other = puck(
         "ground.turn(y, alpha).turn(z, about)",
@@ -231,7 +232,8 @@ pub fn surfaces(mut random: Random, _: usize, tally: &mut Tally) {
     // Back along the axes of the slope.
     let back = |x: f64, y: f64| [cos * x - sin * y, sin * x + cos * y];
     let wanted = [back(b[0], b[1]), back(b[2], b[3])].concat();
-    // It slides throughout: friction takes at most half of g for 0.3 s. Some tens of steps, each off by the tolerance of numbers below 10.
+    // The puck slides throughout: friction takes at most half of g for 0.3 s. There are some tens of steps, each with an error of the
+    // tolerance for numbers below 10.
     for (found, wanted) in a.iter().zip(&wanted) {
         let off = (found - wanted).abs();
         if off.is_nan() || off > 1e-9 {

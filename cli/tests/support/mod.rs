@@ -1,4 +1,4 @@
-//! Running the command, and taking apart the page that it writes.
+//! Runs the command, and parses the page that it writes.
 #![allow(dead_code, reason = "no test uses all of it")]
 
 use std::path::{Path, PathBuf};
@@ -22,7 +22,7 @@ pub fn lagrangian(arguments: &[&str]) -> Output {
     command.output().expect("the command runs")
 }
 
-/// A file of its own folder that is gone when the test ends.
+/// A file in its own folder, which is removed when the test ends.
 pub struct Scratch(pub PathBuf);
 
 impl Scratch {
@@ -83,7 +83,7 @@ impl Page {
         }
     }
 
-    /// What is drawn.
+    /// The drawing.
     pub fn picture(&self) -> &Value {
         &self.data["picture"]
     }
@@ -97,7 +97,7 @@ impl Page {
         states
     }
 
-    /// When a stored state was.
+    /// The time of a stored state.
     pub fn time(&self, index: usize) -> f64 {
         let number = |name: &str| self.data[name].as_f64().expect("a number");
         if index + 1 == number("count") as usize {
@@ -108,7 +108,7 @@ impl Page {
     }
 }
 
-/// 32-bit numbers from base 64; a decoder beside the one that runs in the browser, and unlike it.
+/// Decodes 32-bit numbers from base64; independent of the decoder that runs in the browser.
 pub fn floats(text: &str) -> Vec<f32> {
     let value = |letter: u8| match letter {
         b'A'..=b'Z' => Some(letter - b'A'),

@@ -4,7 +4,8 @@
  */
 enum { STAGES = 12, ERROR_ORDER = 8 };
 
-/* Dense output, of order 7, has three stages behind the slope at the new point, which is counted behind the others. */
+/* Dense output, of order 7, takes three more stages, numbered after the slope at the new point, which is itself numbered
+   after the stages of the step. */
 enum { END = 12, FURTHER = 3, BENDS = 4 };
 
 static const double NODES[STAGES] = {
@@ -13,7 +14,7 @@ static const double NODES[STAGES] = {
         0.651282051282051282051282051282, 0.6, 0.857142857142857142857142857142, 1.0,
 };
 
-/* A row for each stage, and one for the new point. */
+/* One row per stage, and one for the new point. */
 static const double COEFFICIENTS[STAGES + 1][STAGES] = {
     {0.0},
     {0.0526001519587677318785587544488},
@@ -65,7 +66,7 @@ static const double COARSE_ERROR_WEIGHTS[STAGES] = {
         -0.152160949662516078556178806805, 0.201365400804030348374776537501, 0.0226517921983608258118062039631,
 };
 
-/* The further stages of dense output. */
+/* The additional stages of dense output. */
 static const double FURTHER_NODES[FURTHER + 1] = {0.1, 0.2, 0.777777777777777777777777777778};
 
 static const double FURTHER_COEFFICIENTS[FURTHER + 1][STAGES + 1 + FURTHER] = {
@@ -87,7 +88,7 @@ static const double FURTHER_COEFFICIENTS[FURTHER + 1][STAGES + 1 + FURTHER] = {
     },
 };
 
-/* What the polynomial of dense output has beyond the cubic through both ends and their slopes. */
+/* The terms that the polynomial of dense output adds to the cubic Hermite interpolant through both ends. */
 static const double DENSE[BENDS][STAGES + 1 + FURTHER] = {
     {
         -8.4289382761090128651353491142, 0.0, 0.0, 0.0, 0.0, 0.5667149535193777696253178359,

@@ -1,15 +1,16 @@
 /*
- * Dormand and Prince's method of order 5 with an error of order 4, whose last stage is the new point: J. R. Dormand, P. J. Prince, A
- * family of embedded Runge-Kutta formulae, J. Comput. Appl. Math. 6 (1980) 19-26.
+ * Dormand and Prince's method of order 5 with an error estimate of order 4. Its last stage is evaluated at the new point: J. R. Dormand,
+ * P. J. Prince, A family of embedded Runge-Kutta formulae, J. Comput. Appl. Math. 6 (1980) 19-26.
  */
 enum { STAGES = 7, ERROR_ORDER = 5 };
 
-/* Dense output, of order 4, has no further stages: L. F. Shampine, Some practical Runge-Kutta formulas, Math. Comp. 46 (1986) 135-150. */
+/* Dense output, of order 4, needs no additional stages: L. F. Shampine, Some practical Runge-Kutta formulas, Math. Comp.
+   46 (1986) 135-150. */
 enum { END = 6, FURTHER = 0, BENDS = 1 };
 
 static const double NODES[STAGES] = {0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0};
 
-/* A row for each stage, and one for the new point. */
+/* One row per stage, and one for the new point. */
 static const double COEFFICIENTS[STAGES + 1][STAGES] = {
     {0.0},
     {1.0 / 5.0},
@@ -25,14 +26,14 @@ static const double ERROR_WEIGHTS[STAGES] = {
     71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0,
 };
 
-/* There is one estimate of the error. */
+/* This method has only one error estimate. */
 static const double COARSE_ERROR_WEIGHTS[STAGES] = {0.0};
 
 static const double FURTHER_NODES[FURTHER + 1] = {0.0};
 
 static const double FURTHER_COEFFICIENTS[FURTHER + 1][STAGES + 1 + FURTHER] = {{0.0}};
 
-/* What the polynomial of dense output has beyond the cubic through both ends and their slopes. */
+/* The terms that the polynomial of dense output adds to the cubic Hermite interpolant through both ends. */
 static const double DENSE[BENDS][STAGES + 1 + FURTHER] = {
     {
         -12715105075.0 / 11282082432.0, 0.0, 87487479700.0 / 32700410799.0, -10690763975.0 / 1880347072.0,

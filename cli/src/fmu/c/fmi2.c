@@ -1,5 +1,5 @@
 /*
- * FMI 2.0 for one machine: model exchange and co-simulation. Compile this file alone; the others are parts of it.
+ * FMI 2.0 for one machine: model exchange and co-simulation. Compile only this file; it includes the others.
  */
 #include "machine.c"
 
@@ -20,7 +20,7 @@ static fmi2Status absent(fmi2Component c, const char *what) {
     return (fmi2Status)say(unit, FAILED, unit->message);
 }
 
-/* How fast inputs change until the next communication point. */
+/* The rates at which inputs change until the next communication point. */
 static Outcome setInputRates(Unit *unit, const unsigned *references, size_t count, const int *orders, const double *values) {
     for (size_t k = 0; k < count; ++k) {
         const unsigned i = references[k];
@@ -98,13 +98,13 @@ fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t
     return (fmi2Status)getCounts(c, vr, nvr, value);
 }
 
-/* What is counted is nobody's to set. */
+/* Counters cannot be set. */
 fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Integer value[]) {
     (void)value;
     return nvr ? (fmi2Status)unknown(c, vr[0]) : fmi2OK;
 }
 
-/* There are no variables of these types. */
+/* This model has no variables of these types. */
 #define NO_VARIABLES(Type) \
     fmi2Status fmi2Get##Type(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2##Type value[]) { \
         (void)vr, (void)value; \

@@ -1,5 +1,5 @@
 /*
- * FMI 3.0 for one machine: model exchange and co-simulation. Compile this file alone; the others are parts of it.
+ * FMI 3.0 for one machine: model exchange and co-simulation. Compile only this file; it includes the others.
  */
 #include "machine.c"
 
@@ -126,14 +126,14 @@ fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference valueRef
     return (fmi3Status)getCounts(instance, valueReferences, nValueReferences, values);
 }
 
-/* What is counted is nobody's to set. */
+/* Counters cannot be set. */
 fmi3Status fmi3SetInt32(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
                         const fmi3Int32 values[], size_t nValues) {
     (void)values, (void)nValues;
     return nValueReferences ? (fmi3Status)unknown(instance, valueReferences[0]) : fmi3OK;
 }
 
-/* There are no variables of these types. */
+/* This model has no variables of these types. */
 #define NO_VARIABLES(Type) \
     fmi3Status fmi3Get##Type(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences, \
                              fmi3##Type values[], size_t nValues) { \

@@ -1,7 +1,7 @@
 /*
- * What a unit is, whatever the version of the interface: its state, its values by reference, its derivatives, and the
- * integrator of co-simulation. This text stands behind the machine's own file, which says how many there are of each, and what
- * they are called. No globals that change, no threads, no files; no allocation but that of units and of saved states.
+ * The part of a unit that does not depend on the version of the interface: its state, access to values by reference, derivatives, and the
+ * integrator of co-simulation. This text follows the machine's own file, which defines the numbers and the names of the variables. There are no
+ * mutable globals, no threads and no files; memory is allocated only for units and for saved states.
  */
 #include <stddef.h>
 #include <stdio.h>
@@ -13,12 +13,12 @@
 
 enum {
     STATES = 2 * COORDINATES,
-    /* The formulas of events are outputs of the program behind those of the spec. */
+    /* The formulas of events are the last outputs of the program, after those of the spec. */
     SHOWN = OUTPUTS - EVENTS,
     INDICATORS = FACTS + EVENTS,
-    /* What co-simulation looks for within steps: formulas of events, then facts. */
+    /* What co-simulation watches within steps: the formulas of events, then the facts. */
     WATCHED = EVENTS + FACTS,
-    /* References of values: a number for each, in this order. */
+    /* Value references, numbered consecutively in this order. */
     AT_TIME = 0,
     AT_STATES = 1,
     AT_ACCELERATIONS = AT_STATES + STATES,
@@ -30,77 +30,79 @@ enum {
     AT_POTENTIAL_ENERGY,
     AT_FACTS,
     AT_EVENTS = AT_FACTS + FACTS,
-    /* How often each event happened, a whole number. */
+    /* How many times each event has happened, an integer. */
     AT_COUNTS = AT_EVENTS + EVENTS
 };
 
-/* Beyond this share of the size of their terms a state is off its constraints. */
+/* A state violates its constraints if a residual exceeds this fraction of the size of its terms. */
 #define LEFT 1e-10
 
-/* How a call ends; both versions of the interface count so. */
+/* The result of a call, numbered as in both versions of the interface. */
 typedef enum { WELL, WARNED, DISCARDED, FAILED } Outcome;
 
 typedef enum { INSTANTIATED, INITIALIZING, EVENT, CONTINUOUS, STEPPING, TERMINATED } Mode;
 
-/* All that changes while a unit runs, and that a saved state holds; the rest follows from it. */
+/* Everything that changes while a unit runs and that a saved state holds; all other values follow from it. */
 typedef struct {
     double time;
     double states[STATES + 1];
     double parameters[PARAMETERS + 1];
     double inputs[INPUTS + 1];
-    /* How fast these change until the next communication point, per s. */
+    /* The rates at which inputs change until the next communication point, per s. */
     double input_rates[INPUTS + 1];
-    /* Of each step, relative and absolute. */
+    /* Tolerance of each step, relative and absolute. */
     double tolerance;
-    /* How long the next step of co-simulation would be, in s; 0 where nobody knows. */
+    /* The length of the next step of co-simulation in s; 0 if it is not known. */
     double step;
-    /* Which states the importer has set: the others start where the machine says, which may depend on parameters. */
+    /* Which states the importer has set. The others start at the machine's values, which may depend on parameters. */
     unsigned char is_set[STATES + 1];
-    /* Whether the states are those of the start by now. */
+    /* Whether the states have been initialized with those of the start. */
     unsigned char is_started;
-    /* Which facts were broken when it was looked last. */
+    /* Which facts were broken when they were last checked. */
     unsigned char is_broken[FACTS + 1];
-    /* For each event the sign that its formula had last, 0 before it has one; the sign behind a crossing that ended a step of
-       co-simulation and is not counted yet, or 0; and how often it happened. */
+    /* For each event: the last sign of its formula, 0 before it has one; the sign after a crossing that ended a step of co-simulation and is
+       not counted yet, or 0; and how many times the event has happened. */
     signed char side[EVENTS + 1], passed[EVENTS + 1];
     int count[EVENTS + 1];
-    /* What a formula or a fact must exceed before its sign counts, where the run starts at its zero, or where what holds the
-       constraints moved it back behind one; else 0. */
+    /* A formula or a fact has a sign only once it exceeds this size, after a start at its zero or after the projection onto the constraints
+       moved it back across a zero; otherwise 0. */
     double leave[WATCHED + 1];
-    /* Whether signs are to be looked at before the next step: something was set, or a step ended at an event. */
+    /* Whether signs must be checked before the next step, because a value was set or a step ended at an event. */
     unsigned char is_unsettled;
     Mode mode;
 } State;
 
-/* So many coefficients has a polynomial of the motion within a step, that of the method or one of degree five; so many slopes it is made of. */
+/* The maximum number of coefficients of a polynomial of the motion within a step, which is either the method's or of degree five; and the
+   number of slopes that it is made of. */
 enum { MOST_BENDS = 4 + BENDS > 6 ? 4 + BENDS : 6, SLOPES = STAGES + 1 + FURTHER };
 
 typedef struct Unit Unit;
 
-/* How a message leaves; each version of the interface has its own. */
+/* Delivers a message; each version of the interface has its own function. */
 typedef void Report(const Unit *unit, Outcome outcome, const char *message);
 
 struct Unit {
     State now;
-    /* What follows from parameters, and from all of the state. */
+    /* Values that follow from the parameters, and from the entire state. */
     UnitPrepared prepared;
     UnitTangentPrepared tangent;
     UnitAdjointPrepared adjoint;
     double accelerations[COORDINATES + 1];
-    /* What a projection works with: the mass matrix or a factor of it, the constraint matrix, what these make of each other. */
+    /* Workspace of a projection: the mass matrix or its Cholesky factor L, the constraint matrix G, L^-1 G^T, and the Cholesky factor of
+       G W G^T. */
     double mass[COORDINATES * COORDINATES + 1], rows[CONSTRAINTS * COORDINATES + 1], carried[CONSTRAINTS * COORDINATES + 1];
     double normal[CONSTRAINTS * CONSTRAINTS + 1];
     int singular;
     int is_prepared, is_evaluated;
-    /* A step of co-simulation. */
+    /* Workspace of a step of co-simulation. */
     double slopes[SLOPES][STATES + 1];
     double point[STATES + 1];
-    /* The length of the step that was tried last. */
+    /* The length of the last attempted step. */
     double tried;
-    /* The motion within a step, as polynomials, and its end: what is looked for events in. */
+    /* The polynomials of the motion within a step and its end, in which events are searched for. */
     double curve[MOST_BENDS][STATES + 1], end[STATES + 1];
     int bends;
-    /* For whom it runs; whether the importer handles events, whether a step may end there, and whether the last one did. */
+    /* The kind of unit; whether the importer handles events, whether a step may end at an event, and whether the last one did. */
     int is_co_simulation, is_logging, has_event_mode, may_stop, has_stopped;
     Report *report;
     void *environment;
@@ -109,7 +111,7 @@ struct Unit {
     char message[256];
 };
 
-/* A saved state: which machine it is of, and the bytes. */
+/* A saved state: the machine that it belongs to, and the bytes. */
 typedef struct {
     char token[sizeof TOKEN];
     State state;
@@ -135,10 +137,10 @@ static Outcome say(Unit *unit, Outcome outcome, const char *message) {
     return outcome;
 }
 
-/* Whether a number is one; comparisons of what is none are false. */
+/* Whether x is finite: the difference is NaN for infinities and NaN, and comparisons with NaN are false. */
 static int isFinite(double x) { return x - x == 0.0; }
 
-/* The states of the start, as far as nobody has set others, and what depends on parameters. */
+/* Initializes the states that nobody has set, and the values that depend on parameters. */
 static void prepare(Unit *unit) {
     if (unit->is_prepared && unit->now.is_started) return;
     unitPrepare(unit->now.parameters, &unit->prepared);
@@ -152,7 +154,7 @@ static void prepare(Unit *unit) {
     unit->now.is_started = 1;
 }
 
-/* The derivatives of states; 0 where the mass matrix can be inverted and all are numbers. */
+/* The derivatives of the states. Returns 0 if the mass matrix can be inverted and all derivatives are finite. */
 static int differentiate(Unit *unit, double t, const double *states, double *to) {
     const double *v = states + COORDINATES;
     double inputs[INPUTS + 1];
@@ -165,7 +167,7 @@ static int differentiate(Unit *unit, double t, const double *states, double *to)
     return 0;
 }
 
-/* Accelerations of the state as it is; 0 if there are. */
+/* The accelerations at the current state. Returns 0 on success. */
 static int evaluate(Unit *unit) {
     prepare(unit);
     if (unit->is_evaluated) return unit->singular;
@@ -188,7 +190,7 @@ static Outcome unknown(Unit *unit, unsigned reference) {
     return say(unit, FAILED, unit->message);
 }
 
-/* The formulas of all events, at a time and a state; they depend on no accelerations. */
+/* The formulas of all events at a time and a state. They do not depend on accelerations. */
 static void watch(const Unit *unit, double t, const double *states, double *to) {
     double inputs[INPUTS + 1], all[OUTPUTS + 1];
     if (EVENTS == 0) return;
@@ -197,7 +199,7 @@ static void watch(const Unit *unit, double t, const double *states, double *to) 
     for (int k = 0; k < EVENTS; ++k) to[k] = all[SHOWN + k];
 }
 
-/* These, and behind them what facts say is positive; facts depend on no accelerations either. */
+/* The formulas of all events, followed by the expressions that facts declare positive. Neither depends on accelerations. */
 static void watchAll(const Unit *unit, double t, const double *states, double *to) {
     double inputs[INPUTS + 1];
     watch(unit, t, states, to);
@@ -206,7 +208,7 @@ static void watchAll(const Unit *unit, double t, const double *states, double *t
     unitFacts(&unit->prepared, t, states, states + COORDINATES, inputs, unit->accelerations, to + EVENTS);
 }
 
-/* Numbers by reference. */
+/* Gets real values by reference. */
 static Outcome get(Unit *unit, const unsigned *references, size_t count, double *to) {
     State *now = &unit->now;
     const double *q = now->states, *v = q + COORDINATES, *u = now->inputs, *a = unit->accelerations;
@@ -250,7 +252,7 @@ static Outcome get(Unit *unit, const unsigned *references, size_t count, double 
     return WELL;
 }
 
-/* Whole numbers by reference: how often events happened. */
+/* Gets integers by reference: how many times events happened. */
 static Outcome getCounts(Unit *unit, const unsigned *references, size_t count, int *to) {
     for (size_t k = 0; k < count; ++k) {
         const unsigned i = references[k];
@@ -260,7 +262,7 @@ static Outcome getCounts(Unit *unit, const unsigned *references, size_t count, i
     return WELL;
 }
 
-/* Sets numbers by reference: states until the run begins, parameters and inputs at any time. */
+/* Sets real values by reference: states until the run begins, parameters and inputs at any time. */
 static Outcome set(Unit *unit, const unsigned *references, size_t count, const double *values) {
     State *now = &unit->now;
     for (size_t k = 0; k < count; ++k) {
@@ -293,7 +295,7 @@ static void setTime(Unit *unit, double time) {
 }
 
 static void setStates(Unit *unit, const double *states) {
-    prepare(unit); /* So that no start takes their place later. */
+    prepare(unit); /* Otherwise a later initialization would overwrite them. */
     memcpy(unit->now.states, states, STATES * sizeof *states);
     unit->is_evaluated = 0;
 }
@@ -306,7 +308,7 @@ static Outcome getDerivatives(Unit *unit, double *to) {
     return WELL;
 }
 
-/* What facts say is positive: where one changes its sign, an event. */
+/* The expressions that facts declare positive. A change of sign is an event. */
 static void getFacts(Unit *unit, double *to) {
     const State *now = &unit->now;
     double all[FACTS + 1];
@@ -316,32 +318,32 @@ static void getFacts(Unit *unit, double *to) {
     memcpy(to, all, FACTS * sizeof *to);
 }
 
-/* All indicators: where one changes its sign, something happens. */
+/* All event indicators. A change of sign is an event. */
 static void getIndicators(Unit *unit, double *to) {
     getFacts(unit, to);
     watch(unit, unit->now.time, unit->now.states, to + FACTS);
 }
 
 /*
- * Events: formulas of the state that change their signs. What is 0 has no sign. Where the run starts at a zero, to rounding, the sign
- * is the one just behind.
+ * Events: formulas of the state that change their sign. Zero has no sign. If a run starts at a zero, up to round-off, the sign is the one
+ * immediately after the start.
  */
 
 static double sizeOf(double x) { return x < 0.0 ? -x : x; }
 
 static int signOf(double x) { return (x > 0.0) - (x < 0.0); }
 
-/* The sign of a value that an event's formula has at some state of the run; 0 as long as it has not left the zero of the start. */
+/* The sign of an event's formula that has this value at some state of the run; 0 until it has left the zero of the start. */
 static int signOfEvent(Unit *unit, int k, double value) {
     if (sizeOf(value) <= unit->now.leave[k]) return 0;
     unit->now.leave[k] = 0.0;
     return signOf(value);
 }
 
-/* Whether what a fact says is positive is so. What is no number is not. */
+/* Whether a fact holds for this value. It does not hold for NaN. */
 static int holds(int fact, double value) { return FACT_IS_STRICT[fact] ? value > 0.0 : value >= 0.0; }
 
-/* The same of whatever is watched: the sign of a fact is whether it holds. */
+/* The sign of any watched value; for a fact the sign says whether it holds. */
 static int signOfWatched(Unit *unit, int k, double value) {
     if (k < EVENTS) return signOfEvent(unit, k, value);
     if (sizeOf(value) <= unit->now.leave[k]) return 0;
@@ -349,12 +351,12 @@ static int signOfWatched(Unit *unit, int k, double value) {
     return holds(k - EVENTS, value) ? 1 : -1;
 }
 
-/* The sign that it had last; 0 where it has none yet. */
+/* The last sign of a watched value; 0 if it has none yet. */
 static int sideOf(const Unit *unit, int k) {
     return k < EVENTS ? unit->now.side[k] : unit->now.is_broken[k - EVENTS] ? -1 : 1;
 }
 
-/* Whether a value stands behind a change to a sign. */
+/* Whether a value lies after a change to this sign. */
 static int isBehind(int k, int sign, double value) {
     return k < EVENTS ? sign * value > 0.0 : holds(k - EVENTS, value) == (sign > 0);
 }
@@ -364,9 +366,10 @@ static Outcome withoutEvent(Unit *unit, int k, double t) {
     return say(unit, FAILED, unit->message);
 }
 
-/* The signs of all formulas at the start, where there are accelerations. */
+/* The signs of all formulas at the start; the accelerations must have been evaluated. */
 static Outcome beginEvents(Unit *unit) {
-    /* So many roundings of the state, and of a function of some ten operations, may stand in the place of a zero. */
+    /* Round-off of the state, relative, and of a function of about ten operations: a formula that changes by no more than its effect
+       may be zero. */
     const double rounding = 0x1p-48;
     State *now = &unit->now;
     double values[EVENTS + 1], moved[EVENTS + 1], noise[EVENTS + 1], states[STATES + 1];
@@ -394,7 +397,7 @@ static Outcome beginEvents(Unit *unit) {
         if (sizeOf(values[k]) > noise[k]) continue;
         now->side[k] = 0;
         now->leave[k] = 2.0 * (noise[k] > sizeOf(values[k]) ? noise[k] : sizeOf(values[k]));
-        /* A little later, and not much: at the first instant at which the formula is more than noise. */
+        /* The sign shortly after the start: at the first instant at which the formula exceeds the round-off. */
         for (double h = 1e-12; h < 1.0 && !now->side[k]; h *= 4.0) {
             for (int i = 0; i < COORDINATES; ++i) {
                 states[i] = q[i] + h * (v[i] + 0.5 * h * a[i]);
@@ -408,17 +411,17 @@ static Outcome beginEvents(Unit *unit) {
     return WELL;
 }
 
-/* Counts an event at a time, behind which its formula has a sign. */
+/* Counts an event at time t, after which its formula has this sign. */
 static void countEvent(Unit *unit, int k, double t, int sign) {
     State *now = &unit->now;
     now->side[k] = (signed char)sign;
-    /* The largest number that an importer reads stays. */
+    /* The count saturates at the largest integer that an importer can read. */
     if (now->count[k] < 2147483647) ++now->count[k];
     snprintf(unit->message, sizeof unit->message, "at t = %.17g s event %s, %s", t, EVENT_NAMES[k], sign > 0 ? "rising" : "falling");
     say(unit, WELL, unit->message);
 }
 
-/* Whether a formula has another sign now than it had last, for model exchange; those without a sign get theirs. */
+/* Whether a formula has changed its sign since the last check, for model exchange. Formulas without a sign get one. */
 static int isCrossed(Unit *unit) {
     double values[EVENTS + 1];
     int is_crossed = 0;
@@ -432,14 +435,14 @@ static int isCrossed(Unit *unit) {
     return is_crossed;
 }
 
-/* Counts what has another sign at the state as it is, or has ended a step. */
+/* Counts events whose formula has changed its sign at the current state, or that ended a step. */
 static void settleEvents(Unit *unit) {
     State *now = &unit->now;
     double values[EVENTS + 1];
     prepare(unit);
     watch(unit, now->time, now->states, values);
     for (int k = 0; k < EVENTS; ++k) {
-        /* A step that ended at a crossing ended behind it, whatever rounding or a projection did to the state since. */
+        /* A step that ended at a crossing ended after it, even if rounding or a projection has since moved the state back. */
         const int sign = now->passed[k] ? now->passed[k] : signOfEvent(unit, k, values[k]);
         now->passed[k] = 0;
         if (now->side[k] && sign && sign != now->side[k]) countEvent(unit, k, now->time, sign);
@@ -448,7 +451,7 @@ static void settleEvents(Unit *unit) {
     now->is_unsettled = 0;
 }
 
-/* Notes that a fact changes at a time: that it does not hold any more is a warning, that it holds again nothing to tell. */
+/* Records that a fact changes at time t. A fact that ceases to hold is a warning; one that holds again is not reported. */
 static void changeFact(Unit *unit, int fact, double t, int is_broken) {
     unit->now.is_broken[fact] = (unsigned char)is_broken;
     if (!is_broken) return;
@@ -456,7 +459,7 @@ static void changeFact(Unit *unit, int fact, double t, int is_broken) {
     say(unit, WARNED, unit->message);
 }
 
-/* Looks at all facts at the state as it is. */
+/* Checks all facts at the current state. */
 static void checkFacts(Unit *unit) {
     double all[FACTS + 1];
     if (FACTS == 0) return;
@@ -468,12 +471,12 @@ static void checkFacts(Unit *unit) {
 }
 
 /*
- * Constraints. Accelerations obey them, so that a run leaves them by the error of its steps only; from time to time the state is
- * moved back, by the least that inertia allows: dq = W G^T (G W G^T)^-1 (-g), where W is the inverse of the mass matrix, and the
- * same of rates with their residuals. Coordinates that a spec keeps at the start stay as they are there.
+ * Constraints. Accelerations satisfy them, so a run drifts off them only by the error of its steps. From time to time the state is projected
+ * back by the smallest change in the metric of the mass matrix: dq = W G^T (G W G^T)^-1 (-g), where W is the inverse of the mass matrix, and
+ * likewise the rates with their residuals. Coordinates that a spec keeps at the start do not change there.
  */
 
-/* What the residual of each constraint is measured by: the size of its terms. */
+/* The scale of the residual of each constraint: the sum of the sizes of its terms. */
 static void sizesOfTerms(const double *rows, const double *x, double *to) {
     for (int k = 0; k < CONSTRAINTS; ++k) {
         to[k] = 0.0;
@@ -484,7 +487,7 @@ static void sizesOfTerms(const double *rows, const double *x, double *to) {
     }
 }
 
-/* Cholesky's factor L of the mass matrix in its place; without the coordinates that are kept. 0 if it is positive definite. */
+/* Replaces the mass matrix, without the coordinates that are kept, by its Cholesky factor L. Returns 0 if it is positive definite. */
 static int factorizeMass(double *m, const unsigned char *is_kept) {
     const int n = COORDINATES;
     for (int i = 0; i < n; ++i) {
@@ -504,15 +507,15 @@ static int factorizeMass(double *m, const unsigned char *is_kept) {
 }
 
 /*
- * Takes residuals off x, once: x -= W G^T (G W G^T)^-1 residuals, of the rows that `is_wanted` says. Rows that depend on those
- * before them say nothing new and are left out.
+ * Subtracts the residuals from x once, for the rows in `is_wanted`: x -= W G^T (G W G^T)^-1 residuals. Rows that depend on earlier ones are
+ * redundant and are skipped.
  */
 static void moveBack(Unit *unit, double *residuals, const unsigned char *is_wanted, const unsigned char *is_kept, double *x) {
     const int n = COORDINATES, m = CONSTRAINTS;
     double *mass = unit->mass, *carried = unit->carried, *normal = unit->normal;
     const int is_plain = factorizeMass(mass, is_kept);
     unsigned char is_left[CONSTRAINTS + 1];
-    /* The rows of L^-1 G^T; of G alone where some coordinate has no inertia of its own. */
+    /* The rows of L^-1 G^T; of G alone if the mass matrix has no Cholesky factor because a coordinate has no inertia of its own. */
     for (int k = 0; k < m; ++k) {
         for (int i = 0; i < n; ++i) {
             double sum = is_kept && is_kept[i] ? 0.0 : unit->rows[k * n + i];
@@ -523,7 +526,7 @@ static void moveBack(Unit *unit, double *residuals, const unsigned char *is_want
             carried[k * n + i] = sum;
         }
     }
-    /* Cholesky again, of the products of these rows. */
+    /* Cholesky factorization of the products of these rows. */
     for (int k = 0; k < m; ++k) {
         double whole = 0.0;
         for (int i = 0; i < n; ++i) whole += carried[k * n + i] * carried[k * n + i];
@@ -563,7 +566,7 @@ static void moveBack(Unit *unit, double *residuals, const unsigned char *is_want
     }
 }
 
-/* By how much the state is off the constraints, in the sizes of their terms; 0 without constraints. */
+/* The largest residual of the constraints, relative to the size of its terms; 0 without constraints. */
 static double isOff(Unit *unit) {
     State *now = &unit->now;
     double residuals[CONSTRAINTS + 1], sizes[CONSTRAINTS + 1], most = 0.0;
@@ -576,17 +579,17 @@ static double isOff(Unit *unit) {
         else unitConstraintRates(&unit->prepared, now->time, q, v, now->inputs, residuals);
         sizesOfTerms(unit->rows, level == 0 ? q : v, sizes);
         for (int k = 0; k < CONSTRAINTS; ++k) {
-            /* Terms that are all 0 are measured by 1, the unit. */
+            /* If all terms are 0, the scale is 1, the unit. */
             const double size = sizes[k] > 0.0 ? sizes[k] : 1.0;
             const double off = (residuals[k] < 0.0 ? -residuals[k] : residuals[k]) / size;
-            /* What is no number is off. */
+            /* NaN counts as a violation. */
             if (!(off <= most)) most = off;
         }
     }
     return most;
 }
 
-/* Moves the state onto the constraints; 0 if it gets there. At the start some coordinates and rates are kept. */
+/* Projects the state onto the constraints; returns 0 on success. At the start some coordinates and rates are kept. */
 static int project(Unit *unit, int is_start) {
     State *now = &unit->now;
     double residuals[CONSTRAINTS + 1];
@@ -596,7 +599,7 @@ static int project(Unit *unit, int is_start) {
     if (CONSTRAINTS == 0) return 0;
     prepare(unit);
     memset(all, 1, sizeof all);
-    /* Newton's method: it doubles the digits, or there are none to be had. */
+    /* Newton's method, until the residuals are within round-off of their terms. */
     for (int tries = 0; tries < 50; ++tries) {
         unitConstraintMatrix(&unit->prepared, now->time, q, v, now->inputs, unit->rows);
         unitConstraintPositions(&unit->prepared, now->time, q, v, now->inputs, residuals);
@@ -619,7 +622,7 @@ static int project(Unit *unit, int is_start) {
     return !(isOff(unit) <= LEFT);
 }
 
-/* A start that does not obey the constraints is moved onto them, and that is said. */
+/* Projects a start that violates the constraints onto them, and reports that. */
 static Outcome projectStart(Unit *unit) {
     double before[STATES + 1], most = 0.0;
     prepare(unit);
@@ -642,14 +645,14 @@ static Outcome projectStart(Unit *unit) {
 }
 
 /*
- * What unknowns change by where knowns change by a seed: coordinates, rates and outputs, and their derivatives by each other, by
- * parameters and by inputs.
+ * Directional derivatives: the changes of unknowns when knowns change by a seed. These are coordinates, rates and outputs, and their
+ * derivatives with respect to each other, to parameters and to inputs.
  */
 static Outcome differentiateAlong(Unit *unit, const unsigned *unknowns, size_t unknown_count, const unsigned *knowns,
                                    size_t known_count, const double *seed, double *to) {
     if (!HAS_DERIVATIVES) return say(unit, FAILED, "this machine is too large for derivatives in a direction");
     if (evaluate(unit)) return withoutAccelerations(unit, DISCARDED);
-    /* Of everything the values, and behind them what they change by. */
+    /* Each array holds the values, followed by their changes. */
     const State *now = &unit->now;
     double x[2 * PARAMETERS + 1], q[2 * COORDINATES + 1], v[2 * COORDINATES + 1], a[2 * COORDINATES + 1], u[2 * INPUTS + 1];
     double y[OUTPUTS + 1];
@@ -689,11 +692,12 @@ static Outcome differentiateAlong(Unit *unit, const unsigned *unknowns, size_t u
     return WELL;
 }
 
-/* For each known the change of all unknowns with it, weighed by a seed: backwards, so that all knowns together cost about what
-   the accelerations cost a few times. */
+/* Adjoint derivatives: for each known the change of the seed-weighted sum of all unknowns. In reverse mode all knowns together cost a few
+   evaluations of the accelerations. */
 static Outcome differentiateBack(Unit *unit, const unsigned *unknowns, size_t unknown_count, const unsigned *knowns,
                                  size_t known_count, const double *seed, double *to) {
-    /* Derivatives by coordinates, rates, parameters and inputs, as references count them; of outputs by accelerations, too. */
+    /* Derivatives with respect to coordinates, rates, parameters and inputs, in the order of their references; those of outputs also with
+       respect to accelerations. */
     enum { BY = STATES + PARAMETERS + INPUTS };
     if (!HAS_DERIVATIVES) return say(unit, FAILED, "this machine is too large for derivatives in a direction");
     if (evaluate(unit)) return withoutAccelerations(unit, DISCARDED);
@@ -717,7 +721,7 @@ static Outcome differentiateBack(Unit *unit, const unsigned *unknowns, size_t un
         if (!(i >= AT_STATES && i < AT_ACCELERATIONS) && !(i >= AT_PARAMETERS && i < AT_OUTPUTS)) return unknown(unit, i);
     }
     unitAdjointPrepare(now->parameters, &unit->adjoint);
-    /* An output that nobody weighs may have no derivative here. */
+    /* An output with weight zero may have no derivative here. */
     for (int k = 0; k < OUTPUTS; ++k) {
         if (of_outputs[k] == 0.0) continue;
         unitAdjointOutput(&unit->adjoint, now->time, q, v, u, unit->accelerations, k, one);
@@ -751,7 +755,7 @@ static Outcome restore(Unit *unit, const Saved *from) {
     return WELL;
 }
 
-/* A unit as new; none where there is no memory, or where the token is another machine's. */
+/* Creates a unit; returns NULL if there is no memory, or if the token is another machine's. */
 static Unit *instantiate(const char *name, const char *token, Report *report, void *environment, void *callback, int is_logging,
                          int is_co_simulation) {
     Unit *unit = calloc(1, sizeof *unit);
@@ -782,16 +786,17 @@ static Outcome begin(Unit *unit, int has_tolerance, double tolerance, double sta
     return WELL;
 }
 
-/* So many tries of a step may be between two communication points. */
+/* The maximum number of attempted steps between two communication points. */
 #define MOST_TRIES 10000000L
 
-/* What an error in a state is measured by. */
+/* The scale of the error in a state. */
 static double scaleOf(const Unit *unit, double before, double after) {
     const double a = sizeOf(before), b = sizeOf(after);
     return unit->now.tolerance * (1.0 + (a > b ? a : b));
 }
 
-/* The first step, in s: such that one of Euler's method changes the state by a hundredth of what is tolerated at 1. */
+/* The length of the first step in s, chosen so that a step of Euler's method changes the state by a hundredth of its norm, where each state
+   x is scaled by 1 + |x|. */
 static double firstStep(const Unit *unit, double most) {
     double size = 0.0, rate = 0.0;
     for (int i = 0; i < STATES; ++i) {
@@ -804,8 +809,8 @@ static double firstStep(const Unit *unit, double most) {
     return step < most ? step : most;
 }
 
-/* Tries a step of the length h from the state as it is; the new state stands in `point`. Its error, 1 being just tolerable; less
-   than 0 where there are no accelerations on the way. */
+/* Attempts a step of length h from the current state; writes the new state to `point`. Returns its error, where 1 is just tolerable, or a
+   negative number if accelerations do not exist on the way. */
 static double tryStep(Unit *unit, double h) {
     const State *now = &unit->now;
     unit->tried = h;
@@ -851,7 +856,7 @@ enum {
     MIDDLE = 8,
     FINE = 16,
     FINEST = 64,
-    /* How many times an interval is bisected that no interpolant resolves. If there is a kink, all nodes are looked at in the end. */
+    /* How many times an interval is bisected that no interpolant resolves. If there is a kink, all nodes are checked in the end. */
     HALVINGS = 2,
     /* How many times in total an interval is bisected because the formula oscillates too fast. */
     HALVINGS_OF_SWINGS = 14,
@@ -872,34 +877,34 @@ enum {
 /* Distance of the three other places from their nodes, as a fraction of the step. They test the slopes of the interpolant. */
 #define BESIDE 0.01
 
-/* Allowance for rounding when values beside the nodes are compared with the interpolant, relative to the largest value. A formula that
+/* Allowance for round-off when values beside the nodes are compared with the interpolant, relative to the largest value. A formula that
    varies by less than this fraction of its size has no root. */
 #define ROUNDING_OF_VALUES 1e-6
 
 /* In rad: a coordinate that turns by more than this in a step may have returned to the same angle between two nodes. */
 #define FARTHEST_TURN 3.14159265358979323846
 
-/* Above this tolerance a step may be so long that a few values do not tell what the motion does within it. */
+/* Above this tolerance a step may be so long that a few values do not determine the motion within it. */
 #define LOOSEST 1e-3
 
-/* A search along the step that was tried, forward in time, for changes of the signs of what is watched. */
+/* A forward search along the attempted step for sign changes of what is watched. */
 typedef struct {
     Unit *unit;
     /* The length of the step. */
     double h;
-    /* What is looked at now, the fraction of the step at which it was looked at last, and the length of the step that ends behind the change
-       that was found last, 0 before there is one. */
+    /* The index of what is watched now, the fraction of the step at which it was last evaluated, and the length of the step that ends just
+       after the last change found, 0 before there is one. */
     int k;
     double seen, early;
     int is_over;
-    /* The length of the step that ends behind the first event that ends it, with that event and the sign behind it; the whole step, and -1,
-       where there is none. */
+    /* The length of the step that ends just after the first event that may end it, the index of that event and the sign after it; without
+       such an event, the whole step and -1. */
     double first;
     int which, sign;
 } Search;
 
-/* The motion within a step is y = c0 + x (c1 + (1 - x) (c2 + x (c3 + (1 - x) (c4 + ...)))) at the fraction x of it: the cubic through
-   both ends and their slopes, which are times the length here, and what bends it further. */
+/* The motion within a step is y = c0 + x (c1 + (1 - x) (c2 + x (c3 + (1 - x) (c4 + ...)))) at the fraction x of it. The cubic interpolates
+   both ends and their slopes, which are multiplied by the length here; the further terms are corrections to it. */
 static void curveCubic(Unit *unit, int i, double start, double end, double slope, double slope_at_end) {
     const double rise = end - start, bend = slope - rise;
     unit->curve[0][i] = start;
@@ -908,8 +913,8 @@ static void curveCubic(Unit *unit, int i, double start, double end, double slope
     unit->curve[3][i] = rise - slope_at_end - bend;
 }
 
-/* Of degree 5, through coordinates, rates and accelerations of both ends; rates are its derivative. It costs no evaluation, since the last
-   stage is near the acceleration at the end. */
+/* Degree 5, through the coordinates, rates and accelerations at both ends; the rates are its derivative. It costs no evaluation because the
+   last stage is near the acceleration at the end. */
 static void curveThroughEnds(Unit *unit, double h) {
     unit->bends = 6;
     for (int i = 0; i < COORDINATES; ++i) {
@@ -924,13 +929,13 @@ static void curveThroughEnds(Unit *unit, double h) {
         unit->curve[4][i] = of_start;
         unit->curve[5][i] = of_end - of_start;
         curveCubic(unit, k, v, w, h * a, h * b);
-        /* The integral of rates is the rise; that of x^2 (1 - x)^2 is 1/30. */
+        /* The integral of the rates must be the rise of the coordinate; that of x^2 (1 - x)^2 is 1/30. */
         unit->curve[4][k] = 30.0 * (rise / h - 0.5 * (v + w) - h * (a - b) / 12.0);
         unit->curve[5][k] = 0.0;
     }
 }
 
-/* The dense output of the method, in the step that was tried last. 0 where there are no accelerations for it. */
+/* The dense output of the method in the last attempted step. Returns 0 if accelerations do not exist where it needs them. */
 static int curveOfMethod(Unit *unit, double h) {
     double states[STATES + 1];
     const double t = unit->now.time;
@@ -956,7 +961,7 @@ static int curveOfMethod(Unit *unit, double h) {
     return 1;
 }
 
-/* Everything that is watched at a fraction of the step. */
+/* Everything that is watched, at a fraction of the step. */
 static void watchAlong(const Unit *unit, double h, double x, double *to) {
     double states[STATES + 1];
     if (x == 1.0) {
@@ -971,14 +976,14 @@ static void watchAlong(const Unit *unit, double h, double x, double *to) {
     watchAll(unit, unit->now.time + x * h, states, to);
 }
 
-/* Node number `node` of so many between two fractions: the first is at the end, the last at the beginning. */
+/* Node number `node` of the Chebyshev nodes between the fractions a and b. The first is at the end b, the last at the beginning a. */
 static double nodeOf(int node, int degree, double a, double b) {
     if (node == 0) return b;
     if (node == degree) return a;
     return a + (b - a) * 0.5 * (1.0 + cos(3.14159265358979323846 * node / degree));
 }
 
-/* The coefficients of the interpolant through values at the nodes. */
+/* The Chebyshev coefficients of the interpolant through values at the nodes. */
 static void interpolate(const double *values, int degree, double *to) {
     double cosines[FINEST + 1];
     for (int m = 0; m <= degree; ++m) cosines[m] = cos(3.14159265358979323846 * m / degree);
@@ -998,7 +1003,7 @@ static double sumOfSizes(const double *c, int from, int degree) {
     return sum;
 }
 
-/* The greatest size of some coefficients; no number where one of them is none. */
+/* The largest absolute value of some coefficients; NaN if one of them is not finite. */
 static double greatestOf(const double *c, int from, int degree) {
     double greatest = 0.0;
     for (int k = from; k <= degree; ++k) {
@@ -1009,7 +1014,7 @@ static double greatestOf(const double *c, int from, int degree) {
     return greatest;
 }
 
-/* The value of an interpolant between -1 and 1, by Clenshaw's recurrence. */
+/* The value of an interpolant at x between -1 and 1, by Clenshaw's recurrence. */
 static double valueOf(const double *c, int degree, double x) {
     double one = 0.0, two = 0.0;
     for (int k = degree; k > 0; --k) {
@@ -1019,8 +1024,8 @@ static double valueOf(const double *c, int degree, double x) {
     return c[0] + x * one - two;
 }
 
-/* Whether a formula is certainly not zero, by values at the nodes. Coefficients of what is smooth fall like powers of the last two, so that
-   what an interpolant leaves out is a small multiple of these. */
+/* Whether a formula is certainly nonzero, from values at the nodes. The coefficients of a smooth function keep decaying, so the truncation
+   error is a small multiple of the last two. */
 static int isFarFromZero(const double *values, int degree) {
     double c[MIDDLE + 1];
     interpolate(values, degree, c);
@@ -1028,12 +1033,12 @@ static int isFarFromZero(const double *values, int degree) {
     return sizeOf(c[0]) > sumOfSizes(c, 1, degree) + 4.0 * (degree + 1) * last;
 }
 
-/* The signs that a formula has had: the last one, and how often it changed. */
+/* The signs that a formula has had: the last one, and how many times it changed. */
 typedef struct {
     int latest, changes;
 } Signs;
 
-/* One more, with one change at most since the one before it. */
+/* Appends a sign, after at most one change since the last. */
 static void takeSign(Signs *signs, int sign) {
     signs->changes += signs->latest && signs->latest != sign;
     signs->latest = sign;
@@ -1060,7 +1065,7 @@ static int followSigns(Signs *signs, const double *p, double middle, double widt
            followSigns(signs, p, m + half, half, beyond, halvings - 1);
 }
 
-/* The fractions of a step for signChanges: the nodes of degree 4, from the end, and three places beside nodes. */
+/* The fractions of a step at which signChanges needs values: the nodes of degree 4, from the end, and three places beside nodes. */
 static double sampleAt(int place) {
     static const double beside[] = {BESIDE, 0.5 + BESIDE, 1.0 - BESIDE};
     return place <= COARSE ? nodeOf(place, COARSE, 0.0, 1.0) : beside[place - COARSE - 1];
@@ -1081,7 +1086,7 @@ static int signChanges(const double *values) {
     const double share = falls > 1.0 ? 1.0 : falls > 0.0625 ? falls : 0.0625;
     const double of_third = c[3] == 0.0 ? 0.0 : sizeOf(c[3]) * share;
     const double beyond = 8.0 * (of_third > sizeOf(c[4]) ? of_third : sizeOf(c[4]));
-    /* The interpolant in powers. */
+    /* The interpolant in powers of x. */
     const double p[] = {c[0] - c[2] + c[4], c[1] - 3.0 * c[3], 2.0 * c[2] - 8.0 * c[4], 4.0 * c[3], 8.0 * c[4]};
     const double differs = 5.5 * beyond * 2.0 * BESIDE + ROUNDING_OF_VALUES * greatestOf(values, 0, SAMPLES - 1);
     for (int place = COARSE + 1; place < SAMPLES; ++place) {
@@ -1094,7 +1099,7 @@ static int signChanges(const double *values) {
     return signs.changes;
 }
 
-/* What is watched at the end of a step of the length h, by the method itself; no number where there is no such step. */
+/* The watched value k at the end of a step of length h by the method itself; NaN if there is no such step. */
 static double atEndOf(Unit *unit, double h, int k) {
     double values[WATCHED + 1];
     if (tryStep(unit, h) < 0.0) return NAN;
@@ -1103,18 +1108,18 @@ static double atEndOf(Unit *unit, double h, int k) {
 }
 
 /*
- * The length of the step that ends just behind a change of sign, found by steps of the method itself: as exact as the end of
- * any step. Behind a step of the length `late` stands another sign, which `sign` is, and the value `at_late`; before it `at_early`, which
- * is 0 where nobody knows.
+ * The length of the step that ends just after a change of sign, found by steps of the method itself, so that it is as accurate as the end of
+ * any step. After a step of length `late` the value is `at_late` and has the new sign `sign`; after one of length `early` it is `at_early`,
+ * which is 0 if it is not known.
  */
 static double locate(Unit *unit, int k, double early, double at_early, double late, double at_late, int sign) {
     const double instant = sizeOf(unit->now.time) + late;
-    /* To 1e-13 s, or the rounding of time. */
+    /* The accuracy is 1e-13 s, or the rounding of time if that is larger. */
     const double nearest = 1e-13 > 1e-15 * instant ? 1e-13 : 1e-15 * instant;
     for (int tries = 0; tries < 200 && late - early > nearest; ++tries) {
         double middle = 0.5 * (early + late);
-        /* Where the chord is 0, beside that by half of what is asked for, so that the interval closes from both sides; each third time its
-           half, whatever the formula is. */
+        /* The zero of the chord, moved by half the required accuracy so that the interval closes from both sides. Every third time the
+           interval is bisected, which bounds the number of tries for any formula. */
         if (tries % 3 != 2 && sign * at_early < 0.0) {
             const double chord = early + (late - early) * (at_early / (at_early - at_late));
             const double beside = chord - early < late - chord ? chord + 0.5 * nearest : chord - 0.5 * nearest;
@@ -1129,8 +1134,9 @@ static double locate(Unit *unit, int k, double early, double at_early, double la
 }
 
 /*
- * Looks at what is watched at a fraction of the step, between which and the one before it its sign changes once at most. Facts are told, and
- * events counted where no step may end at them; else the first of them is noted. Behind it nothing has happened yet.
+ * Looks for a change of sign at a fraction of the step; since the fraction before it there is at most one. Changes of facts are reported, and
+ * events are counted if steps may not end at them; otherwise the first event is recorded, and changes after it are ignored because the step
+ * will end there.
  */
 static void lookAt(Search *search, double x) {
     Unit *unit = search->unit;
@@ -1148,7 +1154,7 @@ static void lookAt(Search *search, double x) {
     const int sign = signOfWatched(unit, k, all[k]), side = sideOf(unit, k);
     if (k < EVENTS && !side) now->side[k] = (signed char)sign;
     if (!sign || !side || sign == side) return;
-    /* What the polynomial says is not certain. */
+    /* The sign of the polynomial is not certain. */
     const double value = x < 1.0 ? atEndOf(unit, late, k) : all[k];
     if (late <= search->early || !isBehind(k, sign, value)) return;
     double from = seen * search->h, before = 0.0;
@@ -1168,7 +1174,7 @@ static void lookAt(Search *search, double x) {
     }
 }
 
-/* Looks at the ends of intervals with a zero of an interpolant. */
+/* Calls lookAt at the ends of intervals that contain at most one zero of an interpolant. */
 static void isolate(const double *c, int degree, double a, double b, double noise, Search *search) {
     double slopes[FINEST + 3], values[FINEST + 1], half[FINEST + 1];
     if (search->is_over) return;
@@ -1178,7 +1184,7 @@ static void isolate(const double *c, int degree, double a, double b, double nois
     slopes[degree + 1] = slopes[degree] = 0.0;
     for (int k = degree; k >= 1; --k) slopes[k - 1] = slopes[k + 1] + 2.0 * k * c[k];
     slopes[0] *= 0.5;
-    /* Zeros nearer to each other than this share of the step are one that does not change the sign. */
+    /* Zeros that are nearer to each other than this fraction of the step are treated as one that does not change the sign. */
     if (degree == 0 || sizeOf(slopes[0]) > sumOfSizes(slopes, 1, degree - 1) || b - a <= 0x1p-40) {
         lookAt(search, a);
         lookAt(search, b);
@@ -1192,7 +1198,7 @@ static void isolate(const double *c, int degree, double a, double b, double nois
     }
 }
 
-/* What is looked at, at the nodes between two fractions of the step. */
+/* The watched value at the nodes between two fractions of the step. */
 static void sample(const Search *search, int degree, double a, double b, double *values) {
     double all[WATCHED + 1];
     for (int node = 0; node <= degree; ++node) {
@@ -1201,11 +1207,11 @@ static void sample(const Search *search, int degree, double a, double b, double 
     }
 }
 
-/* Whether a formula has the slopes of its interpolant at both ends: what swings many times may seem to be smooth at the nodes. */
+/* Whether a formula has the slopes of its interpolant near both ends. A formula that oscillates many times may look smooth at the nodes. */
 static int isFollowed(const Search *search, const double *values, int degree, double a, double b) {
     double c[MIDDLE + 1], all[WATCHED + 1];
     interpolate(values, degree, c);
-    /* What the interpolant leaves out is of an order as high as there are coefficients. */
+    /* The truncation error may oscillate as fast as the interpolant has coefficients. */
     const double count = degree + 1.0, left_out = 4.0 * count * greatestOf(c, degree - 1, degree);
     const double differs = 2.0 * BESIDE * count * left_out + ROUNDING_OF_VALUES * greatestOf(c, 0, degree);
     for (int side = 0; side < 2; ++side) {
@@ -1216,13 +1222,13 @@ static int isFollowed(const Search *search, const double *values, int degree, do
     return 1;
 }
 
-/* Whether an interpolant has all of a formula, where its last coefficients are to be below a share of the greatest. */
+/* Whether an interpolant resolves a formula: its last coefficients are below this fraction of the largest. */
 static int isEnough(const double *c, int degree, double share) {
     const double greatest = greatestOf(c, 0, degree);
     return isFinite(greatest) && greatestOf(c, degree - 2, degree) <= share * greatest;
 }
 
-/* Looks at what is watched between two fractions of the step. */
+/* Searches between two fractions of the step. */
 static void lookBetween(Search *search, double a, double b, int halvings, int halvings_of_swings, double share) {
     double values[FINEST + 1], c[FINEST + 1];
     if (search->is_over) return;
@@ -1234,7 +1240,7 @@ static void lookBetween(Search *search, double a, double b, int halvings, int ha
         }
         interpolate(values, degree, c);
         if (isEnough(c, degree, share)) {
-            /* Below its rounding an interpolant is noise. */
+            /* Below its round-off an interpolant is noise. */
             const double rounding = 1e-14 * greatestOf(c, 0, degree);
             const double rest = share > CONVERGED ? (degree + 1) * greatestOf(c, degree - 2, degree) : 0.0;
             isolate(c, degree, a, b, rest > rounding ? rest : rounding, search);
@@ -1242,7 +1248,8 @@ static void lookBetween(Search *search, double a, double b, int halvings, int ha
         }
     }
     if (greatestOf(c, FINEST / 2, FINEST) > SWINGS * greatestOf(c, 0, FINEST)) {
-        /* How long a part may be is tried at the beginning. Of what has no parts that an interpolant has, such as noise, nothing is known. */
+        /* The length of the parts is determined at the beginning of the interval. A formula without parts that an interpolant resolves, such
+           as noise, cannot be searched. */
         for (int cuts = 1; cuts <= halvings_of_swings; ++cuts) {
             const int parts = 1 << cuts;
             sample(search, FINEST, a, a + (b - a) / parts, values);
@@ -1266,7 +1273,7 @@ static void lookBetween(Search *search, double a, double b, int halvings, int ha
     lookBetween(search, middle, b, halvings - 1, halvings_of_swings, share);
 }
 
-/* Whether an angle turns so far in the step that was tried that a few values do not tell what its functions do. */
+/* Whether an angle turns so far in the attempted step that a few values do not determine its functions. */
 static int turnsFar(const Unit *unit, double h) {
     for (int k = 0; k < ANGLES; ++k) {
         const int i = ANGLE[k];
@@ -1277,8 +1284,8 @@ static int turnsFar(const Unit *unit, double h) {
     return 0;
 }
 
-/* Where in the step that was tried a sign may change, of each that is watched: once, to another sign at the end, or, where `is_near` says so,
-   wherever the motion within the step has a zero. 0 where an event's formula is no number at the end. */
+/* Decides for each watched value where its sign may change in the attempted step: only once, to another sign at the end, or, if `is_near` is
+   set, at any zero along the motion within the step. Returns 0 if an event's formula is NaN at the end. */
 static int lookAlong(Unit *unit, double h, int *is_near) {
     State *now = &unit->now;
     double seen[SAMPLES][WATCHED + 1], values[SAMPLES];
@@ -1294,7 +1301,8 @@ static int lookAlong(Unit *unit, double h, int *is_near) {
             withoutEvent(unit, k, now->time + h);
             return 0;
         }
-        /* A step that ended behind a change was moved back before it, by what holds the constraints: that is none. */
+        /* The projection onto the constraints moved the end of the last step back before a change of sign that was already found. It is
+           not another change. */
         const int side = sideOf(unit, k), is_before = k < EVENTS ? side * start < 0.0 : (side > 0) != holds(k - EVENTS, start);
         if (is_before && 2.0 * sizeOf(start) > now->leave[k]) now->leave[k] = 2.0 * sizeOf(start);
         for (int place = 0; place < SAMPLES; ++place) values[place] = seen[place][k];
@@ -1302,15 +1310,15 @@ static int lookAlong(Unit *unit, double h, int *is_near) {
         is_near[k] = !(side && isBehind(k, side, start) && changes == !isBehind(k, side, end));
         is_any_near |= is_near[k];
     }
-    /* The polynomial of higher order, or the one that there is where it has no accelerations. */
+    /* Use the polynomial of higher order, or the present one if its accelerations do not exist. */
     if (is_any_near && !is_of_method && !curveOfMethod(unit, h)) curveThroughEnds(unit, h);
     return 1;
 }
 
 /*
- * Looks for events and facts in the step that was tried. Where a step may not end at events they are counted, and the step stays; where it
- * may, the step is tried again up to the first of them. Facts that do not hold any more are warnings, with their instants. The length of the
- * step that stands in `point`; 0 where a formula is no number.
+ * Looks for events and changes of facts in the attempted step. If steps may not end at events, events are counted and the step stays; otherwise
+ * the step is repeated up to the first event. A fact that ceases to hold is a warning with its instant. Returns the length of the step whose
+ * end is in `point`; 0 if a formula is NaN.
  */
 static double lookForEvents(Unit *unit, double h) {
     State *now = &unit->now;
@@ -1327,10 +1335,10 @@ static double lookForEvents(Unit *unit, double h) {
     }
     const double first = search.first;
     const int which = search.which;
-    /* The search leaves another step in `point`. */
+    /* The search leaves the end of another step in `point`. */
     if (unit->tried != first) tryStep(unit, first);
     if (which < 0) return h;
-    /* Others that happen at the same time, to rounding. */
+    /* Other events at the same time, up to round-off. */
     watch(unit, now->time + first, unit->point, values);
     for (int k = 0; k < EVENTS; ++k) {
         const int sign = signOfEvent(unit, k, values[k]);
@@ -1343,9 +1351,9 @@ static double lookForEvents(Unit *unit, double h) {
 }
 
 /*
- * Integrates to a time, which is hit exactly by a shortened step; the step after that is as long as it would have been. Where it
- * ends before, the state is that of the last good step. Where a step may end at events it ends behind the first, and `has_stopped`
- * says so.
+ * Integrates up to a time, which is hit exactly by a shortened step; the step after it has the length that it would have had without that. If
+ * integration fails earlier, the state is that of the last accepted step. If a step may end at events, integration ends just after the first
+ * one and sets `has_stopped`.
  */
 static Outcome integrate(Unit *unit, double until) {
     State *now = &unit->now;
@@ -1368,7 +1376,7 @@ static Outcome integrate(Unit *unit, double until) {
             if (!(now->step > 0.0)) now->step = firstStep(unit, left);
             is_new = 0;
         }
-        /* No sliver is left for a step of its own. */
+        /* The step is extended by up to 1 % so that no tiny last step remains. */
         const int is_last = 1.01 * now->step >= left;
         const double h = is_last ? left : now->step;
         const double error = tryStep(unit, h);

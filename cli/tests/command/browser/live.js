@@ -1,4 +1,4 @@
-// Moves sliders of a page that computes, and writes what came of it into the page.
+// Moves sliders of a page that computes, and writes the results into the page.
 
 const canvas = document.getElementById('scene');
 const frame = () => new Promise((done) => requestAnimationFrame(done));

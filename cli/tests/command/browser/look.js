@@ -1,4 +1,4 @@
-// Looks at a report from beginning to end, and writes what it saw into the page.
+// Shows a report at times from beginning to end, and writes the observations into the page.
 
 const canvas = document.getElementById('scene');
 const data = JSON.parse(document.getElementById('data').textContent);

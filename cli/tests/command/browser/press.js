@@ -1,4 +1,4 @@
-// Presses every control of a report, and writes what it saw into the page.
+// Operates every control of a report, and writes the observations into the page.
 
 const canvas = document.getElementById('scene');
 const { report } = canvas;
@@ -31,7 +31,7 @@ const drag = (from, to, more) => {
   pointer(canvas, 'pointermove', box.left + to[0], box.top + to[1], 1, more);
   pointer(canvas, 'pointerup', box.left + to[0], box.top + to[1], 0, more);
 };
-// A script's pointer is none that could be captured.
+// Synthetic pointer events have no pointer that could be captured.
 Element.prototype.setPointerCapture = () => {};
 
 const { from, to } = data;
@@ -53,7 +53,7 @@ async function pressEverything() {
   check('moves what is drawn', still !== first);
   check('pauses', (await picture()) === still && report.t === stopped, report.t, stopped);
 
-  // The speed is that of the clock, times what is chosen.
+  // The speed is that of the clock times the chosen factor.
   const measure = async (speed) => {
     set('speed', speed, 'change');
     report.seek(from);
@@ -73,7 +73,7 @@ async function pressEverything() {
     check(`runs at ${speed} of the clock`, Math.abs(ratio - 1) < 0.1, ratio);
   }
 
-  // The slider, and with it the cursors.
+  // The slider and the cursors.
   for (const share of [0.25, 0.75, 1, 0]) {
     set('time', share);
     check(`scrubs to ${share}`, near(report.t, from + share * duration, duration), report.t);
@@ -106,7 +106,7 @@ async function pressEverything() {
   press('End', {}, byId('speed'));
   check('keys of a control are left to it', report.t === kept, report.t);
 
-  // The ends.
+  // The ends of the run.
   set('speed', 1, 'change');
   for (const loop of [false, true]) {
     if (byId('loop').checked !== loop) byId('loop').click();
@@ -123,7 +123,7 @@ async function pressEverything() {
   check('plays again from the beginning', Math.abs(report.t - from) < 0.9 * Math.abs(duration), report.t);
   report.pause();
 
-  // Turning, moving, zooming.
+  // Rotating, moving, zooming.
   report.seek(from + 0.4 * duration);
   const middle = await picture();
   const before = report.positions(report.t).flat();
@@ -161,9 +161,9 @@ async function pressEverything() {
   check('two fingers zoom', (await picture()) !== middle);
   byId('fit').click();
 
-  // What is shown on demand.
+  // Optional elements.
   for (const id of ['labels', 'axes']) {
-    // A machine without frames has none to show.
+    // A machine without frames has no axes to show.
     const shows = id === 'labels' || data.picture.frames.length > 0;
     byId(id).click();
     check(`shows ${id}`, ((await picture()) !== middle) === shows);
@@ -187,7 +187,7 @@ async function pressEverything() {
   byId('theme').click();
   check('the first theme', paper() === light && (await picture()) === middle, paper());
 
-  // Printing takes a sharper, light picture.
+  // Printing uses a sharper, light picture.
   const width = canvas.width;
   window.dispatchEvent(new Event('beforeprint'));
   check('prints sharply', canvas.width === 2100 && canvas.height === 1320, canvas.width);
@@ -199,7 +199,7 @@ async function pressEverything() {
     const frame = plot.querySelector('.box').getBoundingClientRect();
     pointer(plot, 'pointerdown', frame.left + 0.3 * frame.width, frame.top + 5);
     const wanted = Math.min(from, to) + 0.3 * Math.abs(duration);
-    // The frame's outline is a pixel wide.
+    // The outline of the frame is a pixel wide.
     check('a click in a plot goes there', Math.abs(report.t - wanted) < (2 / frame.width) * Math.abs(duration), report.t, wanted);
   }
   const curve = document.querySelector('.legend button');
@@ -211,7 +211,7 @@ async function pressEverything() {
   curve.click();
   check('and shows it', drawn() === path);
 
-  // The address.
+  // The fragment of the address.
   location.hash = `#t=${from + 0.6 * duration}`;
   await frames(3);
   check('the fragment sets the time', near(report.t, from + 0.6 * duration, duration), report.t);
@@ -219,7 +219,7 @@ async function pressEverything() {
   await frames(3);
   check('nonsense does not', Number.isFinite(report.t), report.t);
 
-  // However narrow the window is, nothing sticks out of it.
+  // However narrow the window is, nothing extends beyond it.
   const [needs, has] = [document.documentElement.scrollWidth, window.innerWidth];
   check('fits the window', needs <= has, needs, has);
 

@@ -1,4 +1,4 @@
-// Runs before the page: whatever goes wrong in it is kept for the verdict.
+// Runs before the page: records all errors for the verdict.
 window.wrong = [];
 window.addEventListener('error', (event) => window.wrong.push(`error: ${event.message}`));
 window.addEventListener('unhandledrejection', (event) => window.wrong.push(`rejection: ${event.reason}`));
@@ -10,5 +10,5 @@ for (const level of ['error', 'warn']) {
     said.apply(console, words);
   };
 }
-// Time is virtual and passes while nothing is drawn: frames come by the clock.
+// Virtual time passes even if nothing is drawn, so frames are driven by a timer.
 window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 16);

@@ -1,11 +1,11 @@
-//! Whatever runs the equations, what is printed is the same to the last digit.
+//! The output is the same to the last digit, whichever engine evaluates the equations.
 
 use serde_json::Value;
 
 use super::{err, json, status};
 use crate::support::lagrangian;
 
-/// Whether machine code is made for this processor.
+/// Whether machine code is generated for this processor.
 fn has_machine_code() -> bool {
     #[cfg(target_arch = "x86_64")]
     let has = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
@@ -14,7 +14,7 @@ fn has_machine_code() -> bool {
     has
 }
 
-/// What a command prints, without the time that it took.
+/// The output of a command, without the elapsed time.
 fn printed(call: &[&str], engine: &[&str]) -> Value {
     let output = lagrangian(&[call, engine].concat());
     assert_eq!(status(&output), 0, "{call:?} {engine:?}: {}", err(&output));
@@ -27,7 +27,8 @@ fn printed(call: &[&str], engine: &[&str]) -> Value {
 
 #[test]
 fn every_engine_prints_the_same() {
-    // A run without more, one with drives and a cushion, one on constraints, one that sticks and slides, a stiff one.
+    // A plain run, one with drives and a cushion, one with constraints, one with sticking and sliding, and
+    // a stiff one.
     for call in [
         "simulate machines/double_pendulum.machine --until 3 --json",
         "simulate machines/cushioned_crusher.machine --until 0.1 --json",

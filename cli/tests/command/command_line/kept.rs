@@ -1,4 +1,5 @@
-//! Nothing is lost: no file that is read is written, none is left half written, and what cannot be written is said.
+//! No data is lost: input files are never overwritten, files are written completely or not at all, and a failure to
+//! write is reported.
 
 use std::fs;
 use std::io::Read;
@@ -10,11 +11,11 @@ use std::time::{Duration, Instant};
 use super::{err, json, out, status};
 use crate::support::{lagrangian, root};
 
-/// A ball that falls; any run of it takes no time.
+/// A falling ball, whose runs take almost no time.
 const BALL: &str = "machine Ball in plane {\n    parameters { m: kg = 1, g: m/s^2 = 9.81 }\n    \
      coordinates { x: m, y: m }\n    bodies { ball { mass: m, at: (x, y) } }\n    gravity (0, -g);\n}\n";
 
-/// A folder that is gone when the test ends.
+/// A folder that is removed when the test ends.
 pub struct Folder(tempfile::TempDir);
 
 impl Folder {
@@ -36,7 +37,7 @@ impl Folder {
         fs::read_to_string(self.path(name)).expect("a file")
     }
 
-    /// The names of what is in it, in their order.
+    /// The sorted names of its files.
     fn names(&self) -> Vec<String> {
         let entries = fs::read_dir(self.0.path()).expect("a folder");
         let names = entries.map(|entry| entry.expect("an entry").file_name());
@@ -47,7 +48,7 @@ impl Folder {
         names
     }
 
-    /// The command, run in it.
+    /// The command, with this folder as its working directory.
     pub fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_lagrangian"));
         command.current_dir(self.0.path()).args(arguments);
@@ -79,7 +80,7 @@ fn no_output_is_what_is_read_or_another_output() {
         "machine Top extends \"middle.machine\" { parameters { g: m/s^2 = 1 } }",
     );
     assert_eq!(status(&folder.run(&["check", "top.machine"])), 0);
-    // Endings that are known, for one file and another under many names.
+    // Links with known extensions that give the same file several names.
     let link = |name: &str, of: &str| fs::hard_link(folder.path(of), folder.path(name));
     link("spec.csv", "top.machine").expect("a link");
     link("base.csv", "ball.machine").expect("a link");
@@ -158,7 +159,7 @@ fn what_cannot_be_written_is_refused_before_anything_runs() {
         ("--out", "missing/a.csv", "no folder"),
         ("--out", "folder.csv", "folder"),
     ] {
-        // A run of an age, which would be waited for.
+        // A run so long that the test would notice if it started.
         let output = folder.run(&["simulate", "ball.machine", "--until", "1e9", option, path]);
         assert_eq!(status(&output), 2, "{path}: {}", err(&output));
         assert!(err(&output).contains(words), "{path}: {}", err(&output));
@@ -187,7 +188,7 @@ fn what_cannot_be_written_is_refused_before_anything_runs() {
         assert_eq!(status(&folder.run(call)), 2, "{call:?}");
     }
     assert_eq!(folder.names(), ["ball.machine", "folder.csv"]);
-    // The case of an ending says nothing.
+    // The case of an extension is ignored.
     let output = folder.run(&[
         "simulate",
         "ball.machine",
@@ -220,7 +221,7 @@ fn a_run_whose_files_cannot_be_written_is_summarized() {
             err(&output)
         );
     }
-    // The others are written all the same, and the document says what is wrong.
+    // The other files are written anyway, and the document reports the failure.
     let folder = Folder::new();
     let files = ["--out", "/dev/full", "--plot", "a.svg", "--json"];
     let output = folder.run(&[&simulate[..], &files].concat());
@@ -263,7 +264,7 @@ fn standard_output_that_cannot_be_written_is_an_error() {
         );
         assert_eq!(said.matches("error: ").count(), 1, "{call:?}: {said}");
     }
-    // Errors nobody can read are no reason to break.
+    // Errors that cannot be written are no reason to crash.
     let full = fs::OpenOptions::new().write(true).open("/dev/full");
     let mut command = Command::new(env!("CARGO_BIN_EXE_lagrangian"));
     command
@@ -273,7 +274,7 @@ fn standard_output_that_cannot_be_written_is_an_error() {
     assert_eq!(status(&output.expect("the command runs")), 2);
 }
 
-/// As in a shell: 128 and the number of SIGPIPE, and no word.
+/// As in a shell: the status is 128 plus the number of SIGPIPE, without a message.
 #[test]
 fn a_closed_pipe_ends_quietly() {
     let spec = machine("cart_pole");
@@ -316,7 +317,7 @@ fn a_table_on_standard_output_stands_there_alone() {
     assert_eq!(status(&output), 2);
 }
 
-/// What a table of the ball has that was recorded so often.
+/// Whether a table of the ball with this number of rows is complete.
 fn is_whole(table: &str, rows: usize) -> bool {
     let columns = |line: &str| line.split(',').count();
     let head = table.lines().next().map(columns);
@@ -325,7 +326,7 @@ fn is_whole(table: &str, rows: usize) -> bool {
         && table.lines().all(|line| Some(columns(line)) == head)
 }
 
-/// Waits until something holds, or the test has failed.
+/// Waits until a condition holds; the test fails if that takes too long.
 fn wait_until(what: &str, holds: impl Fn() -> bool) {
     let began = Instant::now();
     while !holds() {
@@ -334,7 +335,7 @@ fn wait_until(what: &str, holds: impl Fn() -> bool) {
     }
 }
 
-/// Killed while it writes, a run leaves the older file of that name as it was.
+/// A run that is killed while it writes leaves the older file of that name unchanged.
 #[test]
 fn what_is_killed_leaves_the_older_file() {
     let folder = Folder::new();
@@ -352,7 +353,8 @@ fn what_is_killed_leaves_the_older_file() {
     ];
     let is_partial = |name: &String| name.ends_with(".partial");
     let mut killed = 0;
-    // Most of the time after the first kilobyte it is writing; a slow machine may be late once.
+    // Most of the time after the first kilobyte is spent writing; on a slow machine the signal may once
+    // come too late.
     for _ in 0..3 {
         folder.file("a.csv", "older\n");
         let mut child = folder
@@ -372,7 +374,7 @@ fn what_is_killed_leaves_the_older_file() {
         let status = child.wait().expect("a process");
         let now = folder.read("a.csv");
         if status.success() {
-            // It was done before.
+            // The run ended before the signal.
             assert!(is_whole(&now, rows + 1), "{}", now.len())
         } else {
             assert!(
@@ -396,7 +398,7 @@ fn interrupt(child: &Child) {
     assert!(sent.expect("kill").success());
 }
 
-/// A run of an age in many steps, once it is on its way.
+/// A very long run with many steps, after it has started.
 fn on_its_way(folder: &Folder, more: &[&str]) -> Child {
     let spec = machine("double_pendulum");
     let call = ["simulate", &spec, "--until", "1e7", "--every", "1e4"];
@@ -408,7 +410,7 @@ fn on_its_way(folder: &Folder, more: &[&str]) -> Child {
     child
 }
 
-/// Whether a process has a handler for SIGINT, bit 1 of the signals that it catches.
+/// Whether a process handles SIGINT, bit 1 of the signals that it catches.
 fn catches_interrupts(child: &Child) -> bool {
     let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
     let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
@@ -419,7 +421,7 @@ fn catches_interrupts(child: &Child) -> bool {
 fn wait(mut child: Child) -> Output {
     wait_until("it does not end", || {
         let stat = fs::read_to_string(format!("/proc/{}/stat", child.id())).unwrap_or_default();
-        // A process that has ended and was not waited for.
+        // A zombie: a process that has ended and was not waited for.
         stat.rsplit(')')
             .next()
             .is_some_and(|rest| rest.trim_start().starts_with('Z'))
@@ -444,7 +446,7 @@ fn wait(mut child: Child) -> Output {
 #[test]
 fn an_interrupted_run_is_written_as_far_as_it_came() {
     if !Path::new("/proc/self/status").exists() {
-        return; // only Linux tells which signals a process catches
+        return; // only Linux shows the signals that a process catches
     }
     let folder = Folder::new();
     let files = ["--out", "a.csv", "--plot", "a.svg", "--report", "a.html"];
@@ -459,7 +461,7 @@ fn an_interrupted_run_is_written_as_far_as_it_came() {
     let warnings = document["warnings"].to_string();
     assert!(warnings.contains("interrupted"), "{warnings}");
     assert_eq!(folder.names(), ["a.csv", "a.html", "a.svg"]);
-    // The table goes to where the summary says, to the last digit.
+    // The table ends at the time of the summary, to the last digit.
     let table = folder.read("a.csv");
     assert!(table.ends_with('\n'));
     let last = table.lines().last().and_then(|line| line.split(',').next());
@@ -476,14 +478,16 @@ fn an_interrupted_run_is_written_as_far_as_it_came() {
     );
 }
 
-/// Twice at once: the second ends it before the step is done, or after all is written; never with another status.
+/// Two interruptions: the second ends the command before the step is done, or after everything is written, always
+/// with the same status.
 #[test]
 fn a_second_interruption_quits() {
     if !Path::new("/proc/self/status").exists() {
         return;
     }
     let folder = Folder::new();
-    // Nobody reads the pipe, which is full after 64 kB: so it hangs where it writes, and only the second one ends it.
+    // Nobody reads the pipe, which is full after 64 kB, so the command blocks while writing, and only the second
+    // interruption ends it.
     let spec = folder.file("pipe.machine", BALL);
     let made = Command::new("mkfifo").arg(folder.path("a.csv")).status();
     assert!(made.expect("mkfifo").success());

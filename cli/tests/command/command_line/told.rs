@@ -1,4 +1,4 @@
-//! What is refused, in the words of those who called, and before anything runs.
+//! Errors are reported in terms of the call, and before anything runs.
 
 use super::kept::Folder;
 use super::{err, json, out, status, with_input};
@@ -39,7 +39,7 @@ fn a_run_of_too_many_steps_names_the_option() {
     assert_eq!(status(&output), 1);
     assert!(err(&output).contains("--max-steps"), "{}", err(&output));
     assert!(out(&output).contains("20 steps"), "{}", out(&output));
-    // However long the run is to be, no number is printed in a hundred digits.
+    // However large the end time, no number is printed with a hundred digits.
     let call = [
         "simulate",
         PENDULUM,
@@ -101,7 +101,7 @@ fn names_of_another_kind_are_told_which_option_sets_them() {
 #[test]
 fn wrong_points_are_told_where_they_are() {
     let call = ["evaluate", PENDULUM, "--at", "-"];
-    // The text is wrong: there is no list.
+    // The text is malformed, so there is no list of results.
     let output = with_input(&call, "[\n  {\"q\": [0, 1},\n]");
     assert_eq!(status(&output), 2);
     let said = err(&output);
@@ -109,7 +109,7 @@ fn wrong_points_are_told_where_they_are() {
         said.contains("standard input: line 2, column 14: "),
         "{said}"
     );
-    // A point is wrong: the others are answered.
+    // One point is wrong; the others have results.
     let output = with_input(&call, "[\n  {},\n  {\"v\": {\"theta1\": \"fast\"}}\n]");
     assert_eq!(status(&output), 0, "{}", err(&output));
     let results = json(&output);
@@ -136,7 +136,7 @@ fn wrong_points_are_told_where_they_are() {
     }
 }
 
-/// (1e200)² is greater than any number, and so is the energy.
+/// (1e200)² overflows, and so does the energy.
 #[test]
 fn an_energy_that_overflows_is_told() {
     let folder = Folder::new();
@@ -172,7 +172,7 @@ fn a_processor_that_nobody_knows_is_refused() {
     assert!(!folder.path("a.so").exists() && !folder.path("a.h").exists());
 }
 
-/// Two seconds are the longest that nothing is said.
+/// Two seconds is the longest time without a progress message.
 #[test]
 fn a_long_run_says_how_far_it_is() {
     let began = std::time::Instant::now();
@@ -197,6 +197,6 @@ fn a_long_run_says_how_far_it_is() {
             && line.contains(" steps, 2 s"),
         "{line}"
     );
-    // It may have been late by what a busy machine makes of it.
+    // A busy machine may delay it.
     assert!((1.9..10.0).contains(&waited), "{waited}");
 }

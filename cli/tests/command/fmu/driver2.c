@@ -1,6 +1,5 @@
-/* An importer of FMI 2.0 for one unit. Reads how many there are of each, values, a state, the time and the end; prints
-   accelerations, outputs, energies, and the state at the end of a co-simulation, with inputs that are held and with some that grow
-   by RATE in each second. */
+/* An importer of FMI 2.0 for one unit. Reads the numbers of variables, values, a state, the time and the end; prints accelerations,
+   outputs, energies, and the state at the end of a co-simulation, with constant inputs and with inputs that grow by RATE per second. */
 #include "fmi2Functions.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -66,7 +65,7 @@ static void step(fmi2Component unit, int k) {
 
 typedef fmi2Component Unit;
 
-/* Units that start apart from each other. */
+/* Units with different starts. */
 static Unit begin_unit(int k) {
     double start[MOST];
     memcpy(start, y, sizeof start);
@@ -84,7 +83,8 @@ static void end_unit(Unit unit) { fmi2FreeInstance(unit); }
 
 #include "many.h"
 
-/* Two units side by side, one of which is saved, goes on, and is brought back, into a third as bytes; and a unit that is reset is as new. */
+/* Two units side by side. One of them is saved, continues, and is restored, also into a third unit from bytes; and a unit that is reset
+   is like a new one. */
 static void check_states(void) {
     fmi2Component one = unit_of(fmi2CoSimulation), two = unit_of(fmi2CoSimulation);
     fmi2FMUstate saved = NULL, copied = NULL;

@@ -1,5 +1,5 @@
-/* An importer of FMI 3.0 for one unit: what it computes is printed, and what a unit must obey is checked, with a number for each
-   rule that is broken. Reads how many there are of each, values, a state, the time and the end. */
+/* An importer of FMI 3.0 for one unit: prints what the unit computes, and checks the rules of the standard; the exit status
+   is the number of a rule that is broken. Reads the numbers of variables, values, a state, the time and the end. */
 #include "fmi3Functions.h"
 #include <math.h>
 #include <stdio.h>
@@ -8,7 +8,7 @@
 
 #define MOST 256
 
-/* Every allocation of the process passes here. */
+/* Counts every allocation of the process. */
 static long allocations;
 #ifdef __GLIBC__
 void *__libc_malloc(size_t);
@@ -35,7 +35,7 @@ static void must(int holds, int rule) {
 
 static void well(fmi3Status status, int rule) { must(status == fmi3OK, rule); }
 
-/* Numbers in a row, by the reference of the first. */
+/* Writes consecutive values, from this reference on. */
 static void write_all(fmi3Instance unit, unsigned first, int count, const double *values) {
     for (int i = 0; i < count; ++i) {
         const unsigned reference = first + i;
@@ -81,7 +81,7 @@ static double largest_of(const double *one, const double *other, int count) {
     return largest;
 }
 
-/* Derivatives of accelerations and outputs in a direction, beside differences of these. */
+/* Compares directional derivatives of accelerations and outputs with finite differences. */
 static void check_derivatives(fmi3Instance unit) {
     unsigned unknowns[2 * MOST];
     const int count = n + outputs;
@@ -94,7 +94,8 @@ static void check_derivatives(fmi3Instance unit) {
         well(fmi3GetDirectionalDerivative(unit, unknowns, count, &known, 1, &seed, 1, exact, count), 20);
         well(fmi3GetFloat64(unit, &known, 1, &value, 1), 21);
         read_all(unit, 1, 2 * n, states);
-        /* The error of a central difference is some (h/x)^2 = 1e-10 of it, and rounding over h: 1e-13 are hundreds. */
+        /* The relative error of a central difference is about (h/x)^2 = 1e-10, plus the rounding divided by h: 1e-13 is
+           hundreds of roundings. */
         const double h = 1e-5 * (value != 0.0 ? fabs(value) : 1.0);
         for (int side = 0; side < 2; ++side) {
             const double moved = side ? value - h : value + h;
@@ -121,7 +122,7 @@ static void check_derivatives(fmi3Instance unit) {
     }
 }
 
-/* Adjoint derivatives weigh the same: w (J s) = (w J) s, for weights and seeds in no pattern. */
+/* Adjoint derivatives must be consistent with directional ones: w (J s) = (w J) s, for weights and seeds without a pattern. */
 static void check_adjoint(fmi3Instance unit) {
     unsigned unknowns[3 * MOST], knowns[3 * MOST];
     double w[3 * MOST], s[3 * MOST], along[3 * MOST], back[3 * MOST], one = 0.0, other = 0.0, size = 0.0;
@@ -143,7 +144,7 @@ enum { STEPS = 20 };
 
 typedef fmi3Instance Unit;
 
-/* Units that start apart from each other. */
+/* Units with different starts. */
 static Unit begin_unit(int k) {
     double start[MOST];
     memcpy(start, y, sizeof start);
@@ -189,7 +190,7 @@ int main(void) {
     must(!memcmp(derivatives, y + n, n * sizeof *y) && !memcmp(derivatives + n, a, n * sizeof *a), 7);
     check_derivatives(unit);
     check_adjoint(unit);
-    /* What there is not is an error, and no end. */
+    /* An unknown reference is an error, but the unit stays usable. */
     long heard = messages;
     const unsigned beyond = 100000;
     double none;
@@ -198,7 +199,7 @@ int main(void) {
     must(fmi3SetFloat64(unit, &(unsigned){at_parameters()}, 1, &(double){NAN}, 1) == fmi3Error, 8);
     fmi3FreeInstance(unit);
 
-    /* Co-simulation: two units side by side, one of which is saved, goes on, and is brought back. */
+    /* Co-simulation: two units side by side, one of which is saved, continues, and is restored. */
     fmi3Instance one = slave(), two = slave();
     initialize(one, 1e-11, y);
     initialize(two, 1e-11, y);
@@ -237,7 +238,7 @@ int main(void) {
     must(!memcmp(first, other, 2 * n * sizeof *first), 37);
     bytes[3] ^= 1;
     must(fmi3DeserializeFMUState(three, bytes, size, &copied) == fmi3Error, 38);
-    /* As new. */
+    /* Reset makes it like a new one. */
     well(fmi3Reset(two), 39);
     initialize(two, 1e-11, y);
     for (int k = 0; k < STEPS; ++k) step(two, k, STEPS);

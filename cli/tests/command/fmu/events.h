@@ -1,11 +1,11 @@
-/* A ball thrown up at 3 m/s from a height of 2 m, and beside it a pendulum of 0.5 m let go at 1 rad: when what happens, in closed
-   form, until 2 s. */
+/* A ball thrown up at 3 m/s from a height of 2 m, and a pendulum of 0.5 m released at 1 rad: the times of all events until 2 s
+   in closed form. */
 #include "must.h"
 #include <math.h>
 #include <string.h>
 
-/* References: y, theta, their rates, their accelerations, g and the height that is high, two energies, a fact, four formulas and
-   four counts. */
+/* References: y, theta, their rates, their accelerations, g and the threshold height of event `high`, two energies, a fact, four
+   formulas and four counts. */
 enum { HIGH, LOW, BEGIN, BOTTOM, EVENTS };
 enum { AT_HEIGHT = 8, AT_FACT = 11, AT_FORMULAS = 12, AT_COUNTS = 16, STATES = 4, HAPPENINGS = 7 };
 
@@ -14,7 +14,7 @@ typedef struct {
     int event, sign;
 } Happening;
 
-/* In the order of time. The ball passes 2.3 m on its way up and down, is back at its start, and falls below 1 m; the pendulum passes
+/* In the order of time. The ball passes 2.3 m on its way up and down, returns to its start, and falls below 1 m; the pendulum passes
    its lowest point at odd quarters of its period, which is 2 pi / w / agm(1, cos(a/2)). */
 static void expect(Happening *to) {
     const double g = 9.81, v = 3.0;
@@ -33,7 +33,7 @@ static void expect(Happening *to) {
     memcpy(to, all, sizeof all);
 }
 
-/* What a unit says of its events while it logs. */
+/* The events that a unit reports while it logs. */
 static Happening heard[64];
 static int heard_count;
 
@@ -54,7 +54,8 @@ static int by_time(const void *a, const void *b) {
     return (one > other) - (one < other);
 }
 
-/* Instants are found to 1e-13 s. At a tolerance of 1e-14 some 50 steps leave 1e-12 of what moves at 3 to 5 units per s: some 3e-13 s. */
+/* Instants are found to 1e-13 s. With a tolerance of 1e-14 about 50 steps have an error of 1e-12 in values that move at 3 to 5 units
+   per s, which is about 3e-13 s. */
 static void compare(Happening *found, int count, int rule) {
     Happening known[HAPPENINGS];
     expect(known);
@@ -67,7 +68,7 @@ static void compare(Happening *found, int count, int rule) {
     }
 }
 
-/* States by the closed form of the ball at a time; the pendulum hangs at an angle and rests. */
+/* The state of the ball at a time, in closed form; the pendulum rests at an angle. */
 static void place(double t, double angle, double *states) {
     states[0] = 2.0 + 3.0 * t - 0.5 * 9.81 * t * t;
     states[1] = angle;

@@ -1,4 +1,4 @@
-/* Events of a unit of FMI 2.0, in both kinds: when they happen, and how often. */
+/* Events of a unit of FMI 2.0, in both kinds of units: when and how often they happen. */
 #include "fmi2Functions.h"
 #include <stdarg.h>
 #include "events.h"
@@ -40,7 +40,7 @@ int main(void) {
     }
     counted(unit, all, 12);
     compare(heard, heard_count, 13);
-    /* Two events are left behind half of the run. */
+    /* Two events remain in the second half of the run. */
     heard_count = 0;
     well(fmi2SetFMUstate(unit, saved), 14);
     counted(unit, half, 14);
@@ -52,7 +52,7 @@ int main(void) {
     well(fmi2FreeFMUstate(unit, &saved), 19);
     fmi2FreeInstance(unit);
 
-    /* The importer integrates. */
+    /* Model exchange, in which the importer integrates. */
     unit = begin(fmi2ModelExchange, &functions);
     fmi2EventInfo info;
     fmi2Boolean enter, terminate;
@@ -60,7 +60,7 @@ int main(void) {
     well(fmi2NewDiscreteStates(unit, &info), 20);
     well(fmi2EnterContinuousTimeMode(unit), 20);
     for (int k = 0; k < 2; ++k) {
-        /* Above 2.3 m; and back below, behind the lowest point. */
+        /* Above 2.3 m; then below it again, and after the lowest point of the pendulum. */
         place(k ? 0.6 : 0.2, k ? -0.5 : 0.5, states);
         well(fmi2SetTime(unit, k ? 0.6 : 0.2), 21);
         well(fmi2SetContinuousStates(unit, states, STATES), 21);

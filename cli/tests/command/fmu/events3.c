@@ -1,8 +1,8 @@
-/* Events of a unit of FMI 3.0, in both kinds: when they happen, how often, and where a step ends. */
+/* Events of a unit of FMI 3.0, in both kinds of units: when and how often they happen, and where steps end. */
 #include "fmi3Functions.h"
 #include "events.h"
 
-/* Whether the unit has a fifth event, whose formula ends. */
+/* Whether the unit has a fifth event, whose formula becomes undefined. */
 #ifndef LOST
 #define LOST 0
 #endif
@@ -49,7 +49,7 @@ static void update(fmi3Instance unit) {
     must(!again && !end && !values && !next, 8);
 }
 
-/* Nothing but counts, in steps of a length. */
+/* Counts events in steps of this length, without stopping at them. */
 static void count_only(bool event_mode, double length) {
     bool event, terminate, early;
     double last;
@@ -77,7 +77,8 @@ static void count_only(bool event_mode, double length) {
     fmi3FreeInstance(unit);
 }
 
-/* From where the unit is, with stops at events and at points of communication: what happens until 2 s, how often, and the end. */
+/* Continues from the unit's state, stopping at events and at communication points: what happens until 2 s, how often,
+   and the end. */
 static int follow(fmi3Instance unit, double t, double length, Happening *found, double *end, fmi3FMUState *at, int save_at) {
     int count = 0;
     while (t < 2.0) {
@@ -90,7 +91,7 @@ static int follow(fmi3Instance unit, double t, double length, Happening *found, 
         must(last > t && early == (last < point) && (!early || event), 21);
         t = last;
         if (!event) continue;
-        /* What is discrete changes in event mode. */
+        /* Discrete variables only change in event mode. */
         for (int k = 0; k < EVENTS; ++k) must(counted(unit, k) == before[k], 22);
         if (count == save_at) well(fmi3GetFMUState(unit, at), 23);
         well(fmi3EnterEventMode(unit), 24);
@@ -119,10 +120,11 @@ static void stop_early(double length) {
     const int count = follow(unit, 0.0, length, found, end, &saved, 2);
     compare(found, count, 31);
     must(all_of(unit) == HAPPENINGS, 31);
-    /* The ball, whose parabola each method has but for rounding. */
+    /* Every method integrates the parabola of the ball exactly, up to round-off. */
     place(2.0, 0.0, other);
     must(fabs(end[0] - other[0]) <= 1e-12 && fabs(end[2] - other[2]) <= 1e-12, 32);
-    /* A step that ended at an event was saved before the event was handled: it is told again, in another unit too. */
+    /* The state was saved after the step that ended at an event and before the event was handled, so the event is reported
+       again, also in another unit. */
     for (int round = 0; round < 2; ++round) {
         fmi3Instance third = round ? slave(true, true) : unit;
         well(fmi3SetFMUState(third, saved), 33);
@@ -139,7 +141,7 @@ static void stop_early(double length) {
     fmi3FreeInstance(unit);
 }
 
-/* The importer integrates: it sees signs change, and what counts them is told in event mode. */
+/* Model exchange, in which the importer integrates: it sees sign changes, and counts change in event mode. */
 static void exchange(void) {
     double states[STATES], indicators[EVENTS + 1];
     bool enter, terminate;
@@ -165,7 +167,7 @@ static void exchange(void) {
         well(fmi3SetTime(unit, points[at].t), 44);
         well(fmi3SetContinuousStates(unit, states, STATES), 44);
         well(fmi3GetEventIndicators(unit, indicators, EVENTS + 1), 45);
-        /* The fact that y > -1000 m, then the formulas as they are written. */
+        /* The fact that y > -1000 m, then the formulas as written in the spec. */
         must(fabs(indicators[0] - (states[0] + 1000.0)) <= 1e-12, 46);
         must(fabs(indicators[1] - (states[0] - 2.3)) <= 1e-15 && indicators[1 + BOTTOM] == points[at].angle, 46);
         for (int k = 0; k < EVENTS; ++k) must((indicators[1 + k] > 0.0 ? 1 : -1) == points[at].signs[k], 47);
@@ -180,7 +182,7 @@ static void exchange(void) {
     fmi3FreeInstance(unit);
 }
 
-/* A number that is set makes a formula jump: counted at that point, by the next step or in event mode. */
+/* A value that is set makes a formula jump: the event is counted at that time, by the next step or in event mode. */
 static void jump(bool event_mode) {
     bool event, terminate, early;
     double last;
@@ -205,7 +207,7 @@ static void jump(bool event_mode) {
     fmi3FreeInstance(unit);
 }
 
-/* A formula that is no number from some height on: a step up to there ends, one beyond is an error, and so is a start beyond. */
+/* A formula that is NaN beyond some height: a step up to there succeeds; a step or a start beyond it is an error. */
 static void lose(void) {
     bool event, terminate, early;
     double last;

@@ -1,5 +1,5 @@
-/* What comes and goes within a step: a ball that is above a height for some milliseconds, a pendulum that is beyond an angle for some, both as
-   events and as facts, in co-simulation by FMI 3.0 with steps of communication of several lengths. */
+/* Two sign changes within one step: a ball that is above a height for some milliseconds, and a pendulum that is beyond an angle for a short
+   time, both as events and as facts, in co-simulation by FMI 3.0 with communication steps of several lengths. */
 #include "events.h"
 #include "steps3.h"
 
@@ -63,22 +63,23 @@ int main(void) {
         while (last < 1.25) {
             step(unit, length * (floor(last / length + 1e-9) + 1.0), &last);
         }
-        /* A tolerance of 1e-12 is some 1e-11 of motion by 1.25 s; near its greatest height the ball moves by some 0.05 m/s. */
+        /* With a tolerance of 1e-12 the error of the motion is about 1e-11 by 1.25 s; near its greatest height the ball moves at
+           about 0.05 m/s. */
         must(of("top", at) == 2, 20);
         const double above = sqrt(2.0 * (2.0 + v * v / (2.0 * g) - 2.4585) / g);
         near(at[0], v / g - above, 1e-9, 21);
         near(at[1], v / g + above, 1e-9, 22);
         must(of("y < 2.4587", at) == 1, 23);
         near(at[0], v / g - sqrt(2.0 * (2.0 + v * v / (2.0 * g) - 2.4587) / g), 1e-9, 24);
-        /* The pendulum turns back at half of its period, and is as long beyond an angle before as after; with a = -(g/l) sin(theta) it moves
-           by a t^2 / 2 there, and by a share (w t)^2 / 12 of that less, w^2 being (g/l) cos(theta). */
+        /* The pendulum turns back at half its period, and is beyond an angle for the same time before and after that. With a = -(g/l)
+           sin(theta) it moves by a t^2 / 2 there, reduced by the fraction (w t)^2 / 12, where w^2 = (g/l) cos(theta). */
         must(of("edge", at) == 2, 25);
         near(0.5 * (at[0] + at[1]), half, 1e-9, 26);
         const double beyond = sqrt(2e-4 / (g / 0.5 * sin(1.0)));
         near(0.5 * (at[1] - at[0]), beyond, 1e-4 * beyond, 27);
         must(of("theta", at) == 1, 28);
         near(half - at[0], beyond / sqrt(10.0), 1e-4 * beyond, 29);
-        /* A fact that is broken for good. */
+        /* A fact that stays broken. */
         must(of("y >= 1", at) == 1, 30);
         near(at[0], (v + sqrt(v * v + 2.0 * g)) / g, 1e-10, 31);
         must(told_count == 7, 32);

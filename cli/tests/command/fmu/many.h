@@ -1,5 +1,5 @@
-/* Many units in one process: each has the bits that it has alone, whichever is stepped first, and in several threads at once. The driver says
-   what a unit is and does: `begin_unit(k)`, `step_unit(unit, k of STEPS)`, `state_of(unit, to)`, `end_unit(unit)`. */
+/* Many units in one process: each gives the same bits as alone, in whatever order they are stepped, and in several threads at once. The
+   driver defines the units: `begin_unit(k)`, `step_unit(unit, k of STEPS)`, `state_of(unit, to)`, `end_unit(unit)`. */
 #include <pthread.h>
 
 enum { UNITS = 48, THREADS = 4 };
@@ -9,7 +9,7 @@ static double alone[UNITS][2 * MOST], among[UNITS][2 * MOST];
 static void run_many(int from, int to) {
     Unit units[UNITS];
     for (int k = from; k < to; ++k) units[k] = begin_unit(k);
-    /* In another order at each step. */
+    /* In a different order at each step. */
     for (int step = 0; step < STEPS; ++step)
         for (int k = from; k < to; ++k) step_unit(units[from + (k * 5 + step) % (to - from)], step);
     for (int k = from; k < to; ++k) {

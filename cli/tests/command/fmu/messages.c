@@ -1,5 +1,5 @@
-/* A particle in polar coordinates s, phi that moves through the pole: references 1, 2 are the coordinates, 3, 4 their rates, 7 the
-   parameter l, of which the start s = 2 l is made. Prints what the unit says, and checks what it answers. */
+/* A particle in polar coordinates s, phi that moves through the pole: references 1, 2 are the coordinates, 3, 4 their rates, 7
+   the parameter l, which determines the start s = 2 l. Prints the messages of the unit, and checks its results. */
 #include "fmi3Functions.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -40,7 +40,7 @@ int main(void) {
     write_one(unit, 7, 4.0);
     must(read_one(unit, 1) == 1.0, 10);
     must(fmi3ExitInitializationMode(unit) == fmi3OK, 11);
-    /* Nothing moves a state while it runs but the run. */
+    /* Parameters do not change a state once the run has begun. */
     write_one(unit, 7, 3.0);
     must(read_one(unit, 1) == 1.0, 12);
     must(fmi3SetFloat64(unit, &(unsigned){1}, 1, &(double){3.0}, 1) == fmi3Error, 13);

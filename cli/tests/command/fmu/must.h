@@ -1,4 +1,4 @@
-/* What is to hold, by a number that the driver ends with where it does not. */
+/* Asserts a condition; if it fails, the driver exits with this number. */
 #ifndef MUST
 #define MUST
 #include <stdio.h>

@@ -1,4 +1,5 @@
-/* How long a unit takes for each of 20000 steps of a millisecond, in microseconds: the median, all but one in a thousand, and the most. */
+/* The time that a unit takes for each of 20000 steps of a millisecond, in microseconds: the median, the 99.9th percentile,
+   and the maximum. */
 #include "fmi3Functions.h"
 #include <stdio.h>
 #include <stdlib.h>

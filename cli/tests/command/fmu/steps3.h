@@ -1,10 +1,11 @@
-/* Steps of communication by FMI 3.0, for drivers of co-simulation. */
+/* Communication steps of FMI 3.0, for drivers of co-simulation. */
 #include "fmi3Functions.h"
 #include "must.h"
 
 static void well(fmi3Status status, int rule) { must(status == fmi3OK, rule); }
 
-/* A step from where the unit is up to an instant or, where it may stop before, up to an event, which is told. */
+/* A step from the unit's time up to an instant or, if it may stop early, up to an event, whose
+   time is returned. */
 static void step(fmi3Instance unit, double until, double *at) {
     bool event, terminate, early, again, end, nominals, values, next;
     double when;

@@ -1,10 +1,10 @@
-/* Steps that lie symmetrically about turning points, near which events come and go: oscillations whose greatest values are in the middle of a step
-   of communication, in co-simulation by FMI 3.0. */
+/* Steps that are symmetric about turning points, near which a formula has two sign changes: oscillations whose maxima are in the middle of a
+   communication step, in co-simulation by FMI 3.0. */
 #include "steps3.h"
 #include <math.h>
 #include <string.h>
 
-/* The numbers x, y and their rates; how far events lie below greatest values. */
+/* The references of x, y and their rates, and the distance of the events' thresholds below the maxima. */
 enum { AT_STATES = 1, AT_DEPTH = 10 };
 
 static struct {
@@ -19,7 +19,7 @@ static void hear(fmi3InstanceEnvironment environment, fmi3Status status, fmi3Str
     ++told_count;
 }
 
-/* Two instants about each turning point, as far from it as is known, to a bound. */
+/* Two instants about each turning point, at a known distance from it, within a bound. */
 static void compare(const char *what, double first, double apart, double before, double bound, double until) {
     int count = 0;
     for (int k = 0; k < told_count; ++k) {
@@ -38,7 +38,7 @@ int main(void) {
     static const double tolerances[] = {1e-4, 1e-6, 1e-8};
     static const int all_parts[] = {5, 6, 12, 40};
     for (int way = 0; way < 24; ++way) {
-        /* x = cos(t - t0) and y = 0.3 cos(2 (t - t0)) are greatest in the middle of a step of communication, once a turn. */
+        /* x = cos(t - t0) and y = 0.3 cos(2 (t - t0)) have their maxima in the middle of a communication step, once per period. */
         const int parts = all_parts[way / 6], steps = 3 * parts, stops = way % 2;
         const double tolerance = tolerances[way / 2 % 3], turn = 2.0 * acos(-1.0), h = turn / parts, depth = 1e3 * tolerance;
         const double first = (parts / 2 + 0.5) * h;
@@ -57,8 +57,8 @@ int main(void) {
             step(unit, until, &last);
             if (last >= until * (1.0 - 1e-15)) ++k;
         }
-        /* Some 250 steps leave 500 times the tolerance at most, which is half of the depth: an instant is off by a quarter of its distance from the
-           turning point. cos(s) + 0.3 cos(2 s) = 1.3 - depth is an equation of degree two for cos(s). */
+        /* About 250 steps have an error of at most 500 times the tolerance, which is half the depth, so an instant has an error of at most a
+           quarter of its distance from the turning point. cos(s) + 0.3 cos(2 s) = 1.3 - depth is a quadratic equation for cos(s). */
         const double one = acos(1.0 - depth), both = acos((sqrt(1.0 + 2.4 * (1.6 - depth)) - 1.0) / 1.2);
         compare("one", first, turn, one, 0.25 * one, last);
         compare("both", first, turn, both, 0.25 * both, last);

@@ -1,5 +1,5 @@
-/* A wheel that turns uniformly, and many times between two points of communication, in co-simulation by FMI 3.0: it is upright at each half turn,
-   and too low once a turn. */
+/* A wheel that rotates uniformly, and many times between two communication points, in co-simulation by FMI 3.0: it is upright at each half
+   turn, and too low once per turn. */
 #include "steps3.h"
 #include <float.h>
 #include <math.h>
@@ -18,7 +18,7 @@ static void hear(fmi3InstanceEnvironment environment, fmi3Status status, fmi3Str
     else if (sscanf(message, "at t = %lf s it does %15[a-z]", &t, word) == 2) facts[fact_count++ % MOST] = t;
 }
 
-/* Each instant, to what is asked for, 1e-13 s, and the rounding of an angle that went so far, in as many steps as there are instants. */
+/* Compares each instant, to the accuracy of 1e-13 s plus the rounding of an angle after so many turns and steps. */
 static void compare(const char *what, const double *found, int count, double first, double apart, double until, int rule) {
     const int known = (int)floor((until - first) / apart) + 1;
     if (count != known) fprintf(stderr, "%d of %s, known %d\n", count, what, known);
@@ -40,7 +40,7 @@ int main(void) {
     for (int way = 0; way < 24; ++way) {
         const double length = ways[way / 6].length, until = ways[way / 6].until;
         const int stops = way % 2;
-        /* To stop at each of thousands, and search all that is left each time, takes seconds. */
+        /* Stopping at each of thousands of events, and searching the rest of the step each time, takes seconds. */
         if (stops && until > 100.0) continue;
         double last = 0.0;
         fmi3Instance unit = fmi3InstantiateCoSimulation("a", TOKEN, NULL, false, true, stops, stops, NULL, 0, NULL, hear, NULL);
@@ -52,7 +52,7 @@ int main(void) {
         while (last < until) {
             step(unit, length * (floor(last / length + 1e-9) + 1.0), &last);
         }
-        /* phi = 0.3 + 10 t; cos(phi) = 0 at odd quarters of a turn, sin(phi) falls to -1/2 at 7/12 of each. */
+        /* phi = 0.3 + 10 t; cos(phi) = 0 at odd quarters of a turn, and sin(phi) falls to -1/2 at 7/12 of each turn. */
         compare("events", events, event_count, (0.5 * pi - 0.3) / 10.0, pi / 10.0, until, 20);
         compare("facts", facts, fact_count, (7.0 * pi / 6.0 - 0.3) / 10.0, pi / 5.0, until, 21);
         fmi3FreeInstance(unit);
