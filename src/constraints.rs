@@ -110,6 +110,9 @@ pub(crate) struct Constraints<V> {
     pub redundant: bool,
     /// Whether the motion passes a pose in which rows become dependent.
     pub at_fork: bool,
+    /// While it does, the strength of the rows at the end of the last step, and the number of steps since such a pose was in reach.
+    held: f64,
+    away: u32,
     /// Whether rows are so weak at this state that residuals are reduced to round-off.
     tight: bool,
     /// Nonzero for coordinates, and rates, that stay fixed while the start is projected onto the constraints.
@@ -144,6 +147,8 @@ impl<V: Vector> Constraints<V> {
             choice: Choice::none(zeros.clone()),
             redundant: false,
             at_fork: false,
+            held: 0.0,
+            away: 0,
             tight: false,
             kept: None,
             moved: [zeros.clone(), zeros],

@@ -288,7 +288,10 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         if S::MAY_BE_CONSTRAINED
             && let Some(constraints) = &mut model.constraints
             && found.is_err()
-            && constraints.meet_fork(model.system.get(), [(now.t, &now.q); 2])
+            && constraints.meet_fork(
+                [constraints.hold(model.system.get(), now.t, &now.q); 3],
+                false,
+            )
         {
             model.accelerations(now.t, &now.q, &now.v, &mut k[0], work)?;
         } else {
@@ -735,7 +738,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
                 self.accept(h);
                 return Ok(true);
             }
-            _ if self.meets_fork(h) => {
+            _ if self.meets_fork(h, false) => {
                 // Try once more, with the dependence of the constraints taken into account.
                 self.control.work.rejected += 1;
                 return Ok(false);
@@ -745,6 +748,10 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             Err(cause) => (0.1 * h, Some(cause)),
         };
         if self.control.give_up(next, room.least) {
+            return Ok(false);
+        }
+        if self.meets_fork(h, true) {
+            self.control.step = h;
             return Ok(false);
         }
         let error = cause.unwrap_or_else(|| self.too_small());
@@ -920,7 +927,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
     }
 
     /// Whether the step just tried may have failed because constraints become dependent on the way, which was not known before.
-    fn meets_fork(&mut self, h: f64) -> bool {
+    /// `at_last` says that no shorter step is possible.
+    fn meets_fork(&mut self, h: f64, at_last: bool) -> bool {
         let Self {
             model,
             before,
@@ -937,13 +945,18 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         let Some(constraints) = &mut model.constraints else {
             return false;
         };
-        let ahead = &mut stage.0;
-        ahead.clone_from(&before.q);
-        for (q, v) in ahead.as_mut_slice().iter_mut().zip(before.v.as_slice()) {
-            *q += h * v;
+        if constraints.at_fork {
+            return false;
         }
-        let poses = [(before.t, &before.q), (before.t + h, &*ahead)];
-        constraints.meet_fork(model.system.get(), poses)
+        let ahead = &mut stage.0;
+        let holds = [0.0, 0.5, 1.0].map(|theta| {
+            ahead.clone_from(&before.q);
+            for (q, v) in ahead.as_mut_slice().iter_mut().zip(before.v.as_slice()) {
+                *q += theta * h * v;
+            }
+            constraints.hold(model.system.get(), before.t + theta * h, ahead)
+        });
+        constraints.meet_fork(holds, at_last)
     }
 
     /// Accepts the step just tried.

@@ -29,11 +29,26 @@ pub(super) const TIGHT: f64 = 1e-2;
 /// Below this strength, accelerations are interpolated from both sides of the pose.
 pub(super) const PASSED_OVER: f64 = 3e-4;
 
-/// A step that fails may have failed because of such a pose if the strength is below this.
+/// A step that fails may have failed because of such a pose if the strength is below this, and may vanish within the step.
 const IN_SIGHT: f64 = 0.5;
+
+/// Below this strength such a pose is near, however long the step.
+const NEAR: f64 = 0.1;
+
+/// The strength may vanish within a step if it is at most this many times its change between two states of the step. It is proportional to
+/// the distance from the pose, so if it vanishes between the states its change is at least twice the smaller of both; rates may vary.
+const REACH: f64 = 2.0;
+
+/// The number of steps without such a pose in reach after which the motion has left it.
+const STEPS_AWAY: u32 = 8;
 
 /// How far from the pose states are searched for, in units of the coordinates' sizes, or in rad.
 const BESIDE: f64 = 0.1;
+
+/// Whether a strength may vanish that changes by this much within a step, or has nearly vanished.
+fn is_in_reach(hold: f64, change: f64) -> bool {
+    hold < NEAR || hold <= REACH * change.abs()
+}
 
 impl<V: Vector> Constraints<V> {
     /// The strength of the weakest chosen row at a pose: its component orthogonal to the others, relative to its greatest length;
@@ -79,19 +94,37 @@ impl<V: Vector> Constraints<V> {
         }
     }
 
-    /// Called after a step between two poses failed; returns whether such a pose may be the cause, unless that was known before.
-    pub fn meet_fork<S: System<Vector = V>>(&mut self, system: &S, poses: [(f64, &V); 2]) -> bool {
+    /// Called after a step failed, with the [strengths](Self::hold) at its beginning, its middle and its end; returns whether such a pose
+    /// may be the cause, unless that was known before. `at_last` says that no shorter step is possible.
+    pub fn meet_fork(&mut self, holds: [f64; 3], at_last: bool) -> bool {
         if self.at_fork {
             return false;
         }
-        let holds = |(t, q): &(f64, &V)| self.hold(system, *t, q) < IN_SIGHT;
-        self.at_fork = poses.iter().any(holds);
+        let least = holds
+            .iter()
+            .fold(f64::INFINITY, |least, hold| hold.min(least));
+        let is_in_reach = holds
+            .windows(2)
+            .any(|pair| is_in_reach(least, pair[1] - pair[0]));
+        self.at_fork = least < IN_SIGHT && (at_last || is_in_reach);
+        [self.held, ..] = holds;
+        self.away = 0;
         self.at_fork
     }
 
     /// Called at the end of a step; updates whether the motion is still near the pose.
     pub fn pass_fork<S: System<Vector = V>>(&mut self, system: &S, t: f64, q: &V) {
-        self.at_fork = self.at_fork && self.hold(system, t, q) < IN_SIGHT;
+        if !self.at_fork {
+            return;
+        }
+        let hold = self.hold(system, t, q);
+        if is_in_reach(hold, hold - self.held) {
+            self.away = 0;
+        } else {
+            self.away += 1;
+        }
+        self.held = hold;
+        self.at_fork = hold < IN_SIGHT && self.away < STEPS_AWAY;
     }
 
     /// Accelerations of a state after its projection onto the constraints: the error of a stage would otherwise grow as
